@@ -1,0 +1,11 @@
+//! Angles, time, frames and the geometry of mounts. Knows no other layer.
+
+mod angle;
+mod azel;
+mod site;
+pub mod time;
+pub mod xy_mount;
+
+pub use angle::Angle;
+pub use azel::AzEl;
+pub use site::{Site, SiteError};

@@ -1,0 +1,107 @@
+//! An angle that knows its unit.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A plane angle, held in radians. Never wrapped unless asked to.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+pub struct Angle(f64);
+
+impl Angle {
+    /// No angle.
+    pub const ZERO: Self = Self(0.0);
+
+    /// From radians.
+    pub const fn from_radians(radians: f64) -> Self {
+        Self(radians)
+    }
+
+    /// From degrees.
+    pub const fn from_degrees(degrees: f64) -> Self {
+        Self(degrees.to_radians())
+    }
+
+    /// In radians.
+    pub const fn radians(self) -> f64 {
+        self.0
+    }
+
+    /// In degrees.
+    pub const fn degrees(self) -> f64 {
+        self.0.to_degrees()
+    }
+
+    /// The same direction from 0 up to, not including, 360 degrees.
+    #[must_use]
+    pub fn wrapped_360(self) -> Self {
+        let turned = self.0.rem_euclid(std::f64::consts::TAU);
+        // A tiny negative angle rounds up to the full turn.
+        Self(if turned >= std::f64::consts::TAU { 0.0 } else { turned })
+    }
+
+    /// The same direction from -180 up to, not including, 180 degrees.
+    #[must_use]
+    pub fn wrapped_180(self) -> Self {
+        let half = std::f64::consts::PI;
+        Self(Self(self.0 + half).wrapped_360().0 - half)
+    }
+
+    /// The magnitude.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    /// Whether the value is neither infinite nor not-a-number.
+    pub fn is_finite(self) -> bool {
+        self.0.is_finite()
+    }
+}
+
+impl Add for Angle {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Sub for Angle {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl Neg for Angle {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Mul<f64> for Angle {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0 * factor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrapping_keeps_the_direction_and_the_half_open_range() {
+        for (given, full, half) in [
+            (0.0, 0.0, 0.0),
+            (360.0, 0.0, 0.0),
+            (-10.0, 350.0, -10.0),
+            (180.0, 180.0, -180.0),
+            (725.0, 5.0, 5.0),
+        ] {
+            let angle = Angle::from_degrees(given);
+            assert!((angle.wrapped_360().degrees() - full).abs() < 1e-9, "{given}");
+            assert!((angle.wrapped_180().degrees() - half).abs() < 1e-9, "{given}");
+        }
+        assert!(Angle::from_radians(-1e-20).wrapped_360().radians() < 1.0);
+    }
+}

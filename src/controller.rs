@@ -1,0 +1,1 @@
+//! Behaviour of each controller without I/O.

@@ -1,0 +1,1 @@
+//! Links, sessions, intents and the gate.

@@ -1,0 +1,18 @@
+//! Azel: the console of a satellite ground station.
+//!
+//! The folders are layers; a lower one never names a higher one. From the
+//! bottom: [`astro`], [`orbit`], [`protocol`], [`controller`], [`station`],
+//! [`plan`], [`driver`], [`sim`], [`app`], [`ui`]. The README's architecture
+//! section holds the picture and the invariants.
+
+pub mod app;
+pub mod astro;
+pub mod cli;
+pub mod controller;
+pub mod driver;
+pub mod orbit;
+pub mod plan;
+pub mod protocol;
+pub mod sim;
+pub mod station;
+pub mod ui;

@@ -1,0 +1,1 @@
+//! Elements, propagation, look angles, passes. Pure functions; the clock comes in.

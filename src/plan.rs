@@ -1,0 +1,1 @@
+//! Mount model and trackability.

@@ -1,0 +1,3 @@
+//! Pure codecs of the controllers: typed requests and replies, bytes in and out.
+
+pub mod satrak;

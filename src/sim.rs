@@ -1,0 +1,3 @@
+//! Simulators of the controllers on real sockets.
+
+pub mod satrak;

@@ -1,0 +1,1 @@
+//! The station file: site, antennas, limits.

@@ -1,0 +1,5 @@
+//! Views and widgets: they draw and queue commands, nothing else.
+
+pub mod text;
+pub mod theme;
+pub mod tokens;

@@ -1,0 +1,84 @@
+//! Puts the tokens and the fonts into egui.
+
+use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
+
+use super::{
+    text,
+    tokens::{ThemeName, Tokens},
+};
+
+/// The colours in use, for everything that paints.
+pub fn tokens(ctx: &Context) -> &'static Tokens {
+    name(ctx).tokens()
+}
+
+/// The theme in use.
+pub fn name(ctx: &Context) -> ThemeName {
+    ctx.data(|data| data.get_temp(Id::unique("azel theme"))).unwrap_or_default()
+}
+
+/// Once, when the window opens: fonts, text styles and the theme.
+pub fn install(ctx: &Context, theme: ThemeName) {
+    ctx.set_fonts(text::definitions());
+    set(ctx, theme);
+}
+
+/// Changes the theme, within one frame; sizes stay as they are.
+pub fn set(ctx: &Context, theme: ThemeName) {
+    ctx.data_mut(|data| data.insert_temp(Id::unique("azel theme"), theme));
+    let egui_theme = match theme {
+        ThemeName::Light => egui::Theme::Light,
+        ThemeName::Dark | ThemeName::Night => egui::Theme::Dark,
+    };
+    ctx.set_theme(egui_theme);
+    ctx.style_mut_of(egui_theme, |style| apply(style, theme.tokens()));
+}
+
+fn apply(style: &mut egui::Style, t: &Tokens) {
+    style.text_styles = [
+        (TextStyle::Heading, text::title()),
+        (TextStyle::Body, text::body()),
+        (TextStyle::Button, text::body_medium()),
+        (TextStyle::Small, text::small()),
+        (TextStyle::Monospace, text::raw()),
+    ]
+    .into();
+    style.animation_time = 0.0;
+    style.spacing.item_spacing = egui::vec2(8.0, 8.0);
+    style.spacing.button_padding = egui::vec2(12.0, 4.0);
+    style.spacing.interact_size = egui::vec2(32.0, 24.0);
+
+    let visuals = &mut style.visuals;
+    visuals.panel_fill = t.bg1;
+    visuals.window_fill = t.bg2;
+    visuals.window_stroke = Stroke::new(1.0, t.edge);
+    visuals.extreme_bg_color = t.bg0;
+    visuals.faint_bg_color = t.bg2;
+    visuals.hyperlink_color = t.sat;
+    visuals.warn_fg_color = t.warn;
+    visuals.error_fg_color = t.bad;
+    visuals.selection.bg_fill = t.bgsel;
+    visuals.selection.stroke = Stroke::new(1.0, t.sat);
+    visuals.window_shadow = egui::Shadow::NONE;
+    visuals.popup_shadow = egui::Shadow::NONE;
+    visuals.text_cursor.blink = false;
+    visuals.override_text_color = Some(t.t1);
+    let widgets = &mut visuals.widgets;
+    for widget in [
+        &mut widgets.noninteractive,
+        &mut widgets.inactive,
+        &mut widgets.hovered,
+        &mut widgets.active,
+        &mut widgets.open,
+    ] {
+        widget.bg_fill = t.bg3;
+        widget.weak_bg_fill = t.bg3;
+        widget.bg_stroke = Stroke::new(1.0, t.edge);
+        widget.fg_stroke = Stroke::new(1.0, t.t1);
+        widget.corner_radius = CornerRadius::same(5);
+        widget.expansion = 0.0;
+    }
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, t.line);
+    widgets.hovered.bg_stroke = Stroke::new(1.0, t.t2);
+    widgets.active.bg_stroke = Stroke::new(1.0, t.sat);
+}
