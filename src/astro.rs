@@ -2,7 +2,9 @@
 
 mod angle;
 mod azel;
+pub mod frames;
 mod site;
+pub mod sun_moon;
 pub mod time;
 pub mod xy_mount;
 

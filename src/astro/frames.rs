@@ -1,0 +1,96 @@
+//! Frames: TEME, Earth-fixed (ECEF) and the site's east, north, up (ENU).
+//!
+//! TEME is turned into the Earth-fixed frame by Greenwich mean sidereal time
+//! alone, with UT1 taken as UTC and no polar motion. What is left out: UT1-UTC
+//! stays below 0.9 s, which is 0.004 degrees of Earth rotation, and polar
+//! motion stays below 0.6 arc seconds, which is 0.000 2 degrees.
+
+use glam::{DMat3, DVec3};
+use jiff::Timestamp;
+
+use super::{Site, time};
+
+/// Equatorial radius of the WGS84 ellipsoid in km.
+pub const WGS84_RADIUS_KM: f64 = 6_378.137;
+/// Flattening of the WGS84 ellipsoid.
+pub const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
+/// Rotation of the Earth against TEME in rad/s: the rate of mean sidereal time
+/// (IAU 1982).
+pub const EARTH_RATE_RAD_S: f64 = 7.292_115_855_3e-5;
+
+/// The Earth-fixed position of `site` in km.
+pub fn site_ecef_km(site: Site) -> DVec3 {
+    let (sin_lat, cos_lat) = site.latitude().radians().sin_cos();
+    let (sin_lon, cos_lon) = site.longitude().radians().sin_cos();
+    let e2 = WGS84_FLATTENING * (2.0 - WGS84_FLATTENING);
+    let prime_vertical_km = WGS84_RADIUS_KM / (1.0 - e2 * sin_lat * sin_lat).sqrt();
+    let altitude_km = site.altitude_m() / 1000.0;
+    let from_axis_km = (prime_vertical_km + altitude_km) * cos_lat;
+    DVec3::new(
+        from_axis_km * cos_lon,
+        from_axis_km * sin_lon,
+        (prime_vertical_km * (1.0 - e2) + altitude_km) * sin_lat,
+    )
+}
+
+/// The rotation that takes Earth-fixed vectors to east, north, up at `site`.
+pub fn ecef_to_enu(site: Site) -> DMat3 {
+    let (sin_lat, cos_lat) = site.latitude().radians().sin_cos();
+    let (sin_lon, cos_lon) = site.longitude().radians().sin_cos();
+    let east = DVec3::new(-sin_lon, cos_lon, 0.0);
+    let north = DVec3::new(-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat);
+    let up = DVec3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat);
+    DMat3::from_cols(east, north, up).transpose()
+}
+
+/// The rotation that takes TEME vectors to Earth-fixed ones at `at`.
+pub fn teme_to_ecef(at: Timestamp) -> DMat3 {
+    DMat3::from_rotation_z(-time::gmst(at).radians())
+}
+
+/// The Earth-fixed velocity, in km/s, of a body at `position_ecef_km` whose
+/// inertial velocity, turned into the Earth-fixed axes, is `velocity_km_s`.
+pub fn velocity_over_ground_km_s(position_ecef_km: DVec3, velocity_km_s: DVec3) -> DVec3 {
+    velocity_km_s - DVec3::new(0.0, 0.0, EARTH_RATE_RAD_S).cross(position_ecef_km)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ellipsoid_has_its_radii_and_the_zenith_points_outwards() {
+        let equator = site_ecef_km(Site::new(0.0, 90.0, 1000.0).unwrap());
+        assert!((equator - DVec3::new(0.0, 6_379.137, 0.0)).length() < 1e-9);
+        let pole = site_ecef_km(Site::new(-90.0, 0.0, 0.0).unwrap());
+        assert!((pole.z + 6_356.752_314_245).abs() < 1e-6, "{pole}");
+        let site = Site::new(41.02, 29.17, 100.0).unwrap();
+        let higher = Site::new(41.02, 29.17, 1100.0).unwrap();
+        let rise = ecef_to_enu(site) * (site_ecef_km(higher) - site_ecef_km(site));
+        assert!((rise - DVec3::Z).length() < 1e-9, "{rise}");
+    }
+
+    #[test]
+    fn sites_agree_with_astropy() {
+        for (latitude, longitude, altitude_m, expected) in [
+            (41.02, 29.17, 100.0, [4_208.024_395, 2_348.894_671, 4_164.164_850]),
+            (-53.15, -70.9, 30.0, [1_254.341_663, -3_622.322_597, -5_080.596_237]),
+            (78.23, 15.4, 450.0, [1_258.453_243, 346.635_775, 6_222.665_492]),
+        ] {
+            let found = site_ecef_km(Site::new(latitude, longitude, altitude_m).unwrap());
+            assert!(found.distance(DVec3::from_array(expected)) < 2e-6, "{found}");
+        }
+    }
+
+    #[test]
+    fn what_stands_still_over_the_ground_has_no_velocity() {
+        let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let later = time::add_seconds(at, 1.0);
+        let fixed = DVec3::new(42_164.0, 0.0, 0.0);
+        let before = teme_to_ecef(at).transpose() * fixed;
+        let after = teme_to_ecef(later).transpose() * fixed;
+        let inertial_km_s = after - before;
+        let seen = velocity_over_ground_km_s(fixed, teme_to_ecef(at) * inertial_km_s);
+        assert!(seen.length() < 2e-4, "{seen}");
+    }
+}
