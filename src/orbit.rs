@@ -1,1 +1,19 @@
 //! Elements, propagation, look angles, passes. Pure functions; the clock comes in.
+
+mod bundled;
+mod catalog;
+mod elements;
+mod look;
+mod passes;
+mod propagator;
+mod reader;
+mod shadow;
+
+pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
+pub use catalog::{Catalog, MergeSummary};
+pub use elements::{EPOCH_YEARS, Elements, ElementsError};
+pub use look::{LookAngles, look_angles};
+pub use passes::{Pass, PassPoint, passes};
+pub use propagator::{PropagationError, Propagator, State};
+pub use reader::{ReadReport, Refusal, RefusalReason, read_elements};
+pub use shadow::is_sunlit;

@@ -1,0 +1,47 @@
+//! The elements that come with the program.
+
+use std::io::Read;
+
+use super::{Catalog, Refusal, read_elements};
+
+/// What the source of the bundled elements is called.
+pub const BUNDLED_SOURCE: &str = "bundled, 2026-08-11";
+
+/// Compressed TLE text, see `assets/elements/README.md`.
+const COMPRESSED: &[u8] = include_bytes!("../../assets/elements/active_2026-08-11.tle.gz");
+
+/// Why the bundled elements cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum BundledError {
+    /// The data does not unpack to text.
+    #[error("the bundled elements do not unpack: {0}")]
+    Unpack(#[from] std::io::Error),
+    /// An object of the data was refused.
+    #[error("{} of the bundled elements cannot be read", .0.len())]
+    Refused(Vec<Refusal>),
+}
+
+/// The catalog of all satellites that were active on 2026-08-11.
+pub fn bundled() -> Result<Catalog, BundledError> {
+    let mut text = String::new();
+    flate2::read::GzDecoder::new(COMPRESSED).read_to_string(&mut text)?;
+    let mut catalog = Catalog::default();
+    let summary = catalog.merge(read_elements(&text), BUNDLED_SOURCE);
+    if summary.refused.is_empty() {
+        Ok(catalog)
+    } else {
+        Err(BundledError::Refused(summary.refused))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bundled_object_is_there() {
+        let catalog = bundled().unwrap();
+        assert_eq!(catalog.len(), 16_089);
+        assert_eq!(catalog.get(25_544).unwrap().name(), "ISS (ZARYA)");
+    }
+}

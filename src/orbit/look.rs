@@ -1,0 +1,78 @@
+//! What a site sees of a satellite.
+//!
+//! The direction is geometric: no refraction (0.5 degrees at the horizon, 0.1
+//! at 10 degrees), no light time (below 0.002 degrees), and the frame of
+//! [`frames`] (UT1 as UTC, no polar motion: below 0.004 degrees).
+
+use jiff::Timestamp;
+
+use super::{PropagationError, Propagator, State};
+use crate::astro::{AzEl, Site, frames};
+
+/// Speed of light in km/s.
+const LIGHT_KM_S: f64 = 299_792.458;
+
+/// Direction, distance and speed of a satellite as seen from a site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LookAngles {
+    /// Where to look.
+    pub direction: AzEl,
+    /// Distance in km.
+    pub range_km: f64,
+    /// Change of the distance in km/s, negative when approaching.
+    pub range_rate_km_s: f64,
+}
+
+impl LookAngles {
+    /// The shift, in Hz, of a carrier of `carrier_hz` sent by the satellite:
+    /// positive when approaching. First order in v/c.
+    pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
+        -self.range_rate_km_s / LIGHT_KM_S * carrier_hz
+    }
+}
+
+/// What `site` sees of a satellite in `state` (TEME, valid at `at`).
+pub fn look_angles(state: &State, site: Site, at: Timestamp) -> LookAngles {
+    let to_ecef = frames::teme_to_ecef(at);
+    let position_km = to_ecef * state.position_km;
+    let velocity_km_s =
+        frames::velocity_over_ground_km_s(position_km, to_ecef * state.velocity_km_s);
+    let line_km = position_km - frames::site_ecef_km(site);
+    let range_km = line_km.length();
+    LookAngles {
+        direction: AzEl::from_enu(frames::ecef_to_enu(site) * line_km),
+        range_km,
+        range_rate_km_s: line_km.dot(velocity_km_s) / range_km,
+    }
+}
+
+impl Propagator {
+    /// What `site` sees of the satellite at `at`.
+    pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
+        Ok(look_angles(&self.state_at(at)?, site, at))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{astro::time, orbit::bundled};
+
+    #[test]
+    fn the_range_rate_is_the_change_of_the_range_and_shifts_the_carrier() {
+        let catalog = bundled().unwrap();
+        let site = Site::new(41.02, 29.17, 100.0).unwrap();
+        let propagator = Propagator::new(catalog.get(25_544).unwrap()).unwrap();
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        for minute in 0..90 {
+            let at = time::add_seconds(start, 60.0 * f64::from(minute));
+            let look = |offset_s| propagator.look_from(site, time::add_seconds(at, offset_s));
+            let change_km = look(0.5).unwrap().range_km - look(-0.5).unwrap().range_km;
+            let now = look(0.0).unwrap();
+            assert!((change_km - now.range_rate_km_s).abs() < 5e-4, "{change_km} {now:?}");
+            // 7 km/s shift 145.8 MHz by 3.4 kHz; coming closer raises it.
+            let expected_hz = -change_km / 299_792.458 * 145.8e6;
+            assert!((now.doppler_hz(145.8e6) - expected_hz).abs() < 0.5);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! SGP4 and SDP4: where a satellite is at a time.
+
+use glam::DVec3;
+use jiff::Timestamp;
+
+use super::Elements;
+use crate::astro::time;
+
+/// Equatorial radius in WGS72, the constants SGP4 is defined with, in km.
+const WGS72_RADIUS_KM: f64 = 6_378.135;
+/// Further from its epoch a set says nothing, and the resonance integrator,
+/// which walks there in half days, would take seconds for a far century.
+const FARTHEST_DAYS: f64 = 36_525.0;
+
+/// Position and velocity of a satellite in TEME.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// From the centre of the Earth, km.
+    pub position_km: DVec3,
+    /// Inertial, km/s.
+    pub velocity_km_s: DVec3,
+}
+
+/// Why there is no state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PropagationError {
+    /// SGP4 cannot start from these elements.
+    #[error("the elements describe no orbit")]
+    Elements,
+    /// The orbit has met the ground, or its mathematics has ended.
+    #[error("the object has decayed")]
+    Decayed,
+    /// More than a century from the epoch.
+    #[error("the time is more than a century from the epoch")]
+    TooFarFromEpoch,
+}
+
+/// Computes states of one satellite; can be shared between threads.
+#[derive(Debug, Clone)]
+pub struct Propagator {
+    constants: sgp4::Constants,
+    epoch: Timestamp,
+}
+
+impl Propagator {
+    /// Prepares the propagation of `elements` (WGS72, AFSPC sidereal time: what
+    /// the elements were fitted with).
+    pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
+        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(elements.sgp4())
+            .map_err(|_| PropagationError::Elements)?;
+        Ok(Self { constants, epoch: elements.epoch() })
+    }
+
+    /// The state at `at`, in TEME.
+    pub fn state_at(&self, at: Timestamp) -> Result<State, PropagationError> {
+        let since_epoch_s = time::seconds_between(self.epoch, at);
+        if since_epoch_s.abs() > FARTHEST_DAYS * time::DAY_S {
+            return Err(PropagationError::TooFarFromEpoch);
+        }
+        let prediction = self
+            .constants
+            .propagate(sgp4::MinutesSinceEpoch(since_epoch_s / 60.0))
+            .map_err(|_| PropagationError::Decayed)?;
+        let position_km = DVec3::from_array(prediction.position);
+        let velocity_km_s = DVec3::from_array(prediction.velocity);
+        let above_ground = position_km.length() >= WGS72_RADIUS_KM;
+        if above_ground && position_km.is_finite() && velocity_km_s.is_finite() {
+            Ok(State { position_km, velocity_km_s })
+        } else {
+            Err(PropagationError::Decayed)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::orbit::bundled;
+
+    #[test]
+    fn any_time_gives_a_state_or_a_reason() {
+        let catalog = bundled().unwrap();
+        // Low, half a day, geosynchronous, far and eccentric.
+        let propagators: Vec<Propagator> = [25_544, 24_876, 54_743, 25_867]
+            .map(|number| Propagator::new(catalog.get(number).unwrap()).unwrap())
+            .into();
+        let times = Timestamp::MIN.as_second()..Timestamp::MAX.as_second();
+        proptest!(|(second in times, near_s in -4e9..4e9_f64)| {
+            for propagator in &propagators {
+                let far = Timestamp::from_second(second).unwrap();
+                let near = time::add_seconds(propagator.epoch, near_s);
+                for at in [far, near, Timestamp::MIN, Timestamp::MAX] {
+                    if let Ok(state) = propagator.state_at(at) {
+                        prop_assert!(state.position_km.length() >= WGS72_RADIUS_KM);
+                    }
+                }
+            }
+        });
+        for propagator in &propagators {
+            assert_eq!(propagator.state_at(Timestamp::MAX), Err(PropagationError::TooFarFromEpoch));
+        }
+    }
+
+    #[test]
+    fn time_may_turn_back_over_the_epoch() {
+        let catalog = bundled().unwrap();
+        let elements = catalog.get(54_743).unwrap();
+        let propagator = Propagator::new(elements).unwrap();
+        let at = |days: f64| time::add_seconds(elements.epoch(), days * time::DAY_S);
+        let first = propagator.state_at(at(3.0));
+        assert!(propagator.state_at(at(-3.0)).is_ok());
+        assert_eq!(propagator.state_at(at(3.0)), first);
+    }
+}

@@ -1,0 +1,38 @@
+//! Whether the Sun shines on a satellite.
+
+use jiff::Timestamp;
+
+use super::State;
+use crate::astro::{frames, sun_moon};
+
+/// Whether a satellite in `state` (TEME, valid at `at`) is in sunlight.
+///
+/// The shadow is a cylinder as wide as the equator. At its border half of the
+/// Sun's disc is hidden: the middle of the penumbra, which a low satellite
+/// crosses in about 8 s. Flattening and refraction are left out.
+pub fn is_sunlit(state: &State, at: Timestamp) -> bool {
+    let sun = sun_moon::sun_direction_teme(at);
+    let along_km = state.position_km.dot(sun);
+    let across_km = (state.position_km - sun * along_km).length();
+    along_km > 0.0 || across_km > frames::WGS84_RADIUS_KM
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    #[test]
+    fn the_shadow_lies_behind_the_earth_only() {
+        let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let sun = sun_moon::sun_direction_teme(at);
+        let side = sun.any_orthonormal_vector();
+        let lit = |position_km| is_sunlit(&State { position_km, velocity_km_s: DVec3::ZERO }, at);
+        assert!(lit(sun * 7000.0));
+        assert!(!lit(sun * -7000.0));
+        assert!(!lit(sun * -7000.0 + side * 6377.0));
+        assert!(lit(sun * -7000.0 + side * 6380.0));
+        assert!(lit(side * 7000.0));
+    }
+}

@@ -1,0 +1,178 @@
+//! Directions and passes against Skyfield, for every kind of orbit.
+
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
+
+use std::collections::BTreeMap;
+
+use azel::{
+    astro::{Angle, Site, time},
+    orbit::{Pass, PassPoint, Propagator, passes, read_elements},
+};
+use glam::DVec3;
+use jiff::Timestamp;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+struct Meta {
+    window_start: Timestamp,
+    window_end: Timestamp,
+    stations: Vec<Station>,
+}
+
+#[derive(Deserialize)]
+struct Station {
+    lat_deg: f64,
+    lon_deg: f64,
+    alt_m: f64,
+}
+
+#[derive(Deserialize)]
+struct Set {
+    line1: String,
+    line2: String,
+}
+
+#[derive(Deserialize)]
+struct Directions {
+    meta: Meta,
+    satellites: BTreeMap<String, Set>,
+    samples: Vec<Sample>,
+}
+
+#[derive(Deserialize)]
+struct Sample {
+    norad: u32,
+    t_s: f64,
+    az: f64,
+    el: f64,
+    range_km: f64,
+    range_rate_km_s: f64,
+    teme_r_km: [f64; 3],
+    teme_v_km_s: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct Passes {
+    meta: Meta,
+    satellites: BTreeMap<String, Set>,
+    #[serde(rename = "passes")]
+    expected: Vec<Expected>,
+}
+
+#[derive(Deserialize)]
+struct Expected {
+    norad: u32,
+    min_el: f64,
+    aos_s: f64,
+    tca_s: f64,
+    los_s: f64,
+    az_aos: f64,
+    az_los: f64,
+    max_el: f64,
+    starts_before: bool,
+    ends_after: bool,
+}
+
+impl Meta {
+    fn site(&self) -> Site {
+        let Station { lat_deg, lon_deg, alt_m } = self.stations[0];
+        Site::new(lat_deg, lon_deg, alt_m).unwrap()
+    }
+}
+
+fn propagators(sets: &BTreeMap<String, Set>) -> BTreeMap<u32, Propagator> {
+    let propagator = |set: &Set| {
+        let report = read_elements(&format!("{}\n{}\n", set.line1, set.line2));
+        Propagator::new(&report.elements[0]).unwrap()
+    };
+    sets.iter().map(|(number, set)| (number.parse().unwrap(), propagator(set))).collect()
+}
+
+#[test]
+fn states_and_directions_agree_with_skyfield() {
+    let reference: Directions =
+        serde_json::from_str(include_str!("data/reference_azel.json")).unwrap();
+    let propagators = propagators(&reference.satellites);
+    let site = reference.meta.site();
+    let mut worst = [0.0_f64; 5];
+    for sample in &reference.samples {
+        let at = time::add_seconds(reference.meta.window_start, sample.t_s);
+        let propagator = &propagators[&sample.norad];
+        let state = propagator.state_at(at).unwrap();
+        let look = propagator.look_from(site, at).unwrap();
+        let expected = azel::astro::AzEl::from_degrees(sample.az, sample.el);
+        let off = [
+            state.position_km.distance(DVec3::from_array(sample.teme_r_km)),
+            state.velocity_km_s.distance(DVec3::from_array(sample.teme_v_km_s)),
+            look.direction.separation(expected).degrees(),
+            (look.range_km - sample.range_km).abs(),
+            (look.range_rate_km_s - sample.range_rate_km_s).abs(),
+        ];
+        for (worst, off) in worst.iter_mut().zip(off) {
+            *worst = worst.max(off);
+        }
+    }
+    println!("position km, velocity km/s, direction deg, range km, range rate km/s: {worst:?}");
+    let allowed = [2e-5, 2e-8, 2e-6, 2e-5, 2e-7];
+    assert!(worst.iter().zip(allowed).all(|(worst, allowed)| *worst < allowed), "{worst:?}");
+}
+
+/// How far `point` is from the expected time, in seconds; zero where the
+/// elevation changes so slowly that the time says little and the elevation,
+/// within 0.000 02 degrees, says all.
+fn off_s(propagator: &Propagator, site: Site, point: PassPoint, expected: Timestamp) -> f64 {
+    let elevation = |at| propagator.look_from(site, at).unwrap().direction.elevation_deg();
+    let rate_deg_s =
+        elevation(time::add_seconds(expected, 0.5)) - elevation(time::add_seconds(expected, -0.5));
+    let difference_deg = point.direction.elevation_deg() - elevation(expected);
+    if rate_deg_s.abs() < 0.002 && difference_deg.abs() < 2e-5 {
+        return 0.0;
+    }
+    time::seconds_between(expected, point.time).abs()
+}
+
+#[test]
+fn passes_agree_with_skyfield() {
+    let reference: Passes =
+        serde_json::from_str(include_str!("data/reference_passes.json")).unwrap();
+    let Meta { window_start, window_end, .. } = reference.meta;
+    let site = reference.meta.site();
+    let (mut worst_s, mut worst_tca_s, mut worst_deg) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for (number, propagator) in propagators(&reference.satellites) {
+        for horizon_deg in [0.0, 10.0] {
+            let horizon = Angle::from_degrees(horizon_deg);
+            let found = passes(&propagator, site, window_start, window_end, horizon, &|| false);
+            let expected: Vec<&Expected> = reference
+                .expected
+                .iter()
+                .filter(|pass| pass.norad == number && (pass.min_el - horizon_deg).abs() < 1e-9)
+                .collect();
+            assert_eq!(found.len(), expected.len(), "{number} over {horizon_deg}");
+            for (found, expected) in found.iter().zip(expected) {
+                let Pass { aos, tca, los, starts_before, ends_after } = *found;
+                let flags = (expected.starts_before, expected.ends_after);
+                assert_eq!((starts_before, ends_after), flags, "{number} {aos:?}");
+                let at = |seconds| time::add_seconds(window_start, seconds);
+                for (point, seconds, az) in
+                    [(aos, expected.aos_s, expected.az_aos), (los, expected.los_s, expected.az_los)]
+                {
+                    let off = off_s(&propagator, site, point, at(seconds));
+                    assert!(off < 0.01, "{number} {point:?} is off by {off} s");
+                    worst_s = worst_s.max(off);
+                    let turned = point.direction.azimuth - Angle::from_degrees(az);
+                    assert!(turned.wrapped_180().abs().degrees() < 0.001, "{number} {point:?}");
+                }
+                worst_deg =
+                    worst_deg.max((found.max_elevation().degrees() - expected.max_el).abs());
+                // The top of a long pass is flat: there the elevation above says all.
+                if found.duration_s() < 1800.0 {
+                    let off = time::seconds_between(at(expected.tca_s), tca.time).abs();
+                    worst_tca_s = worst_tca_s.max(off);
+                }
+            }
+        }
+    }
+    println!("AOS and LOS {worst_s} s, TCA {worst_tca_s} s, elevation {worst_deg} deg");
+    assert!(worst_deg < 1e-4, "{worst_deg}");
+    assert!(worst_tca_s < 0.01, "{worst_tca_s}");
+}
