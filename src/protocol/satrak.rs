@@ -1,1 +1,50 @@
-//! Satrak codec.
+//! Codec of the Satrak antenna controller unit (SVS, TCP port 4001).
+//!
+//! Bytes become [`Frame`]s in [`Decoder`]; a frame becomes a [`Reply`] on the
+//! console's side or a [`Request`] on the simulator's side; a request becomes
+//! bytes. Nothing here does I/O, knows the time or fails on any input.
+//!
+//! Facts come from the vendor's document "SATRAK Communication Protocol"; its
+//! sections are cited as "section 6". Where the document contradicts itself
+//! (a comma more or less after `?`, 15 or 16 status fields), both forms are
+//! read and the safer one is sent.
+
+mod clock;
+mod coded;
+mod faults;
+mod fields;
+mod frame;
+mod gps;
+mod motion;
+mod number;
+mod reply;
+mod request;
+mod request_parse;
+mod satellite;
+mod service;
+mod settings;
+mod status;
+mod text;
+mod word;
+
+pub use clock::{Clock, ClockTime, StartStopTime, TimedPosition, TrackWindow};
+pub use faults::{FaultKind, FaultState, Faults};
+pub use fields::{FieldError, FieldProblem};
+pub use frame::{Decoder, Frame, FrameError, MAX_LINE_BYTES, Oddity, checksum, encode, redact};
+pub use gps::{GpsData, GpsSettings, GpsSettingsChange, Position};
+pub use motion::{Goto, Motion, Move, Step};
+pub use number::ValueError;
+pub use reply::{Note, ParsedReply, Reply, ReplyError, Version};
+pub use request::{Class, Halt, Query, Request, Setting};
+pub use request_parse::RequestError;
+pub use satellite::{
+    FtpTle, HttpTle, Satellite, SatelliteChoice, SatelliteFtp, SatelliteHttp, TleSelection,
+    UpdateErrorAction,
+};
+pub use service::{AngleChange, AngleSettings, ImageStatus, Reduction, SensorAngles};
+pub use settings::{
+    PositionBase, Settings, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode, TleMode,
+};
+pub use status::{AxisMotion, Limits, Status, TrackState};
+pub use text::{Password, TextProblem, TextValue, UrlValue};
+pub use word::{Verb, Word};

@@ -1,0 +1,151 @@
+//! Clock, tracking window and time-tagged position (sections 8 to 11 and 17).
+
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
+
+use super::ValueError;
+use super::fields::{FieldError, Fields, time_values};
+
+/// A clock that shows an earlier year was never set: the unit starts in 2000.
+const FIRST_PLAUSIBLE_YEAR: i16 = 2010;
+
+/// Reply to `TIME?`: the clock of the unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Clock {
+    /// The time shown, UTC.
+    pub time: Timestamp,
+    /// Whether the reply had milliseconds; the document lists them but leaves
+    /// them out of its example.
+    pub has_milliseconds: bool,
+}
+
+impl Clock {
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        let has_milliseconds = fields.count() > 6;
+        let time = if has_milliseconds { fields.time_with_ms(1) } else { fields.time(1, 0) }?;
+        Ok(Self { time, has_milliseconds })
+    }
+
+    /// Whether somebody ever set the clock: the year is 2010 or later.
+    pub fn is_set(self) -> bool {
+        TimeZone::UTC.to_datetime(self.time).year() >= FIRST_PLAUSIBLE_YEAR
+    }
+}
+
+/// Values of `TIME=`: a whole second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClockTime(Timestamp);
+
+impl ClockTime {
+    /// `time` cut to its second; the year must be between 2000 and 2099.
+    pub fn new(time: Timestamp) -> Result<Self, ValueError> {
+        whole_second(time).map(Self)
+    }
+
+    /// The time, UTC, a whole second.
+    pub fn time(self) -> Timestamp {
+        self.0
+    }
+
+    pub(super) fn values(self) -> Vec<String> {
+        time_values(self.0).to_vec()
+    }
+}
+
+fn whole_second(time: Timestamp) -> Result<Timestamp, ValueError> {
+    let year = TimeZone::UTC.to_datetime(time).year();
+    let out_of_range =
+        ValueError::Range { what: "year", value: f64::from(year), least: 2000.0, most: 2099.0 };
+    if !(2000..=2099).contains(&year) {
+        return Err(out_of_range);
+    }
+    Timestamp::from_second(time.as_second()).map_err(|_| out_of_range)
+}
+
+/// Reply to `START_STOP_TIME?`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StartStopTime {
+    /// When tracking starts, UTC.
+    pub start: Timestamp,
+    /// When tracking stops, UTC; may be before the start in an unset unit.
+    pub stop: Timestamp,
+}
+
+impl StartStopTime {
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self { start: fields.time(1, 0)?, stop: fields.time(7, 0)? })
+    }
+
+    /// Whether the stop time is after the start time.
+    pub fn is_ordered(self) -> bool {
+        self.start < self.stop
+    }
+}
+
+/// Values of `START_STOP_TIME=`: the stop time is after the start time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TrackWindow {
+    start: Timestamp,
+    stop: Timestamp,
+}
+
+impl TrackWindow {
+    /// Both cut to their second; the years must be between 2000 and 2099.
+    pub fn new(start: Timestamp, stop: Timestamp) -> Result<Self, ValueError> {
+        let (start, stop) = (whole_second(start)?, whole_second(stop)?);
+        if stop <= start {
+            return Err(ValueError::StopBeforeStart);
+        }
+        Ok(Self { start, stop })
+    }
+
+    /// When tracking starts, UTC, a whole second.
+    pub fn start(self) -> Timestamp {
+        self.start
+    }
+
+    /// When tracking stops, UTC, a whole second.
+    pub fn stop(self) -> Timestamp {
+        self.stop
+    }
+
+    pub(super) fn values(self) -> Vec<String> {
+        time_values(self.start).into_iter().chain(time_values(self.stop)).collect()
+    }
+}
+
+/// Reply to `TPOS?`: a position with its time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimedPosition {
+    /// First angle as reported, degrees. The document calls it X, but its
+    /// example of 306 only fits an azimuth.
+    pub x_deg: f64,
+    /// Second angle as reported, degrees: Y, or elevation.
+    pub y_deg: f64,
+    /// When the angles were measured, UTC by the unit's clock.
+    pub time: Timestamp,
+}
+
+impl TimedPosition {
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self {
+            x_deg: fields.decimal(1)?,
+            y_deg: fields.decimal(2)?,
+            time: fields.time_with_ms(3)?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_must_have_a_length() {
+        let at = |second: i64| Timestamp::from_second(1_500_000_000 + second).unwrap();
+        assert_eq!(TrackWindow::new(at(5), at(5)), Err(ValueError::StopBeforeStart));
+        assert!(TrackWindow::new(at(5), at(6)).is_ok());
+        assert!(ClockTime::new(Timestamp::from_second(0).unwrap()).is_err());
+        assert!(ClockTime::new(Timestamp::MAX).is_err());
+    }
+}

@@ -1,0 +1,174 @@
+//! Reply to `ERRSTATUS?` (section 7).
+
+use super::coded::coded;
+use super::fields::{FieldError, Fields};
+
+/// One of the twelve faults and warnings, in the order of the document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum FaultKind {
+    /// Control and drive unit do not talk to each other.
+    InternalLink,
+    /// The elements are out of date.
+    TleOutdated,
+    /// The file with the elements was not found.
+    TleMissing,
+    /// The satellite was not found in the file.
+    SatelliteMissing,
+    /// The elements could not be read from the web.
+    WebTle,
+    /// Tracking stopped by an error.
+    TrackingStopped,
+    /// The setup is wrong.
+    Setup,
+    /// Motor of the X axis.
+    XMotor,
+    /// Motor of the Y axis.
+    YMotor,
+    /// Position sensor of the X axis.
+    XSensor,
+    /// Position sensor of the Y axis.
+    YSensor,
+    /// The GPS receiver does not answer.
+    GpsLink,
+}
+
+impl FaultKind {
+    /// All kinds, in the order of the document.
+    pub const ALL: [Self; 12] = [
+        Self::InternalLink,
+        Self::TleOutdated,
+        Self::TleMissing,
+        Self::SatelliteMissing,
+        Self::WebTle,
+        Self::TrackingStopped,
+        Self::Setup,
+        Self::XMotor,
+        Self::YMotor,
+        Self::XSensor,
+        Self::YSensor,
+        Self::GpsLink,
+    ];
+
+    /// Number in the document, 1 to 12.
+    pub const fn index(self) -> usize {
+        self as usize + 1
+    }
+
+    /// Whether this only warns: the antenna can do its work. Own classification.
+    pub const fn is_warning(self) -> bool {
+        matches!(self, Self::TleOutdated | Self::WebTle | Self::GpsLink)
+    }
+
+    /// Whether the antenna must not be moved with this fault. Own classification.
+    pub const fn locks_motion(self) -> bool {
+        matches!(
+            self,
+            Self::InternalLink
+                | Self::Setup
+                | Self::XMotor
+                | Self::YMotor
+                | Self::XSensor
+                | Self::YSensor
+        )
+    }
+
+    const fn is_sensor(self) -> bool {
+        matches!(self, Self::XSensor | Self::YSensor)
+    }
+}
+
+coded! {
+    /// State of one fault.
+    FaultState {
+        /// No fault.
+        Clear = 0,
+        /// The fault exists; for a sensor, its configuration is wrong.
+        Set = 1,
+        /// A sensor is not connected.
+        Disconnected = 2,
+    }
+}
+
+impl FaultState {
+    /// Whether there is anything but all clear.
+    pub fn is_set(self) -> bool {
+        self != Self::Clear
+    }
+}
+
+/// All faults and warnings of the unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Faults {
+    /// `None` for what the unit does not report.
+    states: [Option<FaultState>; 12],
+}
+
+impl Faults {
+    /// The document's own example leaves the last field out.
+    pub(super) const LEAST_FIELDS: usize = 11;
+    pub(super) const FIELDS: usize = 12;
+
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        let mut states = [None; 12];
+        for (state, kind) in states.iter_mut().zip(FaultKind::ALL) {
+            if kind.index() > fields.count().max(Self::LEAST_FIELDS) {
+                break;
+            }
+            let code = fields.integer(kind.index())?;
+            *state = Some(match FaultState::from_code(code) {
+                FaultState::Disconnected if !kind.is_sensor() => FaultState::Unknown(code),
+                known => known,
+            });
+        }
+        Ok(Self { states })
+    }
+
+    /// State of one fault; `None` when the unit does not report it.
+    pub fn state(&self, kind: FaultKind) -> Option<FaultState> {
+        self.states.get(kind.index() - 1).copied().flatten()
+    }
+
+    /// Every kind with its state, in the order of the document.
+    pub fn iter(&self) -> impl Iterator<Item = (FaultKind, Option<FaultState>)> {
+        FaultKind::ALL.into_iter().zip(self.states)
+    }
+
+    /// The kinds that are not clear.
+    pub fn active(&self) -> impl Iterator<Item = FaultKind> {
+        self.iter().filter(|(_, state)| state.is_some_and(FaultState::is_set)).map(|(kind, _)| kind)
+    }
+
+    /// Whether any fault forbids motion.
+    pub fn lock_motion(&self) -> bool {
+        self.active().any(FaultKind::locks_motion)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::satrak::Frame;
+
+    fn read(payload: &str) -> Faults {
+        Faults::read(Fields::of(&Frame::from_payload(payload))).unwrap()
+    }
+
+    #[test]
+    fn each_fault_has_its_place() {
+        for kind in FaultKind::ALL {
+            let values = FaultKind::ALL.map(|other| if other == kind { "1" } else { "0" });
+            let faults = read(&format!("ERRSTATUS?,{}", values.join(",")));
+            assert_eq!(faults.active().collect::<Vec<_>>(), [kind]);
+            assert_eq!(faults.lock_motion(), kind.locks_motion());
+        }
+    }
+
+    #[test]
+    fn a_loose_sensor_is_told_from_a_wrong_one() {
+        let faults = read("ERRSTATUS?,2,0,0,0,0,0,0,0,0,1,2");
+        assert_eq!(faults.state(FaultKind::InternalLink), Some(FaultState::Unknown(2)));
+        assert_eq!(faults.state(FaultKind::XSensor), Some(FaultState::Set));
+        assert_eq!(faults.state(FaultKind::YSensor), Some(FaultState::Disconnected));
+        assert_eq!(faults.state(FaultKind::GpsLink), None);
+    }
+}

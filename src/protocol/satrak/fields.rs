@@ -1,0 +1,159 @@
+//! Reading the values of a frame by their number in the document.
+
+use jiff::civil::DateTime;
+use jiff::tz::TimeZone;
+use jiff::{SignedDuration, Timestamp};
+
+use super::Frame;
+use super::number::{parse_decimal, parse_integer};
+
+/// What is wrong with a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum FieldProblem {
+    /// It is not there.
+    #[error("is missing")]
+    Missing,
+    /// It should be a number.
+    #[error("is not a number")]
+    NotNumber,
+    /// It should be a whole number.
+    #[error("is not a whole number")]
+    NotInteger,
+    /// It should be a number of a smaller range.
+    #[error("is out of range")]
+    Range,
+    /// With the values after it, it is no date and time.
+    #[error("begins no possible date and time")]
+    NotTime,
+    /// It is no latitude or longitude with a letter of direction.
+    #[error("is no latitude or longitude")]
+    NotPlace,
+}
+
+/// A value that could not be read. Holds no text of it, for it may be secret.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("value {field} {problem}")]
+pub struct FieldError {
+    /// Which value, counted from 1 as the document does.
+    pub field: usize,
+    /// What is wrong with it.
+    pub problem: FieldProblem,
+}
+
+/// The values of a frame, numbered from 1 as in the document.
+#[derive(Clone, Copy)]
+pub(super) struct Fields<'a> {
+    frame: &'a Frame,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn of(frame: &'a Frame) -> Self {
+        Self { frame }
+    }
+
+    pub(super) fn count(self) -> usize {
+        self.frame.fields().len()
+    }
+
+    pub(super) fn text(self, field: usize) -> Result<&'a str, FieldError> {
+        field
+            .checked_sub(1)
+            .and_then(|at| self.frame.fields().get(at))
+            .map(String::as_str)
+            .ok_or(FieldError { field, problem: FieldProblem::Missing })
+    }
+
+    pub(super) fn decimal(self, field: usize) -> Result<f64, FieldError> {
+        parse_decimal(self.text(field)?)
+            .ok_or(FieldError { field, problem: FieldProblem::NotNumber })
+    }
+
+    pub(super) fn integer<T: TryFrom<i64>>(self, field: usize) -> Result<T, FieldError> {
+        let value = parse_integer(self.text(field)?)
+            .ok_or(FieldError { field, problem: FieldProblem::NotInteger })?;
+        T::try_from(value).map_err(|_| FieldError { field, problem: FieldProblem::Range })
+    }
+
+    /// Whether a number is anything but zero, so that an unexplained number
+    /// counts as set.
+    pub(super) fn flag(self, field: usize) -> Result<bool, FieldError> {
+        self.integer::<i64>(field).map(|value| value != 0)
+    }
+
+    /// Six values from `first` on: hour, minute, second, day, month, year.
+    /// `base_year` is added to the year.
+    pub(super) fn time(self, first: usize, base_year: i16) -> Result<Timestamp, FieldError> {
+        let impossible = FieldError { field: first, problem: FieldProblem::NotTime };
+        let part = |offset| self.integer::<i8>(first + offset);
+        let year: i16 = self.integer(first + 5)?;
+        let year = year.checked_add(base_year).ok_or(impossible)?;
+        let (hour, minute, second) = (part(0)?, part(1)?, part(2)?);
+        DateTime::new(year, part(4)?, part(3)?, hour, minute, second, 0)
+            .ok()
+            .and_then(|civil| TimeZone::UTC.to_timestamp(civil).ok())
+            .ok_or(impossible)
+    }
+
+    /// As [`Self::time`], with milliseconds in the value after the year.
+    pub(super) fn time_with_ms(self, first: usize) -> Result<Timestamp, FieldError> {
+        let field = first + 6;
+        let milliseconds: u16 = self.integer(field)?;
+        if milliseconds > 999 {
+            return Err(FieldError { field, problem: FieldProblem::Range });
+        }
+        self.time(first, 0)?
+            .checked_add(SignedDuration::from_millis(i64::from(milliseconds)))
+            .map_err(|_| FieldError { field: first, problem: FieldProblem::NotTime })
+    }
+
+    /// One value that may hold commas, between `before` and `after` others.
+    pub(super) fn joined(self, before: usize, after: usize) -> Result<String, FieldError> {
+        self.frame
+            .joined(before, after)
+            .ok_or(FieldError { field: before + 1, problem: FieldProblem::Missing })
+    }
+}
+
+/// A time in the order of the document: hour, minute, second, day, month, year.
+pub(super) fn time_values(time: Timestamp) -> [String; 6] {
+    let civil = TimeZone::UTC.to_datetime(time);
+    [
+        civil.hour().to_string(),
+        civil.minute().to_string(),
+        civil.second().to_string(),
+        civil.day().to_string(),
+        civil.month().to_string(),
+        civil.year().to_string(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn time_of(payload: &str) -> Result<Timestamp, FieldError> {
+        Fields::of(&Frame::from_payload(payload)).time(1, 0)
+    }
+
+    #[test]
+    fn impossible_times_are_errors() {
+        for payload in [
+            "TIME?,24,0,0,1,1,2000",
+            "TIME?,0,0,60,1,1,2000",
+            "TIME?,0,0,0,30,2,2024",
+            "TIME?,0,0,0,0,0,0",
+            "TIME?,0,0,0,1,1,9999999",
+            "TIME?,0,0,0,1,300,2000",
+            "TIME?,0,0,0,1,1",
+        ] {
+            assert!(time_of(payload).is_err(), "{payload}");
+        }
+        assert!(Fields::of(&Frame::from_payload("T?,0,0,0,1,1,32767")).time(1, 2000).is_err());
+    }
+
+    #[test]
+    fn a_time_comes_back_in_the_order_of_the_document() {
+        let time = time_of("TIME?,16,43,0,17,3,2017").unwrap();
+        assert_eq!(time_values(time), ["16", "43", "0", "17", "3", "2017"]);
+    }
+}

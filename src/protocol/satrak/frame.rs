@@ -1,0 +1,188 @@
+//! Frames: `$` payload `*` checksum CR LF (document chapter "Message structure").
+
+mod decoder;
+
+use std::borrow::Cow;
+use std::fmt;
+
+pub use decoder::{Decoder, FrameError, MAX_LINE_BYTES};
+
+use super::{Verb, Word};
+
+/// A harmless deviation from the document, noticed while reading a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Oddity {
+    /// The checksum has lower-case digits.
+    LowerCaseChecksum,
+    /// The checksum has one digit instead of two.
+    OneDigitChecksum,
+    /// The line ends with LF alone.
+    LineFeedOnly,
+    /// Other bytes stood before the `$`.
+    NoiseBeforeHeader,
+    /// Blanks stood between the word and its sign.
+    BlankBeforeSign,
+}
+
+/// The payload of a frame whose checksum was right, cut into its parts.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Frame {
+    word: String,
+    fields: Vec<String>,
+    line: String,
+    /// Where the values begin in `line`, after the sign and one comma.
+    values_at: Option<usize>,
+    oddities: Vec<Oddity>,
+}
+
+impl Frame {
+    /// Cuts a payload (without `$`, checksum and line end) into its parts.
+    pub fn from_payload(payload: &str) -> Self {
+        let line = payload.to_owned();
+        let (name, sign, rest_at) = if let Some(at) = line.find(['?', '=']) {
+            let tail = line.get(at..).unwrap_or_default();
+            let sign = if tail.starts_with("?=") { "?=" } else { tail.get(..1).unwrap_or("") };
+            (line.get(..at).unwrap_or_default(), sign, at + sign.len())
+        } else {
+            let at = line.find(',').unwrap_or(line.len());
+            (line.get(..at).unwrap_or_default(), "", at)
+        };
+        let trimmed = name.trim_end_matches(' ');
+        let oddities =
+            if trimmed.len() < name.len() { vec![Oddity::BlankBeforeSign] } else { Vec::new() };
+        let word = format!("{trimmed}{sign}");
+        let rest = line.get(rest_at..).unwrap_or_default();
+        // `STATUS?0,..` and `STATUS?,0,..` both stand in the document.
+        let values_at = match rest.strip_prefix(',') {
+            Some(_) => Some(rest_at + 1),
+            None if rest.is_empty() => None,
+            None => Some(rest_at),
+        };
+        let mut frame = Self { word, fields: Vec::new(), line, values_at, oddities };
+        frame.fields = frame.raw_fields().map(|field| field.trim().to_owned()).collect();
+        frame
+    }
+
+    /// The word with its sign, as `STATUS?` or `MOVE=`, blanks before it removed.
+    pub fn word(&self) -> &str {
+        &self.word
+    }
+
+    /// The word and what is done with it, when the document knows the word.
+    pub fn command(&self) -> Option<(Word, Verb)> {
+        let (name, verb) = match self.word.strip_suffix('?') {
+            Some(name) => (name, Verb::Query),
+            None => (self.word.strip_suffix('=')?, Verb::Set),
+        };
+        Some((Word::from_name(name)?, verb))
+    }
+
+    /// The values, blanks around each removed.
+    pub fn fields(&self) -> &[String] {
+        &self.fields
+    }
+
+    /// The payload as received. May hold the FTP password: log [`Self::redacted`].
+    pub fn line(&self) -> &str {
+        &self.line
+    }
+
+    /// The payload for logs and screens, without secrets.
+    pub fn redacted(&self) -> Cow<'_, str> {
+        redact(&self.line)
+    }
+
+    /// What deviated from the document.
+    pub fn oddities(&self) -> &[Oddity] {
+        &self.oddities
+    }
+
+    /// One value that may contain commas: everything after the first `before`
+    /// fields and in front of the last `after` ones, commas and inner blanks kept.
+    pub(super) fn joined(&self, before: usize, after: usize) -> Option<String> {
+        let raw: Vec<&str> = self.raw_fields().collect();
+        let middle = raw.get(before..raw.len().checked_sub(after)?)?;
+        (!middle.is_empty()).then(|| middle.join(",").trim().to_owned())
+    }
+
+    fn raw_fields(&self) -> impl Iterator<Item = &str> {
+        let values = self.values_at.and_then(|at| self.line.get(at..));
+        values.into_iter().flat_map(|values| values.split(','))
+    }
+
+    fn note(&mut self, oddity: Oddity) {
+        self.oddities.push(oddity);
+    }
+}
+
+impl fmt::Debug for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frame")
+            .field("line", &self.redacted())
+            .field("oddities", &self.oddities)
+            .finish_non_exhaustive()
+    }
+}
+
+/// `payload` for logs: the values of `SATELLITE_FTP` hold a password in clear
+/// and are left out.
+pub fn redact(payload: &str) -> Cow<'_, str> {
+    let name = Word::SatelliteFtp.name();
+    match payload.find(name) {
+        Some(at) => {
+            let shown = payload.get(..at + name.len()).unwrap_or(name);
+            Cow::Owned(format!("{shown} (values hidden)"))
+        }
+        None => Cow::Borrowed(payload),
+    }
+}
+
+/// The checksum: XOR of every payload byte (document chapter "Message structure").
+pub fn checksum(payload: &[u8]) -> u8 {
+    payload.iter().fold(0, |sum, byte| sum ^ byte)
+}
+
+/// The frame around `payload`, ready to send.
+pub fn encode(payload: &str) -> Vec<u8> {
+    format!("${payload}*{:02X}\r\n", checksum(payload.as_bytes())).into_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_documents_own_frame_has_its_checksum() {
+        let sent = encode("DATETIMEG?=,2016,12,22,15,55,40,10");
+        assert_eq!(sent, b"$DATETIMEG?=,2016,12,22,15,55,40,10*6F\r\n");
+    }
+
+    #[test]
+    fn a_payload_is_cut_at_its_first_sign() {
+        let frame = Frame::from_payload("TRACK_AUTO_ENABLE =, 1 ,a=b?");
+        assert_eq!(frame.word(), "TRACK_AUTO_ENABLE=");
+        assert_eq!(frame.fields(), ["1", "a=b?"]);
+        assert_eq!(frame.oddities(), [Oddity::BlankBeforeSign]);
+        assert_eq!(frame.command(), Some((Word::TrackAutoEnable, Verb::Set)));
+        assert!(Frame::from_payload("STATUS?").fields().is_empty());
+        assert_eq!(Frame::from_payload("LOAD_IMAGE?,").fields(), [""]);
+        assert_eq!(Frame::from_payload("HELLO,1").word(), "HELLO");
+        assert_eq!(Frame::from_payload("DATETIMEG?=,1").command(), None);
+    }
+
+    #[test]
+    fn middle_fields_are_joined_with_their_blanks() {
+        let frame = Frame::from_payload("SATELLITE?,f, A, B ,1");
+        assert_eq!(frame.joined(1, 1).as_deref(), Some("A, B"));
+        assert_eq!(frame.joined(4, 0), None);
+        assert_eq!(frame.joined(1, 9), None);
+    }
+
+    #[test]
+    fn the_ftp_password_is_in_no_log_text() {
+        let frame = Frame::from_payload("SATELLITE_FTP?,10.0.1.2,user,hunter2,22,f,s,1,1");
+        assert!(!format!("{frame:?}").contains("hunter2"));
+        assert!(!frame.redacted().contains("hunter2"));
+        assert_eq!(redact("STATUS?"), "STATUS?");
+    }
+}

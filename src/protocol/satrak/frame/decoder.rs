@@ -1,0 +1,292 @@
+//! From a byte stream to frames.
+
+use std::collections::VecDeque;
+
+use super::{Frame, Oddity, checksum};
+
+/// Longest line that is read, LF not counted. The longest frame of the
+/// document has 82 bytes; a long URL takes more.
+pub const MAX_LINE_BYTES: usize = 1024;
+/// What may wait between two calls; more is dropped as an over-long line.
+const MAX_PENDING_BYTES: usize = 16 * 1024;
+/// Longest excerpt of a refused line.
+const EXCERPT_CHARS: usize = 24;
+
+/// Why a line is no frame. The excerpts hold at most 24 characters and no values,
+/// for a broken line may hold a piece of a password.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FrameError {
+    /// The line has no `$`.
+    #[error("line of {length} bytes without header: {excerpt}")]
+    NoHeader {
+        /// Bytes of the line.
+        length: usize,
+        /// Its beginning; empty when it looks like the tail of a frame.
+        excerpt: String,
+    },
+    /// The checksum is another one than that of the payload.
+    #[error("checksum {received:02X} instead of {computed:02X}: {excerpt}")]
+    BadChecksum {
+        /// As in the line.
+        received: u8,
+        /// Of the payload after the first `$`.
+        computed: u8,
+        /// The word of the line.
+        excerpt: String,
+    },
+    /// No star at its place before the last two characters.
+    #[error("no checksum: {excerpt}")]
+    NoChecksum {
+        /// The word of the line.
+        excerpt: String,
+    },
+    /// More than [`MAX_LINE_BYTES`] bytes without LF.
+    #[error("line longer than {MAX_LINE_BYTES} bytes: {excerpt}")]
+    TooLong {
+        /// The word of the line.
+        excerpt: String,
+    },
+    /// The checksum is right, but the payload has bytes other than printable ASCII.
+    #[error("not text: {excerpt}")]
+    NotText {
+        /// The word of the line.
+        excerpt: String,
+    },
+}
+
+/// Cuts a byte stream into frames.
+///
+/// Push what was read, then take frames until `None`. The stream may be cut and
+/// merged anywhere. Holds at most 16 KiB.
+#[derive(Debug, Default)]
+pub struct Decoder {
+    pending: VecDeque<u8>,
+    /// Drop everything up to the next LF.
+    skipping: bool,
+    /// Bytes were lost after the end of `pending`.
+    overflowed: bool,
+}
+
+impl Decoder {
+    /// A decoder at the start of a stream.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes bytes of the stream. What does not fit while nobody takes frames
+    /// is dropped and reported as one over-long line.
+    pub fn push(&mut self, bytes: &[u8]) {
+        if self.overflowed {
+            return;
+        }
+        let room = MAX_PENDING_BYTES - self.pending.len().min(MAX_PENDING_BYTES);
+        self.overflowed = bytes.len() > room;
+        self.pending.extend(bytes.iter().take(room));
+    }
+
+    /// Ends an unfinished line that cannot become a frame any more.
+    fn give_up_unfinished(&mut self) -> Option<FrameError> {
+        if self.skipping {
+            self.pending.clear();
+            self.overflowed = false;
+            return None;
+        }
+        if self.pending.len() <= MAX_LINE_BYTES && !self.overflowed {
+            return None;
+        }
+        let line: Vec<u8> = self.pending.drain(..).collect();
+        self.skipping = true;
+        self.overflowed = false;
+        Some(FrameError::TooLong { excerpt: excerpt(&line) })
+    }
+}
+
+impl Iterator for Decoder {
+    type Item = Result<Frame, FrameError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
+                return self.give_up_unfinished().map(Err);
+            };
+            let mut line: Vec<u8> = self.pending.drain(..=end).collect();
+            line.pop();
+            if std::mem::take(&mut self.skipping) {
+                continue;
+            }
+            if line.len() > MAX_LINE_BYTES {
+                return Some(Err(FrameError::TooLong { excerpt: excerpt(&line) }));
+            }
+            let ended_with_cr = line.last() == Some(&b'\r');
+            while line.last() == Some(&b'\r') {
+                line.pop();
+            }
+            if !line.is_empty() {
+                return Some(read_line(&line, ended_with_cr));
+            }
+        }
+    }
+}
+
+/// Reads one line without its end.
+fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
+    let mut headers = line.iter().enumerate().filter(|(_, byte)| **byte == b'$').map(|(at, _)| at);
+    let Some(first) = headers.next() else {
+        return Err(FrameError::NoHeader { length: line.len(), excerpt: headless_excerpt(line) });
+    };
+    let Some((body, digits)) = split_checksum(line) else {
+        return Err(FrameError::NoChecksum { excerpt: excerpt(line) });
+    };
+    let received = digits.iter().fold(0, |sum, digit| sum << 4 | hex_value(*digit).unwrap_or(0));
+    // The piece of a cut frame may be glued to a whole one: try each header.
+    let payload = std::iter::once(first)
+        .chain(headers)
+        .filter_map(|at| Some((at, body.get(at + 1..)?)))
+        .find(|(_, payload)| checksum(payload) == received);
+    let Some((at, payload)) = payload else {
+        let computed = checksum(body.get(first + 1..).unwrap_or_default());
+        return Err(FrameError::BadChecksum { received, computed, excerpt: excerpt(line) });
+    };
+    let text = std::str::from_utf8(payload)
+        .ok()
+        .filter(|text| text.bytes().all(|byte| (0x20..0x7f).contains(&byte)))
+        .ok_or_else(|| FrameError::NotText { excerpt: excerpt(line) })?;
+    let mut frame = Frame::from_payload(text);
+    for (seen, oddity) in [
+        (digits.iter().any(u8::is_ascii_lowercase), Oddity::LowerCaseChecksum),
+        (digits.len() == 1, Oddity::OneDigitChecksum),
+        (!ended_with_cr, Oddity::LineFeedOnly),
+        (at > 0, Oddity::NoiseBeforeHeader),
+    ] {
+        if seen {
+            frame.note(oddity);
+        }
+    }
+    Ok(frame)
+}
+
+/// The line in front of the checksum's star, and the digits after it. The star
+/// is looked for at its fixed place, for values may hold stars too.
+fn split_checksum(line: &[u8]) -> Option<(&[u8], &[u8])> {
+    [2, 1].into_iter().find_map(|count| {
+        let (front, digits) = line.split_at_checked(line.len().checked_sub(count)?)?;
+        let front = front.strip_suffix(b"*")?;
+        digits.iter().all(|digit| hex_value(*digit).is_some()).then_some((front, digits))
+    })
+}
+
+fn hex_value(digit: u8) -> Option<u8> {
+    char::from(digit).to_digit(16).and_then(|value| u8::try_from(value).ok())
+}
+
+/// The first header and the word after it.
+fn excerpt(line: &[u8]) -> String {
+    let from = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
+    let word = line.get(from..).unwrap_or_default();
+    let end = word.iter().position(|byte| b",?=".contains(byte)).unwrap_or(word.len());
+    printable(word.get(..end).unwrap_or_default())
+}
+
+fn headless_excerpt(line: &[u8]) -> String {
+    let is_tail_of_frame = line.iter().any(|byte| b",*".contains(byte));
+    if is_tail_of_frame { String::new() } else { printable(line) }
+}
+
+fn printable(bytes: &[u8]) -> String {
+    let shown = |byte: &u8| if (0x20..0x7f).contains(byte) { char::from(*byte) } else { '.' };
+    bytes.iter().take(EXCERPT_CHARS).map(shown).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::encode;
+    use super::*;
+
+    fn read(bytes: &[u8]) -> Vec<Result<Frame, FrameError>> {
+        let mut decoder = Decoder::new();
+        decoder.push(bytes);
+        decoder.collect()
+    }
+
+    fn only(bytes: &[u8]) -> Result<Frame, FrameError> {
+        let mut all = read(bytes);
+        assert_eq!(all.len(), 1, "{all:?}");
+        all.remove(0)
+    }
+
+    #[test]
+    fn a_cut_frame_in_front_of_a_good_one_is_skipped() {
+        let frame = only(b"$STATUS?,0,2$STOP=,OK*0D\r\n").unwrap();
+        assert_eq!(frame.line(), "STOP=,OK");
+        assert_eq!(frame.oddities(), [Oddity::NoiseBeforeHeader]);
+    }
+
+    #[test]
+    fn a_star_in_a_value_is_no_checksum() {
+        let frame = only(&encode("LOAD_IMAGE?,a*4F")).unwrap();
+        assert_eq!(frame.fields(), ["a*4F"]);
+    }
+
+    #[test]
+    fn one_digit_is_enough_but_noted() {
+        let frame = only(b"$STOP=,OK*D\r\n").unwrap();
+        assert_eq!(frame.oddities(), [Oddity::OneDigitChecksum]);
+        assert!(matches!(only(b"$STOP=,OK*+D\r\n"), Err(FrameError::NoChecksum { .. })));
+    }
+
+    #[test]
+    fn each_broken_line_says_why() {
+        let computed = 0x0d;
+        assert_eq!(
+            only(b"$STOP=,OK*00\r\n"),
+            Err(FrameError::BadChecksum { received: 0, computed, excerpt: "$STOP".into() })
+        );
+        assert_eq!(
+            only(b"login:\r\n"),
+            Err(FrameError::NoHeader { length: 6, excerpt: "login:".into() })
+        );
+        assert_eq!(
+            only(b"secret,22,1,1*00\n"),
+            Err(FrameError::NoHeader { length: 16, excerpt: String::new() })
+        );
+        assert!(matches!(only(&encode("A\u{7f}?")), Err(FrameError::NotText { .. })));
+        assert!(read(b"\r\n\n\r\r\n").is_empty());
+    }
+
+    #[test]
+    fn an_over_long_line_is_reported_once_and_the_next_is_read() {
+        let mut decoder = Decoder::new();
+        let mut seen = Vec::new();
+        for _ in 0..100 {
+            decoder.push(&[b'x'; 100]);
+            seen.extend(decoder.by_ref());
+        }
+        decoder.push(b"\n$STOP=*25\r\n");
+        seen.extend(decoder.by_ref());
+        assert_eq!(seen.len(), 2, "{seen:?}");
+        assert!(matches!(seen[0], Err(FrameError::TooLong { .. })));
+        assert_eq!(seen[1].as_ref().unwrap().word(), "STOP=");
+    }
+
+    #[test]
+    fn nobody_reading_costs_no_memory() {
+        let mut decoder = Decoder::new();
+        for _ in 0..10_000 {
+            decoder.push(&encode("STOP="));
+        }
+        assert!(decoder.pending.len() <= MAX_PENDING_BYTES);
+        let taken: Vec<_> = decoder.by_ref().collect();
+        assert!(matches!(taken.last(), Some(Err(FrameError::TooLong { .. }))));
+        decoder.push(b"\r\n$STATUS?*2B\r\n");
+        assert_eq!(decoder.next().unwrap().unwrap().word(), "STATUS?");
+    }
+    #[test]
+    fn a_loss_is_reported_even_when_more_comes_before_it_is_reached() {
+        let mut decoder = Decoder::new();
+        decoder.push(&encode("STOP=").repeat(2000));
+        assert!(decoder.next().unwrap().is_ok());
+        decoder.push(b"\r\n$STATUS?*2B\r\n");
+        let last = decoder.by_ref().last();
+        assert!(matches!(last, Some(Err(FrameError::TooLong { .. }))), "{last:?}");
+    }
+}

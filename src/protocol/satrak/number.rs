@@ -1,0 +1,127 @@
+//! Numbers as the protocol writes and reads them: decimal point, no exponent.
+
+use super::text::TextProblem;
+
+/// Why a value cannot be sent.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ValueError {
+    /// Outside the range, or not a finite number.
+    #[error("{what} {value} is not between {least} and {most}")]
+    Range {
+        /// What the number means, with its unit.
+        what: &'static str,
+        /// As given.
+        value: f64,
+        /// Smallest accepted.
+        least: f64,
+        /// Largest accepted.
+        most: f64,
+    },
+    /// A number that has no meaning in the document.
+    #[error("{what} has no choice {code}")]
+    Choice {
+        /// What is chosen.
+        what: &'static str,
+        /// As given.
+        code: i64,
+    },
+    /// No axis would move: use the stop command to stand still.
+    #[error("no axis would move")]
+    NoMotion,
+    /// Every setting would keep its value.
+    #[error("no setting would change")]
+    NoChange,
+    /// The stop time is not later than the start time.
+    #[error("the stop time is not after the start time")]
+    StopBeforeStart,
+    /// A text that cannot be carried.
+    #[error("{what} {problem}")]
+    Text {
+        /// What the text means.
+        what: &'static str,
+        /// What is wrong with it; never the text itself.
+        problem: TextProblem,
+    },
+}
+
+/// `value` rounded to a thousandth, when it lies between `least` and `most`.
+pub(super) fn checked(
+    what: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+) -> Result<f64, ValueError> {
+    let rounded = (value * 1000.0).round() / 1000.0;
+    // Written so that NaN falls out as well. Adding zero removes a minus zero.
+    if (least..=most).contains(&rounded) {
+        Ok(rounded + 0.0)
+    } else {
+        Err(ValueError::Range { what, value, least, most })
+    }
+}
+
+/// Up to three decimals, none when there are none: `-3.5`, `0`, `125.1`.
+pub(super) fn plain(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// As [`plain`], but always with a decimal: `5.0`.
+pub(super) fn pointed(value: f64) -> String {
+    let text = plain(value);
+    if text.contains('.') { text } else { text + ".0" }
+}
+
+/// A finite number with a decimal point.
+pub(super) fn parse_decimal(text: &str) -> Option<f64> {
+    // Rust also reads `inf`, `nan` and exponents, which the protocol does not have.
+    let known = |byte: u8| byte.is_ascii_digit() || b"+-.".contains(&byte);
+    text.bytes().all(known).then(|| text.parse().ok()).flatten()
+}
+
+/// A whole number; a fraction of zeros is accepted.
+pub(super) fn parse_integer(text: &str) -> Option<i64> {
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    fraction.bytes().all(|byte| byte == b'0').then(|| whole.parse().ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_look_like_the_documents_examples() {
+        for (value, short, long) in [
+            (-3.5, "-3.5", "-3.5"),
+            (0.0, "0", "0.0"),
+            (-0.0001, "0", "0.0"),
+            (125.1, "125.1", "125.1"),
+            (5.0, "5", "5.0"),
+            (100.0, "100", "100.0"),
+        ] {
+            assert_eq!(plain(value), short);
+            assert_eq!(pointed(value), long);
+        }
+    }
+
+    #[test]
+    fn only_plain_numbers_are_read() {
+        assert_eq!(parse_decimal("+2"), Some(2.0));
+        assert_eq!(parse_decimal("-.5"), Some(-0.5));
+        for bad in ["", "nan", "inf", "1e3", "1,5", "-", "2 3", "NONE"] {
+            assert_eq!(parse_decimal(bad), None, "{bad}");
+        }
+        assert_eq!(parse_integer("7.00"), Some(7));
+        assert_eq!(parse_integer("7.5"), None);
+        assert_eq!(parse_integer("99999999999999999999"), None);
+    }
+
+    #[test]
+    fn what_is_not_finite_is_out_of_range() {
+        assert_eq!(checked("x", 0.0006, 0.0, 1.0), Ok(0.001));
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.001] {
+            assert!(checked("x", bad, 0.0, 1.0).is_err());
+        }
+    }
+}

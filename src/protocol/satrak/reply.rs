@@ -1,0 +1,279 @@
+//! From a frame to a typed reply.
+
+use super::fields::{FieldError, Fields};
+use super::{
+    AngleSettings, Clock, Faults, Frame, GpsData, GpsSettings, ImageStatus, Oddity, Reduction,
+    Satellite, SatelliteFtp, SatelliteHttp, Settings, StartStopTime, Status, TimedPosition, Verb,
+    Word,
+};
+
+/// What the unit says.
+#[derive(Debug, Clone, PartialEq)]
+#[allow(missing_docs, reason = "the types of the values say it")]
+pub enum Reply {
+    Version(Version),
+    Status(Status),
+    Faults(Faults),
+    Clock(Clock),
+    StartStopTime(StartStopTime),
+    Settings(Settings),
+    AngleSettings(AngleSettings),
+    GpsData(GpsData),
+    TimedPosition(TimedPosition),
+    GpsSettings(GpsSettings),
+    Satellite(Satellite),
+    SatelliteHttp(SatelliteHttp),
+    SatelliteFtp(SatelliteFtp),
+    ImageStatus(ImageStatus),
+    Reduction(Reduction),
+    /// The request was accepted. For a motion: it began, not that it arrived.
+    Done,
+    /// The request was refused.
+    Refused {
+        /// Error code, raw: the document lists none.
+        code: String,
+    },
+}
+
+/// Reply to `VERSION?`: free texts, nothing to decide by.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Version {
+    /// Firmware of the control unit, with its date.
+    pub control_unit: String,
+    /// Firmware of the drive unit, with its date.
+    pub drive_unit: Option<String>,
+    /// Texts that the document does not have.
+    pub others: Vec<String>,
+}
+
+impl Version {
+    fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        let text = |field| fields.text(field).map(str::to_owned);
+        Ok(Self {
+            control_unit: text(1)?,
+            drive_unit: text(2).ok(),
+            others: (3..=fields.count()).map(text).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// A deviation worth one line in the log.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Note {
+    /// Seen on the frame.
+    Oddity(Oddity),
+    /// Values after those that the document lists.
+    ExtraFields(usize),
+    /// Values of the document's list that are not there.
+    MissingFields(usize),
+}
+
+/// A reply with the request that it belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParsedReply {
+    /// Word of the request.
+    pub word: Word,
+    /// Verb of the request.
+    pub verb: Verb,
+    /// What was said.
+    pub reply: Reply,
+    /// What deviated.
+    pub notes: Vec<Note>,
+}
+
+/// Why a frame is no reply. Holds no values, for they may be secret.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ReplyError {
+    /// Not one of the document's words.
+    #[error("unknown word {0}")]
+    UnknownWord(String),
+    /// Nobody asks or sets this word in this way.
+    #[error("{word}{} is no request", verb.sign())]
+    NoSuchRequest {
+        /// The word.
+        word: Word,
+        /// How it was used.
+        verb: Verb,
+    },
+    /// Neither `OK` nor `ERR` after a setting.
+    #[error("{0}= without OK or ERR")]
+    NeitherOkNorErr(Word),
+    /// Not the number of values of this reply.
+    #[error("{word}? with {found} instead of {least} to {most} values")]
+    Count {
+        /// The word.
+        word: Word,
+        /// How many values came.
+        found: usize,
+        /// Fewest that can be read.
+        least: usize,
+        /// Most that can be read.
+        most: usize,
+        /// The unit seems to write decimal commas.
+        looks_like_decimal_commas: bool,
+    },
+    /// A value that cannot be read.
+    #[error("{word}?: {error}")]
+    Field {
+        /// The word.
+        word: Word,
+        /// Which value, and why.
+        error: FieldError,
+    },
+}
+
+/// How many values a reply has: fewest readable, listed in the document, most
+/// readable, decimals among them.
+struct Shape {
+    least: usize,
+    listed: usize,
+    most: usize,
+    decimals: usize,
+}
+
+impl Shape {
+    const fn of(word: Word) -> Option<Self> {
+        /// Replies that end in a text which may hold commas.
+        const ANY: usize = usize::MAX;
+        let (least, listed, most, decimals) = match word {
+            Word::Version => (1, 2, ANY, 0),
+            Word::Status => (Status::LEAST_FIELDS, Status::FIELDS, Status::MOST_FIELDS, 4),
+            Word::ErrStatus => (Faults::LEAST_FIELDS, Faults::FIELDS, ANY, 0),
+            Word::Time => (6, 7, 7, 0),
+            Word::StartStopTime => (12, 12, 12, 0),
+            Word::Settings => (Settings::FIELDS, Settings::FIELDS, Settings::FIELDS, 5),
+            Word::AngleSettings => (4, 4, 4, 2),
+            Word::GpsData | Word::Tpos => (9, 9, 9, 2),
+            Word::GpsSettings => (3, 3, 3, 2),
+            Word::Satellite => (Satellite::FIELDS, ANY, ANY, 0),
+            Word::SatelliteHttp => (SatelliteHttp::FIELDS, ANY, ANY, 0),
+            Word::SatelliteFtp => {
+                (SatelliteFtp::FIELDS, SatelliteFtp::FIELDS, SatelliteFtp::FIELDS, 0)
+            }
+            Word::LoadImage => (1, 1, ANY, 0),
+            Word::Reduction => (2, 2, 2, 2),
+            Word::Move
+            | Word::Step
+            | Word::Goto
+            | Word::Stop
+            | Word::Track
+            | Word::TrackAutoEnable
+            | Word::RtcReupdate => return None,
+        };
+        Some(Self { least, listed, most, decimals })
+    }
+
+    fn check(&self, word: Word, found: usize) -> Result<(), ReplyError> {
+        if (self.least..=self.most).contains(&found) {
+            return Ok(());
+        }
+        // Each decimal may fall apart, or only those that are not whole.
+        let looks_like_decimal_commas = found > self.most && self.decimals > 0;
+        let Self { least, most, .. } = *self;
+        Err(ReplyError::Count { word, found, least, most, looks_like_decimal_commas })
+    }
+
+    fn note(&self, word: Word, found: usize) -> Option<Note> {
+        match word {
+            Word::Satellite | Word::SatelliteHttp => None,
+            _ if found > self.listed => Some(Note::ExtraFields(found - self.listed)),
+            _ if found < self.listed => Some(Note::MissingFields(self.listed - found)),
+            _ => None,
+        }
+    }
+}
+
+impl Reply {
+    /// Reads a frame that a unit sent.
+    pub fn parse(frame: &Frame) -> Result<ParsedReply, ReplyError> {
+        let (word, verb) =
+            frame.command().ok_or_else(|| ReplyError::UnknownWord(bounded(frame.word())))?;
+        let mut notes: Vec<Note> = frame.oddities().iter().copied().map(Note::Oddity).collect();
+        let fields = Fields::of(frame);
+        let reply = match (frame.fields().first().map(String::as_str), verb) {
+            (Some("ERR"), _) => Self::Refused { code: fields.joined(1, 0).unwrap_or_default() },
+            (Some("OK"), Verb::Set) => Self::Done,
+            (_, Verb::Set) => return Err(ReplyError::NeitherOkNorErr(word)),
+            (_, Verb::Query) => {
+                let shape = Shape::of(word).ok_or(ReplyError::NoSuchRequest { word, verb })?;
+                shape.check(word, fields.count())?;
+                notes.extend(shape.note(word, fields.count()));
+                read(word, fields).map_err(|error| ReplyError::Field { word, error })?
+            }
+        };
+        Ok(ParsedReply { word, verb, reply, notes })
+    }
+}
+
+fn read(word: Word, fields: Fields<'_>) -> Result<Reply, FieldError> {
+    Ok(match word {
+        Word::Status => Reply::Status(Status::read(fields)?),
+        Word::ErrStatus => Reply::Faults(Faults::read(fields)?),
+        Word::Time => Reply::Clock(Clock::read(fields)?),
+        Word::StartStopTime => Reply::StartStopTime(StartStopTime::read(fields)?),
+        Word::Settings => Reply::Settings(Settings::read(fields)?),
+        Word::AngleSettings => Reply::AngleSettings(AngleSettings::read(fields)?),
+        Word::GpsData => Reply::GpsData(GpsData::read(fields)?),
+        Word::Tpos => Reply::TimedPosition(TimedPosition::read(fields)?),
+        Word::GpsSettings => Reply::GpsSettings(GpsSettings::read(fields)?),
+        Word::Satellite => Reply::Satellite(Satellite::read(fields)?),
+        Word::SatelliteHttp => Reply::SatelliteHttp(SatelliteHttp::read(fields)?),
+        Word::SatelliteFtp => Reply::SatelliteFtp(SatelliteFtp::read(fields)?),
+        Word::LoadImage => Reply::ImageStatus(ImageStatus { raw: fields.joined(0, 0)? }),
+        Word::Reduction => Reply::Reduction(Reduction::read(fields)?),
+        // Words without a shape of their reply were turned away before.
+        _ => Reply::Version(Version::read(fields)?),
+    })
+}
+
+/// Enough of a word to find it in the log.
+fn bounded(word: &str) -> String {
+    word.chars().take(32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(payload: &str) -> Result<Reply, ReplyError> {
+        Reply::parse(&Frame::from_payload(payload)).map(|parsed| parsed.reply)
+    }
+
+    #[test]
+    fn decimal_commas_are_never_read_as_other_angles() {
+        // 16 fields become 20, 15 become 19.
+        for tail in ["", ",1"] {
+            let payload = format!("STATUS?,0,299,49,34,35,0,0,0,0,0,0,0,0,0,0,80,0,35,0{tail}");
+            let error = parse(&payload).unwrap_err();
+            assert!(
+                matches!(error, ReplyError::Count { looks_like_decimal_commas: true, .. }),
+                "{error:?}"
+            );
+        }
+        assert!(parse("TPOS?,306,00,48,74,15,33,41,17,10,2017,818").is_err());
+    }
+
+    #[test]
+    fn a_query_can_be_refused() {
+        assert_eq!(parse("TPOS?,ERR,12"), Ok(Reply::Refused { code: "12".into() }));
+        assert_eq!(parse("STOP=,ERR"), Ok(Reply::Refused { code: String::new() }));
+        assert_eq!(parse("STOP=,HM"), Err(ReplyError::NeitherOkNorErr(Word::Stop)));
+        assert_eq!(parse("STOP="), Err(ReplyError::NeitherOkNorErr(Word::Stop)));
+    }
+
+    #[test]
+    fn what_nobody_asks_is_no_reply() {
+        assert_eq!(parse("HELLO?,1"), Err(ReplyError::UnknownWord("HELLO?".into())));
+        let verb = Verb::Query;
+        assert_eq!(parse("MOVE?,1"), Err(ReplyError::NoSuchRequest { word: Word::Move, verb }));
+    }
+
+    #[test]
+    fn a_ninth_ftp_value_is_not_guessed() {
+        let eight = "SATELLITE_FTP?,10.0.1.2,u,secret,22,f,s,1,0";
+        let Ok(Reply::SatelliteFtp(ftp)) = parse(eight) else { panic!("not read") };
+        assert_eq!(ftp.password.reveal(), "secret");
+        assert!(!format!("{ftp:?}").contains("secret"));
+        assert!(matches!(parse(&format!("{eight},1")), Err(ReplyError::Count { .. })));
+    }
+}

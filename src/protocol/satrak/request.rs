@@ -1,0 +1,247 @@
+//! Requests of a client.
+
+use super::frame::encode;
+use super::{
+    AngleChange, ClockTime, FtpTle, GpsSettingsChange, HttpTle, Motion, Reduction, SatelliteChoice,
+    SettingsRequest, TextValue, TrackWindow, Verb, Word,
+};
+
+/// Anything a client can ask. Every value was checked when it was built, so
+/// each request has bytes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Request {
+    /// Reads and changes nothing.
+    Query(Query),
+    /// Ends motion; always allowed.
+    Halt(Halt),
+    /// Can make metal move.
+    Motion(Motion),
+    /// Changes what the unit remembers.
+    Setting(Setting),
+}
+
+/// What can be asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "each has a reply of the same name")]
+pub enum Query {
+    Version,
+    Status,
+    Faults,
+    Clock,
+    StartStopTime,
+    Settings,
+    AngleSettings,
+    GpsData,
+    TimedPosition,
+    GpsSettings,
+    Satellite,
+    SatelliteHttp,
+    SatelliteFtp,
+    ImageStatus,
+    Reduction,
+}
+
+impl Query {
+    /// All queries with their words, in the order of the document.
+    pub const ALL: [(Self, Word); 15] = [
+        (Self::Version, Word::Version),
+        (Self::Status, Word::Status),
+        (Self::Faults, Word::ErrStatus),
+        (Self::Clock, Word::Time),
+        (Self::StartStopTime, Word::StartStopTime),
+        (Self::Settings, Word::Settings),
+        (Self::AngleSettings, Word::AngleSettings),
+        (Self::GpsData, Word::GpsData),
+        (Self::TimedPosition, Word::Tpos),
+        (Self::GpsSettings, Word::GpsSettings),
+        (Self::Satellite, Word::Satellite),
+        (Self::SatelliteHttp, Word::SatelliteHttp),
+        (Self::SatelliteFtp, Word::SatelliteFtp),
+        (Self::ImageStatus, Word::LoadImage),
+        (Self::Reduction, Word::Reduction),
+    ];
+
+    /// The word on the wire.
+    pub fn word(self) -> Word {
+        let known = Self::ALL.into_iter().find(|(query, _)| *query == self);
+        known.map_or(Word::Version, |(_, word)| word)
+    }
+}
+
+/// What ends motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Halt {
+    /// Stand still. Whether tracking goes on afterwards is not documented.
+    Stop,
+    /// Switch tracking off.
+    TrackOff,
+    /// Do not start tracking by itself.
+    AutoTrackOff,
+}
+
+impl Halt {
+    /// The word on the wire.
+    pub const fn word(self) -> Word {
+        match self {
+            Self::Stop => Word::Stop,
+            Self::TrackOff => Word::Track,
+            Self::AutoTrackOff => Word::TrackAutoEnable,
+        }
+    }
+}
+
+/// What the unit remembers.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Setting {
+    /// Set the clock.
+    Time(ClockTime),
+    /// Set the tracking window.
+    StartStopTime(TrackWindow),
+    /// Change general settings.
+    Settings(SettingsRequest),
+    /// Calibrate the angles.
+    AngleSettings(AngleChange),
+    /// Set the clock from GPS now.
+    RtcReupdate,
+    /// Set the place.
+    GpsSettings(GpsSettingsChange),
+    /// Choose a satellite of a file.
+    Satellite(SatelliteChoice),
+    /// Take elements from the web.
+    SatelliteHttp(HttpTle),
+    /// Take elements from an FTP server.
+    SatelliteFtp(FtpTle),
+    /// Load an image file, presumably of the firmware.
+    LoadImage(TextValue),
+    /// Set the scales of the drives.
+    Reduction(Reduction),
+}
+
+impl Setting {
+    /// The word on the wire.
+    pub const fn word(&self) -> Word {
+        match self {
+            Self::Time(_) => Word::Time,
+            Self::StartStopTime(_) => Word::StartStopTime,
+            Self::Settings(_) => Word::Settings,
+            Self::AngleSettings(_) => Word::AngleSettings,
+            Self::RtcReupdate => Word::RtcReupdate,
+            Self::GpsSettings(_) => Word::GpsSettings,
+            Self::Satellite(_) => Word::Satellite,
+            Self::SatelliteHttp(_) => Word::SatelliteHttp,
+            Self::SatelliteFtp(_) => Word::SatelliteFtp,
+            Self::LoadImage(_) => Word::LoadImage,
+            Self::Reduction(_) => Word::Reduction,
+        }
+    }
+
+    fn values(&self) -> Vec<String> {
+        match self {
+            Self::Time(time) => time.values(),
+            Self::StartStopTime(window) => window.values(),
+            Self::Settings(request) => request.values(),
+            Self::AngleSettings(change) => change.values(),
+            Self::RtcReupdate => Vec::new(),
+            Self::GpsSettings(change) => change.values(),
+            Self::Satellite(choice) => choice.values(),
+            Self::SatelliteHttp(source) => source.values(),
+            Self::SatelliteFtp(source) => source.values(),
+            Self::LoadImage(file) => vec![file.as_str().to_owned()],
+            Self::Reduction(reduction) => reduction.values(),
+        }
+    }
+}
+
+/// Who may send a request.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Changes nothing.
+    Read,
+    /// Moves or stops the antenna.
+    Operate,
+    /// Changes what the antenna will do.
+    Configure,
+    /// Calibration, drive scaling, firmware, transmitter: can spoil the antenna.
+    Service,
+}
+
+impl Request {
+    /// The word, repeated by the reply.
+    pub fn word(&self) -> Word {
+        match self {
+            Self::Query(query) => query.word(),
+            Self::Halt(halt) => halt.word(),
+            Self::Motion(motion) => motion.word(),
+            Self::Setting(setting) => setting.word(),
+        }
+    }
+
+    /// The verb, repeated by the reply.
+    pub const fn verb(&self) -> Verb {
+        match self {
+            Self::Query(_) => Verb::Query,
+            Self::Halt(_) | Self::Motion(_) | Self::Setting(_) => Verb::Set,
+        }
+    }
+
+    /// Who may send it.
+    pub fn class(&self) -> Class {
+        match self {
+            Self::Query(_) => Class::Read,
+            Self::Halt(_) | Self::Motion(_) => Class::Operate,
+            Self::Setting(
+                Setting::AngleSettings(_) | Setting::LoadImage(_) | Setting::Reduction(_),
+            ) => Class::Service,
+            Self::Setting(Setting::Settings(request)) if request.switches_sspa_on() => {
+                Class::Service
+            }
+            Self::Setting(_) => Class::Configure,
+        }
+    }
+
+    /// The frame to send.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        encode(&self.payload())
+    }
+
+    /// The payload. May hold the FTP password: log it through [`super::redact`].
+    pub fn payload(&self) -> String {
+        let values = match self {
+            Self::Query(_) | Self::Halt(Halt::Stop) => Vec::new(),
+            Self::Halt(Halt::TrackOff | Halt::AutoTrackOff) => vec!["0".to_owned()],
+            Self::Motion(motion) => motion.values(),
+            Self::Setting(setting) => setting.values(),
+        };
+        let mut payload = format!("{}{}", self.word(), self.verb().sign());
+        for value in values {
+            payload.push(',');
+            payload.push_str(&value);
+        }
+        payload
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::satrak::{SettingsChange, SspaMode};
+
+    #[test]
+    fn every_query_has_its_own_word() {
+        for (query, word) in Query::ALL {
+            assert_eq!(query.word(), word);
+            assert_eq!(Request::Query(query).payload(), format!("{word}?"));
+        }
+    }
+
+    #[test]
+    fn switching_the_transmitter_on_is_a_service_function() {
+        let class = |sspa| {
+            let change = SettingsChange { sspa: Some(sspa), ..Default::default() };
+            Request::Setting(Setting::Settings(SettingsRequest::new(&change).unwrap())).class()
+        };
+        assert_eq!(class(SspaMode::On), Class::Service);
+        assert_eq!(class(SspaMode::Off), Class::Configure);
+        assert_eq!(Request::Halt(Halt::Stop).class(), Class::Operate);
+    }
+}

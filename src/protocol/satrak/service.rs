@@ -1,0 +1,133 @@
+//! Service functions: calibration, drive scaling, firmware (sections 14, 15
+//! and 29 to 32).
+
+use super::ValueError;
+use super::fields::{FieldError, Fields};
+use super::number::{checked, plain, pointed};
+
+/// Own sanity bound; the document gives neither unit nor range.
+const MAX_REDUCTION: f64 = 1_000_000.0;
+const MAX_REFERENCE_DEG: f64 = 360.0;
+
+/// Angles that belong to sensor readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorAngles {
+    x_deg: f64,
+    y_deg: f64,
+}
+
+impl SensorAngles {
+    /// Reference angles in degrees, within a turn, kept to a thousandth.
+    pub fn new(x_deg: f64, y_deg: f64) -> Result<Self, ValueError> {
+        let angle =
+            |value| checked("reference angle", value, -MAX_REFERENCE_DEG, MAX_REFERENCE_DEG);
+        Ok(Self { x_deg: angle(x_deg)?, y_deg: angle(y_deg)? })
+    }
+
+    /// Reference angle of the X axis, degrees.
+    pub fn x_deg(self) -> f64 {
+        self.x_deg
+    }
+
+    /// Reference angle of the Y axis, degrees.
+    pub fn y_deg(self) -> f64 {
+        self.y_deg
+    }
+}
+
+/// Reply to `ANGLE_SETTINGS?`: which sensor reading is which angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AngleSettings {
+    /// Sensor reading of the X axis, in counts.
+    pub x_sensor: i64,
+    /// Angle of the X axis at that reading, degrees.
+    pub x_deg: f64,
+    /// Sensor reading of the Y axis, in counts.
+    pub y_sensor: i64,
+    /// Angle of the Y axis at that reading, degrees.
+    pub y_deg: f64,
+}
+
+impl AngleSettings {
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self {
+            x_sensor: fields.integer(1)?,
+            x_deg: fields.decimal(2)?,
+            y_sensor: fields.integer(3)?,
+            y_deg: fields.decimal(4)?,
+        })
+    }
+}
+
+/// Values of `ANGLE_SETTINGS=`: calibrates the reported angles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AngleChange {
+    /// The present position has these angles.
+    PresentPosition(SensorAngles),
+    /// Given sensor readings, in counts of 16 bits, have these angles.
+    Given {
+        /// Sensor reading of the X axis.
+        x_sensor: u16,
+        /// Sensor reading of the Y axis.
+        y_sensor: u16,
+        /// The angles.
+        angles: SensorAngles,
+    },
+}
+
+impl AngleChange {
+    pub(super) fn values(self) -> Vec<String> {
+        let (automatic, x_sensor, y_sensor, angles) = match self {
+            Self::PresentPosition(angles) => ("1", 0, 0, angles),
+            Self::Given { x_sensor, y_sensor, angles } => ("0", x_sensor, y_sensor, angles),
+        };
+        vec![
+            automatic.to_owned(),
+            x_sensor.to_string(),
+            pointed(angles.x_deg),
+            y_sensor.to_string(),
+            pointed(angles.y_deg),
+        ]
+    }
+}
+
+/// Reply to `REDUCTION?` and values of `REDUCTION=`: scales of the drives,
+/// presumably gear ratios.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reduction {
+    x: f64,
+    y: f64,
+}
+
+impl Reduction {
+    /// Both above 0, up to a million, kept to a thousandth.
+    pub fn new(x: f64, y: f64) -> Result<Self, ValueError> {
+        let ratio = |value| checked("reduction", value, 0.001, MAX_REDUCTION);
+        Ok(Self { x: ratio(x)?, y: ratio(y)? })
+    }
+
+    /// Scale of the X axis.
+    pub fn x(self) -> f64 {
+        self.x
+    }
+
+    /// Scale of the Y axis.
+    pub fn y(self) -> f64 {
+        self.y
+    }
+
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self { x: fields.decimal(1)?, y: fields.decimal(2)? })
+    }
+
+    pub(super) fn values(self) -> Vec<String> {
+        vec![plain(self.x), plain(self.y)]
+    }
+}
+
+/// Reply to `LOAD_IMAGE?`. The document explains no value of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageStatus {
+    /// As reported.
+    pub raw: String,
+}

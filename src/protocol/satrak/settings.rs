@@ -1,0 +1,271 @@
+//! General settings (sections 12 and 13). The query gives 12 values, the
+//! setting takes 11: without the TLE mode, which moves the last one up.
+
+use super::ValueError;
+use super::coded::coded;
+use super::fields::{FieldError, Fields};
+use super::number::{checked, pointed};
+
+coded! {
+    /// What the position is measured with.
+    PositionBase {
+        /// Resolver and encoder.
+        ResolverAndEncoder = 0,
+        /// Resolver alone.
+        Resolver = 1,
+    }
+}
+
+coded! {
+    /// Switch of the transmitter's power amplifier (SSPA).
+    SspaMode {
+        /// Off.
+        Off = 0,
+        /// On: the antenna radiates.
+        On = 1,
+        /// By its own rule.
+        Auto = 2,
+    }
+}
+
+coded! {
+    /// When an automatic power amplifier is on.
+    SspaAutoRule {
+        /// While tracking.
+        Tracking = 0,
+        /// While the carrier is locked.
+        CarrierLock = 1,
+        /// While both.
+        Both = 2,
+        /// While either.
+        Either = 3,
+    }
+}
+
+coded! {
+    /// Where the unit takes its elements from.
+    TleMode {
+        /// A file in the unit.
+        File = 0,
+        /// A web address.
+        Web = 1,
+        /// An FTP server.
+        Ftp = 2,
+    }
+}
+
+/// Reply to `SETTINGS?`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// The clock follows GPS.
+    pub rtc_from_gps: bool,
+    /// Tracking runs this much ahead, milliseconds.
+    pub time_offset_ms: i64,
+    /// Added to the azimuth while tracking, degrees.
+    pub az_offset_deg: f64,
+    /// Added to the elevation while tracking, degrees.
+    pub el_offset_deg: f64,
+    /// Go to the start point this long before the window, milliseconds.
+    pub lead_ms: i64,
+    /// What the position is measured with.
+    pub position_base: PositionBase,
+    /// Lowest elevation, degrees.
+    pub minimum_elevation_deg: f64,
+    /// North offset, degrees.
+    pub north_offset_deg: f64,
+    /// Power amplifier.
+    pub sspa: SspaMode,
+    /// Rule of the automatic power amplifier.
+    pub sspa_auto: SspaAutoRule,
+    /// Where the elements come from. No request of the document sets it.
+    pub tle_mode: TleMode,
+    /// Elevation threshold, degrees.
+    pub elevation_threshold_deg: f64,
+}
+
+impl Settings {
+    pub(super) const FIELDS: usize = 12;
+
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self {
+            rtc_from_gps: fields.flag(1)?,
+            time_offset_ms: fields.integer(2)?,
+            az_offset_deg: fields.decimal(3)?,
+            el_offset_deg: fields.decimal(4)?,
+            lead_ms: fields.integer(5)?,
+            position_base: PositionBase::from_code(fields.integer(6)?),
+            minimum_elevation_deg: fields.decimal(7)?,
+            north_offset_deg: fields.decimal(8)?,
+            sspa: SspaMode::from_code(fields.integer(9)?),
+            sspa_auto: SspaAutoRule::from_code(fields.integer(10)?),
+            tle_mode: TleMode::from_code(fields.integer(11)?),
+            elevation_threshold_deg: fields.decimal(12)?,
+        })
+    }
+
+    /// These settings after `change` was carried out: what must be read back.
+    #[must_use]
+    pub fn after(self, change: &SettingsChange) -> Self {
+        Self {
+            rtc_from_gps: change.rtc_from_gps.unwrap_or(self.rtc_from_gps),
+            time_offset_ms: change.time_offset_ms.unwrap_or(self.time_offset_ms),
+            az_offset_deg: change.az_offset_deg.unwrap_or(self.az_offset_deg),
+            el_offset_deg: change.el_offset_deg.unwrap_or(self.el_offset_deg),
+            lead_ms: change.lead_ms.unwrap_or(self.lead_ms),
+            position_base: change.position_base.unwrap_or(self.position_base),
+            minimum_elevation_deg: change
+                .minimum_elevation_deg
+                .unwrap_or(self.minimum_elevation_deg),
+            north_offset_deg: change.north_offset_deg.unwrap_or(self.north_offset_deg),
+            sspa: change.sspa.unwrap_or(self.sspa),
+            sspa_auto: change.sspa_auto.unwrap_or(self.sspa_auto),
+            tle_mode: self.tle_mode,
+            elevation_threshold_deg: change
+                .elevation_threshold_deg
+                .unwrap_or(self.elevation_threshold_deg),
+        }
+    }
+}
+
+/// A wish to change settings; `None` keeps a value. Meanings as in [`Settings`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[allow(missing_docs, reason = "the fields are those of `Settings`")]
+pub struct SettingsChange {
+    pub rtc_from_gps: Option<bool>,
+    pub time_offset_ms: Option<i64>,
+    pub az_offset_deg: Option<f64>,
+    pub el_offset_deg: Option<f64>,
+    pub lead_ms: Option<i64>,
+    pub position_base: Option<PositionBase>,
+    pub minimum_elevation_deg: Option<f64>,
+    pub north_offset_deg: Option<f64>,
+    pub sspa: Option<SspaMode>,
+    pub sspa_auto: Option<SspaAutoRule>,
+    pub elevation_threshold_deg: Option<f64>,
+}
+
+/// Values of `SETTINGS=`, checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SettingsRequest(SettingsChange);
+
+/// Own bounds; the document gives none.
+const MAX_TIME_MS: f64 = 3_600_000.0;
+const MAX_OFFSET_DEG: f64 = 10.0;
+const MAX_NORTH_OFFSET_DEG: f64 = 360.0;
+
+impl SettingsRequest {
+    /// Own ranges: angle offsets within 10 degrees, times within an hour,
+    /// elevations 0 to 90, north offset within a turn; angles are kept to a
+    /// thousandth. A change of nothing is refused.
+    pub fn new(wish: &SettingsChange) -> Result<Self, ValueError> {
+        if *wish == SettingsChange::default() {
+            return Err(ValueError::NoChange);
+        }
+        if let Some(ms) = wish.time_offset_ms {
+            checked("time offset in ms", ms as f64, -MAX_TIME_MS, MAX_TIME_MS)?;
+        }
+        if let Some(ms) = wish.lead_ms {
+            checked("lead time in ms", ms as f64, 0.0, MAX_TIME_MS)?;
+        }
+        for (what, unknown) in [
+            ("position base", wish.position_base.map(|base| (base.code(), 1))),
+            ("power amplifier", wish.sspa.map(|mode| (mode.code(), 2))),
+            ("power amplifier rule", wish.sspa_auto.map(|rule| (rule.code(), 3))),
+        ] {
+            if let Some((code, last)) = unknown
+                && !(0..=last).contains(&code)
+            {
+                return Err(ValueError::Choice { what, code });
+            }
+        }
+        let angle = |what, value: Option<f64>, least, most| {
+            value.map(|value| checked(what, value, least, most)).transpose()
+        };
+        let offset = MAX_OFFSET_DEG;
+        let north = MAX_NORTH_OFFSET_DEG;
+        Ok(Self(SettingsChange {
+            az_offset_deg: angle("azimuth offset", wish.az_offset_deg, -offset, offset)?,
+            el_offset_deg: angle("elevation offset", wish.el_offset_deg, -offset, offset)?,
+            minimum_elevation_deg: angle(
+                "minimum elevation",
+                wish.minimum_elevation_deg,
+                0.0,
+                90.0,
+            )?,
+            north_offset_deg: angle("north offset", wish.north_offset_deg, -north, north)?,
+            elevation_threshold_deg: angle(
+                "elevation threshold",
+                wish.elevation_threshold_deg,
+                0.0,
+                90.0,
+            )?,
+            ..*wish
+        }))
+    }
+
+    /// What is changed.
+    pub fn change(&self) -> &SettingsChange {
+        &self.0
+    }
+
+    /// Whether the transmitter would be switched on by hand.
+    pub fn switches_sspa_on(&self) -> bool {
+        self.0.sspa == Some(SspaMode::On)
+    }
+
+    pub(super) fn values(&self) -> Vec<String> {
+        let keep = || "?".to_owned();
+        let flag =
+            |value: Option<bool>| value.map_or_else(keep, |value| u8::from(value).to_string());
+        let integer = |value: Option<i64>| value.map_or_else(keep, |value| value.to_string());
+        let angle = |value: Option<f64>| value.map_or_else(keep, pointed);
+        let SettingsChange { rtc_from_gps, time_offset_ms, lead_ms, .. } = self.0;
+        vec![
+            flag(rtc_from_gps),
+            integer(time_offset_ms),
+            angle(self.0.az_offset_deg),
+            angle(self.0.el_offset_deg),
+            integer(lead_ms),
+            integer(self.0.position_base.map(PositionBase::code)),
+            angle(self.0.minimum_elevation_deg),
+            angle(self.0.north_offset_deg),
+            integer(self.0.sspa.map(SspaMode::code)),
+            integer(self.0.sspa_auto.map(SspaAutoRule::code)),
+            angle(self.0.elevation_threshold_deg),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::satrak::Frame;
+
+    #[test]
+    fn the_threshold_stands_at_different_places() {
+        let payload = "SETTINGS?,1,100,1.0,2.0,60000,1,3.0,6.0,1,1,2,2.5";
+        let now = Settings::read(Fields::of(&Frame::from_payload(payload))).unwrap();
+        assert_eq!((now.tle_mode, now.elevation_threshold_deg), (TleMode::Ftp, 2.5));
+        let wish = SettingsChange { elevation_threshold_deg: Some(4.0), ..Default::default() };
+        let request = SettingsRequest::new(&wish).unwrap();
+        assert_eq!(request.values().last().map(String::as_str), Some("4.0"));
+        assert_eq!(request.values().len(), 11);
+        let then = now.after(request.change());
+        assert_eq!(then, Settings { elevation_threshold_deg: 4.0, ..now });
+    }
+
+    #[test]
+    fn wishes_without_sense_are_refused() {
+        assert_eq!(SettingsRequest::new(&SettingsChange::default()), Err(ValueError::NoChange));
+        let refused = [
+            SettingsChange { lead_ms: Some(-1), ..Default::default() },
+            SettingsChange { time_offset_ms: Some(i64::MIN), ..Default::default() },
+            SettingsChange { sspa: Some(SspaMode::Unknown(3)), ..Default::default() },
+            SettingsChange { az_offset_deg: Some(f64::NAN), ..Default::default() },
+            SettingsChange { minimum_elevation_deg: Some(-1.0), ..Default::default() },
+        ];
+        for wish in refused {
+            assert!(SettingsRequest::new(&wish).is_err(), "{wish:?}");
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Reply to `STATUS?` (section 6).
+
+use super::coded::coded;
+use super::fields::{FieldError, Fields};
+
+coded! {
+    /// Where the unit stands in its tracking window (field 9).
+    TrackState {
+        /// Outside the window.
+        NotInTrackTime = 0,
+        /// Inside the window.
+        InTrackTime = 1,
+        /// The window is over.
+        Completed = 2,
+        /// Going to the start point before the window begins.
+        BeforeStart = 3,
+    }
+}
+
+coded! {
+    /// Motion of one axis (fields 12 and 13).
+    AxisMotion {
+        /// Toward smaller angles.
+        Negative = -1,
+        /// Standing still.
+        Still = 0,
+        /// Toward larger angles.
+        Positive = 1,
+    }
+}
+
+impl AxisMotion {
+    /// Whether the axis moves; an unexplained number counts as moving.
+    pub fn is_moving(self) -> bool {
+        self != Self::Still
+    }
+}
+
+/// End switches of both axes; an unexplained number counts as set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Limits {
+    /// X at its upper end.
+    pub x_plus: bool,
+    /// X at its lower end.
+    pub x_minus: bool,
+    /// Y at its upper end.
+    pub y_plus: bool,
+    /// Y at its lower end.
+    pub y_minus: bool,
+}
+
+impl Limits {
+    /// Whether any axis stands at an end.
+    pub fn any(self) -> bool {
+        self.x_plus || self.x_minus || self.y_plus || self.y_minus
+    }
+}
+
+/// What the unit measures and does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Status {
+    /// A fault or warning exists: ask for the faults.
+    pub fault: bool,
+    /// Azimuth, degrees.
+    pub az_deg: f64,
+    /// Elevation, degrees.
+    pub el_deg: f64,
+    /// End switches.
+    pub limits: Limits,
+    /// Tracking is switched on.
+    pub tracking_enabled: bool,
+    /// Place in the tracking window.
+    pub track_state: TrackState,
+    /// The clock was set from GPS.
+    pub rtc_from_gps: bool,
+    /// GPS lock delay, seconds; the document says no more.
+    pub gps_lock_delay_s: f64,
+    /// Motion of the X axis.
+    pub x_motion: AxisMotion,
+    /// Motion of the Y axis.
+    pub y_motion: AxisMotion,
+    /// X angle, degrees.
+    pub x_deg: f64,
+    /// Y angle, degrees.
+    pub y_deg: f64,
+    /// Auto track is on; `None` from a unit that does not report it.
+    pub auto_track: Option<bool>,
+}
+
+impl Status {
+    /// Fields of an older unit.
+    pub(super) const LEAST_FIELDS: usize = 15;
+    /// Fields that the document lists.
+    pub(super) const FIELDS: usize = 16;
+    /// More than a newer unit may add. Decimal commas turn 15 fields into 19,
+    /// which would be read as other angles, so they must not pass as additions.
+    pub(super) const MOST_FIELDS: usize = 18;
+
+    pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
+        Ok(Self {
+            fault: fields.flag(1)?,
+            az_deg: fields.decimal(2)?,
+            el_deg: fields.decimal(3)?,
+            limits: Limits {
+                x_plus: fields.flag(4)?,
+                x_minus: fields.flag(5)?,
+                y_plus: fields.flag(6)?,
+                y_minus: fields.flag(7)?,
+            },
+            tracking_enabled: fields.flag(8)?,
+            track_state: TrackState::from_code(fields.integer(9)?),
+            rtc_from_gps: fields.integer::<i64>(10)? == 1,
+            gps_lock_delay_s: fields.decimal(11)?,
+            x_motion: AxisMotion::from_code(fields.integer(12)?),
+            y_motion: AxisMotion::from_code(fields.integer(13)?),
+            x_deg: fields.decimal(14)?,
+            y_deg: fields.decimal(15)?,
+            auto_track: (fields.count() >= Self::FIELDS).then(|| fields.flag(16)).transpose()?,
+        })
+    }
+
+    /// Whether any axis moves.
+    pub fn is_moving(&self) -> bool {
+        self.x_motion.is_moving() || self.y_motion.is_moving()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::satrak::Frame;
+
+    #[test]
+    fn unexplained_numbers_lean_to_the_safe_side() {
+        let frame = Frame::from_payload("STATUS?,7,1.5,2,2,0,0,-1,0,9,5,12,4,-1,80,90,3");
+        let status = Status::read(Fields::of(&frame)).unwrap();
+        assert!(status.fault);
+        let limits = Limits { x_plus: true, x_minus: false, y_plus: false, y_minus: true };
+        assert_eq!(status.limits, limits);
+        assert!(status.limits.any());
+        assert_eq!(status.track_state, TrackState::Unknown(9));
+        assert!(!status.rtc_from_gps);
+        assert_eq!(status.x_motion, AxisMotion::Unknown(4));
+        assert!(status.x_motion.is_moving() && status.is_moving());
+        assert_eq!(status.y_motion, AxisMotion::Negative);
+        assert_eq!(status.auto_track, Some(true));
+    }
+}

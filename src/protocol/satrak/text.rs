@@ -1,0 +1,162 @@
+//! Texts that fit between commas. The protocol has no escape, so what cannot
+//! be carried is refused before it is sent.
+
+use std::fmt;
+
+use super::ValueError;
+
+/// Longest text that is sent: five of them still fit in a line.
+const MAX_TEXT_BYTES: usize = 180;
+/// Longest web address that is sent.
+const MAX_URL_BYTES: usize = 400;
+
+/// Why a text cannot be carried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum TextProblem {
+    /// Nothing in it.
+    #[error("is empty")]
+    Empty,
+    /// Longer than 180 bytes, or 400 for a web address.
+    #[error("is too long")]
+    TooLong,
+    /// A comma separates values.
+    #[error("holds a comma")]
+    Comma,
+    /// `$` and `*` frame the message.
+    #[error("holds a dollar sign or a star")]
+    FrameSign,
+    /// Not printable ASCII.
+    #[error("holds a character outside printable ASCII")]
+    NotPrintable,
+    /// Blanks at the ends are removed by unknown rules.
+    #[error("begins or ends with a blank")]
+    OuterBlank,
+    /// A lone `?` means "keep the value".
+    #[error("is a single question mark")]
+    KeepSign,
+}
+
+fn check(text: &str, most_bytes: usize) -> Result<(), TextProblem> {
+    let problem = [
+        (text.is_empty(), TextProblem::Empty),
+        (text.len() > most_bytes, TextProblem::TooLong),
+        (text.bytes().any(|byte| !(0x20..0x7f).contains(&byte)), TextProblem::NotPrintable),
+        (text.contains(','), TextProblem::Comma),
+        (text.contains(['$', '*']), TextProblem::FrameSign),
+        (text.trim() != text, TextProblem::OuterBlank),
+        (text == "?", TextProblem::KeepSign),
+    ]
+    .into_iter()
+    .find_map(|(wrong, problem)| wrong.then_some(problem));
+    problem.map_or(Ok(()), Err)
+}
+
+/// A text that the protocol can carry as one value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TextValue(String);
+
+impl TextValue {
+    /// Takes `text`; `what` names it in the error.
+    pub fn new(what: &'static str, text: &str) -> Result<Self, ValueError> {
+        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+        Ok(Self(text.to_owned()))
+    }
+
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+/// A web address; its commas are percent-encoded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UrlValue(String);
+
+impl UrlValue {
+    /// Takes `url` as typed.
+    pub fn new(url: &str) -> Result<Self, ValueError> {
+        let url = url.replace(',', "%2C");
+        let what = "web address";
+        check(&url, MAX_URL_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+        Ok(Self(url))
+    }
+
+    /// The address as it is sent.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+/// A password. Neither `Debug` nor anything else prints it; the device itself
+/// sends it back in clear.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Password(String);
+
+impl Password {
+    /// A password to send.
+    pub fn new(text: &str) -> Result<Self, ValueError> {
+        let what = "password";
+        check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
+        Ok(Self(text.to_owned()))
+    }
+
+    /// A password as a device reported it.
+    pub(super) fn reported(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+
+    /// The password itself. Never log it.
+    pub fn reveal(&self) -> &str {
+        &self.0
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl fmt::Debug for Password {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Password")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_carried_is_refused_with_the_reason() {
+        for (text, problem) in [
+            ("", TextProblem::Empty),
+            ("a,b", TextProblem::Comma),
+            ("a*b", TextProblem::FrameSign),
+            ("$", TextProblem::FrameSign),
+            ("a\r\n", TextProblem::NotPrintable),
+            ("\u{130}stanbul", TextProblem::NotPrintable),
+            (" a", TextProblem::OuterBlank),
+            ("?", TextProblem::KeepSign),
+        ] {
+            let refused = ValueError::Text { what: "name", problem };
+            assert_eq!(TextValue::new("name", text), Err(refused), "{text:?}");
+        }
+        assert!(TextValue::new("name", "IRIDIUM 70 [+]").is_ok());
+        assert!(TextValue::new("name", "what?").is_ok());
+        assert!(TextValue::new("name", &"x".repeat(181)).is_err());
+    }
+
+    #[test]
+    fn a_password_is_never_printed() {
+        let password = Password::new("hunter2").unwrap();
+        assert!(!format!("{password:?}").contains("hunter2"));
+        let error = Password::new("hunter2,x").unwrap_err();
+        assert!(!format!("{error} {error:?}").contains("hunter2"));
+    }
+
+    #[test]
+    fn commas_of_an_address_are_encoded() {
+        assert_eq!(UrlValue::new("https://x/a,b").unwrap().as_str(), "https://x/a%2Cb");
+        assert!(UrlValue::new("https://x/a b*").is_err());
+    }
+}
