@@ -1,1 +1,22 @@
-//! Satrak simulator.
+//! A Satrak antenna controller unit that exists only in memory.
+//!
+//! An ordinary peer on a TCP port: it speaks the protocol of the vendor's
+//! document, turns a modelled X/Y mount, tracks with its own SGP4 and can be
+//! told to misbehave. Where the document is silent it takes the case that is
+//! worst for a client: a move has no time-out, and stopping leaves tracking
+//! switched on.
+
+mod answer;
+mod connection;
+mod control;
+mod mount;
+mod prng;
+mod quirks;
+mod server;
+mod tracking;
+mod unit;
+
+pub use answer::ErrorCode;
+pub use control::{Control, Snapshot};
+pub use quirks::{Fault, Quirk, UnknownName};
+pub use server::{Options, Simulator};

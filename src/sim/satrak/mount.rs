@@ -1,0 +1,172 @@
+//! Kinematics of an X/Y mount: both axes read 90 degrees at the zenith, X is
+//! the lower one.
+
+mod axis;
+
+use crate::astro::xy_mount::{AxisAngles, axes_from_azel, azel_from_axes};
+use crate::astro::{Angle, AzEl};
+
+use self::axis::{Axis, TRAVEL_DEG, ZENITH_DEG};
+
+/// Both axes and how they stand in the world.
+#[derive(Debug, Clone)]
+pub(super) struct Mount {
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+}
+
+impl Mount {
+    /// Parked at the zenith.
+    pub(super) fn new() -> Self {
+        Self { x: Axis::parked(), y: Axis::parked() }
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.x.stop();
+        self.y.stop();
+    }
+
+    pub(super) fn is_moving(&self) -> bool {
+        self.x.motion().is_moving() || self.y.motion().is_moving()
+    }
+
+    /// Sends both axes to mechanical angles in degrees, without a path between
+    /// them. `false`, and nothing happens, when one lies beyond its travel.
+    pub(super) fn go_to(&mut self, [x_deg, y_deg]: [f64; 2]) -> bool {
+        let reachable = TRAVEL_DEG.contains(&x_deg) && TRAVEL_DEG.contains(&y_deg);
+        if reachable {
+            self.x.go_to(x_deg);
+            self.y.go_to(y_deg);
+        }
+        reachable
+    }
+
+    /// Keeps both axes on a moving target, where they are to be after `step_s`.
+    pub(super) fn follow(&mut self, [x_deg, y_deg]: [f64; 2], step_s: f64) {
+        self.x.follow(x_deg, step_s);
+        self.y.follow(y_deg, step_s);
+    }
+
+    pub(super) fn advance(&mut self, step_s: f64) {
+        self.x.advance(step_s);
+        self.y.advance(step_s);
+    }
+
+    pub(super) fn set_drive_scales(&mut self, x: f64, y: f64) {
+        self.x.set_drive_scale(x);
+        self.y.set_drive_scale(y);
+    }
+
+    pub(super) fn set_dead_motors(&mut self, x: bool, y: bool) {
+        self.x.set_motor_dead(x);
+        self.y.set_motor_dead(y);
+    }
+}
+
+/// The X and Y angles in degrees that point at `direction`.
+pub(super) fn xy_from_azel(direction: AzEl, lower_axis: Angle) -> [f64; 2] {
+    let axes = axes_from_azel(direction, lower_axis);
+    [ZENITH_DEG + axes.lower.degrees(), ZENITH_DEG + axes.upper.degrees()]
+}
+
+/// The direction of X and Y angles in degrees.
+pub(super) fn azel_from_xy([x_deg, y_deg]: [f64; 2], lower_axis: Angle) -> AzEl {
+    let axes = AxisAngles {
+        lower: Angle::from_degrees(x_deg - ZENITH_DEG),
+        upper: Angle::from_degrees(y_deg - ZENITH_DEG),
+    };
+    azel_from_axes(axes, lower_axis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::axis::{MAX_RATE_DEG_S, RAMP_DEG_S2};
+    use super::*;
+    use crate::protocol::satrak::AxisMotion;
+
+    const STEP_S: f64 = 0.05;
+
+    fn run(mount: &mut Mount, seconds: f64) -> Vec<f64> {
+        let steps = (seconds / STEP_S).round() as usize;
+        let mut angles = Vec::new();
+        for _ in 0..steps {
+            mount.advance(STEP_S);
+            angles.push(mount.x.angle_deg());
+        }
+        angles
+    }
+
+    #[test]
+    fn the_documents_status_example_fits_its_own_elevation() {
+        let direction = azel_from_xy([80.0, 35.0], Angle::ZERO);
+        assert!((direction.elevation_deg() - 34.35).abs() < 0.06);
+        let back = xy_from_azel(direction, Angle::ZERO);
+        assert!((back[0] - 80.0).abs() < 1e-9 && (back[1] - 35.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_axis_ramps_and_halts_at_its_angle_without_overshoot() {
+        for target in [90.01, 91.0, 130.0, 174.9, 12.0] {
+            let mut mount = Mount::new();
+            assert!(mount.go_to([target, 90.0]));
+            let angles = run(&mut mount, 40.0);
+            assert!((mount.x.angle_deg() - target).abs() < 1e-9, "{target}");
+            assert!(!mount.is_moving(), "{target}");
+            let most = angles.iter().map(|angle| (angle - 90.0).abs()).fold(0.0, f64::max);
+            assert!(most <= (target - 90.0).abs() + 0.01, "{target} {most}");
+        }
+    }
+
+    #[test]
+    fn rates_and_accelerations_stay_within_their_bounds() {
+        let mut mount = Mount::new();
+        mount.x.run(50.0);
+        let angles = run(&mut mount, 3.0);
+        let rates: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
+        assert!(rates.iter().all(|rate| *rate <= MAX_RATE_DEG_S + 1e-9));
+        let jumps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
+        assert!(jumps.into_iter().all(|ramp| ramp.abs() <= RAMP_DEG_S2 + 1e-6));
+        mount.stop();
+        run(&mut mount, 1.2);
+        assert!(!mount.is_moving());
+    }
+
+    #[test]
+    fn the_end_switches_end_a_run_in_one_direction_only() {
+        let mut mount = Mount::new();
+        mount.x.run(5.0);
+        run(&mut mount, 30.0);
+        assert!(mount.x.is_at_upper_end() && !mount.x.is_at_lower_end());
+        assert!(!mount.is_moving());
+        mount.x.run(-5.0);
+        run(&mut mount, 1.0);
+        assert!(!mount.x.is_at_upper_end() && mount.is_moving());
+        assert!(!mount.go_to([90.0, 176.0]));
+    }
+
+    #[test]
+    fn a_moving_target_is_followed_without_lag() {
+        let mut mount = Mount::new();
+        let mut worst: f64 = 0.0;
+        for step in 0..400 {
+            let target = 95.0 + 2.0 * f64::from(step) * STEP_S;
+            mount.follow([target, 90.0], STEP_S);
+            mount.advance(STEP_S);
+            if step > 100 {
+                worst = worst.max((mount.x.angle_deg() - target).abs());
+            }
+        }
+        assert!(worst < 0.01, "{worst}");
+    }
+
+    #[test]
+    fn a_dead_motor_does_not_move() {
+        let mut mount = Mount::new();
+        mount.set_dead_motors(true, false);
+        mount.x.run(5.0);
+        mount.y.run(5.0);
+        run(&mut mount, 1.0);
+        assert_eq!(mount.x.motion(), AxisMotion::Still);
+        assert_eq!(mount.y.motion(), AxisMotion::Positive);
+    }
+}

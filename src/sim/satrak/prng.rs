@@ -1,0 +1,45 @@
+//! Repeatable randomness.
+
+/// The generator `SplitMix64`: the same numbers for the same seed.
+#[derive(Debug, Clone)]
+pub(super) struct Prng(u64);
+
+impl Prng {
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// A number from `least` to `most`, both included.
+    pub(super) fn between(&mut self, least: u64, most: u64) -> u64 {
+        let span = most.saturating_sub(least).saturating_add(1);
+        least.saturating_add(self.next() % span)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_repeat_and_stay_between_their_bounds() {
+        let draw = |seed| {
+            let mut prng = Prng::new(seed);
+            (0..200).map(|_| prng.between(3, 9)).collect::<Vec<_>>()
+        };
+        assert_eq!(draw(1), draw(1));
+        assert_ne!(draw(1), draw(2));
+        for number in 3..=9 {
+            assert!(draw(1).contains(&number));
+        }
+        assert!(draw(1).iter().all(|number| (3..=9).contains(number)));
+        assert_eq!(Prng::new(1).between(5, 5), 5);
+    }
+}

@@ -1,0 +1,169 @@
+//! Oddities of firmware and failures that can be switched on.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::protocol::satrak::FaultKind;
+
+/// A way in which firmware may deviate from the document, or the document from
+/// itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quirk {
+    /// `STATUS?0,..` without a comma after the sign, as the document's example.
+    NoComma,
+    /// Status without the auto track field, as older firmware.
+    Fields15,
+    /// Faults without the GPS field, as the document's example.
+    Err11,
+    /// Clock without milliseconds, as the document's example.
+    Time6,
+    /// Checksums in lower case.
+    LowerHex,
+    /// Lines end with LF alone.
+    LfOnly,
+    /// A blank between word and `=`, as the document's examples.
+    SpaceBeforeEq,
+    /// Decimal commas, as a Turkish locale prints them.
+    DecimalComma,
+}
+
+impl Quirk {
+    /// All quirks with their names.
+    pub const ALL: [(Self, &'static str); 8] = [
+        (Self::NoComma, "no_comma"),
+        (Self::Fields15, "fields=15"),
+        (Self::Err11, "err=11"),
+        (Self::Time6, "time=6"),
+        (Self::LowerHex, "lower_hex"),
+        (Self::LfOnly, "lf_only"),
+        (Self::SpaceBeforeEq, "space_before_eq"),
+        (Self::DecimalComma, "decimal_comma"),
+    ];
+}
+
+/// Something that goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Fault {
+    /// A frame that nobody asked for follows each reply.
+    Unsolicited,
+    /// Every third reply is lost; its request was carried out.
+    DropReply,
+    /// Noise stands in front of each reply.
+    Garbage,
+    /// Replies come in pieces.
+    Split,
+    /// Replies are gathered and come together.
+    Merge,
+    /// No reply comes; requests are carried out.
+    Silence,
+    /// Every third reply has a wrong checksum.
+    BadChecksum,
+    /// The unit reports this fault, and suffers from it.
+    Unit(FaultKind),
+}
+
+impl Fault {
+    /// All faults with their names.
+    pub const ALL: [(Self, &'static str); 19] = [
+        (Self::Unsolicited, "unsolicited"),
+        (Self::DropReply, "drop_reply"),
+        (Self::Garbage, "garbage"),
+        (Self::Split, "split"),
+        (Self::Merge, "merge"),
+        (Self::Silence, "silence"),
+        (Self::BadChecksum, "bad_checksum"),
+        (Self::Unit(FaultKind::InternalLink), "internal_link"),
+        (Self::Unit(FaultKind::TleOutdated), "tle_outdated"),
+        (Self::Unit(FaultKind::TleMissing), "tle_missing"),
+        (Self::Unit(FaultKind::SatelliteMissing), "satellite_missing"),
+        (Self::Unit(FaultKind::WebTle), "web_tle"),
+        (Self::Unit(FaultKind::TrackingStopped), "tracking_stopped"),
+        (Self::Unit(FaultKind::Setup), "setup"),
+        (Self::Unit(FaultKind::XMotor), "x_motor"),
+        (Self::Unit(FaultKind::YMotor), "y_motor"),
+        (Self::Unit(FaultKind::XSensor), "x_sensor"),
+        (Self::Unit(FaultKind::YSensor), "y_sensor"),
+        (Self::Unit(FaultKind::GpsLink), "gps"),
+    ];
+}
+
+/// A name that stands for nothing.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("unknown {what} {name:?}; known are {}", known.join(", "))]
+pub struct UnknownName {
+    /// What was looked for.
+    pub what: &'static str,
+    /// As given.
+    pub name: String,
+    /// The names that stand for something.
+    pub known: Vec<&'static str>,
+}
+
+fn find<T: Copy>(
+    what: &'static str,
+    all: &[(T, &'static str)],
+    name: &str,
+) -> Result<T, UnknownName> {
+    let found = all.iter().find(|(_, known)| *known == name).map(|(value, _)| *value);
+    found.ok_or_else(|| UnknownName {
+        what,
+        name: name.to_owned(),
+        known: all.iter().map(|(_, known)| *known).collect(),
+    })
+}
+
+fn name_of<T: PartialEq>(all: &[(T, &'static str)], value: &T) -> &'static str {
+    all.iter().find(|(known, _)| known == value).map_or("", |(_, name)| name)
+}
+
+impl FromStr for Quirk {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("quirk", &Self::ALL, name)
+    }
+}
+
+impl FromStr for Fault {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("fault", &Self::ALL, name)
+    }
+}
+
+impl fmt::Display for Quirk {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back_and_wrong_ones_are_answered_with_the_list() {
+        for (quirk, name) in Quirk::ALL {
+            assert_eq!(name.parse(), Ok(quirk));
+            assert_eq!(quirk.to_string(), name);
+        }
+        for (fault, name) in Fault::ALL {
+            assert_eq!(name.parse(), Ok(fault));
+            assert_eq!(fault.to_string(), name);
+        }
+        let error = "x_moto".parse::<Fault>().unwrap_err().to_string();
+        assert!(error.contains("x_moto") && error.contains("x_motor, y_motor"), "{error}");
+    }
+
+    #[test]
+    fn every_fault_of_the_unit_can_be_switched_on() {
+        for kind in FaultKind::ALL {
+            assert!(Fault::ALL.iter().any(|(fault, _)| *fault == Fault::Unit(kind)));
+        }
+    }
+}

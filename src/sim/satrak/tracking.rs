@@ -1,0 +1,200 @@
+//! Tracking in a window of time: 0 not in it, 3 on the way to the start point,
+//! 1 in it, 2 over.
+
+use std::time::Duration;
+
+use jiff::{SignedDuration, Timestamp};
+
+use crate::astro::{Angle, AzEl, Site};
+use crate::orbit::{Elements, PropagationError, Propagator};
+use crate::protocol::satrak::{Settings, TrackState, TrackWindow};
+
+/// After a stop the unit stands this long before its next tracking step.
+const RESUME_AFTER: Duration = Duration::from_secs(1);
+
+/// The satellite to track.
+#[derive(Debug, Clone)]
+pub(super) struct Target {
+    pub(super) catalog_number: u32,
+    pub(super) epoch: Timestamp,
+    propagator: Propagator,
+}
+
+impl Target {
+    pub(super) fn new(elements: &Elements) -> Result<Self, PropagationError> {
+        Ok(Self {
+            catalog_number: elements.catalog_number(),
+            epoch: elements.epoch(),
+            propagator: Propagator::new(elements)?,
+        })
+    }
+
+    pub(super) fn direction(&self, site: Site, at: Timestamp) -> Result<AzEl, PropagationError> {
+        Ok(self.propagator.look_from(site, at)?.direction)
+    }
+}
+
+/// Whether and when the unit tracks.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Tracking {
+    pub(super) target: Option<Target>,
+    /// The window of `START_STOP_TIME=`.
+    pub(super) window: Option<TrackWindow>,
+    pub(super) is_enabled: bool,
+    pub(super) is_auto: bool,
+    /// The window ended while tracking.
+    is_completed: bool,
+    /// The operator ended tracking in this window: auto track leaves it alone.
+    is_declined: bool,
+    /// Since the start of the unit.
+    held_until: Duration,
+}
+
+impl Tracking {
+    pub(super) fn set_window(&mut self, window: TrackWindow) {
+        self.window = Some(window);
+        self.is_completed = false;
+        self.is_declined = false;
+    }
+
+    /// Whether there is something to track, now or later.
+    pub(super) fn is_ready(&self, rtc: Timestamp) -> bool {
+        self.target.is_some() && self.window.is_some_and(|window| rtc < window.stop())
+    }
+
+    pub(super) fn enable(&mut self) {
+        self.is_enabled = true;
+        self.is_completed = false;
+        self.is_declined = false;
+        self.held_until = Duration::ZERO;
+    }
+
+    /// Ends tracking. Auto track leaves the rest of a running window alone.
+    pub(super) fn disable(&mut self) {
+        self.is_declined |= std::mem::take(&mut self.is_enabled);
+    }
+
+    pub(super) fn enable_auto(&mut self) {
+        self.is_auto = true;
+        self.is_declined = false;
+    }
+
+    /// Lets other motion have its way for a moment; tracking takes over again.
+    pub(super) fn hold(&mut self, elapsed: Duration) {
+        self.held_until = elapsed.saturating_add(RESUME_AFTER);
+    }
+
+    /// Starts and ends tracking by the clock of the unit. `true` when it ended.
+    pub(super) fn update(&mut self, rtc: Timestamp, lead_ms: i64) -> bool {
+        let Some(window) = self.window else { return false };
+        if rtc >= window.stop() {
+            let ended = std::mem::take(&mut self.is_enabled);
+            self.is_completed |= ended;
+            return ended;
+        }
+        let may_start = self.is_auto && !self.is_declined && self.target.is_some();
+        if may_start && rtc >= lead_start(window, lead_ms) {
+            self.is_enabled = true;
+        }
+        false
+    }
+
+    pub(super) fn state(&self, rtc: Timestamp, lead_ms: i64) -> TrackState {
+        match self.window {
+            _ if self.is_completed => TrackState::Completed,
+            Some(window) if self.is_enabled && rtc >= window.start() => TrackState::InTrackTime,
+            Some(window) if self.is_enabled && rtc >= lead_start(window, lead_ms) => {
+                TrackState::BeforeStart
+            }
+            _ => TrackState::NotInTrackTime,
+        }
+    }
+
+    /// Where the antenna has to point; `None` when tracking leaves it alone.
+    pub(super) fn aim(
+        &self,
+        site: Site,
+        rtc: Timestamp,
+        settings: &Settings,
+        elapsed: Duration,
+    ) -> Option<Result<AzEl, PropagationError>> {
+        let (target, window) = (self.target.as_ref()?, self.window?);
+        let state = self.state(rtc, settings.lead_ms);
+        let is_active = matches!(state, TrackState::InTrackTime | TrackState::BeforeStart);
+        if !is_active || elapsed < self.held_until {
+            return None;
+        }
+        let at = shifted(rtc.max(window.start()), settings.time_offset_ms);
+        Some(target.direction(site, at).map(|direction| with_offsets(direction, settings)))
+    }
+
+    /// Highest elevation in the window, degrees.
+    pub(super) fn highest_deg(&self, site: Site) -> Option<f64> {
+        const SAMPLE_S: i64 = 10;
+        /// A day of samples.
+        const MOST_SAMPLES: usize = 8640;
+        let (target, window) = (self.target.as_ref()?, self.window?);
+        (window.start().as_second()..=window.stop().as_second())
+            .step_by(SAMPLE_S as usize)
+            .take(MOST_SAMPLES)
+            .filter_map(|second| Timestamp::from_second(second).ok())
+            .filter_map(|at| target.direction(site, at).ok())
+            .map(AzEl::elevation_deg)
+            .reduce(f64::max)
+    }
+}
+
+fn with_offsets(direction: AzEl, settings: &Settings) -> AzEl {
+    let elevation = direction.elevation_deg() + settings.el_offset_deg;
+    AzEl {
+        azimuth: direction.azimuth + Angle::from_degrees(settings.az_offset_deg),
+        elevation: Angle::from_degrees(elevation.clamp(settings.minimum_elevation_deg, 90.0)),
+    }
+}
+
+fn lead_start(window: TrackWindow, lead_ms: i64) -> Timestamp {
+    shifted(window.start(), lead_ms.saturating_neg())
+}
+
+/// `time` moved by milliseconds; stays where it is at the end of the calendar.
+pub(super) fn shifted(time: Timestamp, by_ms: i64) -> Timestamp {
+    time.checked_add(SignedDuration::from_millis(by_ms)).unwrap_or(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(second: i64) -> Timestamp {
+        Timestamp::from_second(1_500_000_000 + second).unwrap()
+    }
+
+    fn windowed() -> Tracking {
+        let mut tracking = Tracking::default();
+        tracking.set_window(TrackWindow::new(at(100), at(200)).unwrap());
+        tracking
+    }
+
+    #[test]
+    fn the_window_passes_through_its_states() {
+        let mut tracking = windowed();
+        tracking.enable();
+        let mut seen = Vec::new();
+        for second in [0, 39, 40, 99, 100, 199, 200, 500] {
+            tracking.update(at(second), 60_000);
+            seen.push(tracking.state(at(second), 60_000).code());
+        }
+        assert_eq!(seen, [0, 0, 3, 3, 1, 1, 2, 2]);
+        assert!(!tracking.is_enabled);
+        tracking.set_window(TrackWindow::new(at(600), at(700)).unwrap());
+        assert_eq!(tracking.state(at(610), 0), TrackState::NotInTrackTime);
+    }
+
+    #[test]
+    fn without_a_satellite_auto_track_does_not_start() {
+        let mut tracking = windowed();
+        tracking.is_auto = true;
+        tracking.update(at(150), 0);
+        assert!(!tracking.is_enabled && !tracking.is_ready(at(150)));
+    }
+}

@@ -1,0 +1,210 @@
+//! The unit itself: what it remembers and does. No I/O and no clock: the time
+//! since its start comes in as an argument.
+
+mod commands;
+mod memory;
+mod queries;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
+
+use jiff::{SignedDuration, Timestamp};
+
+use self::memory::Memory;
+use super::mount::{Mount, azel_from_xy, xy_from_azel};
+use super::tracking::Tracking;
+use super::{Fault, Options, Snapshot};
+use crate::astro::{Angle, AzEl, Site};
+use crate::orbit::Elements;
+use crate::protocol::satrak::FaultKind;
+
+/// Time between two steps of mount and tracking.
+const STEP: Duration = Duration::from_millis(50);
+/// A longer absence than this is not lived through but skipped.
+const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
+/// Older elements count as out of date. Own choice.
+const OUTDATED: SignedDuration = SignedDuration::from_hours(30 * 24);
+
+/// State of one simulated unit.
+#[derive(Debug)]
+pub(super) struct Unit {
+    site: Site,
+    lower_axis: Angle,
+    elements: BTreeMap<String, Vec<Elements>>,
+    utc_origin: Timestamp,
+    gps_lock_after: Duration,
+    /// Since the start of the unit.
+    elapsed: Duration,
+    /// The unit's clock minus UTC.
+    clock_error: SignedDuration,
+    is_clock_from_gps: bool,
+    had_gps_lock: bool,
+    mount: Mount,
+    tracking: Tracking,
+    memory: Memory,
+    injected: BTreeSet<FaultKind>,
+    /// Faults that the unit found by itself.
+    found: BTreeSet<FaultKind>,
+    /// Readings that a dead sensor repeats.
+    last_xy_deg: [f64; 2],
+}
+
+impl Unit {
+    pub(super) fn new(options: &Options) -> Self {
+        let clock_error = if options.clock_is_unset {
+            // 2000-01-01, as in the document's example.
+            Timestamp::from_second(946_684_800)
+                .map_or(SignedDuration::ZERO, |unset| unset.duration_since(options.utc_origin))
+        } else {
+            SignedDuration::ZERO
+        };
+        let mut unit = Self {
+            site: options.site,
+            lower_axis: options.lower_axis,
+            elements: options.elements.clone(),
+            utc_origin: options.utc_origin,
+            gps_lock_after: options.gps_lock_after,
+            elapsed: Duration::ZERO,
+            clock_error,
+            is_clock_from_gps: false,
+            had_gps_lock: false,
+            mount: Mount::new(),
+            tracking: Tracking::default(),
+            memory: Memory::default(),
+            injected: BTreeSet::new(),
+            found: BTreeSet::new(),
+            last_xy_deg: [0.0; 2],
+        };
+        unit.last_xy_deg = unit.measured_xy_deg();
+        unit
+    }
+
+    /// Lives until `elapsed` after the start. Earlier times change nothing.
+    pub(super) fn advance(&mut self, elapsed: Duration) {
+        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
+        self.elapsed = self.elapsed.max(catch_up_from);
+        while self.elapsed < elapsed {
+            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
+            self.elapsed += step;
+            self.step(step.as_secs_f64());
+        }
+    }
+
+    fn step(&mut self, step_s: f64) {
+        let is_gps_locked = self.is_gps_locked();
+        if is_gps_locked && !self.had_gps_lock && self.memory.settings.rtc_from_gps {
+            self.set_clock_from_gps();
+        }
+        self.had_gps_lock = is_gps_locked;
+        let rtc = self.rtc();
+        let settings = self.memory.settings;
+        if self.tracking.update(rtc, settings.lead_ms) {
+            self.mount.stop();
+        }
+        match self.tracking.aim(self.own_site(), rtc, &settings, self.elapsed) {
+            Some(Ok(direction)) => {
+                let target = self.mechanical(xy_from_azel(direction, self.north()));
+                self.mount.follow(target, step_s);
+            }
+            Some(Err(_)) => {
+                self.tracking.disable();
+                self.mount.stop();
+                self.found.insert(FaultKind::TrackingStopped);
+            }
+            None => {}
+        }
+        self.mount.advance(step_s);
+        let measured = self.measured_xy_deg();
+        for ((last, now), sensor) in
+            self.last_xy_deg.iter_mut().zip(measured).zip([FaultKind::XSensor, FaultKind::YSensor])
+        {
+            if !self.injected.contains(&sensor) {
+                *last = now;
+            }
+        }
+    }
+
+    /// Switches the faults of the unit among `faults` on and all others off.
+    pub(super) fn inject(&mut self, faults: &BTreeSet<Fault>) {
+        self.injected = faults
+            .iter()
+            .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
+            .collect();
+        let has = |kind| self.injected.contains(&kind);
+        self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
+    }
+
+    pub(super) fn snapshot(&self) -> Snapshot {
+        let direction = self.direction();
+        let [x_deg, y_deg] = self.last_xy_deg;
+        Snapshot {
+            x_deg,
+            y_deg,
+            az_deg: direction.azimuth_deg(),
+            el_deg: direction.elevation_deg(),
+            is_tracking: self.tracking.is_enabled,
+            is_moving: self.mount.is_moving(),
+        }
+    }
+
+    fn utc(&self) -> Timestamp {
+        let elapsed = SignedDuration::try_from(self.elapsed).unwrap_or(SignedDuration::ZERO);
+        self.utc_origin.checked_add(elapsed).unwrap_or(self.utc_origin)
+    }
+
+    /// What the unit takes for UTC.
+    fn rtc(&self) -> Timestamp {
+        let utc = self.utc();
+        utc.checked_add(self.clock_error).unwrap_or(utc)
+    }
+
+    fn is_gps_locked(&self) -> bool {
+        self.elapsed >= self.gps_lock_after && !self.injected.contains(&FaultKind::GpsLink)
+    }
+
+    fn set_clock_from_gps(&mut self) {
+        self.clock_error = SignedDuration::ZERO;
+        self.is_clock_from_gps = true;
+    }
+
+    /// Where the unit takes itself to be.
+    fn own_site(&self) -> Site {
+        let by_hand = self.memory.gps.filter(|gps| !gps.automatic).map(|gps| gps.position);
+        by_hand.map_or(self.site, |place| {
+            Site::new(place.latitude_deg(), place.longitude_deg(), self.site.altitude_m())
+                .unwrap_or(self.site)
+        })
+    }
+
+    /// Azimuth of the lower axis as the unit believes it to be.
+    fn north(&self) -> Angle {
+        self.lower_axis + Angle::from_degrees(self.memory.settings.north_offset_deg)
+    }
+
+    /// Mechanical angles for angles as the unit measures them, degrees.
+    fn mechanical(&self, [x_deg, y_deg]: [f64; 2]) -> [f64; 2] {
+        let [x_shift, y_shift] = self.memory.shifts_deg();
+        [x_deg - x_shift, y_deg - y_shift]
+    }
+
+    fn measured_xy_deg(&self) -> [f64; 2] {
+        let [x_shift, y_shift] = self.memory.shifts_deg();
+        [self.mount.x.angle_deg() + x_shift, self.mount.y.angle_deg() + y_shift]
+    }
+
+    /// Where the unit believes to point.
+    fn direction(&self) -> AzEl {
+        azel_from_xy(self.last_xy_deg, self.north())
+    }
+
+    /// Every fault that is reported.
+    fn has_fault(&self, kind: FaultKind) -> bool {
+        let is_outdated = || {
+            let target = self.tracking.target.as_ref();
+            target.is_some_and(|target| self.rtc().duration_since(target.epoch) > OUTDATED)
+        };
+        self.injected.contains(&kind)
+            || self.found.contains(&kind)
+            || kind == FaultKind::TleOutdated && is_outdated()
+    }
+}

@@ -1,0 +1,116 @@
+//! What the unit remembers, with the values it has when new.
+
+use crate::protocol::satrak::{
+    AngleChange, AngleSettings, FtpTle, GpsSettingsChange, HttpTle, PositionBase, Reduction,
+    SatelliteChoice, Settings, SspaAutoRule, SspaMode, TextValue, TleMode,
+};
+
+/// Degrees of one count of the position sensors. Own choice: 16 bits a turn.
+const DEG_PER_COUNT: f64 = 360.0 / 65_536.0;
+/// Reduction at which the drives run as commanded, as in the document's example.
+pub(super) const USUAL_REDUCTION: f64 = 4000.0;
+
+/// Settings; `None` where nothing was ever set.
+#[derive(Debug, Clone)]
+pub(super) struct Memory {
+    pub(super) settings: Settings,
+    pub(super) angles: AngleSettings,
+    pub(super) gps: Option<GpsSettingsChange>,
+    pub(super) satellite: Option<SatelliteChoice>,
+    pub(super) http: Option<HttpTle>,
+    pub(super) ftp: Option<FtpTle>,
+    pub(super) image: Option<TextValue>,
+    pub(super) reduction: Option<Reduction>,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self {
+            settings: Settings {
+                rtc_from_gps: true,
+                time_offset_ms: 0,
+                az_offset_deg: 0.0,
+                el_offset_deg: 0.0,
+                lead_ms: 60_000,
+                position_base: PositionBase::Resolver,
+                minimum_elevation_deg: 3.0,
+                north_offset_deg: 0.0,
+                sspa: SspaMode::Off,
+                sspa_auto: SspaAutoRule::Tracking,
+                tle_mode: TleMode::File,
+                elevation_threshold_deg: 2.0,
+            },
+            // The angles of the document's example with the counts that leave
+            // the reported angles as they are.
+            angles: AngleSettings {
+                x_sensor: counts(160.0),
+                x_deg: 160.0,
+                y_sensor: counts(40.0),
+                y_deg: 40.0,
+            },
+            gps: None,
+            satellite: None,
+            http: None,
+            ftp: None,
+            image: None,
+            reduction: None,
+        }
+    }
+}
+
+/// Sensor reading at a mechanical angle in degrees.
+fn counts(angle_deg: f64) -> i64 {
+    (angle_deg / DEG_PER_COUNT).round() as i64
+}
+
+impl Memory {
+    /// Reported minus mechanical angle of X and Y, degrees.
+    pub(super) fn shifts_deg(&self) -> [f64; 2] {
+        let AngleSettings { x_sensor, x_deg, y_sensor, y_deg } = self.angles;
+        let shift = |angle_deg: f64, sensor: i64| {
+            let shift = angle_deg - sensor as f64 * DEG_PER_COUNT;
+            // Less than a count is rounding, not calibration.
+            if shift.abs() < DEG_PER_COUNT { 0.0 } else { shift }
+        };
+        [shift(x_deg, x_sensor), shift(y_deg, y_sensor)]
+    }
+
+    /// Makes `change` the calibration of axes at `mechanical` degrees.
+    pub(super) fn calibrate(&mut self, change: AngleChange, mechanical: [f64; 2]) {
+        let [x_now, y_now] = mechanical.map(counts);
+        let (x_sensor, y_sensor, angles) = match change {
+            AngleChange::PresentPosition(angles) => (x_now, y_now, angles),
+            AngleChange::Given { x_sensor, y_sensor, angles } => {
+                (i64::from(x_sensor), i64::from(y_sensor), angles)
+            }
+        };
+        self.angles =
+            AngleSettings { x_sensor, x_deg: angles.x_deg(), y_sensor, y_deg: angles.y_deg() };
+    }
+
+    /// Share of a commanded rate that the drives make.
+    pub(super) fn drive_scales(&self) -> [f64; 2] {
+        self.reduction
+            .map_or([1.0; 2], |ratio| [USUAL_REDUCTION / ratio.x(), USUAL_REDUCTION / ratio.y()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::satrak::SensorAngles;
+
+    #[test]
+    fn a_new_unit_reports_its_mechanical_angles() {
+        assert!(Memory::default().shifts_deg().iter().all(|shift| shift.abs() < 1e-12));
+    }
+
+    #[test]
+    fn calibrating_shifts_the_reported_angles() {
+        let mut memory = Memory::default();
+        let angles = SensorAngles::new(100.0, 80.0).unwrap();
+        memory.calibrate(AngleChange::PresentPosition(angles), [90.0, 90.0]);
+        let [x, y] = memory.shifts_deg();
+        assert!((x - 10.0).abs() < 0.01 && (y + 10.0).abs() < 0.01);
+    }
+}
