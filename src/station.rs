@@ -1,1 +1,88 @@
-//! The station file: site, antennas, limits.
+//! The station: its site, its antennas and what the operator follows. Kept in
+//! one TOML file that forgives what it can and never loses what it cannot read.
+
+mod antenna;
+mod file;
+mod read;
+
+pub use antenna::{Antenna, Connection, Direction, MotionLimits, Mount, PollRates};
+pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
+pub(crate) use read::check_address;
+pub use read::{Note, NoteReason, from_toml};
+
+use serde::Serialize;
+
+use crate::astro::{Angle, Site};
+
+/// The element file that the simulated Satrak holds.
+pub const DEMO_ELEMENT_FILE: &str = "active.txt";
+
+/// Where the operator works and with what.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Station {
+    /// Shown in the top bar.
+    pub name: String,
+    /// Where it stands.
+    pub site: Site,
+    /// The elevation floor of the pass list, degrees 0 to 89.
+    pub elevation_floor_deg: f64,
+    /// Catalogue numbers of the satellites in the pass list.
+    pub favourites: Vec<u32>,
+    /// The antennas, in the order of their chips.
+    #[serde(rename = "antenna")]
+    pub antennas: Vec<Antenna>,
+}
+
+impl Station {
+    /// The elevation floor as an angle.
+    pub fn elevation_floor(&self) -> Angle {
+        Angle::from_degrees(self.elevation_floor_deg)
+    }
+
+    /// The station that is shown before there are settings: a simulated Satrak
+    /// listening at `satrak_address`, and well-known weather and research
+    /// satellites.
+    pub fn demo(satrak_address: &str) -> Self {
+        Self {
+            name: "Demo station".to_owned(),
+            antennas: vec![Antenna {
+                connection: Connection::Satrak {
+                    address: satrak_address.to_owned(),
+                    element_file: DEMO_ELEMENT_FILE.to_owned(),
+                },
+                ..Antenna::satrak("Satrak", satrak_address)
+            }],
+            ..Self::default()
+        }
+    }
+}
+
+/// Istanbul, without antennas.
+impl Default for Station {
+    fn default() -> Self {
+        Self {
+            name: "Station".to_owned(),
+            site: read::default_site(),
+            elevation_floor_deg: 10.0,
+            favourites: vec![
+                43013, // NOAA 20
+                54234, // NOAA 21
+                37849, // Suomi NPP
+                59051, // Meteor-M2 4
+                57166, // Meteor-M2 3
+                25544, // ISS
+                36508, // CryoSat 2
+                54754, // SWOT
+                46984, // Sentinel-6
+                38771, // MetOp-B
+                43689, // MetOp-C
+                49260, // Landsat 9
+                57490, // Fengyun 3F
+                25994, // Terra
+                27424, // Aqua
+                44334, // Eutelsat 7C
+            ],
+            antennas: Vec::new(),
+        }
+    }
+}

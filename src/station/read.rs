@@ -1,0 +1,237 @@
+//! Reads a station from TOML: what is missing gets its default, what is
+//! invalid gets its default with a note, what is unknown is named in a note.
+
+use toml::{Table, Value};
+
+use super::{
+    Station,
+    antenna::{Antenna, Connection, Direction, Mount},
+};
+use crate::astro::Site;
+
+/// Something in the file that was not taken over as it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// Where in the file, such as `antenna[0].beam_width_deg`.
+    pub place: String,
+    /// What is the matter.
+    pub reason: NoteReason,
+}
+
+/// Why a field was not taken over.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoteReason {
+    /// The value cannot be used; the default stands in its place.
+    Invalid(String),
+    /// No such setting; a typing error perhaps.
+    Unknown,
+}
+
+/// The station of a parsed settings file, and what was not taken over.
+pub fn from_toml(mut table: Table) -> (Station, Vec<Note>) {
+    let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
+    let default = Station::default();
+    // Read by `file`, which refuses what a newer program wrote.
+    fields.table.remove("version");
+    let station = Station {
+        name: fields.text("name", &default.name),
+        site: fields.site(),
+        elevation_floor_deg: fields.number("elevation_floor_deg", 0.0, 89.0, 10.0),
+        favourites: fields.favourites(default.favourites),
+        antennas: fields.antennas(),
+    };
+    fields.name_the_unknown();
+    (station, fields.notes)
+}
+
+/// The site of a station without settings.
+pub(super) fn default_site() -> Site {
+    // Istanbul. The range check of `new` is there for typed values.
+    Site::new(41.02, 29.17, 100.0).unwrap_or_else(|_| unreachable!("a place in Istanbul"))
+}
+
+struct Fields<'a> {
+    table: &'a mut Table,
+    path: String,
+    notes: Vec<Note>,
+}
+
+impl Fields<'_> {
+    fn note(&mut self, key: &str, reason: NoteReason) {
+        self.notes.push(Note { place: format!("{}{key}", self.path), reason });
+    }
+
+    fn invalid(&mut self, key: &str, why: impl Into<String>) {
+        self.note(key, NoteReason::Invalid(why.into()));
+    }
+
+    fn text(&mut self, key: &str, default: &str) -> String {
+        match self.table.remove(key) {
+            None => default.to_owned(),
+            Some(Value::String(text)) if !text.trim().is_empty() => text,
+            Some(_) => {
+                self.invalid(key, "must be a text that is not empty");
+                default.to_owned()
+            }
+        }
+    }
+
+    /// A number from `low` to `high`, whole or with decimals.
+    fn number(&mut self, key: &str, low: f64, high: f64, default: f64) -> f64 {
+        let value = match self.table.remove(key) {
+            None => return default,
+            Some(Value::Float(number)) => Some(number),
+            Some(Value::Integer(number)) => Some(number as f64),
+            Some(_) => None,
+        };
+        match value {
+            Some(number) if (low..=high).contains(&number) => number,
+            _ => {
+                self.invalid(key, format!("must be a number from {low} to {high}"));
+                default
+            }
+        }
+    }
+
+    fn site(&mut self) -> Site {
+        let Some(value) = self.table.remove("site") else { return default_site() };
+        value.try_into().unwrap_or_else(|error: toml::de::Error| {
+            self.invalid("site", error.message());
+            default_site()
+        })
+    }
+
+    fn favourites(&mut self, default: Vec<u32>) -> Vec<u32> {
+        let Some(value) = self.table.remove("favourites") else { return default };
+        value.try_into().unwrap_or_else(|error: toml::de::Error| {
+            self.invalid("favourites", error.message());
+            default
+        })
+    }
+
+    fn antennas(&mut self) -> Vec<Antenna> {
+        let tables = match self.table.remove("antenna") {
+            None => return Vec::new(),
+            Some(Value::Array(tables)) => tables,
+            Some(_) => {
+                self.invalid("antenna", "must be a list of tables");
+                return Vec::new();
+            }
+        };
+        let mut antennas = Vec::new();
+        for (index, value) in tables.into_iter().enumerate() {
+            let path = format!("antenna[{index}].");
+            let Value::Table(mut table) = value else {
+                self.invalid("antenna", format!("number {index} must be a table"));
+                continue;
+            };
+            let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+            if let Some(antenna) = fields.antenna() {
+                antennas.push(antenna);
+                fields.name_the_unknown();
+            }
+            self.notes.append(&mut fields.notes);
+        }
+        antennas
+    }
+
+    /// The fields of the table `key`, if there is one.
+    fn inner<T>(&mut self, key: &str, read: impl FnOnce(&mut Fields<'_>) -> T) -> T {
+        let mut table = match self.table.remove(key) {
+            None => Table::new(),
+            Some(Value::Table(table)) => table,
+            Some(_) => {
+                self.invalid(key, "must be a table");
+                Table::new()
+            }
+        };
+        let path = format!("{}{key}.", self.path);
+        let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+        let value = read(&mut fields);
+        fields.name_the_unknown();
+        self.notes.append(&mut fields.notes);
+        value
+    }
+
+    /// An antenna needs a controller and an address: nothing stands in for them.
+    fn antenna(&mut self) -> Option<Antenna> {
+        let connection = self.inner("connection", |connection| {
+            let controller = connection.text("controller", "");
+            let address = connection.text("address", "");
+            let element_file = connection.text("element_file", "");
+            if controller != "satrak" {
+                connection.invalid("controller", "must be \"satrak\"");
+            } else if let Err(why) = check_address(&address) {
+                connection.invalid("address", why);
+            } else {
+                return Some(Connection::Satrak { address, element_file });
+            }
+            None
+        })?;
+        let default = Antenna::satrak("Satrak", connection.address());
+        Some(Antenna {
+            name: self.text("name", &default.name),
+            connection,
+            mount: self.inner("mount", |mount| mount.xy(default.mount)),
+            beam_width_deg: self.number("beam_width_deg", 0.01, 180.0, default.beam_width_deg),
+            park: self.inner("park", |park| Direction {
+                azimuth_deg: park.number("azimuth_deg", 0.0, 360.0, default.park.azimuth_deg),
+                elevation_deg: park.number("elevation_deg", 0.0, 90.0, default.park.elevation_deg),
+            }),
+            limits: self.inner("limits", |limits| {
+                let mut read = default.limits;
+                read.minimum_elevation_deg =
+                    limits.number("minimum_elevation_deg", 0.0, 90.0, read.minimum_elevation_deg);
+                read.maximum_rate_deg_s =
+                    limits.number("maximum_rate_deg_s", 0.01, 30.0, read.maximum_rate_deg_s);
+                read.maximum_step_deg =
+                    limits.number("maximum_step_deg", 0.01, 90.0, read.maximum_step_deg);
+                read
+            }),
+            poll: self.inner("poll", |poll| {
+                let mut read = default.poll;
+                read.idle_hz = poll.number("idle_hz", 2.0, 10.0, read.idle_hz);
+                read.moving_hz = poll.number("moving_hz", 2.0, 10.0, read.moving_hz);
+                read
+            }),
+        })
+    }
+
+    fn xy(&mut self, default: Mount) -> Mount {
+        let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = default;
+        if self.text("type", "xy") != "xy" {
+            self.invalid("type", "must be \"xy\"");
+        }
+        Mount::Xy {
+            lower_axis_azimuth_deg: self.number(
+                "lower_axis_azimuth_deg",
+                0.0,
+                180.0,
+                lower_axis_azimuth_deg,
+            ),
+            travel_from_deg: self.number("travel_from_deg", -180.0, 90.0, travel_from_deg),
+            travel_to_deg: self.number("travel_to_deg", 90.0, 360.0, travel_to_deg),
+        }
+    }
+
+    fn name_the_unknown(&mut self) {
+        let unknown: Vec<String> = self.table.keys().cloned().collect();
+        for key in unknown {
+            self.note(&key, NoteReason::Unknown);
+        }
+    }
+}
+
+/// Whether `address` is a host and a port; the reason when it is not.
+pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
+    let Some((host, port)) = address.rsplit_once(':') else {
+        return Err("must be a host and a port, such as 192.168.10.21:4001");
+    };
+    if host.is_empty() || host.contains(char::is_whitespace) {
+        return Err("the host is missing or holds a blank");
+    }
+    match port.parse::<u16>() {
+        Ok(1..) => Ok(()),
+        _ => Err("the port must be a number from 1 to 65535"),
+    }
+}
