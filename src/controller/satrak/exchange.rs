@@ -1,0 +1,262 @@
+//! One request and its reply: matching, time-outs, what the reply brings about.
+
+use std::time::Instant;
+
+use super::{DRAIN, REPLY, Satrak, prepare::Outcome};
+use crate::{
+    astro::Angle,
+    controller::{Happening, Moment, Motion, PrepareError},
+    protocol::satrak::{
+        self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
+        ValueError, Verb, Word,
+    },
+};
+
+/// Why a request was sent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Purpose {
+    /// It was due.
+    Poll(Query),
+    /// A step of putting a target on the unit.
+    Prepare,
+    /// Metal is to move.
+    Motion(Motion),
+    /// A program is to be switched off, without hurry.
+    Calm(Halt),
+    /// A halt has overtaken it: whatever comes is of no interest.
+    Disowned,
+}
+
+/// The one request that waits for its reply.
+#[derive(Debug)]
+pub(super) struct Outstanding {
+    request: Request,
+    purpose: Purpose,
+    sent: Moment,
+    /// When the question is repeated, its answer may be to the first one.
+    first_sent: Moment,
+    again: bool,
+}
+
+impl Outstanding {
+    pub(super) fn new(request: Request, purpose: Purpose, sent: Moment) -> Self {
+        Self { request, purpose, sent, first_sent: sent, again: false }
+    }
+
+    pub(super) fn deadline(&self) -> Instant {
+        self.sent.steady + REPLY
+    }
+
+    pub(super) fn is_motion(&self) -> bool {
+        matches!(self.purpose, Purpose::Motion(_))
+    }
+
+    /// A halt or a newer wish came after it.
+    pub(super) fn disown(&mut self) {
+        if !matches!(self.purpose, Purpose::Poll(_)) {
+            self.purpose = Purpose::Disowned;
+        }
+    }
+
+    fn answers(&self, command: (Word, Verb)) -> bool {
+        (self.request.word(), self.request.verb()) == command
+    }
+}
+
+impl Satrak {
+    /// Takes one line of the stream.
+    pub(super) fn take_line(&mut self, line: Result<Frame, FrameError>, now: Moment) {
+        let frame = match line {
+            Ok(frame) => frame,
+            Err(error) => {
+                self.state.traffic.damaged += 1;
+                return tracing::debug!(%error, "damaged line");
+            }
+        };
+        if !frame.oddities().is_empty() {
+            self.state.traffic.odd += 1;
+        }
+        let command = frame.command();
+        let expected = command.is_some_and(|command| {
+            self.outstanding.as_ref().is_some_and(|sent| sent.answers(command))
+        });
+        if expected {
+            if let Some(outstanding) = self.outstanding.take() {
+                self.take_reply(&outstanding, Reply::parse(&frame), now);
+            }
+        } else if let Some(halt) = self.answered_halt(command) {
+            self.take_halt_reply(halt, &frame, now);
+        } else {
+            self.state.traffic.unsolicited += 1;
+            tracing::debug!(line = %frame.redacted(), "nobody asked for this");
+        }
+    }
+
+    fn answered_halt(&mut self, command: Option<(Word, Verb)>) -> Option<Halt> {
+        let (word, verb) = command?;
+        let place =
+            self.halts.iter().position(|(halt, _)| halt.word() == word && verb == Verb::Set)?;
+        self.halts.remove(place).map(|(halt, _)| halt)
+    }
+
+    fn count_reply(&mut self, now: Moment) {
+        self.state.traffic.replies += 1;
+        self.state.traffic.last_reply = Some(now.steady);
+    }
+
+    fn take_halt_reply(&mut self, halt: Halt, frame: &Frame, now: Moment) {
+        match Reply::parse(frame).map(|parsed| parsed.reply) {
+            Ok(Reply::Refused { code }) => {
+                self.count_reply(now);
+                self.happenings.push_back(Happening::HaltRefused(code));
+            }
+            Ok(_) => self.count_reply(now),
+            Err(error) => {
+                self.state.traffic.unreadable += 1;
+                tracing::debug!(%error, ?halt, "unreadable reply");
+            }
+        }
+    }
+
+    fn take_reply(
+        &mut self,
+        outstanding: &Outstanding,
+        parsed: Result<unit::ParsedReply, ReplyError>,
+        now: Moment,
+    ) {
+        let parsed = match parsed {
+            Ok(parsed) => parsed,
+            Err(error) => {
+                self.state.traffic.unreadable += 1;
+                tracing::debug!(%error, "unreadable reply");
+                return self.give_up(outstanding.purpose, now);
+            }
+        };
+        self.count_reply(now);
+        if outstanding.again {
+            self.drain_until = Some(now.steady + DRAIN);
+        }
+        if !parsed.notes.is_empty() {
+            self.state.traffic.odd += 1;
+        }
+        match (parsed.reply, outstanding.purpose) {
+            (Reply::Refused { code }, purpose) => self.take_refusal(code, purpose, now),
+            (reply, Purpose::Poll(query)) => {
+                let fault_before = self.state.satrak.fault_flag;
+                self.state.take_satrak(reply, outstanding.first_sent, now);
+                self.polled(query, fault_before, now);
+            }
+            (reply, Purpose::Prepare) => {
+                self.advance_preparation(&reply);
+                self.state.take_satrak(reply, outstanding.first_sent, now);
+            }
+            (_, Purpose::Motion(motion)) => {
+                self.happenings.push_back(Happening::Accepted(motion));
+                self.look_soon(now);
+            }
+            (_, Purpose::Calm(_) | Purpose::Disowned) => self.look_soon(now),
+        }
+    }
+
+    fn polled(&mut self, query: Query, fault_before: bool, now: Moment) {
+        let period = self.rates.period(self.moving());
+        let fault = self.state.satrak.fault_flag;
+        if let Some(schedule) = &mut self.schedule {
+            schedule.done(query, now.steady, period, fault);
+            if fault != fault_before {
+                schedule.hurry(Query::Faults, now.steady);
+            }
+        }
+    }
+
+    /// The unit does not know the question, or does not answer it.
+    fn poll_failed(&mut self, query: Query, now: Moment) {
+        if query == Query::Faults && self.state.motion_lock.is_none() {
+            // A unit that cannot name its faults still says that there are some.
+            self.state.motion_lock = Some(self.state.satrak.fault_flag);
+        }
+        let period = self.rates.period(self.moving());
+        if let Some(schedule) = &mut self.schedule {
+            schedule.unknown(query, now.steady, period);
+        }
+    }
+
+    fn advance_preparation(&mut self, reply: &Reply) {
+        let Some(preparation) = &mut self.preparation else { return };
+        match preparation.answered(reply) {
+            Ok(Outcome::Onward) => {}
+            Ok(Outcome::Done) => {
+                let target = preparation.target.clone();
+                self.preparation = None;
+                self.happenings.push_back(Happening::Prepared(target));
+            }
+            Err(reason) => self.fail_preparation(reason),
+        }
+    }
+
+    fn take_refusal(&mut self, code: String, purpose: Purpose, now: Moment) {
+        match purpose {
+            Purpose::Poll(query) => self.poll_failed(query, now),
+            Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
+            Purpose::Motion(motion) => {
+                self.happenings.push_back(Happening::Refused(motion, code));
+                self.look_soon(now);
+            }
+            Purpose::Calm(Halt::AutoTrackOff) => {
+                self.happenings.push_back(Happening::AutoStaysOn);
+            }
+            Purpose::Calm(_) => self.happenings.push_back(Happening::HaltRefused(code)),
+            Purpose::Disowned => {}
+        }
+    }
+
+    /// A question is repeated once; anything else never: the state tells
+    /// whether it came through.
+    pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
+        if self.outstanding.as_ref().is_none_or(|sent| now.steady < sent.deadline()) {
+            return None;
+        }
+        let mut late = self.outstanding.take()?;
+        self.state.traffic.unanswered += 1;
+        if late.request.verb() == Verb::Query && !late.again {
+            late.again = true;
+            late.sent = now;
+            let bytes = late.request.to_bytes();
+            self.outstanding = Some(late);
+            return Some(bytes);
+        }
+        self.give_up(late.purpose, now);
+        None
+    }
+
+    fn give_up(&mut self, purpose: Purpose, now: Moment) {
+        match purpose {
+            Purpose::Poll(query) => self.poll_failed(query, now),
+            Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
+            Purpose::Motion(motion) => {
+                self.happenings.push_back(Happening::Unanswered(motion));
+                self.look_soon(now);
+            }
+            Purpose::Calm(Halt::AutoTrackOff) => {
+                self.happenings.push_back(Happening::AutoStaysOn);
+            }
+            Purpose::Calm(_) | Purpose::Disowned => self.look_soon(now),
+        }
+    }
+}
+
+/// The unit's form of a motion.
+pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
+    // The unit reports hundredths; more digits only hide what was asked for.
+    let hundredths = |angle: Angle| (angle.degrees() * 100.0).round() / 100.0;
+    Ok(match motion {
+        Motion::Jog { x_deg_s, y_deg_s } => unit::Motion::Move(Move::new(x_deg_s, y_deg_s)?),
+        Motion::Step { x_deg, y_deg } => unit::Motion::Step(Step::new(x_deg, y_deg)?),
+        Motion::Position { azimuth, elevation } => {
+            let azimuth = azimuth.map(|angle| hundredths(angle.wrapped_360()) % 360.0);
+            unit::Motion::Goto(Goto::new(azimuth, elevation.map(hundredths))?)
+        }
+        Motion::StartProgram => unit::Motion::TrackOn,
+        Motion::EnableAuto => unit::Motion::AutoTrackOn,
+    })
+}

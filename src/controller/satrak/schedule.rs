@@ -1,0 +1,118 @@
+//! Which question is due when.
+
+use std::time::{Duration, Instant};
+
+use crate::protocol::satrak::Query;
+
+/// Slower questions that are asked again and again, and how often.
+const SLOW: [(Query, Duration); 6] = [
+    (Query::Faults, Duration::from_secs(30)),
+    (Query::Clock, Duration::from_secs(10)),
+    (Query::Satellite, Duration::from_secs(15)),
+    (Query::StartStopTime, Duration::from_secs(15)),
+    (Query::GpsData, Duration::from_secs(30)),
+    (Query::Settings, Duration::from_mins(1)),
+];
+/// While the fault flag is set, the list is read this often.
+const FAULTS_WHILE_SET: Duration = Duration::from_secs(5);
+/// A unit that does not know a question is not bothered with it too often.
+const UNKNOWN: Duration = Duration::from_mins(5);
+
+/// The questions with the time at which each is due.
+#[derive(Debug)]
+pub(super) struct Schedule {
+    due: Vec<(Query, Instant)>,
+}
+
+impl Schedule {
+    /// Everything is due at once, in the order in which a new link is probed.
+    pub(super) fn new(now: Instant) -> Self {
+        let probe = [Query::Version, Query::Status];
+        let due = probe.into_iter().chain(SLOW.map(|(query, _)| query));
+        Self { due: due.map(|query| (query, now)).collect() }
+    }
+
+    /// The question that has been due for the longest.
+    pub(super) fn next(&self, now: Instant) -> Option<Query> {
+        let (query, due) = self.due.iter().min_by_key(|(_, due)| *due)?;
+        (*due <= now).then_some(*query)
+    }
+
+    /// When the next question is due.
+    pub(super) fn due(&self) -> Option<Instant> {
+        self.due.iter().map(|(_, due)| *due).min()
+    }
+
+    /// The question is to be asked next, before all others, also those that
+    /// have been due for longer.
+    pub(super) fn hurry(&mut self, query: Query, now: Instant) {
+        let first = self.due().map_or(now, |due| due.min(now));
+        if let Some(place) = self.due.iter().position(|(known, _)| *known == query) {
+            // Of those that are due at the same time the foremost comes first.
+            self.due.remove(place);
+            self.due.insert(0, (query, first));
+        }
+    }
+
+    /// The question was asked and answered, or given up.
+    pub(super) fn done(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
+        let wait = match query {
+            Query::Status => status,
+            Query::Faults if fault => FAULTS_WHILE_SET,
+            // The version does not change while the link is up.
+            Query::Version => return self.due.retain(|(known, _)| *known != Query::Version),
+            _ => match SLOW.iter().find(|(known, _)| *known == query) {
+                Some((_, period)) => *period,
+                None => return,
+            },
+        };
+        self.set(query, now + wait);
+    }
+
+    /// The unit did not answer even the second time, or does not know the question.
+    pub(super) fn unknown(&mut self, query: Query, now: Instant, status: Duration) {
+        match query {
+            Query::Status => self.set(query, now + status),
+            _ => self.set(query, now + UNKNOWN),
+        }
+    }
+
+    fn set(&mut self, query: Query, due: Instant) {
+        if let Some(entry) = self.due.iter_mut().find(|(known, _)| *known == query) {
+            entry.1 = due;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hurried_question_comes_before_those_that_are_overdue() {
+        let start = Instant::now();
+        let now = start + Duration::from_secs(1);
+        let mut schedule = Schedule::new(start);
+        assert_eq!(schedule.next(now), Some(Query::Version));
+        schedule.hurry(Query::Faults, now);
+        assert_eq!(schedule.next(now), Some(Query::Faults));
+        schedule.hurry(Query::Status, now);
+        assert_eq!(schedule.next(now), Some(Query::Status));
+        schedule.done(Query::Status, now, Duration::from_millis(500), false);
+        assert_eq!(schedule.next(now), Some(Query::Faults), "the first hurry is kept");
+        schedule.done(Query::Faults, now, Duration::from_millis(500), false);
+        assert_eq!(schedule.next(now), Some(Query::Version));
+    }
+
+    #[test]
+    fn a_hurry_while_nothing_is_due_is_due_now() {
+        let now = Instant::now();
+        let mut schedule = Schedule::new(now);
+        while let Some(query) = schedule.next(now) {
+            schedule.done(query, now, Duration::from_millis(500), false);
+        }
+        assert_eq!(schedule.due(), Some(now + Duration::from_millis(500)));
+        schedule.hurry(Query::Clock, now);
+        assert_eq!(schedule.next(now), Some(Query::Clock));
+    }
+}

@@ -1,0 +1,118 @@
+//! What a Satrak reported beyond the state that all antennas share.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::{AzEl, time::seconds_between},
+    controller::{AntennaState, Axis, AxisMotion, Measured, Moment, Phase, Program},
+    protocol::satrak::{
+        AxisMotion as UnitMotion, Faults, GpsData, Reply, Satellite, Settings, StartStopTime,
+        Status, TrackState, Version,
+    },
+};
+
+/// What the unit reported, each part as last read. `None` means not read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SatrakState {
+    /// Control unit and drive unit, as they name themselves.
+    pub version: Option<Version>,
+    /// A fault or warning exists.
+    pub fault_flag: bool,
+    /// The faults, and when they were read.
+    pub faults: Option<(Faults, Timestamp)>,
+    /// The unit's clock.
+    pub clock: Option<UnitClock>,
+    /// The clock was set from GPS.
+    pub clock_from_gps: Option<bool>,
+    /// The GPS receiver.
+    pub gps: Option<GpsData>,
+    /// The general settings.
+    pub settings: Option<Settings>,
+    /// The satellite that the unit holds.
+    pub satellite: Option<Satellite>,
+    /// When it tracks.
+    pub window: Option<StartStopTime>,
+}
+
+/// The unit's clock against ours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitClock {
+    /// How far the unit is ahead of us, in seconds; half the way over the link
+    /// is taken off.
+    pub ahead_s: f64,
+    /// It was set by somebody.
+    pub is_set: bool,
+    /// When it was read, by our clock.
+    pub read_at: Timestamp,
+}
+
+impl AntennaState {
+    /// Takes over what a reply says. `asked` is when the question went out.
+    pub(super) fn take_satrak(&mut self, reply: Reply, asked: Moment, now: Moment) {
+        let way = now.steady.saturating_duration_since(asked.steady) / 2;
+        let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
+        let unit = &mut self.satrak;
+        match reply {
+            Reply::Version(version) => unit.version = Some(version),
+            Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
+            Reply::Faults(faults) => {
+                unit.faults = Some((faults, now.utc));
+                self.motion_lock = Some(faults.lock_motion());
+            }
+            Reply::Clock(clock) => {
+                unit.clock = Some(UnitClock {
+                    ahead_s: seconds_between(measured_at, clock.time),
+                    is_set: clock.is_set(),
+                    read_at: now.utc,
+                });
+            }
+            Reply::StartStopTime(window) => unit.window = Some(window),
+            Reply::Settings(settings) => unit.settings = Some(settings),
+            Reply::GpsData(gps) => unit.gps = Some(gps),
+            Reply::Satellite(satellite) => unit.satellite = Some(satellite),
+            // Not asked for here.
+            _ => {}
+        }
+    }
+
+    fn take_status(&mut self, status: &Status, at: Timestamp, asked: Moment, now: Moment) {
+        let limits = status.limits;
+        self.measured = Some(Measured {
+            at,
+            asked: asked.steady,
+            received: now.steady,
+            direction: AzEl::from_degrees(status.az_deg, status.el_deg),
+            axes: [
+                axis(status.x_deg, status.x_motion, limits.x_plus, limits.x_minus),
+                axis(status.y_deg, status.y_motion, limits.y_plus, limits.y_minus),
+            ],
+        });
+        self.program = Some(Program {
+            enabled: status.tracking_enabled,
+            phase: match status.track_state {
+                TrackState::NotInTrackTime => Phase::OutOfWindow,
+                TrackState::InTrackTime => Phase::Tracking,
+                TrackState::Completed => Phase::Completed,
+                TrackState::BeforeStart => Phase::AtStart,
+                TrackState::Unknown(code) => Phase::Unknown(code),
+            },
+            auto: status.auto_track,
+        });
+        if status.fault && !self.satrak.fault_flag {
+            // Which fault it is comes with the next answer.
+            self.motion_lock = None;
+        }
+        self.satrak.fault_flag = status.fault;
+        self.satrak.clock_from_gps = Some(status.rtc_from_gps);
+    }
+}
+
+fn axis(angle_deg: f64, motion: UnitMotion, plus_limit: bool, minus_limit: bool) -> Axis {
+    let motion = match motion {
+        UnitMotion::Still => AxisMotion::Still,
+        UnitMotion::Positive => AxisMotion::Plus,
+        UnitMotion::Negative => AxisMotion::Minus,
+        UnitMotion::Unknown(code) => AxisMotion::Unknown(code),
+    };
+    Axis { angle_deg, motion, plus_limit, minus_limit }
+}

@@ -1,0 +1,120 @@
+//! The state that all antennas share, as last read from the device.
+
+use std::time::Instant;
+
+use jiff::Timestamp;
+
+use super::satrak::SatrakState;
+use crate::astro::AzEl;
+
+/// What is known of an antenna. `None` means not read yet, never a default.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AntennaState {
+    /// The last measured position.
+    pub measured: Option<Measured>,
+    /// The device's own tracking program.
+    pub program: Option<Program>,
+    /// Something is wrong that forbids motion; `None` until the device was
+    /// asked on this link, and while a new fault is not yet known by name.
+    pub motion_lock: Option<bool>,
+    /// When the present link came up: what is older tells of another time.
+    pub link_since: Option<Instant>,
+    /// What the name on the box adds to the above.
+    pub satrak: SatrakState,
+    /// What went over the link.
+    pub traffic: Traffic,
+}
+
+/// A measured position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// When the device measured it, as well as the way over the link tells.
+    pub at: Timestamp,
+    /// When it was asked for, the first time. What the device did after this
+    /// instant may not show in it.
+    pub asked: Instant,
+    /// When it came in.
+    pub received: Instant,
+    /// Where the antenna points.
+    pub direction: AzEl,
+    /// Its two axes.
+    pub axes: [Axis; 2],
+}
+
+impl Measured {
+    /// Whether any axis turns, or may turn.
+    pub fn moving(&self) -> bool {
+        self.axes.iter().any(|axis| axis.motion != AxisMotion::Still)
+    }
+}
+
+/// One axis as the device reports it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// In degrees, counted as the device counts.
+    pub angle_deg: f64,
+    /// Whether it turns.
+    pub motion: AxisMotion,
+    /// The limit switch at the upper end is set.
+    pub plus_limit: bool,
+    /// The limit switch at the lower end is set.
+    pub minus_limit: bool,
+}
+
+/// Whether an axis turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisMotion {
+    /// It stands.
+    Still,
+    /// Its angle grows.
+    Plus,
+    /// Its angle shrinks.
+    Minus,
+    /// The device reports a number without a meaning: treat it as moving.
+    Unknown(i64),
+}
+
+/// The device's own tracking program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Program {
+    /// It is switched on.
+    pub enabled: bool,
+    /// What it is about.
+    pub phase: Phase,
+    /// It starts by itself when its time comes; `None` when not told.
+    pub auto: Option<bool>,
+}
+
+/// What the device's tracking program is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Its time has not come, or there is none.
+    OutOfWindow,
+    /// It follows.
+    Tracking,
+    /// Its time is over.
+    Completed,
+    /// It waits at the place where the pass begins.
+    AtStart,
+    /// The device reports a number without a meaning.
+    Unknown(i64),
+}
+
+/// What went over the link since it came up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Traffic {
+    /// Good frames that answered a question.
+    pub replies: u64,
+    /// Good frames that nobody asked for.
+    pub unsolicited: u64,
+    /// Lines that were no good frame.
+    pub damaged: u64,
+    /// Good frames whose content made no sense.
+    pub unreadable: u64,
+    /// Questions without an answer in time.
+    pub unanswered: u64,
+    /// Good frames that differ from the document in a known way.
+    pub odd: u64,
+    /// When the last good reply came in.
+    pub last_reply: Option<Instant>,
+}

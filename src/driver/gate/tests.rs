@@ -1,0 +1,312 @@
+//! Each rule refuses and allows.
+
+use std::{
+    sync::{Arc, Mutex},
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+use super::*;
+use crate::{
+    astro::Angle,
+    controller::{Axis, AxisMotion, Capabilities, Extent, Happening, Measured, TrackTarget},
+    station::Antenna,
+};
+
+/// A controller that remembers what was started.
+struct Metal {
+    state: AntennaState,
+    started: Arc<Mutex<Vec<Motion>>>,
+}
+
+impl Device for Metal {
+    fn capabilities(&self) -> Capabilities {
+        Capabilities { tracks_on_board: true, auto_track: true, axes: ["X", "Y"] }
+    }
+    fn link_up(&mut self, _: Moment) {}
+    fn link_down(&mut self) {}
+    fn receive(&mut self, _: &[u8], _: Moment) {}
+    fn poll(&mut self, _: Moment) -> Option<Vec<u8>> {
+        None
+    }
+    fn due(&self, now: Moment) -> Instant {
+        now.steady
+    }
+    fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
+        Vec::new()
+    }
+    fn prepare(&mut self, _: TrackTarget) {}
+    fn motion_under_way(&self) -> bool {
+        false
+    }
+    fn disable_auto(&mut self) {}
+    fn state(&self) -> &AntennaState {
+        &self.state
+    }
+    fn next_happening(&mut self) -> Option<Happening> {
+        None
+    }
+    fn patience(&self) -> Duration {
+        Duration::ZERO
+    }
+    fn poll_period(&self) -> Duration {
+        Duration::ZERO
+    }
+}
+
+impl Moves for Metal {
+    fn start(&mut self, motion: Motion) {
+        self.started.lock().unwrap().push(motion);
+    }
+}
+
+/// What the gate knows when it is asked.
+struct Case {
+    state: AntennaState,
+    intent: Intent,
+    stopping: bool,
+    age: Duration,
+    antenna: Antenna,
+}
+
+impl Case {
+    fn new(intent: Intent) -> Self {
+        let axis = Axis {
+            angle_deg: 90.0,
+            motion: AxisMotion::Still,
+            plus_limit: false,
+            minus_limit: false,
+        };
+        let now = Instant::now();
+        let measured = Measured {
+            at: Timestamp::UNIX_EPOCH,
+            asked: now,
+            received: now,
+            direction: AzEl::from_degrees(80.0, 45.0),
+            axes: [axis; 2],
+        };
+        Self {
+            state: AntennaState {
+                measured: Some(measured),
+                motion_lock: Some(false),
+                link_since: Some(now),
+                ..AntennaState::default()
+            },
+            intent,
+            stopping: false,
+            age: Duration::from_millis(100),
+            antenna: Antenna::satrak("Dish", ""),
+        }
+    }
+
+    fn axes(&mut self) -> &mut [Axis; 2] {
+        &mut self.state.measured.as_mut().unwrap().axes
+    }
+
+    /// What the gate says; it is checked that only an allowed motion starts.
+    fn ask(&self, motion: Motion) -> Result<(), Refusal> {
+        let started = Arc::new(Mutex::new(Vec::new()));
+        let metal = Metal { state: self.state.clone(), started: Arc::clone(&started) };
+        let mut gate = Gate::new(Box::new(metal), self.antenna.limits, self.antenna.mount);
+        let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
+        let now = Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH };
+        let answer = gate.start(motion, self.intent, self.stopping, now);
+        assert_eq!(started.lock().unwrap().len(), usize::from(answer.is_ok()));
+        answer
+    }
+}
+
+fn jog(x_deg_s: f64, y_deg_s: f64) -> Motion {
+    Motion::Jog { x_deg_s, y_deg_s }
+}
+
+fn step(x_deg: f64, y_deg: f64) -> Motion {
+    Motion::Step { x_deg, y_deg }
+}
+
+fn position(azimuth_deg: impl Into<Option<f64>>, elevation_deg: impl Into<Option<f64>>) -> Motion {
+    Motion::Position {
+        azimuth: azimuth_deg.into().map(Angle::from_degrees),
+        elevation: elevation_deg.into().map(Angle::from_degrees),
+    }
+}
+
+#[test]
+fn nothing_and_what_is_no_number_is_refused() {
+    let manual = Case::new(Intent::Manual);
+    for motion in [jog(0.0, 0.0), jog(f64::NAN, 1.0), jog(f64::INFINITY, 0.0), step(0.0, 0.0)] {
+        assert_eq!(manual.ask(motion), Err(Refusal::Nothing), "{motion:?}");
+    }
+    let to_position = Case::new(Intent::Position);
+    for motion in [position(None, None), position(f64::NAN, 40.0), position(None, f64::INFINITY)] {
+        assert_eq!(to_position.ask(motion), Err(Refusal::Nothing), "{motion:?}");
+    }
+    assert_eq!(manual.ask(jog(0.0, -1.0)), Ok(()));
+    assert_eq!(to_position.ask(position(None, 40.0)), Ok(()));
+}
+
+#[test]
+fn without_a_position_nothing_starts() {
+    for (intent, motion) in [
+        (Intent::Manual, jog(1.0, 0.0)),
+        (Intent::Position, position(10.0, 40.0)),
+        (Intent::Track, Motion::StartProgram),
+        (Intent::Standby, Motion::EnableAuto),
+    ] {
+        let mut case = Case::new(intent);
+        assert_eq!(case.ask(motion), Ok(()), "{motion:?}");
+        case.state.measured = None;
+        assert_eq!(case.ask(motion), Err(Refusal::PositionUnknown), "{motion:?}");
+    }
+}
+
+#[test]
+fn a_jog_needs_a_fresher_position_than_the_rest() {
+    for (intent, motion, allowed_ms) in [
+        (Intent::Manual, jog(1.0, 0.0), 1000),
+        (Intent::Manual, step(1.0, 0.0), 1000),
+        (Intent::Park, position(10.0, 40.0), 5000),
+        (Intent::Track, Motion::StartProgram, 5000),
+        (Intent::Standby, Motion::EnableAuto, 5000),
+    ] {
+        let allowed = Duration::from_millis(allowed_ms);
+        let mut case = Case::new(intent);
+        case.age = Duration::from_millis(allowed_ms - 1);
+        assert_eq!(case.ask(motion), Ok(()), "{motion:?}");
+        case.age = allowed;
+        assert_eq!(case.ask(motion), Err(Refusal::PositionOld(allowed)), "{motion:?}");
+    }
+}
+
+#[test]
+fn nothing_starts_while_a_stop_is_under_way() {
+    let mut case = Case::new(Intent::Manual);
+    case.stopping = true;
+    assert_eq!(case.ask(jog(1.0, 0.0)), Err(Refusal::Stopping));
+    assert_eq!(case.ask(Motion::EnableAuto), Err(Refusal::Stopping));
+}
+
+#[test]
+fn each_motion_belongs_to_its_intents() {
+    use Intent::{Manual, Park, Position, Standby, Track};
+    let all = [Standby, Manual, Position, Track, Park];
+    for (motion, allowed) in [
+        (jog(1.0, 0.0), &[Manual][..]),
+        (step(1.0, 0.0), &[Manual]),
+        (position(10.0, 40.0), &[Position, Park]),
+        (Motion::StartProgram, &[Track]),
+        (Motion::EnableAuto, &all),
+    ] {
+        for intent in all {
+            let wanted =
+                if allowed.contains(&intent) { Ok(()) } else { Err(Refusal::Intent(intent)) };
+            assert_eq!(Case::new(intent).ask(motion), wanted, "{motion:?}");
+        }
+    }
+}
+
+#[test]
+fn a_fault_that_locks_motion_forbids_everything() {
+    for (intent, motion) in [
+        (Intent::Manual, jog(1.0, 0.0)),
+        (Intent::Position, position(10.0, 40.0)),
+        (Intent::Track, Motion::StartProgram),
+        (Intent::Standby, Motion::EnableAuto),
+    ] {
+        let mut case = Case::new(intent);
+        case.state.motion_lock = Some(true);
+        assert_eq!(case.ask(motion), Err(Refusal::Fault), "{motion:?}");
+    }
+}
+
+#[test]
+fn a_limit_switch_blocks_its_direction_only() {
+    for (axis, name) in [(0, "X"), (1, "Y")] {
+        for plus in [true, false] {
+            let mut case = Case::new(Intent::Manual);
+            case.axes()[axis].plus_limit = plus;
+            case.axes()[axis].minus_limit = !plus;
+            let along = |sign: f64| if axis == 0 { [sign, 0.0] } else { [0.0, sign] };
+            let into = along(if plus { 1.0 } else { -1.0 });
+            let out = into.map(|rate| -rate);
+            let refused = Err(Refusal::Limit { axis: name, plus });
+            assert_eq!(case.ask(jog(into[0], into[1])), refused);
+            assert_eq!(case.ask(step(into[0], into[1])), refused);
+            assert_eq!(case.ask(jog(out[0], out[1])), Ok(()));
+            assert_eq!(case.ask(step(out[0], out[1])), Ok(()));
+            assert_eq!(case.ask(jog(into[1], into[0])), Ok(()), "the other axis is free");
+        }
+    }
+}
+
+#[test]
+fn rates_and_steps_stay_within_the_limits_of_the_antenna() {
+    let case = Case::new(Intent::Manual);
+    assert_eq!(case.ask(jog(3.0, -3.0)), Ok(()));
+    let too_fast = Err(Refusal::TooFast { asked_deg_s: 3.01, allowed_deg_s: 3.0 });
+    assert_eq!(case.ask(jog(0.1, -3.01)), too_fast);
+    assert_eq!(case.ask(step(-5.0, 5.0)), Ok(()));
+    let too_large = Err(Refusal::StepTooLarge { asked_deg: 5.5, allowed_deg: 5.0 });
+    assert_eq!(case.ask(step(5.5, 0.0)), too_large);
+}
+
+#[test]
+fn positions_stay_above_the_lowest_elevation_and_out_of_the_keyholes() {
+    let mut case = Case::new(Intent::Position);
+    assert_eq!(case.ask(position(45.0, 5.0)), Ok(()));
+    assert_eq!(case.ask(position(45.0, 90.0)), Ok(()));
+    for asked_deg in [4.9, -10.0, 90.1] {
+        let refused = Err(Refusal::Elevation { asked_deg, lowest_deg: 5.0 });
+        assert_eq!(case.ask(position(45.0, asked_deg)), refused);
+        assert_eq!(case.ask(position(None, asked_deg)), refused);
+    }
+    case.antenna.limits.minimum_elevation_deg = 0.0;
+    for (azimuth_deg, blocked) in [(0.0, "Y"), (180.0, "Y"), (90.0, "X"), (270.0, "X")] {
+        let Err(Refusal::Travel { axis, from_deg, to_deg, .. }) =
+            case.ask(position(azimuth_deg, 4.0))
+        else {
+            panic!("{azimuth_deg}")
+        };
+        assert_eq!((axis, from_deg, to_deg), (blocked, 5.0, 175.0));
+        assert_eq!(case.ask(position(azimuth_deg, 6.0)), Ok(()));
+    }
+}
+
+#[test]
+fn an_angle_that_stays_is_taken_from_the_measured_position() {
+    let mut case = Case::new(Intent::Position);
+    case.antenna.limits.minimum_elevation_deg = 0.0;
+    case.state.measured.as_mut().unwrap().direction = AzEl::from_degrees(45.0, 3.0);
+    assert_eq!(case.ask(position(30.0, None)), Ok(()));
+    assert!(matches!(case.ask(position(0.0, None)), Err(Refusal::Travel { axis: "Y", .. })));
+}
+
+#[test]
+fn a_position_from_before_the_link_came_up_counts_for_nothing() {
+    let mut case = Case::new(Intent::Manual);
+    case.state.link_since = case.state.measured.map(|read| read.asked + Duration::from_millis(1));
+    assert_eq!(case.ask(jog(1.0, 0.0)), Err(Refusal::PositionUnknown));
+}
+
+#[test]
+fn faults_that_were_not_read_yet_may_forbid_motion() {
+    let mut case = Case::new(Intent::Manual);
+    case.state.motion_lock = None;
+    assert_eq!(case.ask(jog(1.0, 0.0)), Err(Refusal::FaultsUnknown));
+}
+
+#[test]
+fn by_hand_the_axes_stay_within_their_travel() {
+    let mut case = Case::new(Intent::Manual);
+    if let Some(measured) = &mut case.state.measured {
+        measured.axes[0].angle_deg = 174.5;
+    }
+    assert!(matches!(case.ask(step(1.0, 0.0)), Err(Refusal::Travel { axis: "X", .. })));
+    assert!(matches!(case.ask(jog(2.0, 0.0)), Err(Refusal::Travel { axis: "X", .. })));
+    assert_eq!(case.ask(step(-1.0, 0.0)), Ok(()));
+    if let Some(measured) = &mut case.state.measured {
+        measured.axes[0].angle_deg = 179.0;
+    }
+    assert_eq!(case.ask(jog(-2.0, 0.0)), Ok(()), "the way back is free");
+}

@@ -1,0 +1,18 @@
+//! What the operator wants of an antenna.
+
+/// What the operator wants of an antenna. A state of the driver: it holds with
+/// or without a window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Intent {
+    /// Nothing is to move.
+    #[default]
+    Standby,
+    /// The operator moves it by hand.
+    Manual,
+    /// Go to a direction and stay there.
+    Position,
+    /// Follow a satellite.
+    Track,
+    /// Go to the park position and stay there.
+    Park,
+}

@@ -1,0 +1,184 @@
+//! One antenna's session: keeps its link, asks its controller, carries out the
+//! intent and stops what has to be stopped. It lives on the driver's thread
+//! and needs neither window nor frames.
+
+mod command;
+mod converse;
+mod farewell;
+mod halting;
+mod jog;
+mod liveness;
+mod supervise;
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use tokio::sync::{Notify, mpsc, watch};
+
+pub use command::Command;
+
+use super::{
+    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Snapshot, Wake,
+    gate::Gate,
+};
+use crate::{
+    astro::AzEl,
+    controller::{Moment, Moves, TrackTarget},
+    station::Antenna,
+};
+use command::Waiting;
+use halting::Halting;
+use jog::Jog;
+use supervise::Doubt;
+
+/// The far ends of the channels to the window.
+pub struct Wires {
+    commands: mpsc::Receiver<Command>,
+    stop: Arc<Notify>,
+    snapshots: watch::Sender<Arc<Snapshot>>,
+    events: mpsc::Sender<Event>,
+    wake: Wake,
+}
+
+/// One antenna's session.
+pub struct Session {
+    name: String,
+    gate: Gate,
+    park: AzEl,
+    dial: Dial,
+    clock: Clock,
+    wires: Wires,
+    link: LinkState,
+    /// When the link went away while it had been up before.
+    away_since: Option<Instant>,
+    /// That the link is lost was told.
+    told_lost: bool,
+    /// The device was not read yet on this link.
+    unread: bool,
+    /// The device's own program was on when it was last read.
+    program_was_on: bool,
+    intent: Intent,
+    /// The intent is not yet proved by the device.
+    pending: Option<Instant>,
+    aim: Option<AzEl>,
+    target: Option<TrackTarget>,
+    jog: Option<Jog>,
+    /// Is done as soon as no halt is under way.
+    waiting: Option<Waiting>,
+    halting: Option<Halting>,
+    /// A motion whose answer was lost.
+    doubt: Option<Doubt>,
+    stopped_at: Option<Instant>,
+    /// Bytes of a halt, written before anything else.
+    urgent: Vec<u8>,
+}
+
+impl Session {
+    /// A session of `antenna` and the handle to it. Nothing happens before
+    /// [`Self::run`].
+    pub fn new(
+        controller: Box<dyn Moves>,
+        antenna: &Antenna,
+        dial: Dial,
+        clock: Clock,
+        wake: Wake,
+    ) -> (Self, AntennaHandle) {
+        let (send_command, commands) = mpsc::channel(COMMANDS);
+        let (events, read_events) = mpsc::channel(EVENTS);
+        let stop = Arc::new(Notify::new());
+        let gate = Gate::new(controller, antenna.limits, antenna.mount);
+        let link = LinkState::Connecting { since: tokio::time::Instant::now().into_std() };
+        let first = Arc::new(Snapshot::before_anything(link.clone()));
+        let (snapshots, read_snapshots) = watch::channel(first);
+        let handle =
+            AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
+        let session = Self {
+            name: antenna.name.clone(),
+            gate,
+            park: antenna.park_direction(),
+            dial,
+            clock,
+            wires: Wires { commands, stop, snapshots, events, wake },
+            link,
+            away_since: None,
+            told_lost: false,
+            unread: true,
+            program_was_on: false,
+            intent: Intent::Standby,
+            pending: None,
+            aim: None,
+            target: None,
+            jog: None,
+            waiting: None,
+            halting: None,
+            doubt: None,
+            stopped_at: None,
+            urgent: Vec::new(),
+        };
+        (session, handle)
+    }
+
+    fn tell(&self, event: Event) {
+        tracing::info!(antenna = self.name, ?event, "event");
+        if self.wires.events.try_send(event).is_err() {
+            tracing::warn!(antenna = self.name, "nobody reads the events; one was dropped");
+        }
+        (self.wires.wake)();
+    }
+
+    /// Puts out a new snapshot when anything in it has changed.
+    fn publish(&mut self, now: Moment) {
+        let snapshot = Snapshot {
+            link: self.link.clone(),
+            intent: self.intent,
+            pending: self.pending.is_some(),
+            aim: self.aim,
+            target: self.target.clone(),
+            stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
+            jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
+            state: self.gate.state().clone(),
+            poll_period: self.gate.device().poll_period(),
+        };
+        let mut worth_a_look = false;
+        self.wires.snapshots.send_if_modified(|held| {
+            let changed = **held != snapshot;
+            if changed {
+                worth_a_look = !held.shows_the_same(&snapshot);
+                *held = Arc::new(snapshot);
+            }
+            changed
+        });
+        if worth_a_look {
+            (self.wires.wake)();
+        }
+    }
+
+    fn now(&self) -> Moment {
+        self.clock.now()
+    }
+
+    /// How old the last measured position is.
+    fn position_age(&self, now: Moment) -> Option<Duration> {
+        let measured = self.gate.state().measured?;
+        Some(now.steady.saturating_duration_since(measured.asked))
+    }
+
+    /// Whether anything moves, or was sent or queued that may make it move.
+    fn may_move(&mut self) -> bool {
+        self.active()
+            || self.pending.is_some()
+            || self.waiting.is_some()
+            || self.jog.is_some()
+            || self.intent == Intent::Track
+            || self.gate.device().motion_under_way()
+    }
+
+    /// Whether the device was last seen moving or about to.
+    fn active(&self) -> bool {
+        let state = self.gate.state();
+        state.measured.is_some_and(|measured| measured.moving())
+            || state.program.is_some_and(|program| program.enabled)
+    }
+}

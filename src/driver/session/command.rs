@@ -1,0 +1,172 @@
+//! What the operator can ask of an antenna, and what the session makes of it.
+
+use super::{Event, Session};
+use crate::{
+    astro::Angle,
+    controller::{Moment, Motion, TrackTarget},
+    driver::{Intent, Refusal},
+};
+
+/// What the operator can ask of an antenna. STOP is no command: it goes past
+/// this queue.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Nothing is to move: ends whatever runs.
+    Standby,
+    /// By hand: ends tracking.
+    Manual,
+    /// Stay where it is, ready to be sent to a direction: ends tracking.
+    Hold,
+    /// A jog key is down. To be repeated at least every 300 ms.
+    Jog {
+        /// Signed rates of the two axes, degrees a second.
+        rates_deg_s: [f64; 2],
+    },
+    /// The jog key is up.
+    EndJog,
+    /// One step of the two axes.
+    Step {
+        /// Signed, degrees.
+        steps_deg: [f64; 2],
+    },
+    /// To a direction.
+    Position {
+        /// `None` leaves it as it is.
+        azimuth: Option<Angle>,
+        /// `None` leaves it as it is.
+        elevation: Option<Angle>,
+    },
+    /// Follow a satellite.
+    Track(TrackTarget),
+    /// To the park position.
+    Park,
+    /// The device may start to follow by itself.
+    AutoTrack(bool),
+}
+
+/// What is done as soon as the antenna stands.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Waiting {
+    /// Goes to the gate.
+    Motion(Motion),
+    /// Goes to the device; it moves nothing yet.
+    Prepare(TrackTarget),
+}
+
+impl Session {
+    pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
+        // A hold is renewed many times a second; not worth a line each.
+        if !matches!(command, Command::Jog { .. }) {
+            tracing::info!(antenna = self.name, ?command, "command");
+        }
+        match command {
+            Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
+            Command::EndJog => self.release_jog(now),
+            Command::Standby => self.leave_for(Intent::Standby, now),
+            Command::Manual => self.leave_for(Intent::Manual, now),
+            Command::Hold => self.leave_for(Intent::Position, now),
+            Command::Step { steps_deg: [x_deg, y_deg] } => {
+                self.start(Motion::Step { x_deg, y_deg }, now);
+            }
+            Command::Position { azimuth, elevation } => {
+                self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
+            }
+            Command::Park => {
+                let motion = Motion::Position {
+                    azimuth: Some(self.park.azimuth),
+                    elevation: Some(self.park.elevation),
+                };
+                self.go_to(motion, Intent::Park, now);
+            }
+            Command::Track(target) => self.track(target, now),
+            Command::AutoTrack(true) => self.start(Motion::EnableAuto, now),
+            Command::AutoTrack(false) => self.gate.device().disable_auto(),
+        }
+    }
+
+    /// Ends what runs and takes up an intent in which nothing moves by itself.
+    fn leave_for(&mut self, intent: Intent, now: Moment) {
+        if self.may_move() {
+            self.halt_quietly(now);
+        }
+        self.aim = None;
+        self.intent = intent;
+    }
+
+    fn start(&mut self, motion: Motion, now: Moment) {
+        match self.gate.start(motion, self.intent, self.halting.is_some(), now) {
+            Ok(()) => self.stopped_at = None,
+            Err(refusal) => self.tell(Event::NotSent(refusal)),
+        }
+    }
+
+    /// Checked before anything that runs is ended for it.
+    fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
+        if let Err(refusal) = self.gate.check(motion, intent, now) {
+            return self.tell(Event::NotSent(refusal));
+        }
+        let aim = self.gate.aim(&motion);
+        if self.may_move() {
+            self.halt_quietly(now);
+        }
+        self.intent = intent;
+        self.aim = aim;
+        self.pending = Some(now.steady);
+        self.waiting = Some(Waiting::Motion(motion));
+    }
+
+    fn track(&mut self, target: TrackTarget, now: Moment) {
+        if let Err(refusal) = self.gate.check(Motion::StartProgram, Intent::Track, now) {
+            return self.tell(Event::NotSent(refusal));
+        }
+        if self.may_move() {
+            self.halt_quietly(now);
+        }
+        self.intent = Intent::Track;
+        self.aim = None;
+        self.pending = Some(now.steady);
+        self.target = Some(target.clone());
+        self.waiting = Some(Waiting::Prepare(target));
+    }
+
+    /// Sends what waited for a halt to end.
+    pub(super) fn start_waiting(&mut self, now: Moment) {
+        if self.halting.is_some() {
+            return;
+        }
+        match self.waiting.take() {
+            None => {}
+            Some(Waiting::Prepare(target)) => self.gate.device().prepare(target),
+            Some(Waiting::Motion(motion)) => {
+                match self.gate.start(motion, self.intent, false, now) {
+                    Ok(()) => {
+                        self.stopped_at = None;
+                        self.pending = Some(now.steady);
+                    }
+                    Err(refusal) => self.give_up(Event::NotSent(refusal), now),
+                }
+            }
+        }
+    }
+
+    /// The intent cannot be had, or is over: back to Standby, with the reason.
+    /// A halt makes sure that nothing of it is left.
+    pub(super) fn give_up(&mut self, reason: Event, now: Moment) {
+        self.intent = Intent::Standby;
+        self.halt_quietly(now);
+        self.tell(reason);
+    }
+
+    /// A command while there is no link.
+    pub(super) fn turn_down(&mut self, command: &Command) {
+        match command {
+            // Told by the link itself; the keys are locked anyway.
+            Command::Jog { .. } | Command::EndJog => self.jog = None,
+            Command::Standby => {
+                self.intent = Intent::Standby;
+                self.pending = None;
+            }
+            _ => self.tell(Event::NotSent(Refusal::PositionUnknown)),
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The loop of a session: dial, talk, lose, dial again.
+
+use std::{io, time::Duration};
+
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
+    time::{sleep_until, timeout},
+};
+
+use super::{Command, Session};
+use crate::{
+    controller::{Extent, Moment},
+    driver::{LinkLoss, LinkState, Stream},
+};
+
+/// A connection that does not come up in this time is given up.
+pub(super) const CONNECT: Duration = Duration::from_secs(3);
+/// A link that does not take a few bytes in this time is broken.
+pub(super) const WRITE: Duration = Duration::from_secs(1);
+/// Waits between attempts; the last one repeats.
+const BACK_OFF: [Duration; 5] = [
+    Duration::from_millis(500),
+    Duration::from_secs(1),
+    Duration::from_secs(2),
+    Duration::from_secs(4),
+    Duration::from_secs(8),
+];
+
+/// While a stop is owed, the unit is tried again this often.
+pub(super) const HURRY: Duration = Duration::from_millis(250);
+/// The shortest sleep of the loop.
+pub(super) const LEAST_WAIT: Duration = Duration::from_millis(2);
+
+/// What ended a stretch of waiting or talking.
+enum Turn {
+    Bytes(usize),
+    Lost(LinkLoss),
+    Command(Command),
+    Stop,
+    Time,
+    /// The window is gone: the session ends.
+    Over,
+}
+
+impl Session {
+    /// Runs until the handle is dropped; a jog is stopped before the end.
+    pub async fn run(mut self) {
+        let mut attempt = 0;
+        while let Some(end) = self.connect_and_talk(&mut attempt).await {
+            let wait = BACK_OFF.get(attempt).or(BACK_OFF.last()).copied().unwrap_or(CONNECT);
+            attempt += 1;
+            if self.pause(end, wait).await.is_none() {
+                break;
+            }
+        }
+        if self.halting.is_some() || self.jog.is_some() {
+            self.last_attempt().await;
+        }
+        self.link = LinkState::Off;
+        let now = self.now();
+        self.publish(now);
+    }
+
+    /// Why the link is lost again; `None` when the session is to end.
+    async fn connect_and_talk(&mut self, attempt: &mut usize) -> Option<LinkLoss> {
+        let stream = match self.connect().await {
+            Ok(Some(stream)) => stream,
+            Ok(None) => return None,
+            Err(loss) => return Some(loss),
+        };
+        let replies_before = self.gate.state().traffic.replies;
+        let end = self.talk(stream).await;
+        if self.gate.state().traffic.replies > replies_before {
+            *attempt = 0;
+            // A link on which nothing was ever said is no new one.
+            self.told_lost = false;
+        }
+        self.gate.device().link_down();
+        end
+    }
+
+    /// Dials; `None` when the session is to end.
+    async fn connect(&mut self) -> Result<Option<Box<dyn Stream>>, LinkLoss> {
+        let now = self.now();
+        self.publish(now);
+        let mut dialling = (self.dial)();
+        let until = tokio::time::Instant::now() + CONNECT;
+        loop {
+            tokio::select! {
+                biased;
+                turn = next_word(&mut self.wires.commands, &self.wires.stop) => {
+                    if !self.answer_without_link(turn) {
+                        return Ok(None);
+                    }
+                }
+                dialled = &mut dialling => {
+                    let stream = dialled.map_err(|error| LinkLoss::Refused(in_words(&error)))?;
+                    let now = self.now();
+                    self.link = LinkState::Up { since: now.steady };
+                    return Ok(Some(stream));
+                }
+                () = sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
+            }
+        }
+    }
+
+    /// Waits between two attempts; `None` when the session is to end.
+    async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
+        let now = self.now();
+        if self.jog.take().is_some_and(|jog| jog.started) {
+            self.halt_quietly(now);
+        }
+        self.waiting = None;
+        let mut retry_at = now.steady + wait;
+        self.lose(loss, retry_at);
+        loop {
+            let now = self.now();
+            // A stop cannot wait for a polite interval.
+            if self.halting.is_some() && retry_at > now.steady + HURRY {
+                retry_at = now.steady + HURRY;
+                if let LinkState::Lost { retry_at: shown, .. } = &mut self.link {
+                    *shown = retry_at;
+                }
+            }
+            self.watch_halt(now);
+            self.forget_old_stop(now);
+            self.publish(now);
+            if now.steady >= retry_at {
+                return Some(());
+            }
+            let until = self.halt_due().into_iter().chain([retry_at]).min().unwrap_or(retry_at);
+            tokio::select! {
+                biased;
+                turn = next_word(&mut self.wires.commands, &self.wires.stop) => {
+                    if !self.answer_without_link(turn) {
+                        return None;
+                    }
+                }
+                () = sleep_until(until.max(now.steady + LEAST_WAIT).into()) => {}
+            }
+        }
+    }
+
+    /// `false` when the session is to end.
+    fn answer_without_link(&mut self, turn: Turn) -> bool {
+        let now = self.now();
+        match turn {
+            Turn::Over => return false,
+            Turn::Stop => self.halt_and_forget(now),
+            Turn::Command(command) => self.turn_down(&command),
+            Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+        }
+        self.publish(now);
+        true
+    }
+
+    /// What was asked for before a stop is void, also where it still waits to
+    /// be read.
+    fn halt_and_forget(&mut self, now: Moment) {
+        while self.wires.commands.try_recv().is_ok() {}
+        self.halt(now);
+    }
+
+    /// Talks until the link is lost; `None` when the session is to end.
+    async fn talk(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
+        let (mut reader, mut writer) = tokio::io::split(stream);
+        let mut buffer = [0; 4096];
+        let start = self.now();
+        self.gate.device().link_up(start);
+        if self.halting.is_some() {
+            self.urgent = self.gate.device().halt(Extent::Everything, start);
+        } else {
+            self.urgent.clear();
+        }
+        self.unread = true;
+        loop {
+            if let Err(loss) = self.send(&mut writer).await {
+                return Some(loss);
+            }
+            let now = self.now();
+            self.supervise(now);
+            if let Some(loss) = self.watch_link(now, start.steady) {
+                return Some(loss);
+            }
+            self.publish(now);
+            // What the last look has brought about goes out without a wait.
+            if !self.urgent.is_empty() || self.gate.device().due(now) <= now.steady {
+                continue;
+            }
+            match self.wait(&mut reader, &mut buffer).await {
+                Turn::Over => {
+                    self.say_goodbye(&mut reader, &mut writer).await;
+                    return None;
+                }
+                Turn::Lost(loss) => return Some(loss),
+                Turn::Stop => {
+                    let now = self.now();
+                    self.halt_and_forget(now);
+                }
+                Turn::Command(command) => {
+                    let now = self.now();
+                    self.carry_out(command, now);
+                }
+                Turn::Bytes(count) => {
+                    let now = self.now();
+                    self.gate.device().receive(buffer.get(..count).unwrap_or_default(), now);
+                }
+                Turn::Time => {}
+            }
+        }
+    }
+
+    /// Halts first, then whatever the controller wants to send.
+    pub(super) async fn send(
+        &mut self,
+        writer: &mut WriteHalf<Box<dyn Stream>>,
+    ) -> Result<(), LinkLoss> {
+        let urgent = std::mem::take(&mut self.urgent);
+        if !urgent.is_empty() {
+            write(writer, &urgent).await?;
+        }
+        let now = self.now();
+        while let Some(bytes) = self.gate.device().poll(now) {
+            write(writer, &bytes).await?;
+        }
+        Ok(())
+    }
+
+    async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Turn {
+        let now = self.now();
+        let due = self.gate.device().due(now);
+        let until = self.supervise_due().into_iter().chain(self.link_due()).chain([due]).min();
+        // A deadline that brings about nothing must not spin.
+        let until = until.unwrap_or(due).max(now.steady + LEAST_WAIT);
+        tokio::select! {
+            biased;
+            turn = next_word(&mut self.wires.commands, &self.wires.stop) => turn,
+            read = reader.read(buffer) => match read {
+                Ok(0) => Turn::Lost(LinkLoss::Closed),
+                Ok(count) => Turn::Bytes(count),
+                Err(error) => Turn::Lost(LinkLoss::Broken(in_words(&error))),
+            },
+            () = sleep_until(until.into()) => Turn::Time,
+        }
+    }
+}
+
+/// The next word from the window, a stop before anything else.
+async fn next_word(
+    commands: &mut tokio::sync::mpsc::Receiver<Command>,
+    stop: &tokio::sync::Notify,
+) -> Turn {
+    tokio::select! {
+        biased;
+        () = stop.notified() => Turn::Stop,
+        command = commands.recv() => match command {
+            // What was asked for just before the end is not begun any more.
+            Some(command) if !commands.is_closed() => Turn::Command(command),
+            _ => Turn::Over,
+        },
+    }
+}
+
+pub(super) async fn write(
+    writer: &mut WriteHalf<Box<dyn Stream>>,
+    bytes: &[u8],
+) -> Result<(), LinkLoss> {
+    let written = timeout(WRITE, async {
+        writer.write_all(bytes).await?;
+        writer.flush().await
+    });
+    match written.await {
+        Ok(Ok(())) => Ok(()),
+        Ok(Err(error)) => Err(LinkLoss::Broken(in_words(&error))),
+        Err(_) => {
+            let stalled = io::Error::from(io::ErrorKind::TimedOut);
+            Err(LinkLoss::Broken(in_words(&stalled)))
+        }
+    }
+}
+
+/// What the operating system says, without its number.
+fn in_words(error: &io::Error) -> String {
+    let text = error.to_string();
+    let words = text.split(" (os error").next().unwrap_or_default();
+    words.to_lowercase()
+}

@@ -1,0 +1,58 @@
+//! Whether the unit still answers: the state of the link by the age of its last
+//! good reply.
+
+use std::time::{Duration, Instant};
+
+use super::{Event, Session};
+use crate::{
+    controller::Moment,
+    driver::{LinkLoss, LinkState},
+};
+
+impl Session {
+    /// The link is gone; it is tried again at `retry_at`.
+    pub(super) fn lose(&mut self, reason: LinkLoss, retry_at: Instant) {
+        let now = self.now();
+        let last_reply = self.gate.state().traffic.last_reply;
+        let had_been_up = last_reply.is_some();
+        let since = self.away_since.or(last_reply).unwrap_or(now.steady);
+        if had_been_up && self.away_since.is_none() {
+            self.away_since = Some(since);
+        }
+        let news = !matches!(self.link, LinkState::Lost { .. }) && !self.told_lost;
+        self.told_lost = true;
+        self.link = LinkState::Lost { since, reason: reason.clone(), retry_at };
+        if news {
+            self.tell(Event::LinkLost(reason));
+        }
+    }
+
+    /// Follows the age of the last reply.
+    pub(super) fn watch_link(&mut self, now: Moment, start: Instant) -> Option<LinkLoss> {
+        let last = self.gate.state().traffic.last_reply.map_or(start, |reply| reply.max(start));
+        let age = now.steady.saturating_duration_since(last);
+        if age >= self.gate.device().patience() {
+            return Some(LinkLoss::Silent);
+        }
+        let late = age > self.gate.device().poll_period() * 2;
+        match (&self.link, late) {
+            (LinkState::Up { .. }, true) => self.link = LinkState::Stale { last_reply: last },
+            (LinkState::Stale { .. }, false) => {
+                self.link = LinkState::Up { since: start };
+            }
+            _ => {}
+        }
+        None
+    }
+
+    /// When the age of the last reply means something new.
+    pub(super) fn link_due(&mut self) -> Option<Instant> {
+        let state = self.gate.state();
+        let last = state.traffic.last_reply.max(state.link_since)?;
+        let wait = match self.link {
+            LinkState::Up { .. } => self.gate.device().poll_period() * 2 + Duration::from_millis(1),
+            _ => self.gate.device().patience(),
+        };
+        Some(last + wait)
+    }
+}

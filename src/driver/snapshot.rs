@@ -1,0 +1,219 @@
+//! What a session tells the rest of the program: snapshots and events.
+
+use std::time::{Duration, Instant};
+
+use super::{Intent, Refusal};
+use crate::{
+    astro::AzEl,
+    controller::{AntennaState, Motion, PrepareError, TrackTarget},
+};
+
+/// One antenna at one instant. Replaced as a whole, never changed in place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// The link.
+    pub link: LinkState,
+    /// What the operator wants.
+    pub intent: Intent,
+    /// The intent is asked for but not yet proved by the device.
+    pub pending: bool,
+    /// Where a motion to a position ends.
+    pub aim: Option<AzEl>,
+    /// What is to be tracked.
+    pub target: Option<TrackTarget>,
+    /// The stop button.
+    pub stop: StopState,
+    /// Signed rates of a jog that is held, degrees a second.
+    pub jog: Option<[f64; 2]>,
+    /// What the device reported.
+    pub state: AntennaState,
+    /// The time between two questions at present.
+    pub poll_period: Duration,
+}
+
+impl Snapshot {
+    /// What there is to show before the session runs.
+    pub fn before_anything(link: LinkState) -> Self {
+        Self {
+            link,
+            intent: Intent::Standby,
+            pending: false,
+            aim: None,
+            target: None,
+            stop: StopState::Ready,
+            jog: None,
+            state: AntennaState::default(),
+            poll_period: Duration::from_millis(500),
+        }
+    }
+}
+
+impl Snapshot {
+    /// Whether nothing but ages and counters differ. The window shows those
+    /// with the next tick of its clock; a frame of their own is not worth it.
+    pub fn shows_the_same(&self, newer: &Self) -> bool {
+        let standing = |snapshot: &Self| {
+            snapshot
+                .state
+                .measured
+                .filter(|measured| !measured.moving())
+                .map(|measured| (measured.direction, measured.axes))
+        };
+        if standing(self).is_none() || standing(self) != standing(newer) {
+            return false;
+        }
+        let mut newer = newer.clone();
+        newer.state.measured = self.state.measured;
+        newer.state.traffic = self.state.traffic;
+        newer.state.satrak.clock = self.state.satrak.clock;
+        newer.state.satrak.gps = self.state.satrak.gps;
+        if let (Some(old), Some(new)) = (&self.state.satrak.faults, &mut newer.state.satrak.faults)
+        {
+            new.1 = old.1;
+        }
+        *self == newer
+    }
+}
+
+/// The link to a controller.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LinkState {
+    /// Switched off: no address, or the session has ended.
+    Off,
+    /// Trying, for the first time since the start.
+    Connecting {
+        /// Since when.
+        since: Instant,
+    },
+    /// Open, with good replies.
+    Up {
+        /// Since when.
+        since: Instant,
+    },
+    /// Open, but the last good reply is older than two poll periods.
+    Stale {
+        /// When the last good reply came.
+        last_reply: Instant,
+    },
+    /// Gone, or silent for too long. It is tried again by itself.
+    Lost {
+        /// When the last good reply came, or the link went.
+        since: Instant,
+        /// Why.
+        reason: LinkLoss,
+        /// When it is tried again.
+        retry_at: Instant,
+    },
+}
+
+impl LinkState {
+    /// Whether bytes can be sent.
+    pub fn is_open(&self) -> bool {
+        matches!(self, Self::Up { .. } | Self::Stale { .. })
+    }
+}
+
+/// Why a link is lost.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LinkLoss {
+    /// The other end is not there or does not want us; in the words of the
+    /// operating system.
+    Refused(String),
+    /// No connection in time.
+    ConnectTimeout,
+    /// The other end closed it.
+    Closed,
+    /// It broke; in the words of the operating system.
+    Broken(String),
+    /// Open, but no good reply.
+    Silent,
+}
+
+/// The stop button of one antenna.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopState {
+    /// Nothing was asked.
+    Ready,
+    /// Sent, or to be sent first thing when the link is back.
+    Stopping {
+        /// When it was pressed.
+        since: Instant,
+    },
+    /// The device reports standstill.
+    Stopped {
+        /// When it did.
+        at: Instant,
+    },
+    /// No standstill within three seconds.
+    NotConfirmed {
+        /// When it was pressed.
+        since: Instant,
+    },
+}
+
+/// Something that happened, for the event line and the alarm list.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// The link went.
+    LinkLost(LinkLoss),
+    /// The link came for the first time, and the device was read.
+    Connected(Found),
+    /// The device has begun to track without having been asked to.
+    StartedByItself,
+    /// The link is back, and the device was read.
+    Back {
+        /// How long it was silent.
+        after: Duration,
+        /// What the device was found doing.
+        found: Found,
+    },
+    /// The gate did not let it through.
+    NotSent(Refusal),
+    /// The device said no; its code as it came.
+    Refused(Motion, String),
+    /// No answer to a motion, which is not sent again.
+    Unanswered(Motion),
+    /// A satellite cannot be tracked.
+    CannotTrack(TrackTarget, PrepareError),
+    /// The device tracks.
+    Tracking(TrackTarget),
+    /// The device has ended tracking by itself.
+    TrackingEnded {
+        /// At the end of the pass, not before.
+        completed: bool,
+    },
+    /// A motion to a position has arrived.
+    Arrived(AzEl),
+    /// A motion to a position ended elsewhere.
+    EndedShort {
+        /// Where it should have gone.
+        aim: AzEl,
+        /// Where it is.
+        at: AzEl,
+    },
+    /// The window did not renew a jog; it was stopped.
+    JogLeaseOver,
+    /// A jog was ended because the position grew too old.
+    JogPositionOld,
+    /// The antenna stands still after a stop.
+    Stopped,
+    /// It still moves three seconds after a stop.
+    StopNotConfirmed,
+    /// The device refused a stop; its code as it came.
+    StopRefused(String),
+    /// The antenna is stopped, but the device may start to track by itself.
+    AutoTrackStillOn,
+    /// The device did not switch its auto-track off.
+    AutoStaysOn,
+}
+
+/// What a device was found doing when its link came back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// It tracks.
+    Tracking,
+    /// It moves, and not by its tracking program.
+    Moving,
+    /// It stands still.
+    Still,
+}

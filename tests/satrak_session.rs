@@ -1,0 +1,27 @@
+//! The session of an antenna against a simulated Satrak, in paused time: what
+//! the operator is shown, and what the unit receives.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test may end here"
+)]
+
+mod satrak_session {
+    mod rig;
+    mod scene;
+    mod script;
+
+    mod connect;
+    mod doubt;
+    mod idle;
+    mod jog;
+    mod oddities;
+    mod overtaken;
+    mod position;
+    mod reconnect;
+    mod stop;
+    mod track;
+}

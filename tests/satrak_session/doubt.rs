@@ -1,0 +1,188 @@
+//! Replies that are late or lost: nothing is taken for something else, and no
+//! order is given twice.
+
+use azel::{
+    astro::Angle,
+    controller::Motion,
+    driver::{Command, Event, Intent},
+};
+
+use super::{
+    scene::iss,
+    script::{STILL, Scripted, plain},
+};
+
+/// A status with a moving X axis.
+const MOVING: &str = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,1,0,80.0,35.0,0";
+
+fn goto() -> Command {
+    Command::Position {
+        azimuth: Some(Angle::from_degrees(125.1)),
+        elevation: Some(Angle::from_degrees(32.6)),
+    }
+}
+
+/// A unit that loses the replies to `word` and reports `then` afterwards.
+fn swallowing(word: &'static str, then: &'static str) -> Scripted {
+    let mut is_swallowed = false;
+    Scripted::start(Box::new(move |payload| match payload {
+        order if order.starts_with(word) => {
+            is_swallowed = true;
+            Vec::new()
+        }
+        "STATUS?" if is_swallowed => vec![(10, then.to_owned())],
+        other => plain(other),
+    }))
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_goto_without_a_reply_that_moves_is_no_news() {
+    let mut unit = swallowing("GOTO=", MOVING);
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(goto()).unwrap();
+    unit.seconds(10.0).await;
+    assert_eq!(unit.sent("GOTO="), ["GOTO=,125.1,32.6"]);
+    assert_eq!(unit.events(), []);
+    let shown = unit.handle.snapshot();
+    assert_eq!((shown.intent, shown.pending), (Intent::Position, true));
+    assert_eq!(shown.state.traffic.unanswered, 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_goto_without_a_reply_that_does_not_move_is_told() {
+    let mut unit = swallowing("GOTO=", STILL);
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(goto()).unwrap();
+    unit.seconds(10.0).await;
+    assert_eq!(unit.sent("GOTO="), ["GOTO=,125.1,32.6"]);
+    let events = unit.events();
+    assert!(matches!(events[..], [Event::Unanswered(Motion::Position { .. })]), "{events:?}");
+    assert_eq!(unit.handle.snapshot().intent, Intent::Standby);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_step_without_a_reply_that_was_made_is_no_news() {
+    // Made within the time-out: it stands again, elsewhere.
+    let made = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,82.0,35.0,0";
+    let mut unit = swallowing("STEP=", made);
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(Command::Manual).unwrap();
+    unit.handle.send(Command::Step { steps_deg: [2.0, 0.0] }).unwrap();
+    unit.seconds(10.0).await;
+    assert_eq!(unit.sent("STEP="), ["STEP=,2,0"]);
+    assert_eq!(unit.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_step_without_a_reply_that_was_not_made_is_told() {
+    let mut unit = swallowing("STEP=", STILL);
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(Command::Manual).unwrap();
+    unit.handle.send(Command::Step { steps_deg: [2.0, 0.0] }).unwrap();
+    unit.seconds(10.0).await;
+    assert_eq!(unit.sent("STEP="), ["STEP=,2,0"]);
+    let step = Motion::Step { x_deg: 2.0, y_deg: 0.0 };
+    assert_eq!(unit.events(), [Event::Unanswered(step)]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_jog_without_a_reply_is_sent_once_and_stopped_when_the_position_is_old() {
+    let mut unit = swallowing("MOVE=", STILL);
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(Command::Manual).unwrap();
+    for _ in 0..9 {
+        unit.handle.send(Command::Jog { rates_deg_s: [1.0, 0.0] }).unwrap();
+        unit.seconds(0.1).await;
+    }
+    assert_eq!(unit.sent("MOVE="), ["MOVE=,1,0"]);
+    unit.handle.send(Command::Jog { rates_deg_s: [1.0, 0.0] }).unwrap();
+    unit.seconds(0.2).await;
+    assert_eq!(unit.sent("STOP=")[0], "STOP=");
+    assert_eq!(unit.events(), [Event::JogPositionOld]);
+    unit.seconds(5.0).await;
+    assert_eq!(unit.sent("MOVE=").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_setting_without_a_reply_is_not_sent_again() {
+    let mut unit = Scripted::start(Box::new(|payload| match payload {
+        "SATELLITE?" => vec![(10, "SATELLITE?,stations.txt,OTHER,1,7,50.0".to_owned())],
+        order if order.starts_with("SATELLITE=") => Vec::new(),
+        other => plain(other),
+    }));
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(Command::Track(iss())).unwrap();
+    unit.seconds(20.0).await;
+    assert_eq!(unit.sent("SATELLITE=").len(), 1);
+    assert_eq!(unit.sent("TRACK="), [""; 0]);
+    let events = unit.events();
+    assert!(matches!(events[..], [Event::CannotTrack(..)]), "{events:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_late_reply_is_not_taken_for_that_of_another_question() {
+    // The version comes so late that the question was given up twice.
+    let mut unit = Scripted::start(Box::new(|payload| match payload {
+        "VERSION?" => vec![(4300, "VERSION?,LATE,LATE".to_owned())],
+        other => plain(other),
+    }));
+    unit.seconds(4.2).await;
+    assert!(unit.handle.snapshot().state.measured.is_some());
+    unit.seconds(10.0).await;
+    let shown = unit.handle.snapshot();
+    assert!(shown.link.is_open(), "{:?}", shown.link);
+    assert_eq!(shown.state.satrak.version, None);
+    assert_eq!(shown.state.traffic.unsolicited, 2);
+    assert_eq!(shown.state.traffic.unreadable, 0);
+    let measured = shown.state.measured.unwrap();
+    assert!((measured.direction.azimuth_deg() - 299.49).abs() < 1e-9);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_late_refusal_of_a_goto_does_not_end_a_track_that_came_after() {
+    let mut unit = Scripted::start(Box::new(|payload| match payload {
+        order if order.starts_with("GOTO=") => vec![(2500, "GOTO=,ERR,9".to_owned())],
+        other => plain(other),
+    }));
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(goto()).unwrap();
+    unit.seconds(4.0).await;
+    let events = unit.events();
+    let refused = events.iter().any(|event| matches!(event, Event::Refused(..)));
+    assert!(!refused, "{events:?}");
+    assert_eq!(unit.handle.snapshot().state.traffic.unsolicited, 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_program_that_is_accepted_and_never_starts_is_told() {
+    let target = iss();
+    let window = {
+        let text = |time| {
+            let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
+            civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
+        };
+        format!("START_STOP_TIME?,{},{}", text(target.from), text(target.until))
+    };
+    let mut unit = Scripted::start(Box::new(move |payload| match payload {
+        "SATELLITE?" => vec![(10, "SATELLITE?,stations.txt,ISS (ZARYA),1,25544,50.0".to_owned())],
+        "START_STOP_TIME?" => vec![(10, window.clone())],
+        other => plain(other),
+    }));
+    unit.seconds(1.0).await;
+    unit.events();
+    unit.handle.send(Command::Track(target)).unwrap();
+    unit.seconds(14.0).await;
+    let shown = unit.handle.snapshot();
+    assert_eq!((shown.intent, shown.pending), (Intent::Track, true));
+    unit.seconds(3.0).await;
+    assert_eq!(unit.sent("TRACK="), ["TRACK=,1"]);
+    assert_eq!(unit.events(), [Event::TrackingEnded { completed: false }]);
+    assert_eq!(unit.handle.snapshot().intent, Intent::Standby);
+}

@@ -1,0 +1,167 @@
+//! Every way in which the simulated unit can be odd or go wrong.
+
+use std::collections::BTreeSet;
+
+use azel::{
+    astro::{Angle, AzEl},
+    driver::{Command, Event, LinkLoss, LinkState},
+    sim::satrak::{Fault, Options, Quirk},
+};
+
+use super::rig::{Rig, antenna, iss, options};
+
+const AIM_DEG: (f64, f64) = (100.0, 50.0);
+
+fn odd(quirks: &[Quirk], faults: &[Fault]) -> Options {
+    Options {
+        quirks: quirks.iter().copied().collect::<BTreeSet<_>>(),
+        faults: faults.iter().copied().collect::<BTreeSet<_>>(),
+        ..options()
+    }
+}
+
+/// Half a minute with such a unit, a motion to a position among it.
+async fn half_a_minute(quirks: &[Quirk], faults: &[Fault]) -> Rig {
+    let mut rig = Rig::start(&odd(quirks, faults), &antenna());
+    rig.until("position and faults", 20, |shown| {
+        shown.state.measured.is_some() && shown.state.motion_lock.is_some()
+    })
+    .await;
+    let (azimuth_deg, elevation_deg) = AIM_DEG;
+    rig.send(Command::Position {
+        azimuth: Some(Angle::from_degrees(azimuth_deg)),
+        elevation: Some(Angle::from_degrees(elevation_deg)),
+    });
+    rig.seconds(30.0).await;
+    rig
+}
+
+/// The antenna is where it was sent, by one command, and shown there.
+fn assert_arrived(rig: &mut Rig, what: &str) {
+    let (azimuth_deg, elevation_deg) = AIM_DEG;
+    let aim = AzEl::from_degrees(azimuth_deg, elevation_deg);
+    let events = rig.events();
+    assert!(
+        events.iter().any(|event| matches!(event, Event::Arrived(_))),
+        "{what}: {events:?} {:?}",
+        rig.shown()
+    );
+    let shown = rig.shown();
+    assert!(shown.link.is_open(), "{what}: {:?}", shown.link);
+    let measured = shown.state.measured.unwrap();
+    assert!(measured.direction.separation(aim).degrees() < 0.05, "{what}: {measured:?}");
+    assert_eq!(rig.sent("GOTO=").len(), 1, "{what}");
+    let lost = events.iter().any(|event| matches!(event, Event::LinkLost(_)));
+    assert!(!lost, "{what}: {events:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_oddity_of_the_firmware_is_taken_and_counted() {
+    for (quirk, name) in Quirk::ALL {
+        if quirk == Quirk::DecimalComma {
+            continue;
+        }
+        let mut rig = half_a_minute(&[quirk], &[]).await;
+        assert_arrived(&mut rig, name);
+        let traffic = rig.shown().state.traffic;
+        // The document itself prints a status without the comma.
+        assert_eq!(traffic.odd > 0, quirk != Quirk::NoComma, "{name}: {traffic:?}");
+        assert_eq!([traffic.damaged, traffic.unreadable, traffic.unanswered], [0; 3], "{name}");
+        let auto = rig.shown().state.program.unwrap().auto;
+        assert_eq!(auto.is_none(), quirk == Quirk::Fields15, "{name}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn all_harmless_oddities_together_are_taken() {
+    let quirks: Vec<Quirk> = Quirk::ALL
+        .into_iter()
+        .map(|(quirk, _)| quirk)
+        .filter(|quirk| *quirk != Quirk::DecimalComma)
+        .collect();
+    let faults = [Fault::Unsolicited, Fault::Garbage, Fault::Split];
+    let mut rig = half_a_minute(&quirks, &faults).await;
+    assert_arrived(&mut rig, "all");
+    rig.send(Command::Track(iss()));
+    rig.until_event(20, |event| matches!(event, Event::Tracking(_))).await;
+    rig.stop();
+    rig.until_event(4, |event| *event == Event::Stopped).await;
+    assert!(!rig.control.state().is_tracking);
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_fault_of_the_line_is_lived_with_and_counted() {
+    for (fault, name) in Fault::ALL {
+        if matches!(fault, Fault::Unit(_) | Fault::Silence) {
+            continue;
+        }
+        let mut rig = half_a_minute(&[], &[fault]).await;
+        assert_arrived(&mut rig, name);
+        let traffic = rig.shown().state.traffic;
+        assert!(traffic.replies > 15, "{name}: {traffic:?}");
+        assert_eq!(traffic.unsolicited > 0, fault == Fault::Unsolicited, "{name}: {traffic:?}");
+        let is_damaged = matches!(fault, Fault::Garbage | Fault::BadChecksum);
+        assert_eq!(traffic.damaged > 0, is_damaged, "{name}: {traffic:?}");
+        let is_lossy = matches!(fault, Fault::DropReply | Fault::BadChecksum);
+        assert_eq!(traffic.unanswered > 0, is_lossy, "{name}: {traffic:?}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_fault_of_the_unit_is_shown_and_the_dangerous_ones_forbid_motion() {
+    for (fault, name) in Fault::ALL {
+        let Fault::Unit(kind) = fault else { continue };
+        let mut rig = Rig::connected(&odd(&[], &[fault]), &antenna()).await;
+        let shown = rig.shown();
+        assert!(shown.state.satrak.fault_flag, "{name}");
+        let (faults, _) = shown.state.satrak.faults.as_ref().unwrap();
+        assert_eq!(faults.active().collect::<Vec<_>>(), [kind], "{name}");
+        rig.send(Command::Park);
+        rig.seconds(0.5).await;
+        let refused = rig.events().iter().any(|event| matches!(event, Event::NotSent(_)));
+        assert_eq!(Some(refused), shown.state.motion_lock, "{name}");
+        assert_eq!(rig.sent("GOTO=").is_empty(), shown.state.motion_lock == Some(true), "{name}");
+        rig.control.set_fault(fault, false);
+        rig.until("cleared", 3, |shown| {
+            let faults = shown.state.satrak.faults.as_ref();
+            faults.is_some_and(|(faults, _)| faults.active().next().is_none())
+        })
+        .await;
+        assert_eq!(rig.shown().state.motion_lock, Some(false), "{name}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn decimal_commas_never_become_a_position() {
+    let mut rig = Rig::start(&odd(&[Quirk::DecimalComma], &[]), &antenna());
+    for _ in 0..300 {
+        rig.seconds(0.1).await;
+        assert_eq!(rig.shown().state.measured, None);
+        assert_eq!(rig.shown().state.program, None);
+    }
+    assert!(rig.shown().state.traffic.unreadable > 5, "{:?}", rig.shown().state.traffic);
+    rig.events();
+    rig.send(Command::Park);
+    rig.seconds(0.1).await;
+    let events = rig.events();
+    assert!(events.iter().any(|event| matches!(event, Event::NotSent(_))), "{events:?}");
+    rig.stop();
+    rig.seconds(0.7).await;
+    assert!(!rig.sent("STOP=").is_empty(), "STOP goes out all the same");
+    assert!(rig.sent("GOTO=").is_empty());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_silent_unit_is_lost_and_tried_again() {
+    let mut rig = Rig::start(&odd(&[], &[Fault::Silence]), &antenna());
+    rig.seconds(30.0).await;
+    let shown = rig.shown();
+    assert_eq!(shown.state.measured, None);
+    assert_eq!(shown.state.traffic.replies, 0);
+    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Silent)], "told once");
+    assert!(rig.dials().len() >= 3);
+    rig.until("lost", 30, |shown| {
+        matches!(shown.link, LinkState::Lost { reason: LinkLoss::Silent, .. })
+    })
+    .await;
+}

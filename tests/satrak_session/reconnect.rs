@@ -1,0 +1,171 @@
+//! A link that goes away and comes back.
+
+use azel::{
+    astro::Angle,
+    controller::PrepareError,
+    driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, StopState},
+    sim::satrak::Fault,
+};
+
+use super::rig::{Rig, antenna, iss, options};
+
+async fn tracking() -> Rig {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    rig.seconds(100.0).await;
+    rig.events();
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_is_off_is_tried_again_less_and_less_often() {
+    let mut rig = Rig::usual().await;
+    let before = rig.dials().len();
+    rig.set_off(true);
+    rig.seconds(40.0).await;
+    let tries = rig.dials().split_off(before);
+    let waits: Vec<f64> =
+        tries.windows(2).map(|pair| pair[1].duration_since(pair[0]).as_secs_f64()).collect();
+    for (wait, wanted) in waits.iter().zip([1.0, 2.0, 4.0, 8.0, 8.0, 8.0]) {
+        assert!((wait - wanted).abs() < 0.01, "{waits:?}");
+    }
+    assert!(waits.len() >= 6, "{waits:?}");
+    let LinkState::Lost { retry_at, .. } = rig.shown().link else { panic!("{:?}", rig.shown()) };
+    assert!(retry_at > tokio::time::Instant::now().into_std());
+    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Closed)], "told once");
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_first_try_comes_after_half_a_second() {
+    let mut rig = Rig::usual().await;
+    rig.control.drop_clients();
+    let lost = tokio::time::Instant::now();
+    rig.seconds(1.0).await;
+    let wait = rig.dials()[1].duration_since(lost).as_secs_f64();
+    assert!((0.49..0.52).contains(&wait), "{wait}");
+    let back = rig.until_event(1, |event| matches!(event, Event::Back { .. })).await;
+    assert!(matches!(back, Event::Back { found: Found::Still, .. }), "{back:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn tracking_goes_on_without_the_link_and_is_found_again() {
+    let mut rig = tracking().await;
+    rig.set_off(true);
+    rig.seconds(20.0).await;
+    let shown = rig.shown();
+    assert!(matches!(shown.link, LinkState::Lost { .. }), "{:?}", shown.link);
+    assert_eq!((shown.intent, shown.target.clone()), (Intent::Track, Some(iss())));
+    let before = rig.orders().len();
+    rig.set_off(false);
+    let back = rig.until_event(9, |event| matches!(event, Event::Back { .. })).await;
+    let Event::Back { after, found } = back else { panic!("{back:?}") };
+    assert_eq!(found, Found::Tracking);
+    assert!((20.0..30.0).contains(&after.as_secs_f64()), "{after:?}");
+    rig.seconds(5.0).await;
+    let shown = rig.shown();
+    assert_eq!((shown.intent, shown.pending), (Intent::Track, false));
+    assert_eq!(rig.orders().len(), before, "nothing is sent that the unit does already");
+    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Closed)]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn tracking_that_ended_meanwhile_is_not_started_again() {
+    let mut rig = tracking().await;
+    rig.set_off(true);
+    rig.seconds(1500.0).await;
+    rig.set_off(false);
+    let back = rig.until_event(9, |event| matches!(event, Event::Back { .. })).await;
+    assert!(matches!(back, Event::Back { found: Found::Still, .. }), "{back:?}");
+    rig.seconds(5.0).await;
+    assert_eq!((rig.shown().intent, rig.shown().target.clone()), (Intent::Standby, None));
+    assert_eq!(rig.sent("TRACK=,1").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn commands_without_a_link_are_told_and_not_kept_for_later() {
+    let mut rig = Rig::usual().await;
+    rig.set_off(true);
+    rig.seconds(0.1).await;
+    rig.events();
+    rig.send(Command::Track(iss()));
+    rig.send(Command::Park);
+    rig.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
+    rig.seconds(0.1).await;
+    assert_eq!(rig.events(), vec![Event::NotSent(Refusal::PositionUnknown); 2]);
+    rig.set_off(false);
+    rig.until_up(3).await;
+    rig.seconds(5.0).await;
+    assert_eq!(rig.orders(), [""; 0]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn silence_is_stale_first_and_lost_after_five_and_a_half_seconds() {
+    let mut rig = Rig::usual().await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.until("stale", 2, |shown| matches!(shown.link, LinkState::Stale { .. })).await;
+    let last_reply = rig.shown().state.traffic.last_reply.unwrap();
+    rig.until("lost", 6, |shown| matches!(shown.link, LinkState::Lost { .. })).await;
+    let waited = tokio::time::Instant::now().into_std() - last_reply;
+    assert!((5.5..5.6).contains(&waited.as_secs_f64()), "{waited:?}");
+    assert!(rig.shown().state.traffic.unanswered >= 2);
+    rig.seconds(60.0).await;
+    rig.control.set_fault(Fault::Silence, false);
+    rig.until_up(20).await;
+    let back = rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+    let Event::Back { after, .. } = back else { panic!("{back:?}") };
+    assert!(after.as_secs() >= 60, "{after:?}");
+    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Silent)]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_never_says_a_word_is_lost_after_the_same_time() {
+    let mut rig = Rig::start(&options(), &antenna());
+    rig.control.set_fault(Fault::Silence, true);
+    rig.until("lost", 6, |shown| {
+        matches!(shown.link, LinkState::Lost { reason: LinkLoss::Silent, .. })
+    })
+    .await;
+    assert_eq!(rig.shown().state.measured, None);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_motion_to_a_position_is_watched_on_after_a_lost_link() {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Position {
+        azimuth: Some(Angle::from_degrees(90.0)),
+        elevation: Some(Angle::from_degrees(10.0)),
+    });
+    rig.seconds(2.0).await;
+    rig.control.drop_clients();
+    let back = rig.until_event(2, |event| matches!(event, Event::Back { .. })).await;
+    assert!(matches!(back, Event::Back { found: Found::Moving, .. }), "{back:?}");
+    assert_eq!((rig.shown().intent, rig.shown().pending), (Intent::Position, true));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["GOTO=,90,10"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_link_lost_while_a_track_is_prepared_ends_the_intent_with_the_reason() {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Track(iss()));
+    rig.seconds(0.05).await;
+    rig.control.drop_clients();
+    let told = rig.until_event(3, |event| matches!(event, Event::CannotTrack(..))).await;
+    assert_eq!(told, Event::CannotTrack(iss(), PrepareError::Unanswered));
+    rig.seconds(5.0).await;
+    assert_eq!((rig.shown().intent, rig.shown().target.clone()), (Intent::Standby, None));
+    assert_eq!(rig.sent("TRACK="), [""; 0]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_link_lost_soon_after_a_stop_shows_the_button_ready_in_its_time() {
+    let mut rig = Rig::usual().await;
+    rig.stop();
+    rig.until_event(2, |event| *event == Event::Stopped).await;
+    rig.set_off(true);
+    rig.seconds(5.0).await;
+    assert!(matches!(rig.shown().stop, StopState::Stopped { .. }));
+    rig.seconds(15.0).await;
+    assert_eq!(rig.shown().stop, StopState::Ready);
+}

@@ -1,0 +1,100 @@
+//! Who takes part: the site, a pass, the unit and the antenna.
+
+use std::{
+    collections::BTreeMap,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use azel::{
+    astro::{Angle, Site, time},
+    controller::{TrackTarget, satrak::Satrak},
+    driver::{AntennaHandle, Clock, Dial, Session},
+    orbit::{Elements, Pass, Propagator, passes, read_elements},
+    sim::satrak::Options,
+    station::Antenna,
+};
+use jiff::Timestamp;
+use tokio::time::Instant;
+
+/// The space station in 2008, a published example, and the same orbit under
+/// another name and number.
+const ELEMENTS: &str = "ISS (ZARYA)
+1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
+2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
+TWIN
+1 25545U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2928
+2 25545  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563538
+";
+/// No test needs more readings of the clock than this.
+const MOST_READINGS: u64 = 2_000_000;
+/// The element file on the unit.
+pub(super) const FILE: &str = "stations.txt";
+
+pub(super) fn site() -> Site {
+    Site::new(41.01, 29.17, 100.0).unwrap()
+}
+
+fn elements() -> Vec<Elements> {
+    read_elements(ELEMENTS).elements
+}
+
+/// A pass high enough to be worth tracking.
+pub(super) fn pass() -> Pass {
+    let iss = &elements()[0];
+    let propagator = Propagator::new(iss).unwrap();
+    let from = iss.epoch();
+    let to = time::add_seconds(from, 3.0 * time::DAY_S);
+    passes(&propagator, site(), from, to, Angle::from_degrees(10.0), &|| false)
+        .into_iter()
+        .find(|pass| pass.max_elevation().degrees() > 40.0)
+        .unwrap()
+}
+
+/// The space station for the whole of [`pass`].
+pub(super) fn iss() -> TrackTarget {
+    let pass = pass();
+    TrackTarget {
+        catalog_number: 25_544,
+        name: "ISS (ZARYA)".into(),
+        from: pass.aos.time,
+        until: pass.los.time,
+    }
+}
+
+/// The other satellite on the same orbit.
+pub(super) fn twin() -> TrackTarget {
+    TrackTarget { catalog_number: 25_545, name: "TWIN".into(), ..iss() }
+}
+
+/// A well-behaved unit a minute and a half before [`pass`].
+pub(super) fn options() -> Options {
+    Options {
+        elements: BTreeMap::from([(FILE.to_owned(), elements())]),
+        ..Options::new(site(), time::add_seconds(pass().aos.time, -90.0))
+    }
+}
+
+pub(super) fn antenna() -> Antenna {
+    Antenna::satrak("Dish", "in memory")
+}
+
+/// The session of `antenna` over links from `dial`, and its near end. Each turn
+/// of its loop reads the clock, which is counted in `readings`.
+pub(super) fn session(
+    antenna: &Antenna,
+    dial: Dial,
+    utc_origin: Timestamp,
+    readings: Arc<AtomicU64>,
+) -> (Session, AntennaHandle) {
+    let started = Instant::now();
+    let clock = Clock::new(move || {
+        // In paused time a loop that never sleeps would go on for ever.
+        assert!(readings.fetch_add(1, Ordering::Relaxed) < MOST_READINGS, "a busy loop");
+        time::add_seconds(utc_origin, started.elapsed().as_secs_f64())
+    });
+    let satrak = Satrak::new(antenna.poll, FILE.to_owned());
+    Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))
+}

@@ -1,0 +1,103 @@
+//! A peer that answers as a test tells it, where the simulated unit cannot.
+
+use std::{
+    sync::{Arc, Mutex},
+    time::Duration,
+};
+
+use azel::{
+    driver::{AntennaHandle, Dial, Event, Stream},
+    protocol::satrak::{Decoder, encode},
+};
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::{Instant, sleep},
+};
+
+use super::scene::{antenna, options, session};
+
+/// A status of a unit that stands still.
+pub(super) const STILL: &str = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,80.0,35.0,0";
+
+/// What a script says to a payload: replies, each after a delay.
+pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, String)> + Send>;
+
+/// A session with a scripted peer.
+pub(super) struct Scripted {
+    pub(super) handle: AntennaHandle,
+    received: Arc<Mutex<Vec<String>>>,
+    events: Vec<Event>,
+}
+
+impl Scripted {
+    pub(super) fn start(script: Script) -> Self {
+        let (near, far) = tokio::io::duplex(4096);
+        let received = Arc::new(Mutex::new(Vec::new()));
+        tokio::spawn(serve(far, script, Arc::clone(&received)));
+        let mut near = Some(near);
+        let dial: Dial = Box::new(move || {
+            let near = near.take();
+            Box::pin(async move {
+                let near = near.ok_or(std::io::ErrorKind::ConnectionRefused)?;
+                Ok(Box::new(near) as Box<dyn Stream>)
+            })
+        });
+        let (session, handle) = session(&antenna(), dial, options().utc_origin, Arc::default());
+        tokio::spawn(session.run());
+        Self { handle, received, events: Vec::new() }
+    }
+
+    pub(super) async fn seconds(&mut self, seconds: f64) {
+        let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+        while Instant::now() < end {
+            sleep(Duration::from_millis(10)).await;
+            self.events.extend(std::iter::from_fn(|| self.handle.next_event()));
+        }
+    }
+
+    pub(super) fn events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    pub(super) fn sent(&self, word: &str) -> Vec<String> {
+        let received = self.received.lock().unwrap();
+        received.iter().filter(|payload| payload.starts_with(word)).cloned().collect()
+    }
+}
+
+async fn serve(far: DuplexStream, mut script: Script, received: Arc<Mutex<Vec<String>>>) {
+    let (mut reader, writer) = tokio::io::split(far);
+    let writer = Arc::new(tokio::sync::Mutex::new(writer));
+    let mut decoder = Decoder::new();
+    let mut buffer = [0; 1024];
+    loop {
+        match reader.read(&mut buffer).await {
+            Ok(count) if count > 0 => decoder.push(&buffer[..count]),
+            _ => return,
+        }
+        for frame in decoder.by_ref().flatten() {
+            let payload = frame.redacted().into_owned();
+            received.lock().unwrap().push(payload.clone());
+            for (delay_ms, reply) in script(&payload) {
+                let writer = Arc::clone(&writer);
+                tokio::spawn(async move {
+                    sleep(Duration::from_millis(delay_ms)).await;
+                    // The session may be gone by then.
+                    let _ = writer.lock().await.write_all(&encode(&reply)).await;
+                });
+            }
+        }
+    }
+}
+
+/// What a plain unit answers after 10 ms to what the script leaves alone.
+pub(super) fn plain(payload: &str) -> Vec<(u64, String)> {
+    let reply = match payload {
+        "STATUS?" => STILL.to_owned(),
+        "VERSION?" => "VERSION?,CU,DU".to_owned(),
+        "ERRSTATUS?" => "ERRSTATUS?,0,0,0,0,0,0,0,0,0,0,0,0".to_owned(),
+        question if question.ends_with('?') => format!("{question},ERR,1"),
+        order => format!("{}=,OK", order.split('=').next().unwrap_or_default()),
+    };
+    vec![(10, reply)]
+}

@@ -1,0 +1,175 @@
+//! STOP: past everything, never refused, and not over before it is proved.
+
+use azel::{
+    astro::Angle,
+    driver::{Command, Event, Intent, LinkState, StopState},
+    sim::satrak::Fault,
+};
+
+use super::rig::{Rig, iss};
+
+fn position(azimuth_deg: f64, elevation_deg: f64) -> Command {
+    Command::Position {
+        azimuth: Some(Angle::from_degrees(azimuth_deg)),
+        elevation: Some(Angle::from_degrees(elevation_deg)),
+    }
+}
+
+fn is_stopping(stop: StopState) -> bool {
+    matches!(stop, StopState::Stopping { .. })
+}
+
+async fn tracking() -> Rig {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    rig.seconds(100.0).await;
+    assert!(rig.control.state().is_moving && rig.control.state().is_tracking);
+    rig.events();
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_in_a_goto_is_sent_at_once_and_shown_until_proved() {
+    let mut rig = Rig::usual().await;
+    rig.send(position(90.0, 30.0));
+    rig.seconds(3.0).await;
+    assert!(rig.shown().pending && rig.shown().aim.is_some());
+    let pressed = tokio::time::Instant::now();
+    rig.stop();
+    rig.seconds(0.02).await;
+    assert_eq!(rig.orders(), ["GOTO=,90,30", "STOP=", "TRACK=,0"]);
+    assert_eq!(rig.times("STOP=")[0], pressed);
+    let shown = rig.shown();
+    assert!(is_stopping(shown.stop));
+    assert_eq!((shown.intent, shown.pending, shown.aim), (Intent::Standby, false, None));
+
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    assert!(!rig.control.state().is_moving);
+    assert_eq!(rig.events(), [Event::Stopped]);
+    rig.until("the button is ready", 11, |shown| shown.stop == StopState::Ready).await;
+    assert_eq!(rig.sent("GOTO=").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_at_rest_is_sent_and_proved_too() {
+    let mut rig = Rig::usual().await;
+    rig.stop();
+    rig.until("stopped", 1, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    assert_eq!(rig.orders(), ["STOP=", "TRACK=,0"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_ends_tracking_for_good() {
+    let mut rig = tracking().await;
+    let before = rig.orders().len();
+    rig.stop();
+    rig.seconds(0.02).await;
+    assert_eq!(rig.orders()[before..], ["STOP=", "TRACK=,0"]);
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.seconds(30.0).await;
+    assert!(!rig.control.state().is_moving && !rig.control.state().is_tracking);
+    let shown = rig.shown();
+    assert_eq!((shown.intent, shown.target.clone()), (Intent::Standby, None));
+    assert_eq!(rig.events(), [Event::Stopped]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_while_a_track_is_prepared_ends_the_preparation() {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Track(iss()));
+    rig.seconds(0.05).await;
+    rig.stop();
+    rig.seconds(20.0).await;
+    assert_eq!(rig.sent("TRACK=,1"), [""; 0]);
+    assert_eq!(rig.events(), [Event::Stopped]);
+    assert_eq!(rig.shown().intent, Intent::Standby);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_overtakes_a_peer_that_owes_a_reply() {
+    let mut rig = Rig::usual().await;
+    rig.send(position(90.0, 30.0));
+    rig.seconds(3.0).await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.seconds(0.7).await;
+    let pressed = tokio::time::Instant::now();
+    rig.stop();
+    rig.seconds(0.02).await;
+    assert_eq!(rig.times("STOP="), [pressed], "not after the reply that is owed");
+    rig.seconds(2.0).await;
+    assert!(!rig.control.state().is_moving);
+    assert!(is_stopping(rig.shown().stop), "it stands, but that is not known");
+    rig.until_event(2, |event| *event == Event::StopNotConfirmed).await;
+    let since = pressed.into_std();
+    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
+    let waited = pressed.elapsed().as_secs_f64();
+    assert!((3.0..3.1).contains(&waited), "{waited}");
+    assert!(rig.sent("STOP=").len() >= 3, "a stop is repeated until proved");
+
+    rig.control.set_fault(Fault::Silence, false);
+    rig.until("stopped", 20, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.seconds(0.1).await;
+    assert!(rig.events().contains(&Event::Stopped));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_with_auto_track_on_warns_of_it() {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::AutoTrack(true));
+    rig.until("auto", 2, |shown| {
+        shown.state.program.is_some_and(|program| program.auto == Some(true))
+    })
+    .await;
+    rig.stop();
+    rig.until_event(1, |event| *event == Event::AutoTrackStillOn).await;
+    rig.until_event(3, |event| *event == Event::Stopped).await;
+    assert_eq!(rig.orders(), ["TRACK_AUTO_ENABLE=,1", "STOP=", "TRACK=,0"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_without_a_link_is_the_first_thing_sent_when_it_is_back() {
+    let mut rig = Rig::usual().await;
+    rig.send(position(90.0, 10.0));
+    rig.seconds(2.0).await;
+    rig.set_off(true);
+    rig.until("lost", 1, |shown| matches!(shown.link, LinkState::Lost { .. })).await;
+    let before = rig.payloads().len();
+    rig.stop();
+    rig.seconds(0.02).await;
+    assert!(is_stopping(rig.shown().stop));
+    rig.until_event(4, |event| *event == Event::StopNotConfirmed).await;
+    assert!(rig.control.state().is_moving, "the unit heard nothing");
+    rig.set_off(false);
+    rig.until_up(9).await;
+    rig.seconds(0.05).await;
+    assert_eq!(rig.payloads()[before], "STOP=");
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    assert!(!rig.control.state().is_moving);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_that_is_pressed_again_and_again_is_sent_each_time() {
+    let mut rig = tracking().await;
+    for _ in 0..5 {
+        rig.stop();
+        rig.seconds(0.1).await;
+    }
+    assert_eq!(rig.sent("STOP=").len(), 5);
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    assert!(!rig.control.state().is_moving);
+}
+
+#[tokio::test(start_paused = true)]
+async fn pressing_again_does_not_put_off_the_warning() {
+    let mut rig = Rig::usual().await;
+    rig.control.set_fault(Fault::Silence, true);
+    let pressed = tokio::time::Instant::now();
+    for _ in 0..8 {
+        rig.stop();
+        rig.seconds(0.5).await;
+    }
+    assert!(rig.events().contains(&Event::StopNotConfirmed));
+    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since: pressed.into_std() });
+    assert!(rig.sent("STOP=").len() >= 8);
+}
