@@ -1,5 +1,27 @@
 //! Views and widgets: they draw and queue commands, nothing else.
 
+pub mod antenna_card;
+pub mod banner;
+pub mod bar;
+pub mod confirm;
+pub mod format;
+pub mod icons;
+pub mod keys;
+pub mod operate;
+pub mod pass_header;
+pub mod pass_list;
+pub mod preferences;
+pub mod profile;
+pub mod rail;
+pub mod sky_plot;
+pub mod state_sentence;
 pub mod text;
 pub mod theme;
+pub mod timeline;
 pub mod tokens;
+pub mod top_bar;
+mod views;
+pub mod widgets;
+pub mod words;
+
+pub use views::Views;

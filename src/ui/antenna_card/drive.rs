@@ -1,0 +1,171 @@
+//! Jog keys beside the go-to fields, and why one of them is refused.
+
+use egui::{Align2, Color32, Rect, Ui, pos2};
+
+use super::{CardAction, Cursor};
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+    widgets::{
+        go_to::{self, GoToAction, GoToModel, GoToState},
+        jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
+        paint, rate_slider,
+    },
+};
+
+/// Rate of the first jog, in degrees per second.
+const FIRST_RATE_DEG_S: f64 = 0.5;
+
+/// What moving by hand needs to know.
+#[derive(Debug, Clone, Copy)]
+pub struct DriveModel<'a> {
+    /// Names of the jog keys.
+    pub keys: JogKeys,
+    /// Why jogging is refused now.
+    pub jog_locked: Option<&'a str>,
+    /// Directions in which a limit stops the antenna.
+    pub blocked: &'a [JogDirection],
+    /// The measured rate of the axis that moves, in degrees per second.
+    pub real_deg_s: Option<f64>,
+    /// The most that the unit does, in degrees per second.
+    pub most_deg_s: f64,
+    /// Why going to a direction is refused now.
+    pub go_to_locked: Option<&'a str>,
+    /// Azimuths that are taken, in degrees.
+    pub azimuth_range_deg: (f64, f64),
+    /// Elevations that are taken, in degrees; none for a rotator with one axis.
+    pub elevation_range_deg: Option<(f64, f64)>,
+    /// Where the antenna was told to be, in degrees.
+    pub commanded_deg: (Option<f64>, Option<f64>),
+    /// Why the last direction was not sent.
+    pub go_to_refusal: Option<&'a str>,
+    /// What the preview found: time to arrive, limits that are touched.
+    pub go_to_note: Option<&'a str>,
+}
+
+/// What the operator holds and typed.
+#[derive(Debug, Clone)]
+pub struct DriveState {
+    /// Wanted jog rate, in degrees per second.
+    pub rate_deg_s: f64,
+    /// The go-to fields.
+    pub go_to: GoToState,
+    jog: JogState,
+    jogging: bool,
+}
+
+impl DriveState {
+    /// Lets go of the jog key. Returns true if one was held.
+    pub(super) fn let_go(&mut self) -> bool {
+        self.jog = JogState::default();
+        std::mem::take(&mut self.jogging)
+    }
+}
+
+impl Default for DriveState {
+    fn default() -> Self {
+        Self {
+            rate_deg_s: FIRST_RATE_DEG_S,
+            go_to: GoToState::default(),
+            jog: JogState::default(),
+            jogging: false,
+        }
+    }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    at: &mut Cursor,
+    model: &DriveModel<'_>,
+    state: &mut DriveState,
+    actions: &mut Vec<CardAction>,
+    short: bool,
+) {
+    let t = theme::tokens(ui);
+    if !short {
+        let head = at.take(20.0);
+        let words = "Jog, hold to move";
+        paint::text(ui, head.left_top(), Align2::LEFT_TOP, words, text::caption(), t.t3);
+        paint::text(ui, head.right_top(), Align2::RIGHT_TOP, "Go to", text::caption(), t.t3);
+    }
+    let side = if short { 120.0 } else { 136.0 };
+    let area = at.take(side);
+    jog(ui, area.with_max_x(area.left() + side), model, state, actions);
+
+    let column = area.with_min_x(area.left() + side + if short { 16.0 } else { 20.0 });
+    let rate = column.with_max_y(column.top() + 22.0);
+    let locked = model.jog_locked.is_some();
+    rate_slider::show(ui, rate, model.most_deg_s, locked, &mut state.rate_deg_s);
+    let height = if short { go_to::SMALL_HEIGHT } else { go_to::HEIGHT };
+    let fields = column.with_min_y(column.bottom() - height);
+    let go_to_model = GoToModel {
+        locked: model.go_to_locked.is_some(),
+        azimuth_range_deg: model.azimuth_range_deg,
+        elevation_range_deg: model.elevation_range_deg,
+        commanded_deg: model.commanded_deg,
+    };
+    let asked = go_to::show(ui, fields, &go_to_model, &mut state.go_to);
+    actions.extend(asked.map(|action| match action {
+        GoToAction::Preview(target) => CardAction::PreviewGoTo(target),
+        GoToAction::Send(target) => CardAction::GoTo(target),
+    }));
+    at.skip(6.0);
+    messages(ui, at, model, state);
+}
+
+fn jog(
+    ui: &Ui,
+    pad: Rect,
+    model: &DriveModel<'_>,
+    state: &mut DriveState,
+    actions: &mut Vec<CardAction>,
+) {
+    let jog_model = JogModel {
+        keys: model.keys,
+        locked: model.jog_locked.is_some(),
+        blocked: model.blocked,
+        asked_deg_s: state.rate_deg_s.min(model.most_deg_s),
+        real_deg_s: model.real_deg_s,
+    };
+    let held = jog_pad::show(ui, pad, &jog_model, &mut state.jog);
+    let steps = jog_pad::rate_steps(ui, state.jog);
+    if steps != 0 {
+        state.rate_deg_s = rate_slider::stepped(state.rate_deg_s, steps, model.most_deg_s);
+    }
+    if let Some(direction) = held {
+        let (x, y) = direction.signs();
+        let rate_deg_s = state.rate_deg_s.min(model.most_deg_s);
+        actions.push(CardAction::Jog { x, y, rate_deg_s });
+    } else if state.jogging {
+        actions.push(CardAction::JogReleased);
+    }
+    state.jogging = held.is_some();
+}
+
+/// Says why something is refused, below the controls that it is about. Two
+/// lines are kept free, so that nothing moves when a sentence comes.
+fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
+    const TWO_LINES: f32 = 32.0;
+    let t = theme::tokens(ui);
+    let end = at.y + TWO_LINES;
+    let refusal = state.go_to.refusal().or(model.go_to_refusal);
+    let lock = model.jog_locked;
+    let other_lock = model.go_to_locked.filter(|reason| Some(*reason) != lock);
+    let found: [(Option<&str>, Icon, Color32, Color32); 4] = [
+        (refusal, Icon::Warning, t.bad, t.bad),
+        (lock, Icon::Lock, t.t2, t.t2),
+        (other_lock, Icon::Lock, t.t2, t.t2),
+        (model.go_to_note.filter(|_| refusal.is_none()), Icon::Info, t.cmd, t.t1),
+    ];
+    for (index, (words, icon, mark, colour)) in found.into_iter().enumerate() {
+        let Some(words) = words else { continue };
+        let glyph = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
+        icons::paint(ui.painter(), glyph, icon, mark);
+        let start = pos2(at.left + 20.0, at.y);
+        let width = at.width() - 20.0;
+        let taken = paint::paragraph(ui, start, width, words, text::small(), colour);
+        paint::name_text(ui, ("message", index), taken, words);
+        at.y = taken.bottom() + 1.0;
+    }
+    at.y = at.y.max(end);
+}

@@ -1,0 +1,214 @@
+//! Checks of a unit: one line, and a list with what to do.
+
+use egui::{Align2, Color32, Popup, PopupCloseBehavior, Rect, Sense, Ui, pos2, vec2};
+
+use super::{Cursor, verdict_icon};
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    tokens::Tokens,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        paint,
+    },
+};
+
+const LIST_WIDTH: f32 = 340.0;
+const DETAILS_WIDTH: f32 = 58.0;
+
+/// What a check found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CheckState {
+    /// As it should be.
+    Good,
+    /// Works, but has to be looked after.
+    Caution,
+    /// Does not work.
+    Fault,
+    /// The unit did not say.
+    Unknown,
+}
+
+impl CheckState {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Caution => "caution",
+            Self::Fault => "fault",
+            Self::Unknown => "not known",
+        }
+    }
+
+    fn colour(self, t: &Tokens) -> Color32 {
+        match self {
+            Self::Good => t.ok,
+            Self::Caution => t.warn,
+            Self::Fault => t.bad,
+            Self::Unknown => t.t3,
+        }
+    }
+}
+
+/// One check.
+#[derive(Debug, Clone, Copy)]
+pub struct CheckRow<'a> {
+    /// What is checked.
+    pub name: &'a str,
+    /// What was found.
+    pub state: CheckState,
+    /// What to do when it is not good.
+    pub advice: &'a str,
+}
+
+/// All checks of a unit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FaultsModel<'a> {
+    /// In the order of the list.
+    pub checks: &'a [CheckRow<'a>],
+    /// When the unit last reported them, as it is shown.
+    pub checked_at: &'a str,
+}
+
+impl FaultsModel<'_> {
+    fn count(&self, state: CheckState) -> usize {
+        self.checks.iter().filter(|check| check.state == state).count()
+    }
+
+    /// The worst finding. A fault weighs most; not knowing weighs more than good.
+    fn worst(&self) -> CheckState {
+        [CheckState::Fault, CheckState::Caution, CheckState::Unknown]
+            .into_iter()
+            .find(|state| self.count(*state) > 0)
+            .unwrap_or(if self.checks.is_empty() { CheckState::Unknown } else { CheckState::Good })
+    }
+
+    /// The finding in a few words, and the sentence below it.
+    fn summary(&self) -> (String, String) {
+        let (all, worst) = (self.checks.len(), self.worst());
+        let named = || {
+            let rows = self.checks.iter().filter(|check| check.state == worst);
+            rows.map(|check| check.name).collect::<Vec<_>>().join(", ")
+        };
+        let at = if self.checked_at.is_empty() {
+            String::new()
+        } else {
+            format!(", {}", self.checked_at)
+        };
+        match (worst, self.count(worst)) {
+            (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks good{at}")),
+            (CheckState::Unknown, 0) => ("Not known".into(), "The unit reports no checks".into()),
+            (CheckState::Unknown, count) => {
+                ("Not known".into(), format!("{count} of {all} checks have no answer{at}"))
+            }
+            (CheckState::Caution, 1) => ("1 caution".into(), named()),
+            (CheckState::Caution, count) => (format!("{count} cautions"), named()),
+            (CheckState::Fault, 1) => ("1 fault".into(), named()),
+            (CheckState::Fault, count) => (format!("{count} faults"), named()),
+        }
+    }
+}
+
+/// The finding for the folded line.
+pub(super) fn in_words(ui: &Ui, model: &FaultsModel<'_>) -> (String, (Icon, Color32)) {
+    let worst = model.worst();
+    let (good, all) = (model.count(CheckState::Good), model.checks.len());
+    let words = match worst {
+        CheckState::Good => format!("none, {good} of {all}"),
+        CheckState::Unknown => "not known".to_owned(),
+        CheckState::Caution | CheckState::Fault => {
+            let (first, named) = model.summary();
+            format!("{first}: {named}")
+        }
+    };
+    (words, (verdict_icon(worst), worst.colour(theme::tokens(ui))))
+}
+
+/// Shows the line with its button.
+pub(super) fn show(ui: &Ui, at: &mut Cursor, card: Rect, model: &FaultsModel<'_>) {
+    let t = theme::tokens(ui);
+    let row = at.take(47.0);
+    for y in [row.top(), row.bottom()] {
+        ui.painter().hline(card.x_range(), y, (1.0, t.line));
+    }
+    let worst = model.worst();
+    let colour = worst.colour(t);
+    let glyph = paint::square(pos2(row.left() + 9.0, row.center().y), 18.0);
+    icons::paint(ui.painter(), glyph, verdict_icon(worst), colour);
+    let button = Button::normal("Details");
+    let min = pos2(row.right() - DETAILS_WIDTH, row.center().y - SMALL_HEIGHT / 2.0);
+    let place = Rect::from_min_size(min, vec2(DETAILS_WIDTH, SMALL_HEIGHT));
+    let room = row.with_min_x(row.left() + 26.0).with_max_x(place.left() - 8.0);
+    let (first, second) = model.summary();
+    let ink = if worst == CheckState::Good { t.t1 } else { colour };
+    let up = room.translate(vec2(0.0, -8.0));
+    paint::text_in(ui, up, Align2::LEFT_CENTER, &first, text::body_medium(), ink);
+    let down = room.translate(vec2(0.0, 9.0));
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &second, text::small(), t.t2);
+    paint::name_text(ui, "faults", room, &format!("{first}. {second}."));
+    let response = button.show(ui, "fault details", place).accessible_name("Details of the checks");
+    Popup::from_toggle_button_response(&response)
+        .width(LIST_WIDTH)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .accessible_name("Checks")
+        .show(|ui| list(ui, model));
+}
+
+fn list(ui: &mut Ui, model: &FaultsModel<'_>) {
+    let t = theme::tokens(ui);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    if model.checks.is_empty() {
+        ui.label("The unit reports no checks.");
+    }
+    for (index, check) in model.checks.iter().enumerate() {
+        let advice = Some(check.advice)
+            .filter(|advice| check.state != CheckState::Good && !advice.is_empty());
+        let galley = advice.map(|advice| {
+            ui.painter().layout(advice.to_owned(), text::small(), t.t2, LIST_WIDTH - 32.0)
+        });
+        let extra = galley.as_ref().map_or(0.0, |galley| galley.size().y + 4.0);
+        let size = vec2(LIST_WIDTH, 26.0 + extra);
+        let (row, _) = ui.allocate_exact_size(size, Sense::hover());
+        if index > 0 {
+            ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
+        }
+        let y = row.top() + 13.0;
+        let colour = check.state.colour(t);
+        let glyph = paint::square(pos2(row.left() + 10.0, y), 14.0);
+        icons::paint(ui.painter(), glyph, verdict_icon(check.state), colour);
+        let at = pos2(row.left() + 26.0, y);
+        paint::text(ui, at, Align2::LEFT_CENTER, check.name, text::body_medium(), t.t1);
+        let at = pos2(row.right() - 4.0, y);
+        let font = text::sized(12.0, Weight::Medium);
+        paint::text(ui, at, Align2::RIGHT_CENTER, check.state.word(), font, colour);
+        if let Some(galley) = galley {
+            ui.painter().galley(pos2(row.left() + 26.0, row.top() + 24.0), galley, t.t2);
+        }
+        let said = advice.unwrap_or_default();
+        let name = format!("{}: {}. {said}", check.name, check.state.word());
+        paint::name_text(ui, ("check", check.name), row, name.trim_end());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(name: &'static str, state: CheckState) -> CheckRow<'static> {
+        CheckRow { name, state, advice: "" }
+    }
+
+    #[test]
+    fn the_worst_finding_names_the_line() {
+        let good = check("Power", CheckState::Good);
+        let fault = check("Drive X", CheckState::Fault);
+        let unknown = check("Clock", CheckState::Unknown);
+        let of =
+            |checks: &[CheckRow<'_>]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
+        assert_eq!(of(&[good, good]), ("No faults".into(), "All 2 checks good, 11:06:08Z".into()));
+        assert_eq!(of(&[good, unknown, fault]), ("1 fault".into(), "Drive X".into()));
+        let silent = ("Not known".into(), "1 of 2 checks have no answer, 11:06:08Z".into());
+        assert_eq!(of(&[good, unknown]), silent);
+        assert_eq!(of(&[]).0, "Not known");
+    }
+}

@@ -1,0 +1,148 @@
+//! What the unit tracks, what it could track, and the questions before it
+//! parks.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{CardAction, Cursor};
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+    widgets::{
+        button::{self, Button},
+        hold_button::{self, HoldState},
+        mode_selector::Mode,
+        paint,
+    },
+};
+
+/// Satellites of a unit that can track.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct TrackModel<'a> {
+    /// The satellite whose elements the unit holds.
+    pub held: Option<&'a str>,
+    /// The satellite that is selected in the window.
+    pub selected: Option<&'a str>,
+    /// The unit tracks the selected satellite now.
+    pub tracks_selected: bool,
+    /// Why the selected satellite cannot be tracked.
+    pub refusal: Option<&'a str>,
+    /// Whether the unit starts passes by itself; none if it cannot.
+    pub auto_track: Option<bool>,
+}
+
+/// Questions that are open.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct TrackState {
+    parking: bool,
+    hold: HoldState,
+}
+
+/// A mode goes out at once, except for Park, which has to be held.
+pub(super) fn mode_clicked(mode: Mode, state: &mut TrackState, actions: &mut Vec<CardAction>) {
+    state.parking = mode == Mode::Park;
+    state.hold = HoldState::default();
+    if mode != Mode::Park {
+        actions.push(CardAction::SetMode(mode));
+    }
+}
+
+pub(super) fn show(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: Option<&TrackModel<'_>>,
+    state: &mut TrackState,
+    actions: &mut Vec<CardAction>,
+) {
+    if state.parking {
+        at.skip(8.0);
+        park_row(ui, at.take(button::HEIGHT), state, actions);
+    }
+    let Some(model) = model else { return };
+    at.skip(8.0);
+    satellite_row(ui, at.take(button::HEIGHT), model, actions);
+    if let Some(refusal) = model.refusal {
+        refusal_row(ui, at, refusal);
+    }
+    if let Some(on) = model.auto_track {
+        at.skip(4.0);
+        auto_track_row(ui, at.take(button::SMALL_HEIGHT), on, actions);
+    }
+}
+
+fn park_row(ui: &Ui, row: Rect, state: &mut TrackState, actions: &mut Vec<CardAction>) {
+    let cancel = Button::quiet("Cancel");
+    let split = row.right() - cancel.width(ui);
+    let hold = row.with_max_x(split - 8.0);
+    if hold_button::show(ui, hold, "Hold 1 s to park", &mut state.hold) {
+        actions.push(CardAction::SetMode(Mode::Park));
+        *state = TrackState::default();
+    }
+    if cancel.show(ui, "cancel park", row.with_min_x(split)).clicked() {
+        *state = TrackState::default();
+    }
+}
+
+/// Left what the unit holds, right what is selected or the button to track it.
+fn satellite_row(ui: &Ui, row: Rect, model: &TrackModel<'_>, actions: &mut Vec<CardAction>) {
+    let held = row.with_max_x(row.left() + 0.45 * row.width() - 8.0);
+    two_lines(
+        ui,
+        "held",
+        held,
+        Align2::LEFT_CENTER,
+        "The unit holds",
+        model.held.unwrap_or("none"),
+    );
+    let rest = row.with_min_x(held.right() + 8.0);
+    let Some(selected) = model.selected.filter(|_| !model.tracks_selected) else {
+        let name = model.selected.unwrap_or("none");
+        let head = if model.selected.is_some() { "Selected, is tracked" } else { "Selected" };
+        two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
+        return;
+    };
+    let words = format!("Track {selected}");
+    let button = Button::primary(&words).locked(model.refusal.is_some());
+    let width = button.width(ui).min(rest.width());
+    let response = button.show(ui, "track", row.with_min_x(row.right() - width));
+    if response.on_hover_text(selected).clicked() {
+        actions.push(CardAction::TrackSelected);
+    }
+}
+
+/// A small head over a name.
+fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: &str) {
+    let t = theme::tokens(ui);
+    let up = room.translate(vec2(0.0, -8.0));
+    paint::text_in(ui, up, anchor, head, text::caption(), t.t3);
+    let down = room.translate(vec2(0.0, 8.0));
+    paint::text_in(ui, down, anchor, name, text::body_medium(), t.t1);
+    paint::name_text(ui, salt, room, &format!("{head}: {name}")).on_hover_text(name);
+}
+
+/// Says why the selected satellite cannot be tracked.
+fn refusal_row(ui: &Ui, at: &mut Cursor, refusal: &str) {
+    let t = theme::tokens(ui);
+    let start = at.at() + vec2(20.0, 2.0);
+    let taken = paint::paragraph(ui, start, at.width() - 20.0, refusal, text::small(), t.warn);
+    let glyph = paint::square(pos2(at.left + 7.0, taken.top() + 8.0), 13.0);
+    icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);
+    paint::name_text(ui, "track refusal", taken, refusal);
+    at.y = taken.bottom();
+}
+
+fn auto_track_row(ui: &Ui, row: Rect, on: bool, actions: &mut Vec<CardAction>) {
+    let t = theme::tokens(ui);
+    let (state, word) = if on {
+        ("Auto-track is on", "Auto-track off")
+    } else {
+        ("Auto-track is off", "Auto-track on")
+    };
+    paint::text(ui, row.left_center(), Align2::LEFT_CENTER, state, text::small(), t.t2);
+    let button = Button::normal(word);
+    let place = row.with_min_x(row.right() - button.width(ui));
+    let said = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
+    paint::name_text(ui, "auto-track state", said, state);
+    if button.show(ui, "auto-track", place).clicked() {
+        actions.push(CardAction::SetAutoTrack(!on));
+    }
+}

@@ -1,0 +1,47 @@
+//! Says that the station is a demonstration.
+
+use egui::{Align2, Rect, Ui};
+
+use super::{
+    format, text, theme,
+    widgets::{button::Button, paint},
+};
+use crate::{
+    app::{Model, UiCommand, View, model::CatalogState},
+    astro::time::seconds_between,
+    orbit::BUNDLED_SOURCE,
+};
+
+/// Height of the strip.
+pub const HEIGHT: f32 = 32.0;
+
+/// Shows the strip in `rect`.
+pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.warnbg);
+    let button = Button::quiet("Set up your station");
+    let width = button.width(ui);
+    let place = Rect::from_min_max(
+        egui::pos2(rect.right() - width - 8.0, rect.top() + 4.0),
+        egui::pos2(rect.right() - 8.0, rect.bottom() - 4.0),
+    );
+    let words = match &model.catalog {
+        CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
+        CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
+        CatalogState::Ready(catalog) => {
+            let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
+                format!(", {} old", format::age(seconds_between(newest, model.now)))
+            });
+            format!(
+                "Demo station: the antenna is simulated, no metal moves. \
+                 Elements: {BUNDLED_SOURCE}{age}."
+            )
+        }
+    };
+    let room = rect.with_min_x(rect.left() + 16.0).with_max_x(place.left() - 8.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);
+    paint::name_text(ui, "demo banner", room, &words);
+    if button.show(ui, "set up", place).clicked() {
+        commands.push(UiCommand::Show(View::Preferences));
+    }
+}

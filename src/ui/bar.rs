@@ -1,0 +1,174 @@
+//! Fills the top bar from the model.
+
+use egui::{Rect, Ui};
+use jiff::tz::TimeZone;
+
+use super::{
+    format, state_sentence, top_bar,
+    top_bar::{ClockModel, TopBarAction, TopBarModel},
+    widgets::{
+        alarm_list::{AlarmAction, AlarmModel, AlarmPriority, AlarmRow, AlarmState},
+        link_chip::{ChipModel, LinkGlyph},
+        stop_button::StopState as StopLook,
+    },
+    words,
+};
+use crate::{
+    app::{Model, UiCommand, View, alarms::Priority, antenna::AntennaModel},
+    controller::Phase,
+    driver::{LinkState, StopState},
+};
+
+/// Shows the bar in `rect`.
+pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    let (utc, date) = (format::time(model.now), format::date(model.now));
+    let zoned = model.now.to_zoned(TimeZone::system());
+    let (local, zone) =
+        (zoned.strftime("%H:%M:%S").to_string(), zoned.strftime("local, %Z").to_string());
+    let site = model.station.site;
+    let coordinates = coordinates(site.latitude().degrees(), site.longitude().degrees());
+
+    let ages: Vec<String> = model.antennas.iter().map(|antenna| age(model, antenna)).collect();
+    let chips: Vec<ChipModel<'_>> = model
+        .antennas
+        .iter()
+        .zip(&ages)
+        .enumerate()
+        .map(|(index, (antenna, age))| ChipModel {
+            name: &antenna.config.name,
+            link: glyph(antenna),
+            activity: activity(antenna),
+            age,
+            selected: index == model.selected_antenna,
+            foreign_control: false,
+        })
+        .collect();
+
+    let texts: Vec<(String, String)> = model
+        .alarms
+        .list()
+        .iter()
+        .map(|alarm| {
+            let antenna = alarm.antenna.and_then(|index| model.antennas.get(index));
+            let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
+            (words::alarm(&alarm.kind, name), format::time_z(alarm.time))
+        })
+        .collect();
+    let rows: Vec<AlarmRow<'_>> = model
+        .alarms
+        .list()
+        .iter()
+        .zip(&texts)
+        .rev()
+        .map(|(alarm, (text, time))| AlarmRow {
+            id: alarm.id,
+            priority: match alarm.priority() {
+                Priority::Warning => AlarmPriority::Urgent,
+                Priority::Caution => AlarmPriority::Caution,
+            },
+            state: match (alarm.cleared, alarm.seen) {
+                (true, true) => AlarmState::Cleared,
+                (_, false) => AlarmState::New,
+                (false, true) => AlarmState::Seen,
+            },
+            text,
+            time,
+        })
+        .collect();
+
+    let unproved = unproved_stop(model);
+    let bar = TopBarModel {
+        station: &model.station.name,
+        coordinates: &coordinates,
+        clock: ClockModel { utc: &utc, date: &date, local: &local, zone: &zone },
+        chips: &chips,
+        alarms: AlarmModel { rows: &rows, unopened: model.alarms.unopened },
+        stop: stop_look(model, unproved.as_deref()),
+    };
+    for action in top_bar::show(ui, rect, &bar) {
+        commands.push(match action {
+            TopBarAction::Stop => UiCommand::Stop,
+            TopBarAction::SelectAntenna(index) => UiCommand::SelectAntenna(index),
+            TopBarAction::Alarm(AlarmAction::Opened) => UiCommand::OpenedAlarms,
+            TopBarAction::Alarm(AlarmAction::Acknowledge(id)) => UiCommand::AcknowledgeAlarm(id),
+            TopBarAction::OpenStationSettings => UiCommand::Show(View::Preferences),
+            TopBarAction::SetTheme(name) => UiCommand::SetTheme(name),
+        });
+    }
+}
+
+fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
+    let lettered = |value: f64, plus: char, minus: char| {
+        format!("{:.3}° {}", value.abs(), if value < 0.0 { minus } else { plus })
+    };
+    format!("{}  {}", lettered(latitude_deg, 'N', 'S'), lettered(longitude_deg, 'E', 'W'))
+}
+
+/// The glyph of a link.
+pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
+    match antenna.snapshot.link {
+        LinkState::Off | LinkState::Connecting { .. } => LinkGlyph::Off,
+        LinkState::Up { .. } => LinkGlyph::Live,
+        LinkState::Stale { .. } => LinkGlyph::Late,
+        LinkState::Lost { .. } => LinkGlyph::Lost,
+    }
+}
+
+fn age(model: &Model, antenna: &AntennaModel) -> String {
+    let last = match antenna.snapshot.link {
+        LinkState::Off | LinkState::Connecting { .. } => return String::new(),
+        LinkState::Lost { since, .. } => Some(since),
+        _ => antenna.snapshot.state.traffic.last_reply,
+    };
+    last.map_or_else(String::new, |last| {
+        format::age(model.steady.saturating_duration_since(last).as_secs_f64())
+    })
+}
+
+/// What an antenna does, in one or two words.
+fn activity(antenna: &AntennaModel) -> &'static str {
+    let state = &antenna.snapshot.state;
+    match antenna.snapshot.link {
+        LinkState::Off => return "Not connected",
+        LinkState::Connecting { .. } => return "Connecting",
+        LinkState::Lost { .. } => return "No reply",
+        LinkState::Stale { .. } => return "Slow reply",
+        LinkState::Up { .. } => {}
+    }
+    let moving = state.measured.is_some_and(|measured| measured.moving());
+    let program = state.program.filter(|program| program.enabled);
+    match (antenna.snapshot.stop, program.map(|program| program.phase)) {
+        (StopState::Stopping { .. } | StopState::NotConfirmed { .. }, _) => "Stopping",
+        (_, Some(Phase::Tracking)) => "Tracking",
+        _ if antenna.snapshot.jog.is_some() => "Jogging",
+        _ if moving => "Moving",
+        (_, Some(Phase::AtStart | Phase::OutOfWindow)) => "Waiting",
+        _ if state.measured.is_none() => "Reading",
+        (StopState::Stopped { .. }, _) => "Stopped",
+        _ => "Holding",
+    }
+}
+
+/// The sentence of the first antenna that is not known to stand after a stop.
+fn unproved_stop(model: &Model) -> Option<String> {
+    let unproved =
+        |antenna: &&AntennaModel| matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
+    let antenna = model.antennas.iter().find(unproved)?;
+    Some(state_sentence::state_sentence(model, antenna).text())
+}
+
+fn stop_look<'a>(model: &Model, unproved: Option<&'a str>) -> StopLook<'a> {
+    if let Some(text) = unproved {
+        return StopLook::NotConfirmed { text };
+    }
+    let any = |wanted: fn(&StopState) -> bool| {
+        model.antennas.iter().any(|antenna| wanted(&antenna.snapshot.stop))
+    };
+    if any(|stop| matches!(stop, StopState::Stopping { .. })) {
+        StopLook::Stopping
+    } else if any(|stop| matches!(stop, StopState::Stopped { .. })) {
+        StopLook::AllStopped
+    } else {
+        StopLook::Ready
+    }
+}

@@ -1,0 +1,48 @@
+//! A question before something that moves metal and was asked for by a key.
+
+use egui::{Key, Modal, Ui};
+
+use super::text;
+use crate::app::UiCommand;
+
+/// A question, and what a yes brings about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// What is asked.
+    pub text: String,
+    /// The word on the button that says yes.
+    pub yes: &'static str,
+    /// What a yes brings about.
+    pub command: UiCommand,
+}
+
+impl Question {
+    /// Shows the question until it is answered. Enter says yes, Esc says no.
+    pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
+        let Some(asked) = question else { return };
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::unique("question")).show(ui.ctx(), |ui| {
+            ui.set_width(320.0);
+            ui.label(egui::RichText::new(&asked.text).font(text::body()));
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                let yes = ui.button(format!("{} (Enter)", asked.yes));
+                if yes.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
+                    answer = Some(true);
+                }
+                if ui.button("Cancel").clicked() {
+                    answer = Some(false);
+                }
+            });
+        });
+        if modal.should_close() {
+            answer = answer.or(Some(false));
+        }
+        if let Some(yes) = answer {
+            if yes {
+                commands.push(asked.command.clone());
+            }
+            *question = None;
+        }
+    }
+}

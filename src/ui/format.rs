@@ -1,0 +1,166 @@
+//! How numbers and times are written.
+
+use jiff::{Timestamp, tz::TimeZone};
+
+/// The true minus sign.
+const MINUS: char = '\u{2212}';
+/// Groups the thousands.
+const THIN_SPACE: char = '\u{2009}';
+
+/// A number with `decimals` places and the true minus sign. What rounds to
+/// zero has no sign.
+pub fn number(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let digits = format!("{:.decimals$}", value.abs());
+    let negative = value < 0.0 && digits.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    let digits = group_thousands(&digits);
+    if negative { format!("{MINUS}{digits}") } else { digits }
+}
+
+/// The same with a plus sign before what is not negative.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = number(value, decimals);
+    if text.starts_with(MINUS) || !value.is_finite() { text } else { format!("+{text}") }
+}
+
+/// From five digits on, in groups of three.
+fn group_thousands(digits: &str) -> String {
+    let whole = digits.find('.').unwrap_or(digits.len());
+    if whole < 5 {
+        return digits.to_owned();
+    }
+    let mut grouped = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && place < whole && (whole - place).is_multiple_of(3) {
+            grouped.push(THIN_SPACE);
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// An angle with the degree sign.
+pub fn degrees(value_deg: f64, decimals: usize) -> String {
+    format!("{}°", number(value_deg, decimals))
+}
+
+/// An azimuth as three digits with the degree sign; 359.6 is 000.
+pub fn azimuth(value_deg: f64) -> String {
+    if !value_deg.is_finite() {
+        return "–".to_owned();
+    }
+    format!("{:03}°", (value_deg.rem_euclid(360.0).round() as u32) % 360)
+}
+
+/// A duration: m:ss, from one hour h:mm:ss, from one day in days.
+pub fn duration(seconds: f64) -> String {
+    let seconds = seconds.abs().round() as u64;
+    let (hours, minutes, rest) = (seconds / 3600, seconds / 60 % 60, seconds % 60);
+    match hours {
+        0 => format!("{minutes}:{rest:02}"),
+        1..100 => format!("{hours}:{minutes:02}:{rest:02}"),
+        _ => format!("{} d", hours / 24),
+    }
+}
+
+/// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
+pub fn countdown(seconds: f64) -> String {
+    // The full second that is left, so that zero is shown at zero.
+    let left = seconds.ceil();
+    let sign = if left < 0.0 { '+' } else { MINUS };
+    let whole = left.abs() as u64;
+    let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if hours == 0 {
+        format!("T{sign}{minutes:02}:{rest:02}")
+    } else {
+        format!("T{sign}{hours}:{minutes:02}:{rest:02}")
+    }
+}
+
+/// How old something is: 0.3 s, 14 s, 3 min, 8 h 52 min, 12 d.
+pub fn age(seconds: f64) -> String {
+    let seconds = seconds.max(0.0);
+    let whole = seconds as u64;
+    match whole {
+        0..10 => format!("{seconds:.1} s"),
+        10..120 => format!("{whole} s"),
+        120..7200 => format!("{} min", whole / 60),
+        7200..172_800 => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+        _ => format!("{} d", whole / 86_400),
+    }
+}
+
+/// UTC as hh:mm:ss.
+pub fn time(at: Timestamp) -> String {
+    at.to_zoned(TimeZone::UTC).strftime("%H:%M:%S").to_string()
+}
+
+/// UTC as hh:mm:ssZ.
+pub fn time_z(at: Timestamp) -> String {
+    format!("{}Z", time(at))
+}
+
+/// UTC as hh:mm.
+pub fn hours_minutes(at: Timestamp) -> String {
+    at.to_zoned(TimeZone::UTC).strftime("%H:%M").to_string()
+}
+
+/// UTC as weekday and ISO date, such as Sat 2026-11-14.
+pub fn date(at: Timestamp) -> String {
+    at.to_zoned(TimeZone::UTC).strftime("%a %Y-%m-%d").to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers() {
+        assert_eq!(number(-0.04, 2), "−0.04");
+        assert_eq!(number(-0.004, 2), "0.00");
+        assert_eq!(signed(0.0, 2), "+0.00");
+        assert_eq!(signed(-4.99, 2), "−4.99");
+        assert_eq!(number(9999.0, 0), "9999");
+        assert_eq!(number(-42_123_456.5, 1), "−42\u{2009}123\u{2009}456.5");
+        assert_eq!(number(f64::NAN, 2), "–");
+        assert_eq!(degrees(-5.25, 1), "−5.2°");
+    }
+
+    #[test]
+    fn azimuths_have_three_digits() {
+        assert_eq!(azimuth(5.4), "005°");
+        assert_eq!(azimuth(359.6), "000°");
+        assert_eq!(azimuth(-1.0), "359°");
+    }
+
+    #[test]
+    fn times_left_and_passed() {
+        assert_eq!(countdown(513.0), "T−08:33");
+        assert_eq!(countdown(5395.0), "T−1:29:55");
+        assert_eq!(countdown(86_399.0), "T−23:59:59");
+        assert_eq!(countdown(0.0), "T−00:00");
+        assert_eq!(countdown(-61.0), "T+01:01");
+        assert_eq!(duration(772.0), "12:52");
+        assert_eq!(duration(3600.0), "1:00:00");
+        assert_eq!(duration(48.0), "0:48");
+    }
+
+    #[test]
+    fn ages() {
+        assert_eq!(age(0.34), "0.3 s");
+        assert_eq!(age(14.9), "14 s");
+        assert_eq!(age(31_920.0), "8 h 52 min");
+        assert_eq!(age(102.0 * 86_400.0), "102 d");
+        assert_eq!(age(-1.0), "0.0 s");
+    }
+
+    #[test]
+    fn clock_times() {
+        let at: Timestamp = "2026-11-14T11:06:12.9Z".parse().unwrap();
+        assert_eq!(time_z(at), "11:06:12Z");
+        assert_eq!(hours_minutes(at), "11:06");
+        assert_eq!(date(at), "Sat 2026-11-14");
+    }
+}

@@ -1,0 +1,119 @@
+//! Line icons, painted on a grid of 20 by 20 with a stroke of 1.5.
+
+mod pen;
+mod shapes;
+
+use egui::{Color32, Painter, Rect};
+
+use pen::Pen;
+
+/// Every icon of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Icon {
+    /// STOP, and alarms of the first priority.
+    Octagon,
+    /// Alarms.
+    Bell,
+    /// Caution, and alarms of the second priority.
+    Warning,
+    /// Good.
+    Check,
+    /// Not possible, fault.
+    Cross,
+    /// Left out, not known.
+    Dash,
+    /// Refused for now.
+    Lock,
+    /// Opens below; an open fold.
+    ChevronDown,
+    /// Opens beside; a closed fold.
+    ChevronRight,
+    /// View: Operate.
+    CrossHair,
+    /// View: Preferences.
+    Sliders,
+    /// The sign of the program.
+    Dish,
+    /// Link: replies in time.
+    Disc,
+    /// Link: late.
+    HalfDisc,
+    /// Link: lost.
+    CrossedRing,
+    /// Link: switched off.
+    OpenRing,
+    /// Layers of the sky plot.
+    Layers,
+    /// A note or a legend.
+    Info,
+}
+
+impl Icon {
+    /// All icons.
+    pub const ALL: [Self; 18] = [
+        Self::Octagon,
+        Self::Bell,
+        Self::Warning,
+        Self::Check,
+        Self::Cross,
+        Self::Dash,
+        Self::Lock,
+        Self::ChevronDown,
+        Self::ChevronRight,
+        Self::CrossHair,
+        Self::Sliders,
+        Self::Dish,
+        Self::Disc,
+        Self::HalfDisc,
+        Self::CrossedRing,
+        Self::OpenRing,
+        Self::Layers,
+        Self::Info,
+    ];
+}
+
+/// Paints an icon in one colour, scaled so that its grid fills `rect`.
+pub fn paint(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
+    shapes::draw(&Pen::new(painter, rect, colour), icon);
+}
+
+/// Paints the sign of the program in two colours: the bowl, and the feed that
+/// points at the satellite.
+pub fn paint_sign(painter: &Painter, rect: Rect, bowl: Color32, feed: Color32) {
+    shapes::bowl(&Pen::new(painter, rect, bowl));
+    shapes::feed(&Pen::new(painter, rect, feed));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Sense, vec2};
+
+    #[test]
+    fn every_icon_paints_inside_its_square() {
+        for icon in Icon::ALL {
+            let mut harness =
+                egui_kittest::Harness::builder().with_size([80.0, 80.0]).build_ui(move |ui| {
+                    let (rect, _) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::hover());
+                    let before = ui.painter().layer_id();
+                    paint(ui.painter(), rect, icon, ui.visuals().text_color());
+                    ui.ctx().graphics(|graphics| {
+                        let list = graphics.get(before).expect("painted");
+                        let mut count = 0;
+                        for shape in list.all_entries() {
+                            let bounds = shape.shape.visual_bounding_rect();
+                            if bounds.is_positive() && bounds.width() < 60.0 {
+                                count += 1;
+                                assert!(
+                                    rect.expand(1.0).contains_rect(bounds),
+                                    "{icon:?} {bounds}"
+                                );
+                            }
+                        }
+                        assert!(count > 0, "{icon:?} paints nothing");
+                    });
+                });
+            harness.run();
+        }
+    }
+}

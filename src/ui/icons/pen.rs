@@ -1,0 +1,110 @@
+//! Draws on the grid of an icon.
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
+
+/// Side of the grid.
+const GRID: f32 = 20.0;
+/// Width of a line on the grid.
+const STROKE: f32 = 1.5;
+/// Lines thinner than this have flat ends.
+const THINNEST_ROUND_POINTS: f32 = 1.4;
+/// Lines do not get thinner than this in small icons.
+const THINNEST_POINTS: f32 = 1.25;
+
+/// A pen of one colour over the square of one icon; all places and lengths are
+/// in units of the grid, x to the right and y down.
+pub(super) struct Pen<'a> {
+    painter: &'a Painter,
+    origin: Pos2,
+    scale: f32,
+    colour: Color32,
+}
+
+impl<'a> Pen<'a> {
+    pub(super) fn new(painter: &'a Painter, rect: Rect, colour: Color32) -> Self {
+        let side = rect.width().min(rect.height());
+        let origin = rect.center() - vec2(side, side) / 2.0;
+        Self { painter, origin, scale: side / GRID, colour }
+    }
+
+    fn at(&self, (x, y): (f32, f32)) -> Pos2 {
+        self.origin + vec2(x, y) * self.scale
+    }
+
+    fn width(&self, grid: f32) -> f32 {
+        (grid * self.scale).max(THINNEST_POINTS)
+    }
+
+    /// A line through the points with round joins and caps.
+    pub(super) fn line(&self, points: &[(f32, f32)]) {
+        self.thick_line(points, STROKE);
+    }
+
+    /// The same in another width.
+    pub(super) fn thick_line(&self, points: &[(f32, f32)], width: f32) {
+        let width = self.width(width);
+        for pair in points.windows(2) {
+            if let [a, b] = pair {
+                let ends = [self.at(*a), self.at(*b)];
+                self.painter.line_segment(ends, Stroke::new(width, self.colour));
+            }
+        }
+        // The painter ends lines flat. On thin lines a round end is a smudge.
+        if width < THINNEST_ROUND_POINTS {
+            return;
+        }
+        for point in points {
+            self.painter.circle_filled(self.at(*point), width / 2.0, self.colour);
+        }
+    }
+
+    /// A closed outline.
+    pub(super) fn outline(&self, points: &[(f32, f32)]) {
+        let points = points.iter().map(|point| self.at(*point)).collect();
+        self.painter.add(Shape::closed_line(points, Stroke::new(self.width(STROKE), self.colour)));
+    }
+
+    /// A ring.
+    pub(super) fn ring(&self, centre: (f32, f32), radius: f32) {
+        let stroke = Stroke::new(self.width(STROKE), self.colour);
+        self.painter.circle_stroke(self.at(centre), radius * self.scale, stroke);
+    }
+
+    /// A filled disc.
+    pub(super) fn disc(&self, centre: (f32, f32), radius: f32) {
+        self.painter.circle_filled(self.at(centre), radius * self.scale, self.colour);
+    }
+
+    /// A filled convex shape.
+    pub(super) fn filled(&self, points: &[(f32, f32)]) {
+        let points = points.iter().map(|point| self.at(*point)).collect();
+        self.painter.add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
+    }
+
+    /// Part of a circle; angles in degrees, zero to the right, growing
+    /// clockwise on the screen.
+    pub(super) fn arc(&self, centre: (f32, f32), radius: f32, from_deg: f32, to_deg: f32) {
+        let stroke = Stroke::new(self.width(STROKE), self.colour);
+        let points = arc_points(centre, radius, from_deg, to_deg);
+        let points: Vec<Pos2> = points.into_iter().map(|point| self.at(point)).collect();
+        self.painter.add(Shape::line(points, stroke));
+    }
+}
+
+/// Points on part of a circle, for arcs and for filled parts.
+pub(super) fn arc_points(
+    (x, y): (f32, f32),
+    radius: f32,
+    from_deg: f32,
+    to_deg: f32,
+) -> Vec<(f32, f32)> {
+    const STEPS: u8 = 16;
+    (0..=STEPS)
+        .map(|step| {
+            let part = f32::from(step) / f32::from(STEPS);
+            let (sin, cos) = (from_deg + (to_deg - from_deg) * part).to_radians().sin_cos();
+            let point = pos2(x + radius * cos, y + radius * sin);
+            (point.x, point.y)
+        })
+        .collect()
+}

@@ -1,0 +1,108 @@
+//! What each icon looks like.
+
+use super::{
+    Icon,
+    pen::{Pen, arc_points},
+};
+
+/// Check and cross are drawn heavier, so that a verdict reads at 12 points.
+const HEAVY: f32 = 2.0;
+
+pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
+    match icon {
+        Icon::Octagon => pen.outline(&[
+            (6.7, 2.0),
+            (13.3, 2.0),
+            (18.0, 6.7),
+            (18.0, 13.3),
+            (13.3, 18.0),
+            (6.7, 18.0),
+            (2.0, 13.3),
+            (2.0, 6.7),
+        ]),
+        Icon::Bell => bell(pen),
+        Icon::Warning => {
+            pen.line(&[(10.0, 2.8), (18.2, 17.0), (1.8, 17.0), (10.0, 2.8)]);
+            pen.line(&[(10.0, 8.0), (10.0, 11.8)]);
+            pen.disc((10.0, 14.4), 1.0);
+        }
+        Icon::Check => pen.thick_line(&[(3.5, 10.5), (8.0, 15.0), (16.5, 5.5)], HEAVY),
+        Icon::Cross => {
+            pen.thick_line(&[(4.5, 4.5), (15.5, 15.5)], HEAVY);
+            pen.thick_line(&[(15.5, 4.5), (4.5, 15.5)], HEAVY);
+        }
+        Icon::Dash => pen.thick_line(&[(4.0, 10.0), (16.0, 10.0)], HEAVY),
+        Icon::Lock => {
+            pen.line(&[(4.5, 9.0), (15.5, 9.0), (15.5, 17.5), (4.5, 17.5), (4.5, 9.0)]);
+            pen.line(&[(6.8, 9.0), (6.8, 6.0)]);
+            pen.arc((10.0, 6.0), 3.2, 180.0, 360.0);
+            pen.line(&[(13.2, 6.0), (13.2, 9.0)]);
+        }
+        Icon::ChevronDown => pen.line(&[(5.0, 7.5), (10.0, 12.5), (15.0, 7.5)]),
+        Icon::ChevronRight => pen.line(&[(7.5, 5.0), (12.5, 10.0), (7.5, 15.0)]),
+        Icon::CrossHair => {
+            pen.ring((10.0, 10.0), 5.5);
+            pen.line(&[(10.0, 1.8), (10.0, 7.2)]);
+            pen.line(&[(10.0, 12.8), (10.0, 18.2)]);
+            pen.line(&[(1.8, 10.0), (7.2, 10.0)]);
+            pen.line(&[(12.8, 10.0), (18.2, 10.0)]);
+        }
+        Icon::Sliders => sliders(pen),
+        Icon::Dish => {
+            bowl(pen);
+            feed(pen);
+        }
+        Icon::Disc => pen.disc((10.0, 10.0), 6.5),
+        Icon::HalfDisc => {
+            pen.ring((10.0, 10.0), 6.5);
+            pen.filled(&arc_points((10.0, 10.0), 6.5, 90.0, 270.0));
+        }
+        Icon::CrossedRing => {
+            pen.ring((10.0, 10.0), 7.5);
+            pen.line(&[(7.0, 7.0), (13.0, 13.0)]);
+            pen.line(&[(13.0, 7.0), (7.0, 13.0)]);
+        }
+        Icon::OpenRing => pen.ring((10.0, 10.0), 6.5),
+        Icon::Layers => {
+            pen.line(&[(10.0, 3.0), (17.5, 7.2), (10.0, 11.4), (2.5, 7.2), (10.0, 3.0)]);
+            pen.line(&[(2.5, 10.2), (10.0, 14.4), (17.5, 10.2)]);
+            pen.line(&[(2.5, 13.2), (10.0, 17.4), (17.5, 13.2)]);
+        }
+        Icon::Info => {
+            pen.ring((10.0, 10.0), 7.5);
+            pen.line(&[(10.0, 9.4), (10.0, 13.8)]);
+            pen.disc((10.0, 6.5), 1.0);
+        }
+    }
+}
+
+fn bell(pen: &Pen<'_>) {
+    pen.line(&[(5.0, 13.5), (5.0, 9.0)]);
+    pen.arc((10.0, 8.5), 5.0, 180.0, 360.0);
+    pen.line(&[(15.0, 9.0), (15.0, 13.5)]);
+    pen.line(&[(3.2, 14.8), (5.0, 13.5)]);
+    pen.line(&[(15.0, 13.5), (16.8, 14.8)]);
+    pen.line(&[(3.2, 14.8), (16.8, 14.8)]);
+    pen.arc((10.0, 15.6), 2.0, 20.0, 160.0);
+    pen.line(&[(10.0, 2.2), (10.0, 3.4)]);
+}
+
+fn sliders(pen: &Pen<'_>) {
+    for (y, knob) in [(4.5, 13.0), (10.0, 6.5), (15.5, 11.0)] {
+        pen.line(&[(2.5, y), (knob - 2.0, y)]);
+        pen.line(&[(knob + 2.0, y), (17.5, y)]);
+        pen.ring((knob, y), 2.0);
+    }
+}
+
+/// Half a disc with its ground line: the sky over the station.
+pub(super) fn bowl(pen: &Pen<'_>) {
+    pen.arc((10.0, 16.0), 8.0, 180.0, 360.0);
+    pen.line(&[(1.5, 16.0), (18.5, 16.0)]);
+}
+
+/// The line of sight with the satellite at its end.
+pub(super) fn feed(pen: &Pen<'_>) {
+    pen.line(&[(10.0, 16.0), (14.2, 5.5)]);
+    pen.disc((14.8, 4.0), 2.2);
+}

@@ -1,0 +1,77 @@
+//! The Operate view: is it safe, what does it do, why, what comes next.
+
+mod card;
+mod layout;
+mod passes;
+mod sky;
+
+use egui::{Rect, Ui};
+
+use super::{
+    antenna_card::{self, CardState},
+    pass_header,
+    sky_plot::SkyPlotState,
+    theme,
+};
+use crate::app::{Model, UiCommand};
+use layout::Areas;
+
+/// What the operator typed, opened and folded in this view.
+#[derive(Default)]
+pub struct OperateState {
+    /// The antenna card.
+    pub card: CardState,
+    /// The pass list is drawn over the plot, in a small window.
+    pub drawer_open: bool,
+    /// The antenna whose card was shown last.
+    shown_antenna: usize,
+    sky: SkyPlotState,
+}
+
+impl OperateState {
+    /// The card goes out of sight: a key that is held there must not go on.
+    pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
+        if self.card.hide().is_some() {
+            let end = crate::driver::Command::EndJog;
+            commands.push(UiCommand::Antenna(self.shown_antenna, end));
+        }
+    }
+}
+
+/// Draws the view into `rect` of the `window`.
+pub fn show(
+    ui: &mut Ui,
+    window: Rect,
+    rect: Rect,
+    model: &Model,
+    state: &mut OperateState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let areas = Areas::of(window, rect, state.drawer_open);
+    let t = theme::tokens(ui);
+    if state.shown_antenna != model.selected_antenna {
+        state.leave_card(commands);
+        state.shown_antenna = model.selected_antenna;
+    }
+    if passes::header(ui, areas.header, model, areas.small) {
+        state.drawer_open = !state.drawer_open;
+    }
+    sky::show(ui, areas.sky, model, state, commands);
+    if let Some(timeline) = areas.timeline {
+        passes::timeline(ui, timeline, model, commands);
+    }
+    if let Some(profile) = areas.profile {
+        passes::profile(ui, profile, model);
+    }
+    if let Some(list) = areas.list {
+        passes::list(ui, list, model, areas.thumbnails, commands);
+    }
+    if let Some(antenna) = model.antenna() {
+        card::show(ui, areas.card, model, antenna, &mut state.card, commands);
+    } else {
+        card::none(ui, areas.card, model, commands);
+    }
+    for line in areas.dividers() {
+        ui.painter().rect_filled(line, 0.0, t.line);
+    }
+}

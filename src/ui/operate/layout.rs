@@ -1,0 +1,133 @@
+//! Where each part of the view stands in windows of every size.
+
+use egui::{Rect, pos2, vec2};
+
+use super::{antenna_card, pass_header};
+
+const LIST: f32 = 320.0;
+const NARROW_LIST: f32 = 264.0;
+const STRIP: f32 = 208.0;
+const SMALL_STRIP: f32 = 80.0;
+const PROFILE: f32 = 392.0;
+/// The disc never grows beyond this; the strip below gets the rest.
+const MOST_SKY: f32 = 2.0 * (420.0 + 36.0);
+
+/// Below this width of the window the list becomes a drawer.
+const DRAWER_BELOW: f32 = 1200.0;
+/// Below this width of the window the rows lose their thumbnails.
+const THUMBNAILS_FROM: f32 = 1360.0;
+/// Below this height of the window there is one short strip.
+const TALL_FROM: f32 = 800.0;
+
+/// The parts of the view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Areas {
+    pub(super) header: Rect,
+    pub(super) sky: Rect,
+    pub(super) card: Rect,
+    pub(super) list: Option<Rect>,
+    pub(super) timeline: Option<Rect>,
+    pub(super) profile: Option<Rect>,
+    pub(super) thumbnails: bool,
+    pub(super) small: bool,
+}
+
+impl Areas {
+    pub(super) fn of(window: Rect, rect: Rect, drawer_open: bool) -> Self {
+        let small = window.width() < DRAWER_BELOW;
+        let tall = window.height() >= TALL_FROM;
+        let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
+        let card = rect.with_min_x(rect.right() - card_width);
+        let left = rect.with_max_x(card.left());
+
+        let thumbnails = window.width() >= THUMBNAILS_FROM;
+        let list_width = if thumbnails { LIST } else { NARROW_LIST };
+        let header_height = if small { 44.0 } else { pass_header::HEIGHT };
+        let wanted = if tall { STRIP } else { SMALL_STRIP };
+        let room = left.height() - header_height;
+        let strip_height = wanted.max(room - MOST_SKY);
+        let strip = left.with_min_y(left.bottom() - strip_height);
+        let above = left.with_max_y(strip.top());
+
+        let beside = if small { above } else { above.with_min_x(above.left() + list_width) };
+        let header = beside.with_max_y(beside.top() + header_height);
+        let sky = beside.with_min_y(header.bottom());
+        let list = if small {
+            // Never over the card or STOP.
+            let drawer = Rect::from_min_size(
+                pos2(sky.left(), sky.top()),
+                vec2(NARROW_LIST + 8.0, sky.height()),
+            );
+            drawer_open.then_some(drawer)
+        } else {
+            Some(above.with_max_x(above.left() + list_width))
+        };
+        let profile = tall.then(|| strip.with_min_x(strip.right() - PROFILE));
+        let timeline = match profile {
+            Some(profile) => strip.with_max_x(profile.left()),
+            None => strip,
+        };
+        Self { header, sky, card, list, timeline: Some(timeline), profile, thumbnails, small }
+    }
+
+    /// The lines between the parts, 1 px wide.
+    pub(super) fn dividers(&self) -> Vec<Rect> {
+        let right_of = |rect: Rect| {
+            Rect::from_min_max(pos2(rect.right() - 1.0, rect.top()), rect.right_bottom())
+        };
+        let top_of =
+            |rect: Rect| Rect::from_min_max(rect.left_top(), pos2(rect.right(), rect.top() + 1.0));
+        let below_header = Rect::from_min_max(
+            pos2(self.header.left(), self.header.bottom() - 1.0),
+            self.header.right_bottom(),
+        );
+        self.list
+            .map(right_of)
+            .into_iter()
+            .chain(self.timeline.map(top_of))
+            .chain(self.profile.map(top_of))
+            .chain(self.profile.and(self.timeline).map(right_of))
+            .chain([below_header])
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn areas(width: f32, height: f32) -> Areas {
+        let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
+        let (bar, rail) =
+            (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
+        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false)
+    }
+
+    #[test]
+    fn the_reference_window_has_the_reference_places() {
+        let areas = areas(1440.0, 900.0);
+        let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
+        assert_eq!(areas.list, Some(at(72.0, 56.0, 320.0, 636.0)));
+        assert_eq!(areas.header, at(392.0, 56.0, 704.0, 56.0));
+        assert_eq!(areas.sky, at(392.0, 112.0, 704.0, 580.0));
+        assert_eq!(areas.card, at(1096.0, 56.0, 344.0, 844.0));
+        assert_eq!(areas.timeline, Some(at(72.0, 692.0, 632.0, 208.0)));
+        assert_eq!(areas.profile, Some(at(704.0, 692.0, 392.0, 208.0)));
+    }
+
+    #[test]
+    fn the_smallest_window_keeps_card_plot_and_one_strip() {
+        let areas = areas(1024.0, 640.0);
+        assert!(areas.small && areas.list.is_none() && areas.profile.is_none());
+        assert_eq!(areas.card.size(), vec2(304.0, 592.0));
+        assert_eq!(areas.timeline.map(|strip| strip.size()), Some(vec2(672.0, 80.0)));
+        assert_eq!(areas.sky.size(), vec2(672.0, 468.0));
+    }
+
+    #[test]
+    fn a_tall_window_gives_the_rest_to_the_strip() {
+        let areas = areas(2560.0, 1440.0);
+        assert!((areas.sky.height() - MOST_SKY).abs() < 1.0);
+        assert!(areas.timeline.is_some_and(|strip| strip.height() > STRIP));
+    }
+}

@@ -1,0 +1,221 @@
+//! Fills the parts that show passes: list, header, strip and profile.
+
+use egui::{Rect, Ui};
+use jiff::Timestamp;
+
+use crate::{
+    app::{
+        Model, UiCommand,
+        forecast::{Forecast, PassKey},
+        model::CatalogState,
+    },
+    astro::time::{add_seconds, seconds_between},
+    plan::{Sample, Trackability},
+    ui::{
+        format,
+        pass_header::{self, PassHeaderModel},
+        pass_list::{self, PassListAction, PassListModel, PassRow, Verdict},
+        profile::{self, ProfileModel},
+        timeline::{self, Bar, TimelineModel},
+    },
+};
+
+/// Shows the list of passes.
+pub(super) fn list(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    thumbnails: bool,
+    commands: &mut Vec<UiCommand>,
+) {
+    let passes = &model.forecasts.passes;
+    let losses: Vec<Option<String>> = passes.iter().map(loss).collect();
+    let row = |index: usize| {
+        let forecast = passes.get(index)?;
+        let pass = &forecast.pass;
+        let verdict = match (forecast.trackability, losses.get(index)?) {
+            (Some(Trackability::Whole), _) => Some(Verdict::Trackable),
+            (Some(Trackability::Loses { .. }), Some(text)) => Some(Verdict::Loses(text)),
+            (Some(Trackability::Nothing), _) => {
+                Some(Verdict::NotPossible("Not possible: the mount cannot follow"))
+            }
+            _ => None,
+        };
+        Some(PassRow {
+            key: forecast.key(),
+            name: forecast.satellite.short_name(),
+            aos: pass.aos.time,
+            los: pass.los.time,
+            starts_before: pass.starts_before,
+            ends_after: pass.ends_after,
+            max_elevation_deg: pass.max_elevation().degrees(),
+            aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
+            los_azimuth_deg: pass.los.direction.azimuth_deg(),
+            verdict,
+            path: &forecast.track,
+        })
+    };
+    let empty = match &model.catalog {
+        CatalogState::Loading => "The elements are being read.",
+        CatalogState::Failed => "No elements: they could not be read. See the alarms.",
+        CatalogState::Ready(_) if model.forecasts.under_way() => "The passes are being computed.",
+        CatalogState::Ready(_) => "No pass in the next 48 h. Choose a lower elevation.",
+    };
+    let list = PassListModel {
+        now: model.now,
+        rows: passes.len(),
+        row: &row,
+        selected: selected_key(model),
+        floor_deg: model.station.elevation_floor_deg,
+        thumbnails,
+        empty,
+    };
+    for action in pass_list::show(ui, rect, &list) {
+        commands.push(match action {
+            PassListAction::Select(key) => UiCommand::SelectPass(key),
+            PassListAction::SetFloor(floor_deg) => UiCommand::SetElevationFloor(floor_deg),
+        });
+    }
+}
+
+fn selected_key(model: &Model) -> Option<PassKey> {
+    model.selected_pass().map(Forecast::key)
+}
+
+/// "Loses 12 s at keyhole N", where it does.
+fn loss(forecast: &Forecast) -> Option<String> {
+    let Some(Trackability::Loses { seconds, keyhole_azimuth }) = forecast.trackability else {
+        return None;
+    };
+    let azimuth = keyhole_azimuth.degrees();
+    let towards = match azimuth.round() as i32 % 360 {
+        0 => "N".to_owned(),
+        90 => "E".to_owned(),
+        180 => "S".to_owned(),
+        270 => "W".to_owned(),
+        _ => format::azimuth(azimuth),
+    };
+    Some(format!("Loses {} at keyhole {towards}", format::age(seconds.ceil())))
+}
+
+/// Shows the header of the selected pass; `true` when its drawer button was
+/// clicked.
+pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> bool {
+    let Some(forecast) = model.selected_pass() else {
+        let empty = PassHeaderModel {
+            drawer_button: small,
+            empty: Some("No pass is selected. Choose one from the list."),
+            ..PassHeaderModel::default()
+        };
+        return pass_header::show(ui, rect, &empty);
+    };
+    let elements = &forecast.satellite.elements;
+    let name = forecast.satellite.short_name();
+    let other_name =
+        elements.name().split_once(" (").map_or("", |(_, rest)| rest.trim_end_matches(')'));
+    let detail = format!("{other_name} {}", elements.catalog_number());
+    let pass = &forecast.pass;
+    let until = |time: Timestamp| format::countdown(seconds_between(model.now, time));
+    let (event, at) = if forecast.in_progress(model.now) {
+        ("LOS", pass.los.time)
+    } else {
+        ("AOS", pass.aos.time)
+    };
+    let always = pass.starts_before && pass.ends_after;
+    let (event, countdown) = if always { ("", "always up".to_owned()) } else { (event, until(at)) };
+    let tca =
+        if always || pass.tca.time < model.now { String::new() } else { until(pass.tca.time) };
+    // After some days a low satellite is minutes away from where its elements
+    // put it.
+    let age_s = elements.age_s(model.now);
+    pass_header::show(
+        ui,
+        rect,
+        &PassHeaderModel {
+            name,
+            detail: detail.trim(),
+            second_line: &second_line(model, forecast, age_s),
+            second_line_warns: age_s > 7.0 * 86_400.0,
+            tca_countdown: &tca,
+            event,
+            countdown: &countdown,
+            drawer_button: small,
+            empty: None,
+        },
+    )
+}
+
+fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
+    let mut parts = vec![format!("Elements {} old", format::age(age_s))];
+    let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
+    if let (Some(held), Some(antenna)) = (held, model.antenna()) {
+        let same = held.catalog_number == forecast.satellite.elements.catalog_number();
+        let word = if same { "same satellite" } else { "another satellite" };
+        parts.push(format!("{word} on {}", antenna.config.name));
+    }
+    if let Some(selected) = model.sky.selected {
+        parts.push(if selected.sunlit { "sunlit" } else { "in eclipse" }.to_owned());
+    }
+    parts.join(" · ")
+}
+
+/// Shows the strip of the next hours.
+pub(super) fn timeline(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    let hours = if rect.height() < 120.0 { 4.0 } else { 12.0 };
+    let end = add_seconds(model.now, hours * 3600.0);
+    let bars: Vec<Bar<'_>> = model
+        .forecasts
+        .passes
+        .iter()
+        .filter(|forecast| !(forecast.pass.starts_before && forecast.pass.ends_after))
+        .filter(|forecast| forecast.pass.aos.time < end)
+        .map(|forecast| Bar {
+            key: forecast.key(),
+            name: forecast.satellite.short_name(),
+            aos: forecast.pass.aos.time,
+            los: forecast.pass.los.time,
+            max_elevation_deg: forecast.pass.max_elevation().degrees(),
+            loses: matches!(forecast.trackability, Some(Trackability::Loses { .. })),
+            possible: forecast.trackability != Some(Trackability::Nothing),
+        })
+        .collect();
+    let lane = model.antennas.first().map_or("Passes", |antenna| antenna.config.name.as_str());
+    let strip = TimelineModel {
+        now: model.now,
+        hours,
+        lane,
+        bars: &bars,
+        selected: selected_key(model),
+        sun: &model.sky.sun_spans,
+    };
+    commands.extend(timeline::show(ui, rect, &strip).map(UiCommand::SelectPass));
+}
+
+/// Shows the profile of the selected pass.
+pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
+    let Some(forecast) = model.selected_pass() else {
+        return profile::show(ui, rect, None);
+    };
+    let number = forecast.satellite.elements.catalog_number();
+    let antenna = model.antenna().filter(|antenna| antenna.tracked_number() == Some(number));
+    let errors: Vec<(Timestamp, f32)> = antenna
+        .into_iter()
+        .flat_map(|antenna| &antenna.errors)
+        .map(|error| (error.time, error.off_beam.degrees() as f32))
+        .collect();
+    let beam_width_deg = model.antenna().map_or(1.0, |antenna| antenna.config.beam_width_deg);
+    let pass = &forecast.pass;
+    profile::show(
+        ui,
+        rect,
+        Some(&ProfileModel {
+            now: model.now,
+            name: forecast.satellite.short_name(),
+            track: &forecast.track,
+            tca: Sample { time: pass.tca.time, direction: pass.tca.direction },
+            cut: pass.starts_before || pass.ends_after,
+            errors: &errors,
+            half_beam_deg: beam_width_deg / 2.0,
+        }),
+    );
+}

@@ -1,0 +1,154 @@
+//! Fills the sky plot.
+
+use egui::{Rect, Ui};
+
+use super::OperateState;
+use crate::{
+    app::{Model, UiCommand, antenna::AntennaModel},
+    astro::{Angle, AzEl, time::seconds_between},
+    driver::{LinkState, StopState},
+    orbit::PassPoint,
+    plan::Sample,
+    station::Mount,
+    ui::{
+        format,
+        sky_plot::{self, Keyholes, Measured, OtherSatellite, SkyScene, Track},
+        state_sentence::state_sentence,
+    },
+};
+
+/// Doppler is shown for this carrier.
+const CARRIER_HZ: f64 = 437.0e6;
+/// A lower plot shows the direction only.
+const FULL_READOUT_FROM: f32 = 520.0;
+/// The beam view shows the errors of this long.
+const RECENT_S: f64 = 60.0;
+
+/// Shows the plot.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut OperateState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let antenna = model.antenna();
+    let forecast = model.selected_pass();
+    let selected = forecast.map(|forecast| forecast.satellite.elements.catalog_number());
+    let others: Vec<OtherSatellite<'_>> = model
+        .sky
+        .satellites
+        .iter()
+        .filter(|seen| Some(seen.satellite.elements.catalog_number()) != selected)
+        .map(|seen| OtherSatellite {
+            catalog_number: seen.satellite.elements.catalog_number(),
+            name: seen.satellite.short_name(),
+            direction: seen.direction,
+            ahead: &seen.ahead,
+            geostationary: seen.satellite.elements.is_geosynchronous(),
+        })
+        .collect();
+    let look = model.sky.selected.map(|selected| selected.look);
+    let sample = |point: &PassPoint| Sample { time: point.time, direction: point.direction };
+    let track = forecast.map(|forecast| Track {
+        catalog_number: forecast.satellite.elements.catalog_number(),
+        name: forecast.satellite.short_name(),
+        samples: &forecast.track,
+        aos: sample(&forecast.pass.aos),
+        tca: sample(&forecast.pass.tca),
+        los: sample(&forecast.pass.los),
+        show_aos: !forecast.pass.starts_before,
+        show_los: !forecast.pass.ends_after,
+        position: look.map(|look| look.direction).filter(|at| at.elevation_deg() > 0.0),
+    });
+    let lost = antenna.and_then(|antenna| lost_for(model, antenna));
+    let description = antenna
+        .map_or_else(|| "Sky plot".to_owned(), |antenna| state_sentence(model, antenna).text());
+    let scene = SkyScene {
+        now: model.now,
+        minimum_elevation: Angle::from_degrees(
+            antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
+        ),
+        keyholes: antenna.map(keyholes),
+        track,
+        others: &others,
+        sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
+        moon: model.sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
+        commanded: antenna.and_then(|antenna| antenna.snapshot.aim),
+        ghost: antenna.and_then(|antenna| ghost(antenna, state)),
+        beam_width: antenna.map_or(Angle::from_degrees(1.0), |antenna| antenna.config.beam_width()),
+        measured: antenna
+            .and_then(|antenna| antenna.snapshot.state.measured)
+            .map(|measured| Measured { direction: measured.direction, lost: lost.as_deref() }),
+        predicted: antenna
+            .and_then(|antenna| antenna.prediction)
+            .map(|prediction| prediction.direction),
+        recent_errors: &antenna.map(recent_errors).unwrap_or_default(),
+        readout: &readout(model, rect.height() >= FULL_READOUT_FROM),
+        description: &description,
+    };
+    let clicked = sky_plot::show(ui, rect, &scene, &mut state.sky);
+    commands.extend(clicked.map(UiCommand::SelectSatellite));
+}
+
+/// The numbers in the corner; a low plot has room for the direction only.
+fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
+    let Some(selected) = model.sky.selected else { return Vec::new() };
+    let look = selected.look;
+    let direction = [
+        ("Az", format::degrees(look.direction.azimuth_deg(), 2)),
+        ("El", format::degrees(look.direction.elevation_deg(), 2)),
+    ];
+    let motion = [
+        ("Range", format!("{} km", format::number(look.range_km, 0))),
+        ("Rate", format!("{} km/s", format::signed(look.range_rate_km_s, 2))),
+        (
+            "Doppler",
+            format!("{} kHz at 437 MHz", format::signed(look.doppler_hz(CARRIER_HZ) / 1e3, 2)),
+        ),
+    ];
+    direction.into_iter().chain(motion.into_iter().filter(|_| full)).collect()
+}
+
+/// How long the antenna has not been heard, if that is so.
+fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let LinkState::Lost { since, .. } = antenna.snapshot.link else { return None };
+    Some(format::age(model.steady.saturating_duration_since(since).as_secs_f64()))
+}
+
+/// Where the lower axis dips below what the travel reaches.
+fn keyholes(antenna: &AntennaModel) -> Keyholes {
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = antenna.config.mount;
+    Keyholes {
+        lower_axis_azimuth: Angle::from_degrees(lower_axis_azimuth_deg),
+        radius: Angle::from_degrees(travel_from_deg.clamp(1.0, 45.0)),
+    }
+}
+
+/// The way of a go-to that is typed but not sent.
+fn ghost(antenna: &AntennaModel, state: &OperateState) -> Option<(AzEl, AzEl)> {
+    if matches!(antenna.snapshot.stop, StopState::Stopping { .. }) {
+        return None;
+    }
+    let target = state.card.drive.go_to.previewed()?;
+    let from = antenna.snapshot.state.measured?.direction;
+    let elevation_deg = target.elevation_deg.unwrap_or(from.elevation_deg());
+    Some((from, AzEl::from_degrees(target.azimuth_deg, elevation_deg)))
+}
+
+/// Across and upwards, degrees; across is seen on the sky, not on the horizon.
+fn recent_errors(antenna: &AntennaModel) -> Vec<(f32, f32)> {
+    let Some(newest) = antenna.errors.back() else { return Vec::new() };
+    let elevation =
+        antenna.prediction.map_or(0.0, |prediction| prediction.direction.elevation.radians());
+    antenna
+        .errors
+        .iter()
+        .rev()
+        .take_while(|error| seconds_between(error.time, newest.time) <= RECENT_S)
+        .map(|error| {
+            let across = error.azimuth.degrees() * elevation.cos();
+            (across as f32, error.elevation.degrees() as f32)
+        })
+        .collect()
+}

@@ -1,0 +1,177 @@
+//! The line above the sky plot: which pass is selected, and how long until its
+//! next events.
+
+use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
+
+use super::{
+    text::{self, Weight},
+    theme,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        paint,
+    },
+};
+
+/// Height of the header.
+pub const HEIGHT: f32 = 56.0;
+/// A lower header has one line.
+const TWO_LINES_FROM: f32 = 52.0;
+/// Space at the left and the right.
+const PADDING: f32 = 16.0;
+/// The same with the button, in a small window.
+const SMALL_PADDING: f32 = 12.0;
+/// Between the texts at the left and the countdowns.
+const GAP: f32 = 16.0;
+/// Between a word and what it belongs to.
+const WORD_GAP: f32 = 7.0;
+/// How much lower a smaller text goes to stand on the same line as a larger
+/// one, for each point of difference in size.
+const DOWN_PER_SIZE: f32 = 0.22;
+/// In less room than this a text is left out.
+const LEAST_TEXT: f32 = 24.0;
+/// With less room than this for the texts, the countdown to the maximum is
+/// left out.
+const TCA_FROM: f32 = 180.0;
+/// Room for a countdown of the usual length, so that the words before it do
+/// not move with its figures.
+const USUAL_COUNTDOWN: &str = "T−00:00";
+
+/// The selected pass, all in words.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PassHeaderModel<'a> {
+    /// Name of the satellite.
+    pub name: &'a str,
+    /// Second name and catalogue number.
+    pub detail: &'a str,
+    /// The elements and where they are.
+    pub second_line: &'a str,
+    /// The second line tells of something that is not as it should be.
+    pub second_line_warns: bool,
+    /// Countdown to the maximum; empty once it is over.
+    pub tca_countdown: &'a str,
+    /// What the large countdown leads to, such as AOS or LOS.
+    pub event: &'a str,
+    /// The large countdown.
+    pub countdown: &'a str,
+    /// A small window: one line, and a button that opens the list of passes.
+    pub drawer_button: bool,
+    /// A sentence that stands here instead of a pass.
+    pub empty: Option<&'a str>,
+}
+
+/// Shows the header in `rect`. True when the operator wants the list of passes.
+pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let padding = if model.drawer_button { SMALL_PADDING } else { PADDING };
+    let mut room = rect.shrink2(vec2(padding.min(rect.width() / 2.0), 0.0));
+    let mut clicked = false;
+    if model.drawer_button {
+        let button = Button::normal("Passes");
+        let place = Rect::from_min_size(
+            pos2(room.left(), room.center().y - SMALL_HEIGHT / 2.0),
+            vec2(button.width(ui), SMALL_HEIGHT),
+        );
+        clicked = button.show(ui, "passes", place).clicked();
+        room.min.x = (place.right() + 12.0).min(room.right());
+    }
+    if let Some(sentence) = model.empty {
+        paint::text_in(ui, room, Align2::LEFT_CENTER, sentence, text::body(), t.t2);
+        paint::name_text(ui, "pass", room, sentence);
+        return clicked;
+    }
+    let one_line = model.drawer_button || rect.height() < TWO_LINES_FROM;
+    let left = countdowns(ui, room, model, one_line);
+    let texts = room.with_max_x((left - GAP).max(room.left()));
+    if one_line {
+        // A warning needs the room more than the second name.
+        let detail = if model.second_line_warns { "" } else { model.detail };
+        let end = names(ui, texts, model.name, detail, text::value());
+        let rest = texts.with_min_x(end + WORD_GAP).translate(vec2(0.0, DOWN_PER_SIZE * 3.0));
+        second_line(ui, rest, model);
+    } else {
+        let line = |y: f32| Rect::from_x_y_ranges(texts.x_range(), y - 12.0..=y + 12.0);
+        names(ui, line(rect.top() + 20.0), model.name, model.detail, text::title());
+        second_line(ui, line(rect.top() + 40.0), model);
+    }
+    paint::name_text(ui, "pass", texts, &said(&[model.name, model.detail, model.second_line]));
+    clicked
+}
+
+/// Paints the name in `font` and then `detail`, cut where `rect` ends. Returns where
+/// they end.
+fn names(ui: &Ui, rect: Rect, name: &str, detail: &str, font: FontId) -> f32 {
+    let t = theme::tokens(ui);
+    let down = DOWN_PER_SIZE * (font.size - text::body().size);
+    let name = paint::text_in(ui, rect, Align2::LEFT_CENTER, name, font, t.t1);
+    let rest = rect.with_min_x(name.right() + WORD_GAP).translate(vec2(0.0, down));
+    if detail.is_empty() || rest.width() < LEAST_TEXT {
+        return name.right();
+    }
+    paint::text_in(ui, rest, Align2::LEFT_CENTER, detail, text::body(), t.t2).right()
+}
+
+fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
+    if rect.width() >= LEAST_TEXT {
+        let t = theme::tokens(ui);
+        let colour = if model.second_line_warns { t.warn } else { t.t2 };
+        paint::text_in(ui, rect, Align2::LEFT_CENTER, model.second_line, text::small(), colour);
+    }
+}
+
+/// Paints the countdowns at the right of `room` and returns where they begin.
+fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) -> f32 {
+    let t = theme::tokens(ui);
+    let y = room.center().y;
+    let font = if one_line { text::sized(24.0, Weight::SemiBold) } else { text::clock() };
+    let at = room.right_center();
+    paint::text(ui, at, Align2::RIGHT_CENTER, model.countdown, font.clone(), t.t1);
+    let at = pos2(room.right() - countdown_width(ui, model.countdown, font) - 10.0, y);
+    let event = paint::text(ui, at, Align2::RIGHT_CENTER, model.event, text::small(), t.t2);
+    let mut spoken = format!("{} {}", model.event, model.countdown);
+    let mut left = event.left();
+
+    let value = if one_line { text::sized(13.0, Weight::SemiBold) } else { text::value() };
+    let width = countdown_width(ui, model.tca_countdown, value.clone());
+    if !model.tca_countdown.is_empty() && left - width - room.left() >= TCA_FROM {
+        spoken = format!("TCA {}, {spoken}", model.tca_countdown);
+        let t2 = t.t2;
+        if one_line {
+            let at = pos2(left - 12.0, y);
+            paint::text(ui, at, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
+            let at = pos2(at.x - width - 4.0, y);
+            left = paint::text(ui, at, Align2::RIGHT_CENTER, "TCA", text::small(), t2).left();
+        } else {
+            let divider = left - 16.5;
+            ui.painter().vline(divider, y - 16.0..=y + 16.0, (1.0, t.line));
+            let right = divider - 16.5;
+            let at = pos2(right, y - 10.0);
+            paint::text(ui, at, Align2::RIGHT_CENTER, "TCA", text::small(), t2);
+            let at = pos2(right, y + 8.0);
+            paint::text(ui, at, Align2::RIGHT_CENTER, model.tca_countdown, value, t.t1);
+            left = right - width;
+        }
+    }
+    let place = Rect::from_x_y_ranges(left.min(room.right())..=room.right(), room.y_range());
+    paint::name_text(ui, "countdowns", place, spoken.trim());
+    left
+}
+
+/// The width to keep free for a countdown.
+fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
+    if countdown.is_empty() {
+        return 0.0;
+    }
+    let usual = paint::text_width(ui, USUAL_COUNTDOWN, font.clone());
+    paint::text_width(ui, countdown, font).max(usual)
+}
+
+/// The texts that are not empty, in one.
+fn said(texts: &[&str]) -> String {
+    let texts: Vec<&str> = texts.iter().copied().filter(|text| !text.is_empty()).collect();
+    texts.join(", ")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,187 @@
+//! Where a pass stands now, in words.
+
+use jiff::Timestamp;
+
+use super::PassRow;
+use crate::{astro::time::seconds_between, ui::format};
+
+/// Where a pass stands now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Phase {
+    /// It has not begun.
+    Upcoming,
+    /// The satellite is up and sets within the list.
+    InProgress,
+    /// The satellite is up and sets after the end of the list.
+    NoLos,
+    /// The satellite neither rises nor sets within the list.
+    AllTheTime,
+    /// It is over.
+    Over,
+}
+
+impl Phase {
+    /// Whether the satellite is up now and the pass has an end to wait for.
+    pub(super) fn is_in_progress(self) -> bool {
+        matches!(self, Self::InProgress | Self::NoLos)
+    }
+
+    pub(super) fn of(row: &PassRow<'_>, now: Timestamp) -> Self {
+        if row.starts_before && row.ends_after {
+            Self::AllTheTime
+        } else if now < row.aos {
+            Self::Upcoming
+        } else if row.ends_after {
+            Self::NoLos
+        } else if now < row.los {
+            Self::InProgress
+        } else {
+            Self::Over
+        }
+    }
+}
+
+/// What the row counts to: a word before the time, which may be empty, and the
+/// time.
+pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'static str, String) {
+    match phase {
+        Phase::Upcoming => ("", format::countdown(seconds_between(now, row.aos))),
+        Phase::InProgress => ("LOS", format::countdown(seconds_between(now, row.los))),
+        Phase::NoLos => ("LOS", "later".to_owned()),
+        Phase::AllTheTime => ("", "up all the time".to_owned()),
+        Phase::Over => ("LOS", "over".to_owned()),
+    }
+}
+
+/// How much of the pass is over, 0 to 1. None when an end of it is not known.
+pub(super) fn progress(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> Option<f32> {
+    if phase != Phase::InProgress || row.starts_before {
+        return None;
+    }
+    let whole_s = seconds_between(row.aos, row.los);
+    let done_s = seconds_between(row.aos, now);
+    (whole_s > 0.0).then(|| (done_s / whole_s).clamp(0.0, 1.0) as f32)
+}
+
+/// Azimuth of AOS and LOS; an end that is outside the list is an ellipsis.
+/// Empty without either.
+pub(super) fn azimuths(row: &PassRow<'_>) -> String {
+    if row.starts_before && row.ends_after {
+        return String::new();
+    }
+    let end = |outside: bool, azimuth_deg: f64| {
+        if outside { "…".to_owned() } else { format::azimuth(azimuth_deg) }
+    };
+    let from = end(row.starts_before, row.aos_azimuth_deg);
+    let to = end(row.ends_after, row.los_azimuth_deg);
+    format!("{from} → {to}")
+}
+
+/// How long the pass lasts; a pass that reaches out of the list lasts longer.
+/// Empty without AOS and LOS.
+pub(super) fn duration(row: &PassRow<'_>) -> String {
+    let known = format::duration(seconds_between(row.aos, row.los));
+    match (row.starts_before, row.ends_after) {
+        (false, false) => known,
+        (true, true) => String::new(),
+        (true, false) | (false, true) => format!("> {known}"),
+    }
+}
+
+/// Time of AOS; a dash when it was before the list, empty without AOS and LOS.
+pub(super) fn aos_time(row: &PassRow<'_>) -> String {
+    match (row.starts_before, row.ends_after) {
+        (false, _) => format::time_z(row.aos),
+        (true, false) => "–".to_owned(),
+        (true, true) => String::new(),
+    }
+}
+
+/// The name for those who do not see the row.
+pub(super) fn spoken(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> String {
+    let (word, time) = countdown(row, phase, now);
+    let word = match phase {
+        Phase::Upcoming => "AOS ",
+        Phase::AllTheTime => "",
+        Phase::InProgress | Phase::NoLos | Phase::Over => &format!("{word} "),
+    };
+    let maximum = format::degrees(row.max_elevation_deg, 0);
+    let verdict = row.verdict.map(|verdict| format!(", {}", verdict.sentence()));
+    format!("{}, {word}{time}, max {maximum}{}", row.name, verdict.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{astro::time::add_seconds, ui::pass_list::Verdict};
+
+    const AOS: Timestamp = Timestamp::UNIX_EPOCH;
+
+    fn row(starts_before: bool, ends_after: bool) -> PassRow<'static> {
+        PassRow {
+            key: (25_544, AOS),
+            name: "ISS",
+            aos: AOS,
+            los: add_seconds(AOS, 600.0),
+            starts_before,
+            ends_after,
+            max_elevation_deg: 51.6,
+            aos_azimuth_deg: 249.0,
+            los_azimuth_deg: 46.0,
+            verdict: Some(Verdict::Loses("Loses 12 s at keyhole N")),
+            path: &[],
+        }
+    }
+
+    fn spoken_at(row: &PassRow<'_>, seconds: f64) -> String {
+        let now = add_seconds(AOS, seconds);
+        spoken(row, Phase::of(row, now), now)
+    }
+
+    #[test]
+    fn a_pass_counts_to_aos_then_to_los() {
+        let row = row(false, false);
+        let tail = ", max 52°, Loses 12 s at keyhole N";
+        assert_eq!(spoken_at(&row, -60.0), format!("ISS, AOS T−01:00{tail}"));
+        assert_eq!(spoken_at(&row, 0.0), format!("ISS, LOS T−10:00{tail}"));
+        assert_eq!(spoken_at(&row, 599.5), format!("ISS, LOS T−00:01{tail}"));
+        assert_eq!(spoken_at(&row, 600.0), format!("ISS, LOS over{tail}"));
+        assert_eq!(azimuths(&row), "249° → 046°");
+        assert_eq!(duration(&row), "10:00");
+    }
+
+    #[test]
+    fn an_end_outside_the_list_is_not_invented() {
+        let early = row(true, false);
+        assert_eq!(azimuths(&early), "… → 046°");
+        assert_eq!((duration(&early).as_str(), aos_time(&early).as_str()), ("> 10:00", "–"));
+        assert_eq!(progress(&early, Phase::of(&early, AOS), AOS), None);
+        let late = row(false, true);
+        assert_eq!(azimuths(&late), "249° → …");
+        assert_eq!(countdown(&late, Phase::of(&late, AOS), AOS).1, "later");
+        assert_eq!(Phase::of(&late, add_seconds(AOS, -1.0)), Phase::Upcoming);
+    }
+
+    #[test]
+    fn a_satellite_without_aos_and_los_is_up_all_the_time() {
+        let row = row(true, true);
+        for seconds in [-10.0, 300.0, 700.0] {
+            assert!(spoken_at(&row, seconds).starts_with("ISS, up all the time, max 52°"));
+        }
+        assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row), "");
+        assert!(!Phase::of(&row, AOS).is_in_progress());
+    }
+
+    #[test]
+    fn progress_runs_from_aos_to_los() {
+        let row = row(false, false);
+        let at = |seconds| {
+            let now = add_seconds(AOS, seconds);
+            progress(&row, Phase::of(&row, now), now)
+        };
+        assert_eq!(at(-1.0), None);
+        assert_eq!(at(0.0), Some(0.0));
+        assert_eq!(at(150.0), Some(0.25));
+        assert_eq!(at(600.0), None);
+    }
+}

@@ -1,0 +1,150 @@
+//! One pass: thumbnail, three lines, progress.
+
+use egui::{Align2, Color32, FontId, Rect, Stroke, StrokeKind, Ui, pos2};
+use jiff::Timestamp;
+
+use super::{
+    PassRow, Verdict,
+    phase::{self, Phase},
+    thumbnail,
+};
+use crate::ui::{
+    format,
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    tokens::Tokens,
+    widgets::paint,
+};
+
+/// Height of a row, with its divider.
+pub(super) const HEIGHT: f32 = 74.0;
+
+const PADDING: f32 = 16.0;
+/// From the thumbnail to the text.
+const GAP: f32 = 12.0;
+/// Centres of the three lines from the top of the row.
+const LINES: [f32; 3] = [20.0, 38.5, 56.0];
+/// From the maximum elevation to the azimuths.
+const AZIMUTHS: f32 = 62.0;
+/// Width kept for the duration.
+const DURATION: f32 = 80.0;
+/// Between columns.
+const COLUMN_GAP: f32 = 8.0;
+/// The bar of the selected row and the line of progress.
+const BAR: f32 = 3.0;
+
+/// How a row is shown beside its own content.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    pub(super) selected: bool,
+    pub(super) hovered: bool,
+    pub(super) focused: bool,
+    pub(super) thumbnail: bool,
+}
+
+/// Paints the row into `rect`. Returns whether a text in it had to be cut.
+pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look: Look) -> bool {
+    let t = theme::tokens(ui);
+    let phase = Phase::of(row, now);
+    ground(ui, rect, phase, look, t);
+    let mut left = rect.left() + PADDING;
+    if look.thumbnail {
+        let at =
+            paint::square(pos2(left + thumbnail::SIDE / 2.0, rect.center().y), thumbnail::SIDE);
+        thumbnail::paint(ui, at, row.path);
+        left = at.right() + GAP;
+    }
+    let [first, second, third] = LINES.map(|down| {
+        let from = pos2(left, rect.top() + down - 10.0);
+        Rect::from_min_max(from, pos2(rect.right() - PADDING, from.y + 20.0))
+    });
+    let name_cut = name_line(ui, first, row, phase, now, t);
+    shape_line(ui, second, row, t);
+    let verdict_cut = verdict_line(ui, third, row, t);
+    if let Some(done) = phase::progress(row, phase, now) {
+        let track = rect.with_min_y(rect.bottom() - BAR);
+        ui.painter().rect_filled(track, 0.0, t.line);
+        let line = track.with_max_x(rect.left() + done * rect.width());
+        ui.painter().rect_filled(line, 0.0, t.sat);
+    }
+    if look.focused {
+        let ring = Stroke::new(2.0, t.sat);
+        ui.painter().rect_stroke(rect.shrink(1.0), 0.0, ring, StrokeKind::Inside);
+    }
+    name_cut || verdict_cut
+}
+
+fn ground(ui: &Ui, rect: Rect, phase: Phase, look: Look, t: &Tokens) {
+    let fill = match (look.selected || phase.is_in_progress(), look.hovered) {
+        (true, _) => t.bgsel,
+        (false, true) => t.bg3,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 0.0, fill);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    if look.selected {
+        let bar = rect.with_max_x(rect.left() + BAR);
+        ui.painter().rect_filled(bar, 0.0, t.sat);
+    }
+}
+
+/// Name and countdown. Returns whether the name was cut.
+fn name_line(
+    ui: &Ui,
+    rect: Rect,
+    row: &PassRow<'_>,
+    phase: Phase,
+    now: Timestamp,
+    t: &Tokens,
+) -> bool {
+    let (word, time) = phase::countdown(row, phase, now);
+    let (font, colour) = match phase {
+        Phase::AllTheTime | Phase::Over | Phase::NoLos => (text::small(), t.t2),
+        Phase::Upcoming | Phase::InProgress => (text::value(), t.t1),
+    };
+    let time = paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, time, font, colour);
+    let mut right = time.left();
+    if !word.is_empty() {
+        let at = pos2(right - 6.0, rect.center().y);
+        right = paint::text(ui, at, Align2::RIGHT_CENTER, word, text::caption(), t.t3).left();
+    }
+    let room = rect.with_max_x(right - COLUMN_GAP);
+    elided(ui, room, row.name, text::sized(13.0, Weight::SemiBold), t.t1)
+}
+
+/// Maximum elevation, azimuths and duration.
+fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
+    let small = text::small;
+    let maximum = format!("max {}", format::degrees(row.max_elevation_deg, 0));
+    let room = rect.with_max_x(rect.left() + AZIMUTHS);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &maximum, small(), t.t2);
+    let room = rect.with_min_x(room.right()).with_max_x(rect.right() - DURATION - COLUMN_GAP);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &phase::azimuths(row), small(), t.t2);
+    let room = rect.with_min_x(rect.right() - DURATION);
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &phase::duration(row), small(), t.t2);
+}
+
+/// Verdict and time of AOS. Returns whether the verdict was cut.
+fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
+    let at = rect.right_center();
+    let time = phase::aos_time(row);
+    let time = paint::text(ui, at, Align2::RIGHT_CENTER, time, text::small(), t.t3);
+    let Some(verdict) = row.verdict else { return false };
+    let (icon, mark, colour) = match verdict {
+        Verdict::Trackable => (Icon::Check, t.ok, t.t2),
+        Verdict::Loses(_) => (Icon::Warning, t.warn, t.warn),
+        Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
+    };
+    let glyph = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
+    icons::paint(ui.painter(), glyph, icon, mark);
+    let room = rect.with_min_x(glyph.right() + 5.0).with_max_x(time.left() - COLUMN_GAP);
+    elided(ui, room, verdict.sentence(), text::small(), colour)
+}
+
+/// A text from the left that gives way. Returns whether it was cut.
+fn elided(ui: &Ui, room: Rect, text: &str, font: FontId, colour: Color32) -> bool {
+    let cut = paint::text_width(ui, text, font.clone()) > room.width();
+    paint::text_in(ui, room, Align2::LEFT_CENTER, text, font, colour);
+    cut
+}

@@ -1,0 +1,111 @@
+//! The rows in view, and the keys that move between them.
+
+use egui::{
+    FocusDirection, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, Ui, UiBuilder,
+    WidgetInfo, pos2, style::ScrollAnimation, vec2,
+};
+
+use super::{
+    PassListAction, PassListModel, PassRow, Verdict,
+    phase::{self, Phase},
+    row::{self, Look},
+};
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &PassListModel<'_>,
+    actions: &mut Vec<PassListAction>,
+) {
+    // Of this column and not of the scrolled part, so that a row keeps its id
+    // wherever it stands.
+    let list = ui.make_persistent_id("passes");
+    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        ui.ctx().accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::ListBox));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("passes").auto_shrink(false).show_rows(
+            ui,
+            row::HEIGHT,
+            model.rows,
+            |ui, range| {
+                let top = ui.max_rect().top();
+                let place = |index: usize| {
+                    let down = row::HEIGHT * (index as f32 - range.start as f32);
+                    let min = pos2(rect.left(), top + down);
+                    Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
+                };
+                // One row above those in view, so that the focus finds it; below, there is
+                // one already.
+                for index in range.start.saturating_sub(1)..range.end {
+                    let Some(pass) = (model.row)(index) else { continue };
+                    let response = one(ui, list, place(index), &pass, model);
+                    if response.clicked() {
+                        response.request_focus();
+                        actions.push(PassListAction::Select(pass.key));
+                    }
+                    if response.gained_focus() {
+                        into_view(ui, place(index));
+                    }
+                    if response.has_focus()
+                        && let Some(target) = step(ui, index, model.rows)
+                        && let Some(next) = (model.row)(target)
+                    {
+                        focus(ui, list.with(next.key), place(target));
+                        actions.push(PassListAction::Select(next.key));
+                    }
+                }
+            },
+        );
+    });
+}
+
+fn one(ui: &Ui, list: Id, rect: Rect, pass: &PassRow<'_>, model: &PassListModel<'_>) -> Response {
+    let response = ui.interact(rect, list.with(pass.key), Sense::click());
+    let selected = model.selected == Some(pass.key);
+    let phase = Phase::of(pass, model.now);
+    response.widget_info(|| {
+        let name = phase::spoken(pass, phase, model.now);
+        WidgetInfo::selected(Role::ListBoxOption, true, selected, name)
+    });
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(selected));
+    if ui.is_rect_visible(rect) {
+        let look = Look {
+            selected,
+            hovered: response.hovered(),
+            focused: response.has_focus(),
+            thumbnail: model.thumbnails,
+        };
+        if row::paint(ui, rect, pass, model.now, look) {
+            let verdict = pass.verdict.map_or("", Verdict::sentence);
+            return response.on_hover_text(format!("{}\n{verdict}", pass.name).trim_end());
+        }
+    }
+    response
+}
+
+/// The index that the arrow keys of this frame lead to from `index`.
+fn step(ui: &Ui, index: usize, rows: usize) -> Option<usize> {
+    let (up, down) = ui.input_mut(|input| {
+        let up = input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp);
+        (up, input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown))
+    });
+    if up == 0 && down == 0 {
+        return None;
+    }
+    // The keys would also move the focus to whatever stands above or below.
+    ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+    let target = (index + down).saturating_sub(up).min(rows.saturating_sub(1));
+    (target != index).then_some(target)
+}
+
+fn focus(ui: &Ui, id: Id, rect: Rect) {
+    ui.memory_mut(|memory| memory.request_focus(id));
+    into_view(ui, rect);
+}
+
+/// At once, because nothing slides; and a row that is still on its way would
+/// not be there to take the focus.
+fn into_view(ui: &Ui, rect: Rect) {
+    ui.scroll_to_rect_animation(rect, None, ScrollAnimation::none());
+}

@@ -1,0 +1,208 @@
+use std::{cell::Cell, rc::Rc};
+
+use egui::{Key, Rect, Role, vec2};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+use jiff::Timestamp;
+
+use super::*;
+use crate::{
+    astro::{AzEl, time::add_seconds},
+    ui::widgets::testing,
+};
+
+const LONG: &str = "A SATELLITE OF 24 LETTER";
+
+fn now() -> Timestamp {
+    "2026-11-14T11:06:12Z".parse().unwrap()
+}
+
+/// What the window holds from frame to frame.
+struct Desk {
+    rows: usize,
+    selected: Option<PassKey>,
+    floor_deg: f64,
+    thumbnails: bool,
+    actions: Vec<PassListAction>,
+    /// The highest index that was asked for.
+    highest: Rc<Cell<usize>>,
+}
+
+impl Desk {
+    fn with(rows: usize) -> Self {
+        Self {
+            rows,
+            selected: None,
+            floor_deg: 10.0,
+            thumbnails: true,
+            actions: Vec::new(),
+            highest: Rc::default(),
+        }
+    }
+}
+
+const NAMES: [&str; 4] = ["NOAA 20", "METEOR-M2 4", "SUOMI NPP", LONG];
+
+/// The first pass is in progress, the others follow each half hour.
+fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
+    let aos = add_seconds(now(), 1800.0 * index as f64 - 259.0);
+    PassRow {
+        key: (100 + index as u32, aos),
+        name: NAMES.get(index).copied().unwrap_or("CRYOSAT 2"),
+        aos,
+        los: add_seconds(aos, 772.0),
+        starts_before: false,
+        ends_after: false,
+        max_elevation_deg: 69.2,
+        aos_azimuth_deg: 173.0,
+        los_azimuth_deg: 343.0,
+        verdict: match index {
+            0 => Some(Verdict::Trackable),
+            1 => Some(Verdict::Loses("Loses 12 s at keyhole N")),
+            2 => Some(Verdict::NotPossible("Not possible: below the travel")),
+            _ => None,
+        },
+        path,
+    }
+}
+
+fn window(desk: Desk) -> Harness<'static, Desk> {
+    let width = if desk.thumbnails { WIDTH } else { NARROW_WIDTH };
+    let path: Vec<Sample> = (0..=40)
+        .map(|step| Sample {
+            time: now(),
+            direction: AzEl::from_degrees(f64::from(step) * 4.0, f64::from(step.min(40 - step))),
+        })
+        .collect();
+    testing::window([width, 636.0], desk, move |ui, desk| {
+        let highest = Rc::clone(&desk.highest);
+        let row = |index: usize| {
+            highest.set(highest.get().max(index));
+            Some(pass(index, &path))
+        };
+        let model = PassListModel {
+            now: now(),
+            rows: desk.rows,
+            row: &row,
+            selected: desk.selected,
+            floor_deg: desk.floor_deg,
+            thumbnails: desk.thumbnails,
+            empty: "No pass above 10° in the next 48 hours.",
+        };
+        let rect = Rect::from_min_size(egui::Pos2::ZERO, vec2(width, 636.0));
+        for action in show(ui, rect, &model) {
+            match action {
+                PassListAction::Select(key) => desk.selected = Some(key),
+                PassListAction::SetFloor(floor_deg) => desk.floor_deg = floor_deg,
+            }
+            desk.actions.push(action);
+        }
+    })
+}
+
+fn key_of(index: usize) -> PassKey {
+    pass(index, &[]).key
+}
+
+#[test]
+fn a_row_says_what_it_shows_and_a_click_selects_it() {
+    let mut window = window(Desk::with(8));
+    window.get_by_label("NOAA 20, LOS T−08:33, max 69°, Trackable");
+    let second = "METEOR-M2 4, AOS T−25:41, max 69°, Loses 12 s at keyhole N";
+    window.get_by_role_and_label(Role::ListBoxOption, second).click();
+    window.run();
+    assert_eq!(window.state().actions, [PassListAction::Select(key_of(1))]);
+    let node = window.get_by_label(second);
+    assert_eq!(node.accesskit_node().is_selected(), Some(true));
+    let other = window.get_by_label_contains("NOAA 20");
+    assert_eq!(other.accesskit_node().is_selected(), Some(false));
+}
+
+#[test]
+fn keys_move_the_selection_and_keep_it_in_view() {
+    let mut window = window(Desk::with(40));
+    window.get_by_label_contains("NOAA 20").focus();
+    window.run();
+    window.key_press(Key::Enter);
+    window.run();
+    assert_eq!(window.state().selected, Some(key_of(0)));
+    for _ in 0..25 {
+        window.key_press(Key::ArrowDown);
+        window.run();
+    }
+    assert_eq!(window.state().selected, Some(key_of(25)));
+    let node = window.get_by(|node| node.is_selected() == Some(true));
+    assert!(node.rect().bottom() <= 636.0 && node.rect().top() >= 40.0, "{}", node.rect());
+    assert!(node.is_focused());
+    for _ in 0..30 {
+        window.key_press(Key::ArrowUp);
+        window.run();
+    }
+    assert_eq!(window.state().selected, Some(key_of(0)));
+    assert!(window.get_by_label_contains("NOAA 20").is_focused());
+}
+
+#[test]
+fn tab_walks_from_the_drop_down_to_the_rows() {
+    let mut window = window(Desk::with(8));
+    for _ in 0..2 {
+        window.key_press(Key::Tab);
+        window.run();
+    }
+    assert!(window.get_by_label_contains("NOAA 20").is_focused());
+}
+
+#[test]
+fn another_floor_is_chosen_from_the_drop_down() {
+    let mut window = window(Desk::with(8));
+    window.get_by_role_and_label(Role::Button, "max ≥ 10°").click();
+    window.run();
+    window.get_by_label("max ≥ 30°").click();
+    window.run();
+    assert_eq!(window.state().actions, [PassListAction::SetFloor(30.0)]);
+    window.get_by_role_and_label(Role::Button, "max ≥ 30°");
+}
+
+#[test]
+fn an_empty_list_says_so() {
+    let window = window(Desk::with(0));
+    window.get_by_label("No pass above 10° in the next 48 hours.");
+    assert!(window.query_by_role(Role::ListBoxOption).is_none());
+}
+
+#[test]
+fn only_rows_in_view_are_asked_for() {
+    let mut window = window(Desk::with(1000));
+    window.run();
+    window.get_by_label("Next passes, 1000");
+    assert!(window.state().highest.get() < 12, "{}", window.state().highest.get());
+    assert!(window.get_all_by_role(Role::ListBoxOption).count() < 12);
+}
+
+#[test]
+fn a_long_name_leaves_the_countdown_alone() {
+    for thumbnails in [true, false] {
+        let mut window = window(Desk { thumbnails, ..Desk::with(4) });
+        window.run();
+        let row = window.get_by_label_contains(LONG).rect();
+        let texts = painted_texts(&window, row);
+        let name = texts.iter().find(|(text, _)| text.starts_with("A SAT")).unwrap();
+        let countdown = texts.iter().find(|(text, _)| text.starts_with("T−")).unwrap();
+        assert!(name.1.right() < countdown.1.left(), "{texts:?}");
+        assert!(texts.iter().all(|(_, place)| row.contains_rect(*place)), "{texts:?}");
+    }
+}
+
+/// The texts painted with their middle in `rect`, and where.
+fn painted_texts(window: &Harness<'_, Desk>, rect: Rect) -> Vec<(String, Rect)> {
+    let texts = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+        egui::Shape::Text(text) => {
+            let place = text.galley.rect.translate(text.pos.to_vec2());
+            Some((text.galley.text().to_owned(), place))
+        }
+        _ => None,
+    });
+    texts.filter(|(_, place)| rect.contains(place.center())).collect()
+}

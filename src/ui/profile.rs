@@ -1,0 +1,114 @@
+//! Elevation, azimuth and pointing error of the selected pass over time.
+
+mod curves;
+mod dashes;
+mod error_plot;
+mod head;
+mod scale;
+mod words;
+
+use egui::{Align2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use jiff::Timestamp;
+
+use super::{text, theme, widgets::paint};
+use crate::plan::Sample;
+use scale::TimeAxis;
+
+/// Space at the left and the right of everything.
+const PADDING: f32 = 16.0;
+/// Centre of the line with the title, from the top.
+const HEAD_Y: f32 = 19.0;
+/// Top of the plots, from the top.
+const PLOTS_TOP: f32 = 45.0;
+/// For the numbers of the left scale, from the left.
+const LEFT_SCALE: f32 = 42.0;
+/// For the numbers of the right scale, from the right.
+const RIGHT_SCALE: f32 = 44.0;
+/// Between the two plots.
+const PLOT_GAP: f32 = 10.0;
+/// Below the plots, for the times.
+const TIMES: f32 = 25.0;
+/// Less room than this for the upper plot shows nothing.
+const LEAST_PLOT: f32 = 24.0;
+
+/// The selected pass. Samples are oldest first.
+#[derive(Debug, Clone, Copy)]
+pub struct ProfileModel<'a> {
+    /// The present.
+    pub now: Timestamp,
+    /// Name of the satellite.
+    pub name: &'a str,
+    /// The predicted path from the begin to the end of the pass.
+    pub track: &'a [Sample],
+    /// Where the satellite is highest.
+    pub tca: Sample,
+    /// The pass goes on beyond the first or the last sample.
+    pub cut: bool,
+    /// When and how far the satellite was off the beam axis, in degrees. A
+    /// value that is not finite breaks the line.
+    pub errors: &'a [(Timestamp, f32)],
+    /// Half the beam width, in degrees.
+    pub half_beam_deg: f64,
+}
+
+/// Shows the profile in `rect`, made for 392 by 208 points.
+pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    let response = ui.interact(rect, ui.make_persistent_id("pass profile"), Sense::hover());
+    let Some(model) = model else {
+        let sentence = "No pass selected.";
+        empty(ui, rect, sentence);
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
+        return;
+    };
+    let head = Rect::from_center_size(
+        pos2(rect.center().x, rect.top() + HEAD_Y),
+        vec2((rect.width() - 2.0 * PADDING).max(0.0), 16.0),
+    );
+    head::show(ui, head, model.name);
+
+    let error_rect = Rect::from_min_max(
+        pos2(rect.left() + LEFT_SCALE, rect.bottom() - TIMES - error_plot::HEIGHT),
+        pos2(rect.right() - RIGHT_SCALE, rect.bottom() - TIMES),
+    );
+    let curves_rect = Rect::from_min_max(
+        pos2(error_rect.left(), rect.top() + PLOTS_TOP),
+        pos2(error_rect.right(), error_rect.top() - PLOT_GAP),
+    );
+    let Some(axis) = TimeAxis::new(model.track, curves_rect) else {
+        let sentence = format!("The path of {} is not known.", model.name);
+        empty(ui, rect.with_min_y(head.bottom()), &sentence);
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
+        return;
+    };
+    if curves_rect.width() >= LEAST_PLOT && curves_rect.height() >= LEAST_PLOT {
+        curves::show(ui, curves_rect, &axis, model);
+        error_plot::show(ui, error_rect, &axis, model);
+        now_line(ui, curves_rect.union(error_rect), &axis, model.now);
+        words::times(ui, error_rect, &axis, model);
+    }
+    let sentence = words::sentence(&axis, model);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
+}
+
+fn empty(ui: &Ui, rect: Rect, sentence: &str) {
+    let room = rect.shrink2(vec2(PADDING.min(rect.width() / 2.0), 0.0));
+    let colour = theme::tokens(ui).t2;
+    paint::text_in(ui, room, Align2::CENTER_CENTER, sentence, text::body(), colour);
+}
+
+/// The present, through both plots.
+fn now_line(ui: &Ui, rect: Rect, axis: &TimeAxis, now: Timestamp) {
+    if !axis.contains(now) {
+        return;
+    }
+    let colour = theme::tokens(ui).t1;
+    let (x, top) = (axis.x(now), rect.top());
+    ui.painter().line_segment([pos2(x, top), pos2(x, rect.bottom())], (1.75, colour));
+    let corners = vec![pos2(x - 5.0, top - 7.0), pos2(x + 5.0, top - 7.0), pos2(x, top)];
+    ui.painter().add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+}
+
+#[cfg(test)]
+mod tests;

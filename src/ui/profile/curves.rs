@@ -1,0 +1,134 @@
+//! Elevation and azimuth along the pass.
+
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, pos2, vec2};
+
+use super::{
+    ProfileModel, dashes,
+    scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG, TimeAxis},
+};
+use crate::ui::{format, text, theme, widgets::paint};
+
+/// Dash and gap of the planned part.
+const DASH: (f32, f32) = (6.0, 4.5);
+/// Dash and gap of the azimuth.
+pub(super) const DOTS: (f32, f32) = (1.5, 3.5);
+/// From the centre of the diamond to its corners.
+const DIAMOND: f32 = 6.5;
+/// Between a plot and the numbers of its scales.
+const SCALE_GAP: f32 = 6.0;
+
+/// Shows the plot in `rect`; the numbers of the scales stand beside it.
+pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    grid(ui, rect);
+
+    let painter = ui.painter_at(rect);
+    let azimuths = model.track.iter().map(|s| (axis.x(s.time), s.direction.azimuth_deg()));
+    let broken = scale::broken_at_north(azimuths);
+    for piece in scale::pieces(broken.into_iter(), rect, AZIMUTH_TOP_DEG) {
+        let stroke = Stroke::new(1.5, t.t2);
+        dashes::paint(&painter, &piece, stroke, DOTS);
+    }
+
+    let elevations = model.track.iter().map(|s| (axis.x(s.time), s.direction.elevation_deg()));
+    let stroke = Stroke::new(2.0, t.sat);
+    let now_x = axis.x(model.now).clamp(rect.left(), rect.right());
+    // The whole path is dashed and then cut at the present, so that the dashes
+    // stay where they are while time goes on.
+    let flown = painter.with_clip_rect(painter.clip_rect().intersect(rect.with_max_x(now_x)));
+    let planned = painter.with_clip_rect(painter.clip_rect().intersect(rect.with_min_x(now_x)));
+    for piece in scale::pieces(elevations, rect, ELEVATION_TOP_DEG) {
+        dashes::paint(&planned, &piece, stroke, DASH);
+        flown.line(piece, stroke);
+    }
+    highest(ui, rect, axis, model);
+}
+
+fn grid(ui: &Ui, rect: Rect) {
+    let t = theme::tokens(ui);
+    for third in 0..=3_u8 {
+        let part = f64::from(third) / 3.0;
+        let y = scale::y(rect, part, 1.0);
+        ui.painter().hline(rect.x_range(), y, (1.0, t.line));
+        let number = |top: f64| format::number(part * top, 0);
+        let left = pos2(rect.left() - SCALE_GAP, y);
+        let elevation = number(ELEVATION_TOP_DEG);
+        paint::text(ui, left, Align2::RIGHT_CENTER, elevation, text::caption(), t.sat);
+        let right = pos2(rect.right() + SCALE_GAP, y);
+        let azimuth = number(AZIMUTH_TOP_DEG);
+        paint::text(ui, right, Align2::LEFT_CENTER, azimuth, text::caption(), t.t2);
+    }
+}
+
+/// The diamond where the pass is highest, with the elevation beside it.
+fn highest(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
+    let elevation_deg = model.tca.direction.elevation_deg();
+    if !axis.contains(model.tca.time) || !elevation_deg.is_finite() {
+        return;
+    }
+    let t = theme::tokens(ui);
+    let x = axis.x(model.tca.time);
+    let centre = pos2(x, scale::y(rect, elevation_deg, ELEVATION_TOP_DEG));
+    diamond(ui.painter(), centre, t.bg0, Stroke::new(1.5, t.sat));
+
+    let words = format!("{}°", format::number(elevation_deg, 1));
+    let size = vec2(paint::text_width(ui, &words, text::caption()), 14.0);
+    let now_x = axis.x(model.now);
+    let place = label_place(rect, centre, size, now_x);
+    // A curve that runs behind the number must not make it hard to read.
+    ui.painter().rect_filled(place.shrink2(vec2(-1.0, 1.0)), 2.0, t.bg0.gamma_multiply(0.8));
+    paint::text(ui, place.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t1);
+}
+
+fn diamond(painter: &Painter, centre: Pos2, fill: Color32, stroke: Stroke) {
+    let corners =
+        [vec2(0.0, -DIAMOND), vec2(DIAMOND, 0.0), vec2(0.0, DIAMOND), vec2(-DIAMOND, 0.0)];
+    let points = corners.into_iter().map(|corner| centre + corner).collect();
+    painter.add(Shape::convex_polygon(points, fill, stroke));
+}
+
+/// Beside the diamond: at its left, or at its right where the left has no room
+/// or the line of the present runs through it.
+fn label_place(rect: Rect, centre: Pos2, size: Vec2, now_x: f32) -> Rect {
+    let distance = DIAMOND + 4.0;
+    let y = (centre.y - 7.0).max(rect.top() + size.y / 2.0 + 1.0);
+    let at = |x: f32| Rect::from_min_size(pos2(x, y - size.y / 2.0), size);
+    let left = at(centre.x - distance - size.x);
+    let right = at(centre.x + distance);
+    let free = |place: &Rect| {
+        place.left() >= rect.left()
+            && place.right() <= rect.right()
+            && !place.x_range().expand(3.0).contains(now_x)
+    };
+    if free(&left) || !free(&right) && left.left() >= rect.left() { left } else { right }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLOT: Rect = Rect { min: pos2(40.0, 40.0), max: pos2(340.0, 140.0) };
+
+    fn place(x: f32, y: f32, now_x: f32) -> Rect {
+        label_place(PLOT, pos2(x, y), vec2(30.0, 14.0), now_x)
+    }
+
+    #[test]
+    fn the_maximum_stands_where_it_has_room() {
+        assert!(place(190.0, 70.0, 100.0).right() < 190.0);
+        assert!(place(60.0, 70.0, 300.0).left() > 60.0);
+        assert!(place(330.0, 70.0, 100.0).right() < 330.0);
+    }
+
+    #[test]
+    fn the_maximum_steps_aside_for_the_present() {
+        assert!(place(190.0, 70.0, 165.0).left() > 190.0);
+        assert!(place(190.0, 70.0, 215.0).right() < 190.0);
+    }
+
+    #[test]
+    fn the_maximum_of_an_overhead_pass_stays_in_the_plot() {
+        assert!(place(190.0, 40.0, 100.0).top() > PLOT.top());
+    }
+}

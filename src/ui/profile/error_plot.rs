@@ -1,0 +1,44 @@
+//! How far the antenna was off the satellite along the pass.
+
+use egui::{Align2, Rect, Stroke, Ui, pos2};
+
+use super::{
+    ProfileModel, dashes,
+    scale::{self, TimeAxis},
+};
+use crate::ui::{format, text, theme, widgets::paint};
+
+/// Height of the plot.
+pub(super) const HEIGHT: f32 = 32.0;
+/// Dash and gap of the line at half the beam.
+const DASH: (f32, f32) = (4.0, 4.0);
+/// Between the plot and the words beside it.
+const GAP: f32 = 6.0;
+
+/// Shows the plot in `rect`; its name and the half beam stand beside it.
+pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));
+    let name = pos2(rect.left() - GAP, rect.center().y);
+    paint::text(ui, name, Align2::RIGHT_CENTER, "err", text::caption(), t.t2);
+
+    let errors = || {
+        let on_axis = model.errors.iter().filter(|(time, _)| axis.contains(*time));
+        on_axis.map(|&(time, error_deg)| (axis.x(time), f64::from(error_deg)))
+    };
+    let top = scale::error_top_deg(errors().map(|(_, error_deg)| error_deg), model.half_beam_deg);
+    if scale::has_beam(model.half_beam_deg) {
+        let y = scale::y(rect, model.half_beam_deg, top);
+        let line = [pos2(rect.left(), y), pos2(rect.right(), y)];
+        let stroke = Stroke::new(1.0, t.cmd);
+        dashes::paint(ui.painter(), &line, stroke, DASH);
+        let number = format::number(model.half_beam_deg, 2);
+        let at = pos2(rect.right() + GAP, y);
+        paint::text(ui, at, Align2::LEFT_CENTER, number, text::caption(), t.cmd);
+    }
+    let painter = ui.painter_at(rect);
+    for piece in scale::pieces(errors(), rect, top) {
+        painter.line(piece, Stroke::new(1.5, t.ant));
+    }
+}

@@ -1,0 +1,202 @@
+//! Where times and values lie in the plots.
+
+use egui::{Pos2, Rect, pos2};
+use jiff::Timestamp;
+
+use crate::{astro::time::seconds_between, plan::Sample};
+
+/// Top of the elevation scale, in degrees.
+pub(super) const ELEVATION_TOP_DEG: f64 = 90.0;
+/// Top of the azimuth scale, in degrees.
+pub(super) const AZIMUTH_TOP_DEG: f64 = 360.0;
+/// The error plot reaches at least this many half beams.
+const ERROR_LEAST_HALF_BEAMS: f64 = 1.4;
+/// Beyond this many half beams an error lies at the top edge.
+const ERROR_MOST_HALF_BEAMS: f64 = 3.0;
+
+/// The time axis that both plots share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TimeAxis {
+    start: Timestamp,
+    end: Timestamp,
+    left: f32,
+    width: f32,
+}
+
+impl TimeAxis {
+    /// From the first to the last sample, across the width of `rect`. None if
+    /// no time lies between them.
+    pub(super) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
+        let start = track.first()?.time;
+        let end = track.last()?.time;
+        (end > start).then(|| Self { start, end, left: rect.left(), width: rect.width() })
+    }
+
+    /// Where the axis begins.
+    pub(super) fn start(&self) -> Timestamp {
+        self.start
+    }
+
+    /// Where the axis ends.
+    pub(super) fn end(&self) -> Timestamp {
+        self.end
+    }
+
+    /// Whether `time` lies on the axis.
+    pub(super) fn contains(&self, time: Timestamp) -> bool {
+        (self.start..=self.end).contains(&time)
+    }
+
+    /// The place of `time`; it can lie outside of the axis.
+    pub(super) fn x(&self, time: Timestamp) -> f32 {
+        let part = seconds_between(self.start, time) / seconds_between(self.start, self.end);
+        self.left + part as f32 * self.width
+    }
+}
+
+/// The height of `value` in `rect`, whose bottom is 0 and whose top is `top`.
+/// What lies beyond is drawn at the edge.
+pub(super) fn y(rect: Rect, value: f64, top: f64) -> f32 {
+    rect.bottom() - (value / top).clamp(0.0, 1.0) as f32 * rect.height()
+}
+
+/// The top of the error plot in degrees: 1.4 half beams, or up to 3 if an
+/// error is larger. Without a beam, the largest error.
+pub(super) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f64) -> f64 {
+    let largest = errors.filter(|error| error.is_finite()).fold(0.0, f64::max);
+    if has_beam(half_beam_deg) {
+        largest.clamp(ERROR_LEAST_HALF_BEAMS * half_beam_deg, ERROR_MOST_HALF_BEAMS * half_beam_deg)
+    } else if largest > 0.0 {
+        largest
+    } else {
+        1.0
+    }
+}
+
+/// Whether the width of the beam is known.
+pub(super) fn has_beam(half_beam_deg: f64) -> bool {
+    half_beam_deg.is_finite() && half_beam_deg > 0.0
+}
+
+/// The points of a curve, in pieces: a value that is not finite ends a piece.
+pub(super) fn pieces(
+    points: impl Iterator<Item = (f32, f64)>,
+    rect: Rect,
+    top: f64,
+) -> Vec<Vec<Pos2>> {
+    let mut pieces = vec![Vec::new()];
+    for (x, value) in points {
+        if !value.is_finite() {
+            pieces.push(Vec::new());
+        } else if let Some(piece) = pieces.last_mut() {
+            piece.push(pos2(x, y(rect, value, top)));
+        }
+    }
+    pieces.retain(|piece| piece.len() > 1);
+    pieces
+}
+
+/// Azimuths in degrees, broken where they pass north: one piece ends at one
+/// edge of the scale, and a value that is not finite separates it from the
+/// next, which starts at the other edge.
+pub(super) fn broken_at_north(points: impl Iterator<Item = (f32, f64)>) -> Vec<(f32, f64)> {
+    let mut broken: Vec<(f32, f64)> = Vec::new();
+    for (x, azimuth_deg) in points {
+        let azimuth_deg = azimuth_deg.rem_euclid(AZIMUTH_TOP_DEG);
+        if let Some(&(last_x, last_deg)) = broken.last()
+            && (azimuth_deg - last_deg).abs() > AZIMUTH_TOP_DEG / 2.0
+        {
+            let (out_deg, in_deg) = if azimuth_deg < last_deg {
+                (AZIMUTH_TOP_DEG, 0.0)
+            } else {
+                (0.0, AZIMUTH_TOP_DEG)
+            };
+            let before_deg = (out_deg - last_deg).abs();
+            let after_deg = (azimuth_deg - in_deg).abs();
+            let turn_deg = before_deg + after_deg;
+            let part = if turn_deg > 0.0 { before_deg / turn_deg } else { 0.0 };
+            let north_x = last_x + part as f32 * (x - last_x);
+            broken.extend([(north_x, out_deg), (north_x, f64::NAN), (north_x, in_deg)]);
+        }
+        broken.push((x, azimuth_deg));
+    }
+    broken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::AzEl;
+    use egui::vec2;
+
+    const PLOT: Rect = Rect { min: pos2(40.0, 10.0), max: pos2(340.0, 100.0) };
+
+    fn sample(time: &str) -> Sample {
+        Sample { time: time.parse().unwrap(), direction: AzEl::from_degrees(0.0, 0.0) }
+    }
+
+    fn near(a: f32, b: f32) -> bool {
+        (a - b).abs() < 1e-3
+    }
+
+    #[test]
+    fn the_pass_fills_the_width() {
+        let track = [sample("2026-11-14T11:00:00Z"), sample("2026-11-14T11:10:00Z")];
+        let axis = TimeAxis::new(&track, PLOT).unwrap();
+        assert!(near(axis.x(axis.start()), 40.0) && near(axis.x(axis.end()), 340.0));
+        let later: Timestamp = "2026-11-14T11:12:30Z".parse().unwrap();
+        assert!(near(axis.x(later), 415.0) && !axis.contains(later));
+    }
+
+    #[test]
+    fn a_path_without_length_has_no_axis() {
+        assert!(TimeAxis::new(&[], PLOT).is_none());
+        let one = sample("2026-11-14T11:00:00Z");
+        assert!(TimeAxis::new(&[one, one], PLOT).is_none());
+    }
+
+    #[test]
+    fn values_stay_in_the_plot() {
+        assert!(near(y(PLOT, 0.0, 90.0), 100.0) && near(y(PLOT, 90.0, 90.0), 10.0));
+        assert!(near(y(PLOT, 30.0, 90.0), 70.0));
+        assert!(near(y(PLOT, -3.0, 90.0), 100.0) && near(y(PLOT, 95.0, 90.0), 10.0));
+    }
+
+    #[test]
+    fn the_error_plot_grows_up_to_three_half_beams() {
+        let top = |errors: &[f64]| error_top_deg(errors.iter().copied(), 0.5);
+        assert!((top(&[]) - 0.7).abs() < 1e-9);
+        assert!((top(&[0.04, f64::NAN]) - 0.7).abs() < 1e-9);
+        assert!((top(&[1.1, 0.2]) - 1.1).abs() < 1e-9);
+        assert!((top(&[1.1, f64::INFINITY, 40.0]) - 1.5).abs() < 1e-9);
+        assert!((error_top_deg([0.3].into_iter(), f64::NAN) - 0.3).abs() < 1e-9);
+        assert!(error_top_deg([].into_iter(), 0.0) > 0.0);
+    }
+
+    #[test]
+    fn azimuth_breaks_at_north_in_both_directions() {
+        let east = broken_at_north([(0.0, 350.0), (30.0, 20.0)].into_iter());
+        let (xs, degs): (Vec<f32>, Vec<f64>) = east.into_iter().unzip();
+        assert!(xs[1..4].iter().all(|&x| near(x, 10.0)), "{xs:?}");
+        assert!((degs[1] - 360.0).abs() < 1e-9 && degs[2].is_nan() && degs[3].abs() < 1e-9);
+
+        let west = broken_at_north([(0.0, 5.0), (10.0, 355.0)].into_iter());
+        let drawn = pieces(west.into_iter(), PLOT, AZIMUTH_TOP_DEG);
+        assert_eq!(drawn.len(), 2);
+        assert!(near(drawn[0][1].y, PLOT.bottom()) && near(drawn[1][0].y, PLOT.top()));
+    }
+
+    #[test]
+    fn azimuth_in_the_south_is_one_piece() {
+        let south = [(0.0, 100.0), (10.0, 180.0), (20.0, 260.0)];
+        assert_eq!(broken_at_north(south.into_iter()), south);
+    }
+
+    #[test]
+    fn a_gap_is_not_bridged() {
+        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 3.0)];
+        let drawn =
+            pieces(points.into_iter(), Rect::from_min_size(Pos2::ZERO, vec2(9.0, 9.0)), 9.0);
+        assert_eq!(drawn.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+    }
+}

@@ -1,0 +1,101 @@
+use super::*;
+use crate::{
+    astro::{AzEl, time::add_seconds},
+    ui::widgets::testing,
+};
+use egui_kittest::{Harness, kittest::Queryable as _};
+
+fn at(seconds: f64) -> Timestamp {
+    add_seconds("2026-11-14T11:01:53Z".parse().unwrap(), seconds)
+}
+
+/// A pass of ten minutes over the north, highest in its middle.
+fn track() -> Vec<Sample> {
+    (0..=60)
+        .map(|step| {
+            let part = f64::from(step) / 60.0;
+            let elevation_deg = 5.0 + 60.0 * (part * std::f64::consts::PI).sin();
+            let azimuth_deg = (300.0 + 120.0 * part).rem_euclid(360.0);
+            Sample {
+                time: at(600.0 * part),
+                direction: AzEl::from_degrees(azimuth_deg, elevation_deg),
+            }
+        })
+        .collect()
+}
+
+fn model<'a>(track: &'a [Sample], errors: &'a [(Timestamp, f32)]) -> ProfileModel<'a> {
+    ProfileModel {
+        now: at(200.0),
+        name: "NOAA 20",
+        track,
+        tca: Sample { time: at(300.0), direction: AzEl::from_degrees(0.0, 65.0) },
+        cut: false,
+        errors,
+        half_beam_deg: 0.44,
+    }
+}
+
+fn window(size: [f32; 2], model: Option<ProfileModel<'_>>) -> Harness<'_> {
+    testing::window(size, (), move |ui, ()| {
+        show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref());
+    })
+}
+
+#[test]
+fn the_pass_is_told_in_a_sentence() {
+    let errors = [(at(100.0), 0.2), (at(190.0), 0.04), (at(195.0), f32::NAN)];
+    let track = track();
+    let window = window([392.0, 208.0], Some(model(&track, &errors)));
+    window.get_by_role_and_label(
+        Role::Image,
+        "NOAA 20 profile: AOS 11:01:53Z at azimuth 300°, TCA 11:06:53Z at elevation 65.0°, \
+         LOS 11:11:53Z at azimuth 060°. Last error 0.04°, half the beam is 0.44°.",
+    );
+}
+
+#[test]
+fn a_cut_pass_has_neither_rise_nor_set() {
+    let track = track();
+    let window = window([392.0, 208.0], Some(ProfileModel { cut: true, ..model(&track, &[]) }));
+    window.get_by_label_contains("from 11:01:53Z");
+    window.get_by_label_contains("to 11:11:53Z");
+    assert!(window.query_by_label_contains("AOS").is_none());
+}
+
+#[test]
+fn nothing_selected_and_nothing_known_are_said() {
+    window([392.0, 208.0], None).get_by_role_and_label(Role::Image, "No pass selected.");
+    let one = [track()[0]];
+    for few in [&[][..], &one] {
+        window([392.0, 208.0], Some(model(few, &[])))
+            .get_by_role_and_label(Role::Image, "The path of NOAA 20 is not known.");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_survived() {
+    let nan = AzEl::from_degrees(f64::NAN, f64::NAN);
+    let mut track = track();
+    track[0].direction = nan;
+    track[30].direction = nan;
+    let errors = [(at(10.0), f32::NAN), (at(20.0), f32::INFINITY), (at(-50.0), 0.1)];
+    for half_beam_deg in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let tca = Sample { direction: nan, ..track[30] };
+        let model = ProfileModel { tca, half_beam_deg, ..model(&track, &errors) };
+        window([392.0, 208.0], Some(model)).get_by_label_contains("elevation –");
+    }
+}
+
+#[test]
+fn any_size_and_any_name_can_be_shown() {
+    let track = track();
+    let errors = [(at(5.0), 0.3)];
+    let name = "A satellite with a name that is far too long to be shown in one line of it";
+    for size in [[392.0, 208.0], [200.0, 120.0], [60.0, 90.0], [10.0, 10.0]] {
+        for now in [-100.0, 0.0, 300.0, 900.0] {
+            let model = ProfileModel { name, now: at(now), ..model(&track, &errors) };
+            window(size, Some(model)).get_by_label_contains(name);
+        }
+    }
+}

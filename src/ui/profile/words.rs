@@ -1,0 +1,97 @@
+//! The times under the plots, and the pass in a sentence.
+
+use std::fmt::Write as _;
+
+use egui::{Align2, Rect, Ui, pos2};
+
+use super::{ProfileModel, scale::TimeAxis};
+use crate::{
+    plan::Sample,
+    ui::{format, text, theme, widgets::paint},
+};
+
+/// Centre of the times below the plots.
+const BELOW: f32 = 12.0;
+/// Between two of the times.
+const GAP: f32 = 8.0;
+
+/// What the ends of the axis are called. The ends of a pass that goes on are
+/// not its rise and set.
+fn ends(cut: bool) -> (&'static str, &'static str) {
+    if cut { ("from", "to") } else { ("AOS", "LOS") }
+}
+
+/// The times of begin, maximum and end under `plot`. The maximum is left out
+/// where it has no room.
+pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
+    let colour = theme::tokens(ui).t2;
+    let y = plot.bottom() + BELOW;
+    let (begin, end) = ends(model.cut);
+    let begin = format!("{begin} {}", format::time(axis.start()));
+    let end = format!("{end} {}", format::time(axis.end()));
+    let at = pos2(plot.left(), y);
+    let begin = paint::text(ui, at, Align2::LEFT_CENTER, begin, text::caption(), colour);
+    let at = pos2(plot.right(), y);
+    let end = paint::text(ui, at, Align2::RIGHT_CENTER, end, text::caption(), colour);
+    if axis.contains(model.tca.time) {
+        let words = format!("TCA {}", format::time(model.tca.time));
+        let half = paint::text_width(ui, &words, text::caption()) / 2.0;
+        let x = axis.x(model.tca.time);
+        if let Some(x) = centre(x, half, begin.right() + GAP, end.left() - GAP) {
+            paint::text(ui, pos2(x, y), Align2::CENTER_CENTER, words, text::caption(), colour);
+        }
+    }
+}
+
+/// The centre nearest to `x` of what reaches `half` to both sides and lies
+/// between `left` and `right`. None if that is too narrow.
+fn centre(x: f32, half: f32, left: f32, right: f32) -> Option<f32> {
+    (left + half <= right - half).then(|| x.clamp(left + half, right - half))
+}
+
+/// The pass for those who do not see the plot.
+pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
+    let (begin, end) = ends(model.cut);
+    let azimuth = |sample: Option<&Sample>| match sample.map(|s| s.direction.azimuth_deg()) {
+        Some(azimuth_deg) if azimuth_deg.is_finite() => {
+            format!(" at azimuth {}", format::azimuth(azimuth_deg))
+        }
+        _ => String::new(),
+    };
+    let mut sentence = format!(
+        "{} profile: {begin} {}{}, TCA {} at elevation {}, {end} {}{}.",
+        model.name,
+        format::time_z(axis.start()),
+        azimuth(model.track.first()),
+        format::time_z(model.tca.time),
+        format::degrees(model.tca.direction.elevation_deg(), 1),
+        format::time_z(axis.end()),
+        azimuth(model.track.last()),
+    );
+    let last = model.errors.iter().rev().find(|(time, error_deg)| {
+        axis.contains(*time) && *time <= model.now && error_deg.is_finite()
+    });
+    if let Some((_, error_deg)) = last {
+        // Writing to a text cannot fail.
+        let _ = write!(
+            sentence,
+            " Last error {}, half the beam is {}.",
+            format::degrees(f64::from(*error_deg), 2),
+            format::degrees(model.half_beam_deg, 2),
+        );
+    }
+    sentence
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_maximum_stays_between_the_ends() {
+        assert_eq!(centre(50.0, 10.0, 20.0, 80.0), Some(50.0));
+        assert_eq!(centre(5.0, 10.0, 20.0, 80.0), Some(30.0));
+        assert_eq!(centre(95.0, 10.0, 20.0, 80.0), Some(70.0));
+        assert_eq!(centre(50.0, 40.0, 20.0, 80.0), None);
+    }
+}

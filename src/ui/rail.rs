@@ -1,0 +1,105 @@
+//! The views, at the left edge of the window.
+
+use egui::{Align2, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use super::{
+    icons::{self, Icon},
+    text, theme,
+    widgets::paint,
+};
+
+/// Width with icons and words.
+pub const WIDTH: f32 = 72.0;
+/// Width with icons only.
+pub const SMALL_WIDTH: f32 = 48.0;
+/// Below this width of the window the words go.
+pub const SMALL_BELOW: f32 = 1200.0;
+
+/// One view.
+#[derive(Debug, Clone, Copy)]
+pub struct RailEntry<'a> {
+    /// Its icon.
+    pub icon: Icon,
+    /// Its name.
+    pub word: &'a str,
+    /// It is the view that is shown.
+    pub active: bool,
+}
+
+/// The width for a window of this width.
+pub fn width(window_width: f32) -> f32 {
+    if window_width < SMALL_BELOW { SMALL_WIDTH } else { WIDTH }
+}
+
+/// Shows the entries in `rect` and returns the index of the one that was
+/// clicked.
+pub fn show(ui: &mut Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
+    let builder = UiBuilder::new().id_salt("rail").max_rect(rect);
+    ui.scope_builder(builder, |ui| fill(ui, rect, entries)).inner
+}
+
+fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
+    let t = theme::tokens(ui);
+    let small = rect.width() < WIDTH;
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
+    let (height, gap) = if small { (40.0, 4.0) } else { (60.0, 4.0) };
+    let mut clicked = None;
+    for (index, entry) in entries.iter().enumerate() {
+        let top = rect.top() + 8.0 + index as f32 * (height + gap);
+        let cell =
+            Rect::from_min_size(pos2(rect.left() + 4.0, top), vec2(rect.width() - 8.0, height));
+        let id = ui.make_persistent_id(("view", entry.word));
+        let mut response = ui.interact(cell, id, Sense::click());
+        response.widget_info(|| WidgetInfo::selected(Role::Tab, true, entry.active, entry.word));
+        let colour = if entry.active { t.sat } else { t.t2 };
+        if entry.active {
+            ui.painter().rect_filled(cell, 6.0, t.bgsel);
+            if !small {
+                let bar = Rect::from_min_size(pos2(rect.left(), top), vec2(3.0, height));
+                ui.painter().rect_filled(bar, 0.0, t.sat);
+            }
+        } else if response.hovered() {
+            ui.painter().rect_filled(cell, 6.0, t.bg3);
+        }
+        if small {
+            icons::paint(ui.painter(), paint::square(cell.center(), 20.0), entry.icon, colour);
+            response = response.on_hover_text(entry.word);
+        } else {
+            let at = cell.center() - vec2(0.0, 9.0);
+            icons::paint(ui.painter(), paint::square(at, 20.0), entry.icon, colour);
+            let word = cell.with_min_y(cell.bottom() - 27.0).expand2(vec2(3.0, 0.0));
+            paint::text_in(ui, word, Align2::CENTER_CENTER, entry.word, text::caption(), colour);
+        }
+        paint::focus_ring(ui, &response, 6);
+        if response.clicked() {
+            clicked = Some(index);
+        }
+    }
+    clicked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn a_view_is_chosen_with_and_without_its_word() {
+        for window_width in [1440.0, 1024.0] {
+            let mut window = testing::window([window_width, 640.0], None, |ui, chosen| {
+                let size = vec2(width(ui.ctx().content_rect().width()), 592.0);
+                let rect = Rect::from_min_size(pos2(0.0, 48.0), size);
+                let entries = [
+                    RailEntry { icon: Icon::CrossHair, word: "Operate", active: true },
+                    RailEntry { icon: Icon::Sliders, word: "Preferences", active: false },
+                ];
+                *chosen = show(ui, rect, &entries).or(*chosen);
+            });
+            window.get_by_role_and_label(Role::Tab, "Preferences").click();
+            window.run();
+            assert_eq!(*window.state(), Some(1), "{window_width}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Where the antenna is told to point and where it points.
+
+use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
+
+use super::{
+    bodies::around,
+    geometry::{Dome, sharp},
+    labels::Labels,
+    marks,
+    scene::SkyScene,
+};
+use crate::ui::{text, tokens::Tokens};
+
+/// The smallest ring that can be seen around a satellite, points.
+const SMALLEST_RING: f32 = 22.0;
+/// Side of the box of the cross-hair that labels keep clear, points.
+const CROSS_HAIR: f32 = 56.0;
+/// Distance of the notes on a lost link from the middle, points.
+const NOTE: f32 = 14.0;
+
+/// Diameter of the commanded ring: the beam, but never too small to be seen.
+fn ring(dome: Dome, scene: &SkyScene<'_>) -> f32 {
+    // A width that is not a number gives the smallest ring.
+    dome.length(scene.beam_width).max(SMALLEST_RING)
+}
+
+/// The circles that the antenna takes in the plot: middle and radius.
+fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)> {
+    let ring = ring(dome, scene) / 2.0;
+    let measured = scene.measured.map(|measured| (measured.direction, CROSS_HAIR / 2.0));
+    let commanded = scene.commanded.map(|commanded| (commanded, ring));
+    let ghost = scene.ghost.map(|(_, to)| (to, ring));
+    let all = [measured, commanded, ghost].into_iter().flatten();
+    all.filter_map(move |(direction, radius)| Some((dome.point(direction)?, radius)))
+}
+
+/// Keeps labels away from the cross-hair and the rings.
+pub(super) fn reserve(dome: Dome, scene: &SkyScene<'_>, labels: &mut Labels<'_>) {
+    for (at, radius) in circles(dome, scene) {
+        labels.reserve(around(at, 2.0 * radius));
+    }
+    if let Some(measured) = scene.measured.filter(|measured| measured.lost.is_some())
+        && let Some(at) = dome.point(measured.direction)
+    {
+        labels.reserve(Rect::from_min_size(at + vec2(NOTE, -2.0 * NOTE), vec2(44.0, 4.0 * NOTE)));
+    }
+}
+
+/// How far a label must stand from its mark to clear the antenna, when the
+/// mark lies within one of its circles; else `usual`. All in points.
+pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32) -> f32 {
+    circles(dome, scene)
+        .map(|(at, radius)| (at.distance(mark), radius))
+        .filter(|(distance, radius)| distance < radius)
+        .map(|(distance, radius)| distance + radius + 1.0)
+        .fold(usual, f32::max)
+}
+
+/// Paints the preview, the commanded ring and the cross-hair, in this order.
+pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    let ring = ring(dome, scene);
+    if let Some((from, to)) = scene.ghost
+        && let (Some(from), Some(to)) = (dome.point(from), dome.point(to))
+    {
+        painter.add(Shape::line_segment([from, to], Stroke::new(1.0, t.cmd)));
+        marks::ghost(painter, to, ring, t);
+    }
+    if let Some(at) = scene.commanded.and_then(|commanded| dome.point(commanded)) {
+        marks::commanded(painter, at, ring, t);
+    }
+    let Some(measured) = scene.measured else { return };
+    let Some(at) = dome.point(measured.direction) else { return };
+    match measured.lost {
+        None => marks::measured(painter, sharp(at), 1.0, t),
+        Some(age) => {
+            marks::lost(painter, at, t);
+            let note = |from: Vec2, anchor: Align2, words: &str| {
+                let galley = painter.layout_no_wrap(words.to_owned(), text::small_strong(), t.t3);
+                let place = anchor.anchor_size(at + from, galley.size());
+                painter.rect_filled(place.expand(1.0), 0.0, t.sky);
+                painter.galley(place.min, galley, t.t3);
+            };
+            note(vec2(NOTE, -NOTE), Align2::LEFT_BOTTOM, "?");
+            note(vec2(NOTE, NOTE), Align2::LEFT_TOP, age);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::{Angle, AzEl},
+        ui::sky_plot::testing,
+    };
+
+    #[test]
+    fn a_label_clears_a_ring_around_its_mark() {
+        let dome = Dome { centre: Pos2::ZERO, radius: 270.0 };
+        let target = AzEl::from_degrees(120.0, 40.0);
+        let mark = dome.point(target).unwrap();
+        let far = mark + vec2(60.0, 0.0);
+        let with = |beam_deg| SkyScene {
+            commanded: Some(target),
+            beam_width: Angle::from_degrees(beam_deg),
+            ..testing::empty()
+        };
+        assert!((clearance(dome, &with(0.88), mark, 8.0) - 12.0).abs() < 1e-3);
+        // 20 degrees are 60 points.
+        assert!((clearance(dome, &with(20.0), mark, 8.0) - 31.0).abs() < 1e-3);
+        assert!((clearance(dome, &with(20.0), far, 8.0) - 8.0).abs() < 1e-3);
+        assert!((clearance(dome, &with(f64::NAN), mark, 8.0) - 12.0).abs() < 1e-3);
+    }
+}

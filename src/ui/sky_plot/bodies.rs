@@ -1,0 +1,112 @@
+//! The Sun, the Moon and the satellites that are not selected.
+
+use egui::{Painter, Pos2, Rect, Stroke, Vec2};
+
+use super::{
+    antenna,
+    geometry::{Dome, dashed},
+    labels::{Key, Label, Labels},
+    marks,
+    placement::Side,
+    scene::{OtherSatellite, SkyScene},
+};
+use crate::{
+    astro::AzEl,
+    ui::{format, text, tokens::Tokens},
+};
+
+/// Names of other satellites below this elevation are left out, degrees.
+const LOWEST_NAME_DEG: f64 = 5.0;
+/// Below this distance from the beam the Sun's label says it, degrees.
+const NEAR_BEAM_DEG: f64 = 5.0;
+
+/// Paints the Sun and the Moon and keeps labels away from them.
+pub(super) fn sun_and_moon(
+    painter: &Painter,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    labels: &mut Labels<'_>,
+    t: &Tokens,
+) {
+    let at = |body: Option<AzEl>| body.and_then(|direction| dome.visible(direction));
+    if let Some(at) = at(scene.sun) {
+        marks::sun(painter, at, t);
+        labels.reserve(around(at, 22.0));
+    }
+    if let Some(at) = at(scene.moon) {
+        marks::moon(painter, at, t);
+        labels.reserve(around(at, 16.0));
+    }
+}
+
+/// The names of the Sun and the Moon; near the beam with the distance.
+pub(super) fn label_sun_and_moon(
+    labels: &mut Labels<'_>,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    t: &Tokens,
+) {
+    let live = scene.measured.filter(|measured| measured.lost.is_none());
+    let beam = live.map(|measured| measured.direction).or(scene.commanded);
+    let bodies =
+        [(Key::Sun, "Sun", scene.sun, 13.0, t.sun), (Key::Moon, "Moon", scene.moon, 9.0, t.moon)];
+    for (key, word, direction, clearance, colour) in bodies {
+        let Some((direction, mark)) = direction.and_then(|d| Some((d, dome.visible(d)?))) else {
+            continue;
+        };
+        let distance = beam.map(|beam| beam.separation(direction).degrees());
+        let name = match distance.filter(|distance| *distance < NEAR_BEAM_DEG) {
+            Some(distance) => format!("{word} {}", format::degrees(distance, 1)),
+            None => word.to_owned(),
+        };
+        labels.add(&Label {
+            key,
+            lines: &[(&name, text::small(), colour)],
+            mark,
+            clearance: antenna::clearance(dome, scene, mark, clearance),
+            order: &Side::ORDER,
+            tolerance: 1.0,
+        });
+    }
+}
+
+/// Paints the other satellites and their paths, and keeps labels away.
+pub(super) fn others(
+    painter: &Painter,
+    dome: Dome,
+    others: &[OtherSatellite<'_>],
+    labels: &mut Labels<'_>,
+    t: &Tokens,
+) {
+    for satellite in others {
+        let Some(at) = dome.visible(satellite.direction) else { continue };
+        let path = dome.path(satellite.ahead.iter().copied());
+        labels.reserve_path(&path, 3.0);
+        painter.extend(dashed(&path, 1.5, 4.0, Stroke::new(1.25, t.other)));
+        marks::other(painter, at, satellite.geostationary, t);
+        labels.reserve(around(at, 8.0));
+    }
+}
+
+/// The names of the other satellites, as far as there is room.
+pub(super) fn label_others(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for satellite in scene.others {
+        if satellite.direction.elevation_deg() < LOWEST_NAME_DEG {
+            continue;
+        }
+        let Some(mark) = dome.visible(satellite.direction) else { continue };
+        labels.add(&Label {
+            key: Key::Other(satellite.catalog_number),
+            lines: &[(satellite.name, text::small(), t.t2)],
+            mark,
+            clearance: antenna::clearance(dome, scene, mark, 6.0),
+            order: &Side::ORDER,
+            tolerance: 0.4,
+        });
+    }
+}
+
+/// A square around a mark.
+pub(super) fn around(at: Pos2, side: f32) -> Rect {
+    Rect::from_center_size(at, Vec2::splat(side))
+}

@@ -1,0 +1,108 @@
+//! The corners of the plot: numbers, layers and legend.
+
+use egui::{
+    Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+
+use super::{Layers, beam_view, legend, scene::SkyScene};
+use crate::ui::{
+    icons::{self, Icon},
+    text,
+    tokens::Tokens,
+    widgets::paint,
+};
+
+/// Distance of the texts from the edges of the plot, points.
+const EDGE: f32 = 16.0;
+/// Below this height of the plot the legend is a button, points.
+const LEGEND_HEIGHT: f32 = 520.0;
+/// Width of the labels of the readout, points.
+const LABELS: f32 = 54.0;
+
+/// The readout in the upper left corner: the first two lines large.
+pub(super) fn readout(ui: &Ui, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) {
+    let mut top = rect.top() + 12.0;
+    for (index, (label, value)) in scene.readout.iter().enumerate() {
+        let (height, font) = if index < 2 { (22.0, text::value()) } else { (20.0, text::small()) };
+        let middle = top + height / 2.0;
+        let left = pos2(rect.left() + EDGE, middle);
+        paint::text(ui, left, Align2::LEFT_CENTER, label, text::small(), t.t2);
+        let right = left + vec2(LABELS, 0.0);
+        paint::text(ui, right, Align2::LEFT_CENTER, value, font, t.t1);
+        top += height;
+    }
+}
+
+/// The orientation, the button of the layers and, in a low plot, the button of
+/// the legend, in the upper right corner.
+pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) {
+    let corner = rect.right_top() + vec2(-EDGE, 12.0);
+    let button = Rect::from_min_size(corner - vec2(28.0, 0.0), vec2(28.0, 24.0));
+    let response = icon_button(ui, "layers", button, "Layers", t);
+    icons::paint(ui.painter(), paint::square(button.center(), 14.0), Icon::Layers, t.t2);
+    Popup::from_toggle_button_response(&response)
+        .accessible_name("Layers of the sky plot")
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            for (on, name) in [
+                (&mut layers.others, "Other satellites"),
+                (&mut layers.names, "Names"),
+                (&mut layers.sun_and_moon, "Sun and Moon"),
+                (&mut layers.keyholes, "Keyholes"),
+            ] {
+                ui.checkbox(on, name);
+            }
+        });
+
+    let beside = button.left_center() - vec2(8.0, 0.0);
+    paint::text(ui, beside, Align2::RIGHT_CENTER, "N up, E right", text::small(), t.t2);
+}
+
+/// The legend in the lower left corner; a button in a low plot.
+pub(super) fn lower_left(ui: &Ui, rect: Rect, t: &Tokens) {
+    if rect.height() >= LEGEND_HEIGHT {
+        let top = rect.bottom() - 12.0 - legend::HEIGHT;
+        legend::paint(ui.painter(), pos2(rect.left() + EDGE, top), t);
+        return;
+    }
+    let button =
+        Rect::from_min_size(rect.left_bottom() + vec2(EDGE, -12.0 - 24.0), vec2(80.0, 24.0));
+    let response = icon_button(ui, "legend", button, "Legend", t);
+    let icon = paint::square(button.left_center() + vec2(16.0, 0.0), 14.0);
+    icons::paint(ui.painter(), icon, Icon::Info, t.t2);
+    let at = button.left_center() + vec2(29.0, 0.0);
+    paint::text(ui, at, Align2::LEFT_CENTER, "Legend", text::small(), t.t1);
+    Popup::from_toggle_button_response(&response)
+        .accessible_name("Legend of the sky plot")
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            let size = vec2(legend::WIDTH, legend::HEIGHT);
+            let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+            legend::paint(ui.painter(), place.min, t);
+        });
+}
+
+fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Response {
+    let response = paint::control(ui, ("sky plot", salt), rect, Role::Button, true, name);
+    let border = if response.hovered() { t.t2 } else { t.edge };
+    ui.painter().rect(rect, 5.0, t.bg1, Stroke::new(1.0, border), StrokeKind::Inside);
+    paint::focus_ring(ui, &response, 5);
+    response
+}
+
+/// The boxes of the corners, for labels to keep clear of.
+pub(super) fn reserved(rect: Rect, scene: &SkyScene<'_>) -> Vec<Rect> {
+    let lines = scene.readout.len() as f32;
+    let readout = Rect::from_min_size(rect.left_top(), vec2(150.0, 12.0 + 22.0 * lines));
+    let right =
+        Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));
+    let low = rect.height() < LEGEND_HEIGHT;
+    let height = if low { 40.0 } else { legend::HEIGHT + 12.0 };
+    let legend = Rect::from_min_max(
+        rect.left_bottom() - vec2(0.0, height),
+        rect.left_bottom() + vec2(EDGE + legend::WIDTH, 0.0),
+    );
+    let mut boxes = vec![readout, right, legend];
+    boxes.extend(scene.predicted.map(|_| beam_view::place(rect).expand(4.0)));
+    boxes
+}

@@ -1,0 +1,270 @@
+//! From directions to points, and lines cut into dashes and hatches.
+
+use egui::{Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+
+use crate::astro::{Angle, AzEl};
+
+/// Room around the disc for the names of the azimuths, points.
+const MARGIN: f32 = 26.0;
+/// Largest radius of the disc, points.
+const MAX_RADIUS: f32 = 420.0;
+
+/// The disc of the sky: zenith in the middle, horizon at the rim, north up
+/// and east right.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Dome {
+    /// The zenith.
+    pub(super) centre: Pos2,
+    /// Radius of the horizon, points.
+    pub(super) radius: f32,
+}
+
+impl Dome {
+    /// The largest disc that fits into `rect` with its rim labels.
+    pub(super) fn fitted(rect: Rect) -> Self {
+        let radius = rect.width().min(rect.height()) / 2.0 - MARGIN;
+        Self { centre: rect.center(), radius: radius.clamp(1.0, MAX_RADIUS) }
+    }
+
+    /// The point of a direction; none when it is not finite. What is below
+    /// the horizon lies outside the rim.
+    pub(super) fn point(&self, direction: AzEl) -> Option<Pos2> {
+        let finite = direction.azimuth.is_finite() && direction.elevation.is_finite();
+        finite
+            .then(|| self.at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32))
+    }
+
+    /// The point of a direction, and none below the horizon.
+    pub(super) fn visible(&self, direction: AzEl) -> Option<Pos2> {
+        self.point(direction).filter(|_| direction.elevation_deg() >= 0.0)
+    }
+
+    /// The points of a path. What is not finite or below the horizon is left
+    /// out.
+    pub(super) fn path(&self, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
+        directions.into_iter().filter_map(|direction| self.visible(direction)).collect()
+    }
+
+    /// The point at an azimuth in radians and an elevation in degrees.
+    pub(super) fn at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
+        self.centre + outward(azimuth_rad) * self.ring(elevation_deg)
+    }
+
+    /// Radius of the ring of an elevation, points.
+    pub(super) fn ring(&self, elevation_deg: f32) -> f32 {
+        self.radius * (90.0 - elevation_deg) / 90.0
+    }
+
+    /// Length of a small angle across the radius near the middle, points.
+    pub(super) fn length(&self, angle: Angle) -> f32 {
+        self.radius * angle.degrees() as f32 / 90.0
+    }
+
+    /// A rectangle with its corners pulled inside the rim; none when its
+    /// middle lies outside.
+    pub(super) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
+        // Inside of the line of the rim.
+        let limit = self.radius - 1.0;
+        let inside = |point: Pos2| {
+            let from_centre = point - self.centre;
+            let length = from_centre.length();
+            if length > limit { self.centre + from_centre * (limit / length) } else { point }
+        };
+        let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
+        (rect.center().distance(self.centre) < limit).then(|| corners.map(inside).to_vec())
+    }
+
+    /// The circle of a given radius as a closed path, points.
+    pub(super) fn circle(&self, radius: f32) -> Vec<Pos2> {
+        circle(self.centre, radius)
+    }
+}
+
+/// The unit vector on the screen towards an azimuth.
+pub(super) fn outward(azimuth_rad: f32) -> Vec2 {
+    vec2(azimuth_rad.sin(), -azimuth_rad.cos())
+}
+
+/// A circle as a closed path with a point at least each 3 points of length.
+pub(super) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
+    let steps = (std::f32::consts::TAU * radius / 3.0).ceil().clamp(24.0, 720.0) as u16;
+    (0..=steps)
+        .map(|step| {
+            let turn = std::f32::consts::TAU * f32::from(step) / f32::from(steps);
+            centre + outward(turn) * radius
+        })
+        .collect()
+}
+
+/// Dashes along the whole length of a path, each as its own line. Both
+/// lengths are in points and above zero.
+pub(super) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>> {
+    let mut done = Vec::new();
+    let mut current: Vec<Pos2> = path.first().copied().into_iter().collect();
+    let (mut drawing, mut left) = (true, dash);
+    for pair in path.windows(2) {
+        let &[from, to] = pair else { continue };
+        let length = from.distance(to);
+        let mut walked = 0.0;
+        while length - walked > left {
+            walked += left;
+            let at = from + (to - from) * (walked / length);
+            if drawing {
+                current.push(at);
+                done.push(std::mem::take(&mut current));
+            } else {
+                current.push(at);
+            }
+            drawing = !drawing;
+            left = if drawing { dash } else { gap };
+        }
+        left -= length - walked;
+        if drawing {
+            current.push(to);
+        }
+    }
+    if current.len() > 1 {
+        done.push(current);
+    }
+    done
+}
+
+/// The dashes of a path as shapes.
+pub(super) fn dashed(path: &[Pos2], dash: f32, gap: f32, stroke: impl Into<Stroke>) -> Vec<Shape> {
+    let stroke = stroke.into();
+    dashes(path, dash, gap).into_iter().map(|piece| Shape::line(piece, stroke)).collect()
+}
+
+/// Parallel lines that fall to the right by 45 degrees, or rise when `rising`,
+/// clipped to a convex polygon. `spacing` is in points, across the lines.
+pub(super) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
+    let side = if rising { 1.0 } else { -1.0 };
+    // Constant along each line of the hatch.
+    let level = |point: Pos2| point.x + side * point.y;
+    let step = spacing * std::f32::consts::SQRT_2;
+    let levels = polygon.iter().map(|point| level(*point));
+    let (low, high) =
+        levels.fold((f32::MAX, f32::MIN), |(low, high), at| (low.min(at), high.max(at)));
+    let mut lines = Vec::new();
+    let mut wanted = (low / step).ceil() * step;
+    while wanted < high {
+        let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
+        let mut crossings = edges.filter_map(|(from, to)| {
+            let (a, b) = (level(*from) - wanted, level(*to) - wanted);
+            ((a < 0.0) != (b < 0.0)).then(|| from.lerp(*to, a / (a - b)))
+        });
+        if let (Some(from), Some(to)) = (crossings.next(), crossings.next()) {
+            lines.push([from, to]);
+        }
+        wanted += step;
+    }
+    lines
+}
+
+/// Whether the points of a rectangle can be used for painting.
+pub(super) fn usable(rect: Rect) -> bool {
+    rect.is_finite() && rect.width() > 2.0 * MARGIN && rect.height() > 2.0 * MARGIN
+}
+
+/// A point moved to the middle of its pixel, for lines that must be sharp.
+pub(super) fn sharp(point: Pos2) -> Pos2 {
+    pos2(point.x.floor() + 0.5, point.y.floor() + 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(a: Pos2, b: Pos2) -> bool {
+        a.distance(b) < 1e-3
+    }
+
+    #[test]
+    fn north_is_up_and_east_is_right() {
+        let dome = Dome { centre: pos2(100.0, 200.0), radius: 90.0 };
+        for (az, el, x, y) in [
+            (0.0, 90.0, 100.0, 200.0),
+            (0.0, 0.0, 100.0, 110.0),
+            (90.0, 0.0, 190.0, 200.0),
+            (180.0, 60.0, 100.0, 230.0),
+            (270.0, 30.0, 40.0, 200.0),
+            (-90.0, 30.0, 40.0, 200.0),
+            // A mount that goes over the top points at the other side.
+            (90.0, 100.0, 90.0, 200.0),
+        ] {
+            let point = dome.point(AzEl::from_degrees(az, el)).unwrap();
+            assert!(near(point, pos2(x, y)), "{az} {el} {point}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_direction_has_no_point() {
+        let dome = Dome { centre: Pos2::ZERO, radius: 90.0 };
+        assert_eq!(dome.point(AzEl::from_degrees(f64::NAN, 10.0)), None);
+        assert_eq!(dome.point(AzEl::from_degrees(10.0, f64::INFINITY)), None);
+        assert_eq!(dome.visible(AzEl::from_degrees(10.0, -1.0)), None);
+        assert_eq!(dome.path([AzEl::from_degrees(0.0, f64::NAN)]), []);
+    }
+
+    #[test]
+    fn the_disc_leaves_room_for_the_rim_labels() {
+        let dome = Dome::fitted(Rect::from_min_size(pos2(392.0, 112.0), vec2(704.0, 580.0)));
+        assert!((dome.radius - 264.0).abs() < 1e-6);
+        let huge = Dome::fitted(Rect::from_min_size(Pos2::ZERO, vec2(3000.0, 2000.0)));
+        assert!((huge.radius - MAX_RADIUS).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_ground_of_a_label_ends_at_the_rim() {
+        let dome = Dome { centre: Pos2::ZERO, radius: 100.0 };
+        let across = Rect::from_center_size(pos2(85.0, 0.0), vec2(40.0, 10.0));
+        let ground = dome.clipped(across).unwrap();
+        assert!(ground.iter().all(|point| point.to_vec2().length() < 99.01));
+        assert!(near(ground[0], pos2(65.0, -5.0)));
+        assert_eq!(dome.clipped(across.translate(vec2(20.0, 0.0))), None);
+    }
+
+    #[test]
+    fn dashes_follow_the_length_and_not_the_segments() {
+        let straight = [pos2(0.0, 0.0), pos2(30.0, 0.0)];
+        let dense: Vec<Pos2> = (0..=60).map(|step| pos2(step as f32 * 0.5, 0.0)).collect();
+        for path in [&straight[..], &dense[..]] {
+            let pieces = dashes(path, 7.0, 5.0);
+            let ends: Vec<(f32, f32)> = pieces
+                .iter()
+                .map(|piece| (piece.first().unwrap().x, piece.last().unwrap().x))
+                .collect();
+            let expected = [(0.0, 7.0), (12.0, 19.0), (24.0, 30.0)];
+            assert_eq!(ends.len(), expected.len(), "{ends:?}");
+            for (end, wanted) in ends.iter().zip(expected) {
+                assert!((end.0 - wanted.0).abs() < 0.01 && (end.1 - wanted.1).abs() < 0.01);
+            }
+        }
+    }
+
+    #[test]
+    fn dashes_turn_corners() {
+        let pieces = dashes(&[pos2(0.0, 0.0), pos2(4.0, 0.0), pos2(4.0, 10.0)], 6.0, 2.0);
+        assert_eq!(pieces.first().unwrap().len(), 3);
+        assert!(near(pieces.first().unwrap()[2], pos2(4.0, 2.0)));
+        assert!(near(pieces[1][0], pos2(4.0, 4.0)));
+        assert!(dashes(&[], 6.0, 2.0).is_empty());
+        assert!(dashes(&[pos2(1.0, 1.0); 5], 6.0, 2.0).iter().all(|piece| piece.len() > 1));
+    }
+
+    #[test]
+    fn hatches_stay_inside_their_polygon() {
+        let square = [pos2(0.0, 0.0), pos2(40.0, 0.0), pos2(40.0, 40.0), pos2(0.0, 40.0)];
+        let around = Rect::from_min_max(pos2(0.0, 0.0), pos2(40.0, 40.0)).expand(0.01);
+        for rising in [false, true] {
+            let lines = hatch(&square, 5.0, rising);
+            // The diagonal is 56.6 long.
+            assert!((10..=12).contains(&lines.len()), "{}", lines.len());
+            for [from, to] in lines {
+                assert!(around.contains(from) && around.contains(to));
+                assert!(((to.y - from.y).abs() - (to.x - from.x).abs()).abs() < 0.01);
+                assert_eq!((to.y - from.y) * (to.x - from.x) < 0.0, rising);
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Texts beside marks, placed one after the other around what is already there.
+
+use std::collections::HashMap;
+
+use egui::{
+    Align, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, text::LayoutJob,
+    text::TextFormat,
+};
+
+use super::{
+    geometry::Dome,
+    placement::{Memory, Placement, Side, place},
+};
+use crate::ui::tokens::Tokens;
+
+/// Room between a text and the edge of the ground under it, points.
+const PADDING: f32 = 2.0;
+
+/// Which label it is, from frame to frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Key {
+    /// Name of the selected satellite.
+    Selected(u32),
+    /// Rise.
+    Aos,
+    /// Highest point.
+    Tca,
+    /// Set.
+    Los,
+    /// A full minute of the pass, in minutes since 1970.
+    Minute(i64),
+    /// The Sun.
+    Sun,
+    /// The Moon.
+    Moon,
+    /// Name of a satellite that is not selected, by its catalogue number.
+    Other(u32),
+}
+
+/// A label that wants a place.
+pub(super) struct Label<'a> {
+    /// Which label it is.
+    pub(super) key: Key,
+    /// Its lines.
+    pub(super) lines: &'a [(&'a str, FontId, Color32)],
+    /// Its mark.
+    pub(super) mark: Pos2,
+    /// Distance from the middle of the mark, points.
+    pub(super) clearance: f32,
+    /// The sides to try, best first.
+    pub(super) order: &'a [Side],
+    /// Dropped when more than this share would be covered, 0 to 1.
+    pub(super) tolerance: f32,
+}
+
+/// The labels of one frame.
+pub(super) struct Labels<'a> {
+    painter: &'a Painter,
+    tokens: &'a Tokens,
+    dome: Dome,
+    bounds: Rect,
+    reserved: Vec<Rect>,
+    before: HashMap<Key, Memory>,
+    memory: HashMap<Key, Memory>,
+}
+
+impl<'a> Labels<'a> {
+    /// Starts a frame with what is known of the one before.
+    pub(super) fn new(
+        painter: &'a Painter,
+        tokens: &'a Tokens,
+        dome: Dome,
+        bounds: Rect,
+        before: HashMap<Key, Memory>,
+    ) -> Self {
+        Self { painter, tokens, dome, bounds, reserved: Vec::new(), before, memory: HashMap::new() }
+    }
+
+    /// Keeps labels away from a box.
+    pub(super) fn reserve(&mut self, rect: Rect) {
+        self.reserved.push(rect);
+    }
+
+    /// Keeps labels away from a line of a given width, points.
+    pub(super) fn reserve_path(&mut self, path: &[Pos2], width: f32) {
+        for pair in path.windows(2) {
+            let &[from, to] = pair else { continue };
+            let steps = (from.distance(to) / width).ceil().clamp(1.0, 500.0) as u16;
+            // The last point of a segment is the first one of the next.
+            for step in 0..steps {
+                let at = from.lerp(to, f32::from(step) / f32::from(steps));
+                self.reserved.push(Rect::from_center_size(at, Vec2::splat(width)));
+            }
+        }
+    }
+
+    /// Paints a label at the best place and keeps later ones away from it.
+    /// None when it was dropped.
+    pub(super) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
+        let measure = job(label, Align::LEFT);
+        let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
+        let place = place(
+            label.mark,
+            size,
+            label.clearance,
+            label.order,
+            self.bounds,
+            &self.reserved,
+            self.before.get(&label.key).copied(),
+        )?;
+        // The memory of the first choice stays, or many small steps would
+        // add up unseen.
+        let chosen = Memory { side: place.side, covered: place.covered };
+        let kept = self.before.get(&label.key).filter(|memory| memory.side == place.side);
+        self.memory.insert(label.key, kept.copied().unwrap_or(chosen));
+        if place.covered > label.tolerance {
+            return None;
+        }
+        self.paint(label, place);
+        self.reserved.push(place.rect);
+        Some(place)
+    }
+
+    /// What the next frame should know.
+    pub(super) fn into_memory(self) -> HashMap<Key, Memory> {
+        self.memory
+    }
+
+    fn paint(&self, label: &Label<'_>, place: Placement) {
+        let towards = place.side.direction();
+        let align = match towards.x {
+            x if x < 0.0 => Align::RIGHT,
+            x if x > 0.0 => Align::LEFT,
+            _ => Align::Center,
+        };
+        let galley = self.painter.layout_job(job(label, align));
+        let inner = place.rect.shrink(PADDING);
+        if let Some(ground) = self.dome.clipped(place.rect) {
+            self.painter.add(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
+        }
+        // A galley that is not aligned to the left lies around its origin.
+        let shift = inner.min - galley.rect.min.to_vec2();
+        self.painter.galley(shift, galley, self.tokens.t2);
+    }
+}
+
+fn job(label: &Label<'_>, align: Align) -> LayoutJob {
+    let mut job = LayoutJob { halign: align, ..LayoutJob::default() };
+    for (index, (text, font, colour)) in label.lines.iter().enumerate() {
+        let text = if index == 0 { (*text).to_owned() } else { format!("\n{text}") };
+        job.append(&text, 0.0, TextFormat::simple(font.clone(), *colour));
+    }
+    job
+}

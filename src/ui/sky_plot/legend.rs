@@ -1,0 +1,60 @@
+//! What the marks of the plot mean.
+
+use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, vec2};
+
+use super::{
+    geometry::{dashed, hatch},
+    marks,
+};
+use crate::ui::{text, tokens::Tokens};
+
+/// Width of the legend, points.
+pub(super) const WIDTH: f32 = 120.0;
+/// Height of the legend, points.
+pub(super) const HEIGHT: f32 = ROW * 6.0;
+/// Height of a line, points.
+const ROW: f32 = 18.0;
+/// Half the width of a sample, points.
+const HALF: f32 = 10.0;
+
+/// Paints the sample of a row around its middle.
+type Sample = fn(&Painter, Pos2, &Tokens);
+
+/// Paints the legend from its upper left corner.
+pub(super) fn paint(painter: &Painter, at: Pos2, t: &Tokens) {
+    let rows: [(&str, Sample); 6] = [
+        ("Satellite", marks::selected),
+        ("Commanded", |painter, at, t| {
+            painter.circle_stroke(at, 6.5, Stroke::new(2.0, t.cmd));
+        }),
+        ("Measured", |painter, at, t| {
+            for arm in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+                painter.line_segment([at + arm * 3.0, at + arm * 8.0], Stroke::new(2.0, t.ant));
+            }
+        }),
+        ("Planned path", |painter, at, t| {
+            let line = [at - vec2(HALF, 0.0), at + vec2(HALF, 0.0)];
+            painter.extend(dashed(&line, 5.0, 2.5, Stroke::new(2.0, t.sat)));
+        }),
+        ("Other satellite", |painter, at, t| {
+            marks::other(painter, at, false, t);
+        }),
+        ("Keyhole", keyhole),
+    ];
+    for (index, (name, sample)) in rows.into_iter().enumerate() {
+        let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
+        sample(painter, middle, t);
+        let beside = middle + vec2(HALF + 10.0, 0.0);
+        painter.text(beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+    }
+}
+
+fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
+    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+    let outline = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
+    let lines = hatch(&outline, 4.0, false);
+    painter.rect_filled(area, 0.0, t.warnbg);
+    painter
+        .extend(lines.into_iter().map(|line| Shape::line_segment(line, Stroke::new(1.5, t.warn))));
+    painter.add(Shape::closed_line(outline, Stroke::new(1.25, t.warn)));
+}

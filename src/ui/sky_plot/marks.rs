@@ -1,0 +1,134 @@
+//! The shapes of the things in the sky. Each meaning has its own.
+
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+
+use super::geometry::{circle, dashed};
+use crate::ui::tokens::Tokens;
+
+/// Width of the outline that keeps a mark apart from lines under it, points.
+const OUTLINE: f32 = 1.25;
+/// Half the size of an event mark, points.
+const EVENT: f32 = 6.5;
+/// From the middle of the cross-hair to where its arms begin and end, points.
+const ARM: (f32, f32) = (11.0, 26.0);
+
+/// The form of an event of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum EventForm {
+    /// Rise: a triangle that points up.
+    Up,
+    /// Highest point: a diamond.
+    Diamond,
+    /// Set: a triangle that points down.
+    Down,
+}
+
+/// AOS, TCA or LOS.
+pub(super) fn event(
+    painter: &Painter,
+    at: Pos2,
+    form: EventForm,
+    colour: Color32,
+    ground: Color32,
+) {
+    let corners = match form {
+        EventForm::Up => vec![vec2(0.0, -EVENT), vec2(EVENT, EVENT), vec2(-EVENT, EVENT)],
+        EventForm::Down => vec![vec2(0.0, EVENT), vec2(-EVENT, -EVENT), vec2(EVENT, -EVENT)],
+        EventForm::Diamond => {
+            vec![vec2(0.0, -EVENT), vec2(EVENT, 0.0), vec2(0.0, EVENT), vec2(-EVENT, 0.0)]
+        }
+    };
+    let corners = corners.into_iter().map(|corner| at + corner).collect();
+    painter.add(Shape::convex_polygon(corners, ground, Stroke::new(2.0, colour)));
+}
+
+/// The Sun: a circle with eight rays.
+pub(super) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
+    let stroke = Stroke::new(1.5, t.sun);
+    painter.circle(at, 5.0, t.sky, stroke);
+    for eighth in 0..8_u8 {
+        let ray = Vec2::angled(f32::from(eighth) * std::f32::consts::FRAC_PI_4);
+        painter.line_segment([at + ray * 7.5, at + ray * 10.5], stroke);
+    }
+}
+
+/// The Moon: a crescent, open to the right.
+pub(super) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
+    const RADIUS: f32 = 7.0;
+    // Both arcs meet in the two horns; the inner one has its middle aside.
+    let horn: f32 = 50.0_f32.to_radians();
+    let inner_middle = at + vec2(RADIUS * 0.72, 0.0);
+    let (up, side) = (RADIUS * horn.sin(), RADIUS * horn.cos() - RADIUS * 0.72);
+    let inner_radius = up.hypot(side);
+    let inner_from = up.atan2(side);
+    let arc = |middle: Pos2, radius: f32, from: f32, to: f32| {
+        (0..=16_u8).map(move |step| {
+            let turn = from + (to - from) * f32::from(step) / 16.0;
+            middle + Vec2::angled(turn) * radius
+        })
+    };
+    let full = std::f32::consts::TAU;
+    let mut outline: Vec<Pos2> = arc(at, RADIUS, horn, full - horn).collect();
+    outline.extend(arc(inner_middle, inner_radius, full - inner_from, inner_from));
+    painter.add(Shape::closed_line(outline, Stroke::new(1.5, t.moon)));
+}
+
+/// A satellite that is not selected; a square stands still in the sky.
+pub(super) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: &Tokens) {
+    if geostationary {
+        painter.rect_filled(Rect::from_center_size(at, Vec2::splat(7.0)), 0.0, t.other);
+    } else {
+        painter.circle_filled(at, 4.0, t.other);
+    }
+}
+
+/// The selected satellite.
+pub(super) fn selected(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.circle(at, 5.0, t.sat, Stroke::new(OUTLINE, t.sky));
+}
+
+/// The commanded direction: a ring with the diameter of the beam.
+pub(super) fn commanded(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
+    painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25 + 2.0 * OUTLINE, t.sky));
+    painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25, t.cmd));
+}
+
+/// The preview of a commanded direction.
+pub(super) fn ghost(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
+    let ring = circle(at, diameter / 2.0);
+    painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(2.25, t.cmd)));
+}
+
+/// The measured direction: a cross-hair, scaled; 1 is its size in the plot.
+pub(super) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
+    for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.ant)] {
+        // The outline goes around the ends of the arms as well.
+        let more = (stroke.width - 2.0) / 2.0;
+        for arm in arms() {
+            let ends = [at + arm * (ARM.0 * scale - more), at + arm * (ARM.1 * scale + more)];
+            painter.line_segment(ends, stroke);
+        }
+    }
+}
+
+/// The last known direction of an antenna whose link is lost.
+pub(super) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
+    for arm in arms() {
+        let line = [at + arm * ARM.0, at + arm * ARM.1];
+        painter.line_segment(line, Stroke::new(2.0 + 2.0 * OUTLINE, t.sky));
+        painter.extend(dashed(&line, 3.0, 3.0, Stroke::new(2.0, t.t3)));
+    }
+}
+
+fn arms() -> [Vec2; 4] {
+    [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)]
+}
+
+/// The head of an arrow at the end of a path, `size` points long.
+pub(super) fn arrow_head(painter: &Painter, tip: Pos2, from: Pos2, size: f32, colour: Color32) {
+    let along = (tip - from).normalized() * size;
+    let foot = tip - along;
+    let across = pos2(-along.y, along.x).to_vec2() * 0.6;
+    let corners = vec![tip, foot + across, foot - across];
+    painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+}

@@ -1,0 +1,104 @@
+//! What can be pointed at, reached with Tab and read aloud.
+
+use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+
+use super::{geometry::Dome, scene::SkyScene, track::Event};
+use crate::{
+    astro::AzEl,
+    ui::{format, tokens::Tokens},
+};
+
+/// Side of the square that takes the pointer around a mark, points.
+const TARGET: f32 = 20.0;
+
+/// The plot as one focusable node. Returns it; it is the parent of the ids of
+/// all others.
+pub(super) fn canvas(ui: &Ui, rect: Rect, scene: &SkyScene<'_>) -> Response {
+    let id = ui.make_persistent_id("sky plot");
+    let response = ui.interact(rect, id, Sense::focusable_noninteractive());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, scene.description));
+    response
+}
+
+/// The nodes of the satellites. Returns the one that was chosen.
+pub(super) fn satellites(
+    ui: &Ui,
+    canvas: Id,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    show_others: bool,
+    t: &Tokens,
+) -> Option<u32> {
+    let selected = scene.track.and_then(|track| {
+        track.position.map(|position| (track.catalog_number, track.name, position, true))
+    });
+    let others = scene.others.iter().filter(|_| show_others);
+    let others = others.map(|other| (other.catalog_number, other.name, other.direction, false));
+    let mut chosen = None;
+    // The selected one last, so that it takes the pointer where two meet.
+    for (number, name, direction, is_selected) in others.chain(selected) {
+        let Some(at) = dome.visible(direction) else { continue };
+        let place = Rect::from_center_size(at, Vec2::splat(TARGET));
+        let response = ui.interact(place, canvas.with(("satellite", number)), Sense::click());
+        let label = spoken(name, direction);
+        response
+            .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &label));
+        ui.accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
+        if response.has_focus() {
+            let radius = TARGET / 2.0 + 2.0;
+            ui.painter().circle_stroke(at, radius, Stroke::new(2.0, t.sat));
+        }
+        if response.clicked() {
+            chosen = Some(number);
+        }
+        response.on_hover_text(tip(name, direction));
+    }
+    chosen
+}
+
+/// The nodes of the events and of the antenna.
+pub(super) fn events_and_antenna(
+    ui: &Ui,
+    canvas: Id,
+    dome: Dome,
+    events: &[Event],
+    scene: &SkyScene<'_>,
+) {
+    let note = |salt: &str, direction: AzEl, name: &str| {
+        if let Some(at) = dome.point(direction) {
+            name_mark(ui, canvas.with(salt), at, &spoken(name, direction));
+        }
+    };
+    for event in events {
+        let time = format::time_z(event.sample.time);
+        note(event.word, event.sample.direction, &format!("{} {time}", event.word));
+    }
+    if let Some(measured) = scene.measured {
+        let name = match measured.lost {
+            Some(age) => format!("Antenna, no reply for {age}"),
+            None => "Antenna".to_owned(),
+        };
+        note("antenna", measured.direction, &name);
+    }
+}
+
+fn name_mark(ui: &Ui, id: Id, at: Pos2, name: &str) {
+    // Small, so that the satellites around it keep the pointer.
+    let place = Rect::from_center_size(at, Vec2::splat(2.0));
+    let response = ui.interact(place, id, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
+}
+
+fn spoken(name: &str, direction: AzEl) -> String {
+    let (azimuth, elevation) = numbers(direction);
+    format!("{name}, azimuth {azimuth}, elevation {elevation}")
+}
+
+fn tip(name: &str, direction: AzEl) -> String {
+    let (azimuth, elevation) = numbers(direction);
+    format!("{name}\nAz {azimuth}  El {elevation}")
+}
+
+fn numbers(direction: AzEl) -> (String, String) {
+    (format::degrees(direction.azimuth_deg(), 1), format::degrees(direction.elevation_deg(), 1))
+}

@@ -1,0 +1,211 @@
+//! Where a label stands beside its mark.
+
+use egui::{Pos2, Rect, Vec2, vec2};
+
+/// How much more of a label, as a share of its area, must be covered before
+/// it leaves its side of the mark.
+const PATIENCE: f32 = 0.3;
+
+/// A side of a mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Side {
+    /// Right.
+    East,
+    /// Left.
+    West,
+    /// Above.
+    North,
+    /// Below.
+    South,
+    /// Right above.
+    NorthEast,
+    /// Right below.
+    SouthEast,
+    /// Left above.
+    NorthWest,
+    /// Left below.
+    SouthWest,
+}
+
+impl Side {
+    /// All sides in the order in which they are tried.
+    pub(super) const ORDER: [Self; 8] = [
+        Self::East,
+        Self::West,
+        Self::North,
+        Self::South,
+        Self::NorthEast,
+        Self::SouthEast,
+        Self::NorthWest,
+        Self::SouthWest,
+    ];
+
+    /// The direction on the screen, each part -1, 0 or 1.
+    pub(super) fn direction(self) -> Vec2 {
+        match self {
+            Self::East => vec2(1.0, 0.0),
+            Self::West => vec2(-1.0, 0.0),
+            Self::North => vec2(0.0, -1.0),
+            Self::South => vec2(0.0, 1.0),
+            Self::NorthEast => vec2(1.0, -1.0),
+            Self::SouthEast => vec2(1.0, 1.0),
+            Self::NorthWest => vec2(-1.0, -1.0),
+            Self::SouthWest => vec2(-1.0, 1.0),
+        }
+    }
+
+    /// All sides, those nearest to a direction on the screen first; in the
+    /// usual order for a direction without length.
+    pub(super) fn towards(direction: Vec2) -> [Self; 8] {
+        let wanted = direction.normalized();
+        let away = |side: &Self| 1.0 - side.direction().normalized().dot(wanted);
+        let mut order = Self::ORDER;
+        order.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        order
+    }
+
+    /// The side nearest to a direction on the screen.
+    pub(super) fn nearest(direction: Vec2) -> Self {
+        let [nearest, ..] = Self::towards(direction);
+        nearest
+    }
+
+    /// The rectangle of a label of `size` at a distance of `clearance` from
+    /// its mark, points.
+    pub(super) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
+        let towards = self.direction();
+        let diagonal = towards.x != 0.0 && towards.y != 0.0;
+        let reach = if diagonal { clearance * 0.7 } else { clearance };
+        Rect::from_center_size(mark + towards * (size / 2.0 + Vec2::splat(reach)), size)
+    }
+}
+
+/// Where a label stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Placement {
+    /// The side of the mark.
+    pub(super) side: Side,
+    /// The rectangle of the text.
+    pub(super) rect: Rect,
+    /// How much of it is covered, 0 to 1.
+    pub(super) covered: f32,
+}
+
+/// Where a label stood before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Memory {
+    /// The side of the mark.
+    pub(super) side: Side,
+    /// How much of it was covered when the side was chosen, 0 to 1.
+    pub(super) covered: f32,
+}
+
+/// The share of `rect` that lies under other boxes or outside of `bounds`.
+pub(super) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
+    let area = rect.area().max(f32::EPSILON);
+    let shared = |other: Rect| {
+        let both = rect.intersect(other);
+        if both.is_positive() { both.area() } else { 0.0 }
+    };
+    let under: f32 = reserved.iter().map(|other| shared(*other)).sum();
+    ((under + area - shared(bounds)) / area).min(1.0)
+}
+
+/// Chooses the first free side in the given order, else the one that is
+/// covered least. A label stays on its side until clearly more of it is
+/// covered than when the side was chosen. None when `order` is empty.
+pub(super) fn place(
+    mark: Pos2,
+    size: Vec2,
+    clearance: f32,
+    order: &[Side],
+    bounds: Rect,
+    reserved: &[Rect],
+    before: Option<Memory>,
+) -> Option<Placement> {
+    let on = |side: Side| {
+        let rect = side.rect(mark, size, clearance);
+        Placement { side, rect, covered: covered(rect, bounds, reserved) }
+    };
+    if let Some(memory) = before {
+        let now = on(memory.side);
+        if order.contains(&memory.side) && now.covered <= memory.covered + PATIENCE {
+            return Some(now);
+        }
+    }
+    // The first of equals wins, so the order decides between free sides.
+    order
+        .iter()
+        .map(|side| on(*side))
+        .reduce(|best, next| if next.covered + 1e-3 < best.covered { next } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::pos2;
+
+    const BOUNDS: Rect = Rect { min: Pos2::ZERO, max: pos2(400.0, 400.0) };
+    const SIZE: Vec2 = vec2(60.0, 14.0);
+    const MARK: Pos2 = pos2(200.0, 200.0);
+
+    fn placed(reserved: &[Rect], before: Option<Memory>) -> Placement {
+        place(MARK, SIZE, 8.0, &Side::ORDER, BOUNDS, reserved, before).unwrap()
+    }
+
+    #[test]
+    fn the_first_free_side_is_taken() {
+        let mut reserved = Vec::new();
+        for side in Side::ORDER {
+            let here = placed(&reserved, None);
+            assert_eq!(here.side, side);
+            assert!(here.covered < 1e-6);
+            // Smaller than the label, so that it does not reach its neighbours.
+            reserved.push(Rect::from_center_size(here.rect.center(), vec2(8.0, 4.0)));
+        }
+        assert!(placed(&reserved, None).covered > 0.0);
+    }
+
+    #[test]
+    fn the_least_covered_side_is_taken_when_none_is_free() {
+        let mut reserved = vec![BOUNDS];
+        let south = Side::South.rect(MARK, SIZE, 8.0);
+        reserved.extend([Rect::from_min_max(BOUNDS.min, pos2(400.0, south.top()))]);
+        assert!((placed(&reserved, None).covered - 1.0).abs() < 1e-6);
+        let reserved = [
+            Rect::from_min_max(BOUNDS.min, pos2(400.0, south.top() + 3.0)),
+            Rect::from_min_max(pos2(0.0, south.bottom()), BOUNDS.max),
+        ];
+        assert_eq!(placed(&reserved, None).side, Side::South);
+    }
+
+    #[test]
+    fn a_label_at_the_edge_turns_inwards() {
+        let at_edge = |mark| place(mark, SIZE, 8.0, &Side::ORDER, BOUNDS, &[], None).unwrap();
+        assert_eq!(at_edge(pos2(390.0, 200.0)).side, Side::West);
+        assert_eq!(at_edge(pos2(20.0, 200.0)).side, Side::East);
+        assert!(BOUNDS.contains_rect(at_edge(pos2(390.0, 395.0)).rect));
+    }
+
+    #[test]
+    fn a_label_does_not_jump_for_a_small_overlap() {
+        let west = Memory { side: Side::West, covered: 0.0 };
+        assert_eq!(placed(&[], Some(west)).side, Side::West);
+        let rect = Side::West.rect(MARK, SIZE, 8.0);
+        let over =
+            |share: f32| [Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()))];
+        assert_eq!(placed(&over(0.25), Some(west)).side, Side::West);
+        assert_eq!(placed(&over(0.35), Some(west)).side, Side::East);
+        let used_to_it = Memory { side: Side::West, covered: 0.2 };
+        assert_eq!(placed(&over(0.35), Some(used_to_it)).side, Side::West);
+    }
+
+    #[test]
+    fn the_nearest_side_of_a_direction() {
+        assert_eq!(Side::nearest(vec2(3.0, 0.2)), Side::East);
+        assert_eq!(Side::nearest(vec2(-1.0, 0.9)), Side::SouthWest);
+        assert_eq!(Side::nearest(vec2(0.1, -1.0)), Side::North);
+        assert_eq!(Side::towards(Vec2::ZERO), Side::ORDER);
+        assert_eq!(Side::towards(vec2(0.3, 1.0)).last(), Some(&Side::North));
+    }
+}

@@ -1,0 +1,101 @@
+//! What the sky plot shows, as plain data.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::{Angle, AzEl},
+    plan::Sample,
+};
+
+/// Everything in the plot at one moment. A direction that is not finite is
+/// left out.
+#[derive(Debug, Clone)]
+pub struct SkyScene<'a> {
+    /// The moment shown.
+    pub now: Timestamp,
+    /// Lowest elevation at which passes are planned.
+    pub minimum_elevation: Angle,
+    /// Where the mount cannot point.
+    pub keyholes: Option<Keyholes>,
+    /// The selected pass.
+    pub track: Option<Track<'a>>,
+    /// Satellites that are not selected.
+    pub others: &'a [OtherSatellite<'a>],
+    /// The Sun; not drawn below the horizon.
+    pub sun: Option<AzEl>,
+    /// The Moon; not drawn below the horizon.
+    pub moon: Option<AzEl>,
+    /// Where the antenna is told to point.
+    pub commanded: Option<AzEl>,
+    /// Preview of a motion: from here to there.
+    pub ghost: Option<(AzEl, AzEl)>,
+    /// Full width of the beam.
+    pub beam_width: Angle,
+    /// Where the antenna points.
+    pub measured: Option<Measured<'a>>,
+    /// Where the satellite was at the time of the measurement.
+    pub predicted: Option<AzEl>,
+    /// Measured minus predicted of the last 60 s in degrees, oldest first:
+    /// across (azimuth times the cosine of the elevation) and in elevation.
+    pub recent_errors: &'a [(f32, f32)],
+    /// Lines of the upper left corner: label and value.
+    pub readout: &'a [(&'a str, String)],
+    /// The state sentence, read aloud for the whole plot.
+    pub description: &'a str,
+}
+
+/// The caps on the horizon at both ends of the lower axis of an X/Y mount.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Keyholes {
+    /// Azimuth of one end of the lower axis.
+    pub lower_axis_azimuth: Angle,
+    /// Angular radius of each cap.
+    pub radius: Angle,
+}
+
+/// The selected pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Track<'a> {
+    /// Catalogue number of the satellite.
+    pub catalog_number: u32,
+    /// Name of the satellite.
+    pub name: &'a str,
+    /// The path in order of time, dense enough to be joined by straight lines.
+    pub samples: &'a [Sample],
+    /// Rise.
+    pub aos: Sample,
+    /// Highest point.
+    pub tca: Sample,
+    /// Set.
+    pub los: Sample,
+    /// False when the path begins with the window of the prediction.
+    pub show_aos: bool,
+    /// False when the path ends with the window of the prediction.
+    pub show_los: bool,
+    /// Where the satellite is now.
+    pub position: Option<AzEl>,
+}
+
+/// A satellite above the horizon that is not selected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherSatellite<'a> {
+    /// Catalogue number.
+    pub catalog_number: u32,
+    /// Name.
+    pub name: &'a str,
+    /// Where it is now.
+    pub direction: AzEl,
+    /// The path of the next minutes, in order of time.
+    pub ahead: &'a [AzEl],
+    /// Whether it stands still in the sky.
+    pub geostationary: bool,
+}
+
+/// The antenna as last reported.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured<'a> {
+    /// Where it pointed.
+    pub direction: AzEl,
+    /// The age of the report, such as "14 s", once the link is lost.
+    pub lost: Option<&'a str>,
+}

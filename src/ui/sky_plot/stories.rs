@@ -1,0 +1,154 @@
+//! What an operator does with the sky plot.
+
+use egui::{Key as Press, Role, Vec2, vec2};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+
+use super::*;
+use crate::{astro::AzEl, ui::widgets::testing::window};
+
+const OTHERS: [OtherSatellite<'static>; 2] = [
+    OtherSatellite {
+        catalog_number: 36508,
+        name: "CRYOSAT 2",
+        direction: AzEl::from_degrees(30.0, 22.0),
+        ahead: &[],
+        geostationary: false,
+    },
+    OtherSatellite {
+        catalog_number: 54259,
+        name: "EUTELSAT 7C",
+        direction: AzEl::from_degrees(212.0, 36.0),
+        ahead: &[AzEl::from_degrees(212.0, 36.0), AzEl::from_degrees(f64::NAN, 36.0)],
+        geostationary: true,
+    },
+];
+
+#[derive(Default)]
+struct Story {
+    plot: SkyPlotState,
+    chosen: Option<u32>,
+}
+
+fn story(size: Vec2, scene: SkyScene<'static>) -> Harness<'static, Story> {
+    let samples = testing::pass();
+    window(size, Story::default(), move |ui, story: &mut Story| {
+        let mut scene = scene.clone();
+        scene.track = scene.track.or_else(|| Some(testing::track(&samples)));
+        let rect = ui.max_rect();
+        story.chosen = show(ui, rect, &scene, &mut story.plot).or(story.chosen);
+    })
+}
+
+fn sky() -> SkyScene<'static> {
+    SkyScene { others: &OTHERS, ..testing::empty() }
+}
+
+const LARGE: Vec2 = vec2(704.0, 580.0);
+
+#[test]
+fn a_satellite_is_found_by_its_name_and_clicked() {
+    let mut harness = story(LARGE, sky());
+    harness.run();
+    harness.get_by_label("CRYOSAT 2, azimuth 30.0°, elevation 22.0°").click();
+    harness.run();
+    assert_eq!(harness.state().chosen, Some(36508));
+}
+
+#[test]
+fn enter_chooses_the_satellite_that_has_the_focus() {
+    let mut harness = story(LARGE, sky());
+    harness.run();
+    harness.get_by_label_contains("EUTELSAT 7C").focus();
+    harness.run();
+    harness.key_press(Press::Enter);
+    harness.run();
+    assert_eq!(harness.state().chosen, Some(54259));
+}
+
+#[test]
+fn the_plot_and_its_marks_are_read_aloud() {
+    let mut harness = story(
+        LARGE,
+        SkyScene {
+            measured: Some(Measured {
+                direction: AzEl::from_degrees(185.51, 37.47),
+                lost: Some("14 s"),
+            }),
+            ..sky()
+        },
+    );
+    harness.run();
+    harness.get_by_role_and_label(Role::Canvas, "Holding at 343.1°, 5.0°.");
+    harness.get_by_label_contains("AOS 11:01:53Z, azimuth");
+    harness.get_by_label_contains("TCA 11:0");
+    harness.get_by_label_contains("LOS 11:14:45Z, azimuth");
+    harness.get_by_label("Antenna, no reply for 14 s, azimuth 185.5°, elevation 37.5°");
+    let selected =
+        |name| harness.get_by_label_contains(name).accesskit_node().is_selected() == Some(true);
+    assert!(selected("NOAA 20, azimuth"));
+    assert!(!selected("CRYOSAT 2"));
+}
+
+#[test]
+fn a_layer_that_is_switched_off_takes_its_satellites_along() {
+    let mut harness = story(LARGE, sky());
+    harness.run();
+    harness.get_by_label("Layers").click();
+    harness.run();
+    harness.get_by_label("Other satellites").click();
+    harness.run();
+    assert!(!harness.state().plot.layers.others);
+    assert!(harness.query_by_label_contains("CRYOSAT 2").is_none());
+    assert!(harness.query_by_label_contains("NOAA 20").is_some());
+}
+
+#[test]
+fn a_low_plot_has_the_legend_behind_a_button() {
+    let mut harness = story(vec2(672.0, 468.0), sky());
+    harness.run();
+    harness.get_by_role_and_label(Role::Button, "Legend").click();
+    harness.run();
+    let harness = story(LARGE, sky());
+    assert!(harness.query_by_role_and_label(Role::Button, "Legend").is_none());
+}
+
+#[test]
+fn what_is_not_a_number_is_left_out() {
+    const NOWHERE: AzEl = AzEl::from_degrees(f64::NAN, f64::NAN);
+    let scene = SkyScene {
+        minimum_elevation: crate::astro::Angle::from_degrees(f64::NAN),
+        beam_width: crate::astro::Angle::from_degrees(f64::NAN),
+        others: &[OtherSatellite {
+            catalog_number: 1,
+            name: "LOST",
+            direction: NOWHERE,
+            ahead: &[NOWHERE, NOWHERE],
+            geostationary: false,
+        }],
+        sun: Some(NOWHERE),
+        moon: Some(NOWHERE),
+        commanded: Some(NOWHERE),
+        ghost: Some((NOWHERE, NOWHERE)),
+        measured: Some(Measured { direction: NOWHERE, lost: None }),
+        predicted: Some(AzEl::from_degrees(0.0, 10.0)),
+        recent_errors: &[(f32::NAN, f32::NAN), (f32::INFINITY, 0.0)],
+        ..testing::empty()
+    };
+    for size in [LARGE, vec2(40.0, 30.0)] {
+        let mut harness = story(size, scene.clone());
+        harness.run();
+        assert!(harness.query_by_label_contains("LOST").is_none());
+    }
+}
+
+#[test]
+fn the_sky_may_be_empty() {
+    let mut harness = window(LARGE, SkyPlotState::default(), |ui, state| {
+        let rect = ui.max_rect();
+        show(ui, rect, &testing::empty(), state);
+    });
+    harness.run();
+}

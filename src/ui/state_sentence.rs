@@ -1,0 +1,275 @@
+//! What the selected antenna does, why, and what comes next.
+
+mod link;
+mod news;
+
+use jiff::Timestamp;
+
+use super::{
+    format,
+    widgets::sentence::{Sentence, SentenceKind, Span},
+};
+use crate::{
+    app::{Model, antenna::AntennaModel, forecast::Followed},
+    astro::time::seconds_between,
+    controller::Phase,
+    driver::{Intent, StopState},
+};
+
+/// A sentence with its words.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Spoken {
+    /// What kind of thing it says.
+    pub kind: SentenceKind,
+    /// Its parts; `true` for a name that is to be found at one glance.
+    pub parts: Vec<(String, bool)>,
+}
+
+impl Spoken {
+    fn new(kind: SentenceKind) -> Self {
+        Self { kind, parts: Vec::new() }
+    }
+
+    fn plain(mut self, text: impl Into<String>) -> Self {
+        self.parts.push((text.into(), false));
+        self
+    }
+
+    fn bold(mut self, text: impl Into<String>) -> Self {
+        self.parts.push((text.into(), true));
+        self
+    }
+
+    /// The words in one line.
+    pub fn text(&self) -> String {
+        self.parts.iter().map(|(text, _)| text.as_str()).collect()
+    }
+
+    /// As the widget takes it.
+    pub fn with<R>(&self, show: impl FnOnce(&Sentence<'_>) -> R) -> R {
+        let spans: Vec<Span<'_>> =
+            self.parts.iter().map(|(text, bold)| Span { text, bold: *bold }).collect();
+        show(&Sentence { kind: self.kind, spans: &spans })
+    }
+}
+
+/// The sentence of `antenna`. The gravest matter comes first.
+pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
+    link::sentence(model, antenna)
+        .or_else(|| stop(model, antenna))
+        .or_else(|| news::sentence(model, antenna))
+        .or_else(|| fault_or_limit(antenna))
+        .or_else(|| preparing(antenna))
+        .or_else(|| program(model, antenna))
+        .or_else(|| by_hand(antenna))
+        .unwrap_or_else(|| standing(model, antenna))
+}
+
+fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let name = &antenna.config.name;
+    match antenna.snapshot.stop {
+        StopState::Ready | StopState::Stopped { .. } => None,
+        StopState::Stopping { since } => {
+            let age = model.steady.saturating_duration_since(since).as_secs_f64();
+            Some(Spoken::new(SentenceKind::Caution).plain(format!(
+                "Stopping {name}: STOP was sent {} ago, waiting for standstill.",
+                format::age(age)
+            )))
+        }
+        StopState::NotConfirmed { since } => {
+            let age = model.steady.saturating_duration_since(since).as_secs_f64();
+            Some(Spoken::new(SentenceKind::Fault).plain(format!(
+                "{name} is not known to stand {} after STOP. Use the local panel.",
+                format::age(age)
+            )))
+        }
+    }
+}
+
+fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
+    let state = &antenna.snapshot.state;
+    if let Some((faults, _)) = &state.satrak.faults
+        && let Some(kind) = faults.active().find(|kind| kind.locks_motion())
+    {
+        return Some(Spoken::new(SentenceKind::Fault).plain(format!(
+            "Motion is locked by a fault: {}. {}",
+            super::words::fault_name(kind),
+            super::words::fault_advice(kind)
+        )));
+    }
+    let measured = state.measured.filter(|measured| !measured.moving())?;
+    for (axis, name) in measured.axes.iter().zip(["X", "Y"]) {
+        let (set, back) = match (axis.plus_limit, axis.minus_limit) {
+            (true, _) => ("+", "−"),
+            (_, true) => ("−", "+"),
+            _ => continue,
+        };
+        return Some(Spoken::new(SentenceKind::Fault).plain(format!(
+            "Stopped: {name}{set} limit switch is set. Jog {name}{back} to leave the limit."
+        )));
+    }
+    None
+}
+
+fn preparing(antenna: &AntennaModel) -> Option<Spoken> {
+    let snapshot = &antenna.snapshot;
+    let target = snapshot.target.as_ref().filter(|_| snapshot.pending)?;
+    Some(
+        Spoken::new(SentenceKind::Commanded)
+            .plain("Preparing to track ")
+            .bold(short(&target.name))
+            .plain(": satellite and tracking window are sent to the unit and read back."),
+    )
+}
+
+/// The unit follows its own program, by our wish or not.
+fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let state = &antenna.snapshot.state;
+    let program = state.program.filter(|program| program.enabled)?;
+    let held = state.satrak.satellite.as_ref();
+    let name = held.map_or("a satellite", |held| short(&held.name));
+    let window = state.satrak.window;
+    match program.phase {
+        Phase::Tracking => Some(tracking(model, antenna, name)),
+        Phase::AtStart | Phase::OutOfWindow => {
+            let starts = window.map(|window| window.start).filter(|start| *start > model.now);
+            let spoken = Spoken::new(SentenceKind::Commanded);
+            let moving = state.measured.is_some_and(|measured| measured.moving());
+            let spoken = if moving {
+                spoken.plain("Moving to the start of the pass of ").bold(name)
+            } else {
+                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name)
+            };
+            Some(match starts {
+                Some(start) => spoken.plain(format!(
+                    ". Its tracking starts at {} in {}.",
+                    format::time_z(start),
+                    format::duration(seconds_between(model.now, start))
+                )),
+                None => spoken.plain(". Its tracking window is not open."),
+            })
+        }
+        Phase::Completed => Some(
+            Spoken::new(SentenceKind::Holding)
+                .plain("The pass of ")
+                .bold(name)
+                .plain(format!(" is over. Holding{}.", place(antenna))),
+        ),
+        Phase::Unknown(code) => Some(
+            Spoken::new(SentenceKind::Caution)
+                .plain(format!("Not known: the unit reports tracking state {code} for "))
+                .bold(name)
+                .plain("."),
+        ),
+    }
+}
+
+fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
+    let half_beam_deg = antenna.config.beam_width_deg / 2.0;
+    let own = if antenna.snapshot.intent == Intent::Track {
+        " with the elements stored on the unit. "
+    } else {
+        " by its own program. "
+    };
+    let Some(error) = antenna.error() else {
+        return Spoken::new(SentenceKind::Tracking)
+            .plain("Tracking ")
+            .bold(name)
+            .plain(own)
+            .plain("We have no elements of it to compare with.");
+    };
+    let off_deg = error.off_beam.degrees();
+    let after = match antenna.snapshot.state.satrak.window {
+        Some(window) if window.stop > model.now => {
+            format!(" At LOS {} it stops and holds.", format::time_z(window.stop))
+        }
+        _ => String::new(),
+    };
+    let (kind, place) = if off_deg <= half_beam_deg {
+        (SentenceKind::Tracking, "inside")
+    } else {
+        (SentenceKind::Caution, "outside")
+    };
+    Spoken::new(kind).plain("Tracking ").bold(name).plain(own).plain(format!(
+        "The antenna is {} off the predicted path, {place} its {} beam.{after}",
+        format::degrees(off_deg, 2),
+        format::degrees(antenna.config.beam_width_deg, 2)
+    ))
+}
+
+fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
+    let snapshot = &antenna.snapshot;
+    if let Some([x, y]) = snapshot.jog {
+        let (axis, rate) = if x == 0.0 { ("Y", y) } else { ("X", x) };
+        return Some(Spoken::new(SentenceKind::Commanded).plain(format!(
+            "Jogging {axis} at {} °/s while the key is held.",
+            format::signed(rate, 2)
+        )));
+    }
+    let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
+    let aim = snapshot.aim.filter(|_| moving || snapshot.pending)?;
+    let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };
+    Some(Spoken::new(SentenceKind::Commanded).plain(format!(
+        "{verb} {}, {}.",
+        format::degrees(aim.azimuth_deg(), 1),
+        format::degrees(aim.elevation_deg(), 1)
+    )))
+}
+
+fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
+    let state = &antenna.snapshot.state;
+    if state.measured.is_some_and(|measured| measured.moving()) {
+        return Spoken::new(SentenceKind::Caution)
+            .plain("Moving, not by this console. Somebody else drives it, or a motion runs out.");
+    }
+    let next = next_words(
+        model
+            .selected_pass()
+            .map(|forecast| (&*forecast.satellite, forecast.pass.aos.time, forecast.pass.los.time)),
+        model.now,
+    );
+    let stopped = matches!(antenna.snapshot.stop, StopState::Stopped { .. });
+    let auto = state.program.is_some_and(|program| program.auto == Some(true));
+    let lead = match (stopped, antenna.snapshot.intent) {
+        (true, _) => "Stopped, holding",
+        (_, Intent::Park) => "Parked, holding",
+        _ => "Holding",
+    };
+    let spoken = Spoken::new(SentenceKind::Holding).plain(format!("{lead}{}. ", place(antenna)));
+    if auto {
+        spoken.plain("Auto-track is on: the unit may start by itself.")
+    } else {
+        spoken.plain(next)
+    }
+}
+
+/// What the operator could track next.
+fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestamp) -> String {
+    match selected {
+        Some((satellite, aos, _)) if aos > now => format!(
+            "{} rises in {}.",
+            satellite.short_name(),
+            format::duration(seconds_between(now, aos))
+        ),
+        Some((satellite, _, los)) if los > now => {
+            format!("{} is up and not tracked.", satellite.short_name())
+        }
+        _ => "Nothing is selected.".to_owned(),
+    }
+}
+
+/// " at 343.1°, 5.0°", where it is known.
+fn place(antenna: &AntennaModel) -> String {
+    antenna.snapshot.state.measured.map_or_else(String::new, |measured| {
+        format!(
+            " at {}, {}",
+            format::degrees(measured.direction.azimuth_deg(), 1),
+            format::degrees(measured.direction.elevation_deg(), 1)
+        )
+    })
+}
+
+/// The name without what stands in brackets behind it.
+pub fn short(name: &str) -> &str {
+    name.split_once(" (").map_or(name, |(short, _)| short)
+}

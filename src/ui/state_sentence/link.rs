@@ -1,0 +1,58 @@
+//! Sentences while the unit does not answer.
+
+use super::{Spoken, short};
+use crate::{
+    app::{Model, antenna::AntennaModel},
+    driver::LinkState,
+    ui::{format, widgets::sentence::SentenceKind, words},
+};
+
+pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let name = &antenna.config.name;
+    let address = antenna.config.connection.address();
+    match &antenna.snapshot.link {
+        LinkState::Up { .. } if antenna.snapshot.state.measured.is_none() => Some(
+            Spoken::new(SentenceKind::Holding)
+                .plain(format!("Not known: {name} is connected and being read.")),
+        ),
+        LinkState::Up { .. } | LinkState::Stale { .. } => None,
+        LinkState::Off => Some(
+            Spoken::new(SentenceKind::Holding)
+                .plain(format!("Not known: {name} is not connected.")),
+        ),
+        LinkState::Connecting { .. } => Some(
+            Spoken::new(SentenceKind::Holding)
+                .plain(format!("Not known: connecting to {name} at {address}.")),
+        ),
+        LinkState::Lost { since, reason, retry_at } => {
+            let silent_s = model.steady.saturating_duration_since(*since).as_secs_f64();
+            let retry_s = retry_at.saturating_duration_since(model.steady).as_secs_f64();
+            let spoken = Spoken::new(SentenceKind::Fault).plain(format!(
+                "No reply from {name} for {}: {}. ",
+                format::age(silent_s),
+                words::link_loss(reason)
+            ));
+            Some(
+                what_it_did(spoken, antenna)
+                    .plain(format!("Next try in {}.", format::age(retry_s.ceil()))),
+            )
+        }
+    }
+}
+
+/// What it did when it was heard last, and so perhaps still does.
+fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
+    let state = &antenna.snapshot.state;
+    let moving = state.measured.is_some_and(|measured| measured.moving());
+    if state.program.is_some_and(|program| program.enabled) {
+        let held = state.satrak.satellite.as_ref();
+        return spoken
+            .plain("It was tracking ")
+            .bold(held.map_or("a satellite", |held| short(&held.name)))
+            .plain(" and probably still moves. ");
+    }
+    if moving {
+        return spoken.plain("It was moving and probably still moves. ");
+    }
+    spoken
+}

@@ -1,0 +1,81 @@
+//! Sentences about what has just happened, for a short while.
+
+use super::{Spoken, short};
+use crate::{
+    app::{Model, antenna::AntennaModel},
+    astro::time::seconds_between,
+    driver::{Event, Found},
+    ui::{format, widgets::sentence::SentenceKind, words},
+};
+
+/// For how long the operator is told.
+const SHOWN_S: f64 = 12.0;
+
+pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let (event, at) = antenna.news.as_ref()?;
+    if seconds_between(*at, model.now) > SHOWN_S {
+        return None;
+    }
+    let name = &antenna.config.name;
+    let caution = Spoken::new(SentenceKind::Caution);
+    Some(match event {
+        Event::Back { after, found } => {
+            let silent = format::age(after.as_secs_f64());
+            let held = antenna.snapshot.state.satrak.satellite.as_ref();
+            let spoken = Spoken::new(match found {
+                Found::Tracking => SentenceKind::Tracking,
+                Found::Moving => SentenceKind::Caution,
+                Found::Still => SentenceKind::Holding,
+            })
+            .plain(format!("{name} answers again after {silent}. "));
+            match found {
+                Found::Tracking => spoken
+                    .plain("It is still tracking ")
+                    .bold(held.map_or("a satellite", |held| short(&held.name)))
+                    .plain("."),
+                Found::Moving => spoken.plain("It moves, and not by its tracking program."),
+                Found::Still => spoken.plain("It stands still and tracks nothing."),
+            }
+        }
+        Event::NotSent(refusal) => caution.plain(words::refusal(refusal)),
+        Event::Refused(motion, code) => {
+            caution.plain(format!("{}: the unit answered ERR,{code}.", words::motion(*motion)))
+        }
+        Event::Unanswered(motion) => caution.plain(format!(
+            "{}: the unit did not answer and does not move. It is not sent again.",
+            words::motion(*motion)
+        )),
+        Event::CannotTrack(target, reason) => caution
+            .plain("Not tracking ")
+            .bold(short(&target.name))
+            .plain(format!(": {}.", words::prepare_error(reason))),
+        Event::TrackingEnded { completed: false } => {
+            caution.plain("The unit ended tracking before LOS.")
+        }
+        Event::EndedShort { aim, at } => caution.plain(format!(
+            "Stands at {}, {} and not at {}, {}.",
+            format::degrees(at.azimuth_deg(), 1),
+            format::degrees(at.elevation_deg(), 1),
+            format::degrees(aim.azimuth_deg(), 1),
+            format::degrees(aim.elevation_deg(), 1)
+        )),
+        Event::JogLeaseOver => {
+            caution.plain("The jog was stopped: the window did not hold it in time.")
+        }
+        Event::JogPositionOld => caution.plain("The jog was stopped: the position came too late."),
+        Event::StopRefused(code) => Spoken::new(SentenceKind::Fault)
+            .plain(format!("The unit answered ERR,{code} to STOP. Use the local panel.")),
+        Event::AutoTrackStillOn => {
+            caution.plain("Stopped. Auto-track is on: the unit may start by itself.")
+        }
+        Event::AutoStaysOn => caution.plain("The unit did not switch auto-track off."),
+        Event::StartedByItself => caution.plain("The unit has begun to track by itself."),
+        Event::LinkLost(_)
+        | Event::Connected(_)
+        | Event::Tracking(_)
+        | Event::TrackingEnded { completed: true }
+        | Event::Arrived(_)
+        | Event::Stopped
+        | Event::StopNotConfirmed => return None,
+    })
+}

@@ -1,0 +1,170 @@
+//! The strip "Next 12 hours": the passes of one antenna as bars over time,
+//! with day and night below. In a low place it shrinks to one lane of 4 hours.
+
+mod axis;
+mod bars;
+mod head;
+mod labels;
+mod scale;
+mod sun;
+
+use std::ops::RangeInclusive;
+
+use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use jiff::Timestamp;
+
+use crate::app::daylight::SunSpan;
+
+use super::{format, text, theme, widgets::paint};
+use scale::Scale;
+
+/// One pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bar<'a> {
+    /// What names the pass: catalogue number and a time that stays.
+    pub key: (u32, Timestamp),
+    /// Name of the satellite.
+    pub name: &'a str,
+    /// Rise.
+    pub aos: Timestamp,
+    /// Set.
+    pub los: Timestamp,
+    /// Highest elevation, 0 to 90.
+    pub max_elevation_deg: f64,
+    /// The mount is late somewhere, such as at its keyhole.
+    pub loses: bool,
+    /// The mount can follow.
+    pub possible: bool,
+}
+
+/// What the strip shows.
+#[derive(Debug, Clone, Copy)]
+pub struct TimelineModel<'a> {
+    /// The time of the now-line, UTC.
+    pub now: Timestamp,
+    /// Length of the full form, in hours.
+    pub hours: f64,
+    /// Name of the antenna.
+    pub lane: &'a str,
+    /// The passes in any order, without satellites that never set.
+    pub bars: &'a [Bar<'a>],
+    /// The pass that is selected in the window.
+    pub selected: Option<(u32, Timestamp)>,
+    /// Day and night, the earliest first.
+    pub sun: &'a [SunSpan],
+}
+
+/// Below this height the strip has its small form, in points.
+const SMALL_BELOW: f32 = 120.0;
+const SMALL_HOURS: f64 = 4.0;
+/// In less room than this nothing can be told apart, in points.
+const LEAST: Vec2 = vec2(160.0, 60.0);
+/// Below this height all passes share one lane, in points.
+const TWO_LANES_FROM: f32 = 190.0;
+const MARGIN: f32 = 16.0;
+const SMALL_MARGIN: f32 = 12.0;
+/// Room at the left for the names of the lanes, in points.
+const NAMES: f32 = 96.0;
+const SMALL_NAMES: f32 = 72.0;
+/// Between the name of a lane and the lane; the name of a bar may reach into it.
+const NAMES_GAP: f32 = 8.0;
+const HEAD: f32 = 32.0;
+const AXIS: f32 = 24.0;
+const SMALL_AXIS: f32 = 21.0;
+/// Height of the lane of passes that the mount cannot follow.
+const OUT_LANE: f32 = 34.0;
+const SUN_LANE: f32 = 9.0;
+const SUN_WORDS: f32 = 20.0;
+const LANE_GAP: f32 = 4.0;
+const BOTTOM: f32 = 6.0;
+/// Heights of the bars for 0 and 90 degrees (the design's "Pass bars").
+const HEIGHTS: RangeInclusive<f32> = 14.0..=44.0;
+const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
+
+/// Shows the strip in `rect`. Returns the key of the bar that was clicked or
+/// chosen with Enter.
+pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, Timestamp)> {
+    ui.painter().rect_filled(rect, 0, theme::tokens(ui).bg1);
+    let is_small = rect.height() < SMALL_BELOW;
+    let hours = if is_small { model.hours.min(SMALL_HOURS) } else { model.hours };
+    let title = format!("Next {} hours", format::number(hours, 0));
+    let group = ui.interact(rect, ui.make_persistent_id("timeline"), Sense::hover());
+    group.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
+    if rect.width() < LEAST.x || rect.height() < LEAST.y {
+        return None;
+    }
+    let names = if is_small { SMALL_NAMES } else { NAMES };
+    let x = Rangef::new(rect.left() + names, rect.right() - MARGIN);
+    let scale = Scale::new(model.now, hours, x);
+    if is_small {
+        return small(ui, rect, x, &scale, model);
+    }
+    head::show(ui, rect.with_max_y(rect.top() + HEAD), &title);
+    full(ui, rect.with_min_y(rect.top() + HEAD), x, &scale, model)
+}
+
+fn full(
+    ui: &Ui,
+    rect: Rect,
+    x: Rangef,
+    scale: &Scale,
+    model: &TimelineModel<'_>,
+) -> Option<(u32, Timestamp)> {
+    let band = |bottom: f32, height: f32| Rect::from_x_y_ranges(x, bottom - height..=bottom);
+    let two_lanes = HEAD + rect.height() >= TWO_LANES_FROM;
+    let words = band(rect.bottom() - BOTTOM, SUN_WORDS);
+    let sun = band(words.top(), SUN_LANE);
+    let out = band(sun.top() - LANE_GAP, if two_lanes { OUT_LANE } else { 0.0 });
+    let names = band(rect.top() + AXIS, AXIS);
+    let lane = Rect::from_x_y_ranges(x, names.bottom()..=out.top());
+
+    axis::show(ui, scale, lane.with_max_y(out.bottom()), names);
+    lane_name(ui, rect.left() + MARGIN, lane, model.lane, true);
+    let heights = bars::fitting(&HEIGHTS, lane);
+    let wanted = |bar: &Bar<'_>| bar.possible || !two_lanes;
+    let main = bars::stand(model.bars, wanted, scale, lane, &heights);
+    let mut clicked = bars::show(ui, &main, model.selected);
+    if two_lanes {
+        ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
+        lane_name(ui, rect.left() + MARGIN, out, "Not possible", false);
+        let others = bars::stand(model.bars, |bar| !bar.possible, scale, out, &OUT_HEIGHTS);
+        clicked = clicked.or(bars::show(ui, &others, model.selected));
+    }
+    lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
+    sun::show(ui, scale, model.sun, sun, words);
+    axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, sun.bottom()));
+    let room = lane.with_min_x(lane.left() - NAMES_GAP);
+    bars::show_names(ui, &main, model.selected, room);
+    clicked
+}
+
+fn small(
+    ui: &Ui,
+    rect: Rect,
+    x: Rangef,
+    scale: &Scale,
+    model: &TimelineModel<'_>,
+) -> Option<(u32, Timestamp)> {
+    let names = Rect::from_x_y_ranges(x, rect.top()..=rect.top() + SMALL_AXIS);
+    let lane = Rect::from_x_y_ranges(x, names.bottom()..=rect.bottom());
+    axis::show(ui, scale, lane, names);
+    lane_name(ui, rect.left() + SMALL_MARGIN, lane, model.lane, true);
+    let heights = bars::fitting(&HEIGHTS, lane);
+    let standing = bars::stand(model.bars, |_| true, scale, lane, &heights);
+    let clicked = bars::show(ui, &standing, model.selected);
+    axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, lane.bottom()));
+    let room = lane.with_min_x(lane.left() - NAMES_GAP);
+    bars::show_names(ui, &standing, model.selected, room);
+    clicked
+}
+
+/// Writes the name of a lane to its left, cut where it does not fit.
+fn lane_name(ui: &Ui, left: f32, lane: Rect, name: &str, main: bool) {
+    let t = theme::tokens(ui);
+    let room = Rect::from_x_y_ranges(left..=lane.left() - NAMES_GAP, lane.y_range());
+    let (font, colour) = if main { (text::small_strong(), t.t1) } else { (text::caption(), t.t2) };
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, name, font, colour);
+}
+
+#[cfg(test)]
+mod stories;

@@ -1,0 +1,64 @@
+//! The hours above the lanes, the grid through them, and the now-line.
+
+use egui::{Align2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
+use jiff::Timestamp;
+
+use super::scale::{Scale, is_full_hour};
+use crate::ui::{format, text, theme, widgets::paint};
+
+const NOW_WIDTH: f32 = 1.75;
+const NOW_TRIANGLE: egui::Vec2 = vec2(10.0, 7.0);
+/// Narrower hours are not named one by one, in points.
+const NARROW_HOUR: f32 = 40.0;
+/// From this width on, half hours have a line of their own, in points.
+const WIDE_HOUR: f32 = 100.0;
+const HOUR_S: i64 = 3600;
+
+/// Hours between two names, so that they do not touch.
+fn named_every_hours(hour_width: f32) -> i64 {
+    [1, 2, 3, 6, 12]
+        .into_iter()
+        .find(|hours| hour_width * *hours as f32 >= NARROW_HOUR)
+        .unwrap_or(24)
+}
+
+/// Paints the ground of the lanes and a line for each full hour in `lanes`,
+/// and the names of the hours in `names`, the band above.
+pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(lanes, 0, t.bg0);
+    let step_s = if scale.hour_width() >= WIDE_HOUR { HOUR_S / 2 } else { HOUR_S };
+    for at in scale.multiples(step_s) {
+        ui.painter().vline(scale.x(at), lanes.y_range(), (1.0, t.line));
+    }
+    let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
+    for at in scale.multiples(every_s).filter(|at| is_full_hour(*at)) {
+        let name = format::hours_minutes(at);
+        let place = pos2(scale.x(at), names.center().y);
+        paint::text(ui, place, Align2::CENTER_CENTER, name, text::caption(), t.t3);
+    }
+}
+
+/// Paints the now-line through `y`, with its triangle on top.
+pub(super) fn now_line(ui: &Ui, scale: &Scale, now: Timestamp, y: Rangef) {
+    let t = theme::tokens(ui);
+    let x = scale.x(now);
+    ui.painter().vline(x, y, Stroke::new(NOW_WIDTH, t.t1));
+    let half = NOW_TRIANGLE.x / 2.0;
+    let tip = pos2(x, y.min + NOW_TRIANGLE.y);
+    let triangle = vec![pos2(x - half, y.min), pos2(x + half, y.min), tip];
+    ui.painter().add(Shape::convex_polygon(triangle, t.t1, Stroke::NONE));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrow_hours_are_not_all_named() {
+        assert_eq!(named_every_hours(45.0), 1);
+        assert_eq!(named_every_hours(25.0), 2);
+        assert_eq!(named_every_hours(8.0), 6);
+        assert_eq!(named_every_hours(1.0), 24);
+    }
+}

@@ -1,0 +1,210 @@
+//! The passes as bars on the floor of a lane, and the names above them.
+
+use std::ops::RangeInclusive;
+
+use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use jiff::Timestamp;
+
+use super::{
+    Bar, head,
+    labels::{self, Placed, Wish},
+    scale::{Scale, bar_height},
+};
+use crate::ui::{format, text, theme, widgets::paint};
+
+const OUTLINE: f32 = 1.0;
+/// Frame of the selected bar: its width and the gap to the bar.
+const FRAME: f32 = 1.5;
+const FRAME_GAP: f32 = 1.5;
+/// A bar stays visible however low its lane is.
+const LOWEST: f32 = 8.0;
+const TRIANGLE: egui::Vec2 = vec2(9.0, 7.0);
+/// Left and right of a name, in points.
+const GAP: f32 = 1.0;
+/// Bars stand this far above the lower edge of the lane, so that the frame fits.
+const FLOOR: f32 = 4.0;
+/// A name, a sign for lost seconds and the frame above the highest bar.
+const ABOVE: f32 = 25.0;
+
+/// The heights in a lane that is too low for `wanted`: less for the high bars.
+pub(super) fn fitting(wanted: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
+    let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *wanted.end());
+    wanted.start().min(highest)..=highest
+}
+
+/// A bar and where it stands.
+pub(super) struct Standing<'a> {
+    bar: &'a Bar<'a>,
+    rect: Rect,
+}
+
+/// Stands the wanted bars of the window into `lane`, in the order of their
+/// rise, with heights that grow from 0 to 90 degrees of elevation.
+pub(super) fn stand<'a>(
+    bars: &'a [Bar<'a>],
+    wanted: impl Fn(&Bar<'_>) -> bool,
+    scale: &Scale,
+    lane: Rect,
+    heights: &RangeInclusive<f32>,
+) -> Vec<Standing<'a>> {
+    let floor = lane.bottom() - FLOOR;
+    let mut standing: Vec<_> = bars
+        .iter()
+        .filter(|bar| wanted(bar))
+        .filter_map(|bar| {
+            let x = scale.span(bar.aos, bar.los)?;
+            let top = floor - bar_height(bar.max_elevation_deg, heights);
+            Some(Standing { bar, rect: Rect::from_x_y_ranges(x, top..=floor) })
+        })
+        .collect();
+    standing.sort_by_key(|one| (one.bar.aos, one.bar.key));
+    standing
+}
+
+/// Paints the bars, a later one above an earlier one. Returns the bar that was
+/// clicked.
+pub(super) fn show(
+    ui: &Ui,
+    standing: &[Standing<'_>],
+    selected: Option<(u32, Timestamp)>,
+) -> Option<(u32, Timestamp)> {
+    let t = theme::tokens(ui);
+    let mut clicked = None;
+    let mut focused = None;
+    for Standing { bar, rect } in standing {
+        let response = node(ui, bar, *rect, selected == Some(bar.key));
+        if bar.possible {
+            // The rim parts bars that overlap.
+            ui.painter().rect(*rect, 0, t.sat, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
+        } else {
+            let stroke = Stroke::new(OUTLINE, t.other);
+            ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Inside);
+        }
+        if response.hovered() {
+            let stroke = Stroke::new(1.0, t.t1);
+            ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Outside);
+        }
+        if response.clicked() {
+            clicked = Some(bar.key);
+        }
+        if response.has_focus() {
+            focused = Some(response.clone());
+        }
+        response.on_hover_text(tool_tip(bar));
+    }
+    for one in standing {
+        if let Some(sign) = one.triangle() {
+            head::triangle(ui, sign, t.warn);
+        }
+        if selected == Some(one.bar.key) {
+            let frame = one.rect.expand(FRAME_GAP);
+            ui.painter().rect_stroke(frame, 2, Stroke::new(FRAME, t.ant), StrokeKind::Outside);
+        }
+    }
+    if let Some(response) = focused {
+        paint::focus_ring(ui, &response, 2);
+    }
+    clicked
+}
+
+/// Writes the names that fit above the bars: the selected one first, then those
+/// of the passes that can be tracked.
+pub(super) fn show_names(
+    ui: &Ui,
+    standing: &[Standing<'_>],
+    selected: Option<(u32, Timestamp)>,
+    room: Rect,
+) {
+    let t = theme::tokens(ui);
+    let mut order: Vec<&Standing<'_>> = standing.iter().collect();
+    order.sort_by_key(|one| (selected != Some(one.bar.key), !one.bar.possible));
+    let shorts: Vec<String> = order.iter().map(|one| labels::short_name(one.bar.name)).collect();
+    let mut obstacles: Vec<Rect> = standing.iter().map(|one| one.rect).collect();
+    obstacles.extend(standing.iter().filter_map(Standing::triangle));
+    let wishes: Vec<Wish> = order
+        .iter()
+        .zip(&shorts)
+        .map(|(one, short)| Wish {
+            short: one.name_rect(ui, short, room),
+            full: one.name_rect(ui, one.bar.name, room),
+        })
+        .collect();
+    let placed = labels::place(&wishes, &obstacles, room);
+    for ((one, short), placed) in order.iter().zip(&shorts).zip(placed) {
+        let (name, rect) = match placed {
+            Placed::Out => continue,
+            Placed::Short(rect) => (short.as_str(), rect),
+            Placed::Full(rect) => (one.bar.name, rect),
+        };
+        // Keeps the now-line and the grid out of the letters.
+        ui.painter().rect_filled(rect, 0, t.bg0);
+        let colour = if one.bar.possible { t.t1 } else { t.other };
+        paint::text(ui, rect.center(), Align2::CENTER_CENTER, name, text::caption(), colour);
+    }
+}
+
+impl Standing<'_> {
+    /// Where the sign for lost seconds stands.
+    fn triangle(&self) -> Option<Rect> {
+        let shown = self.bar.loses && self.bar.possible;
+        let low = pos2(self.rect.center().x, self.rect.top() - FRAME - FRAME_GAP);
+        shown.then(|| Align2::CENTER_BOTTOM.anchor_size(low, TRIANGLE))
+    }
+
+    /// Where `name` would stand: above the bar, moved aside at the ends of `room`.
+    fn name_rect(&self, ui: &Ui, name: &str, room: Rect) -> Rect {
+        let galley =
+            ui.painter().layout_no_wrap(name.to_owned(), text::caption(), theme::tokens(ui).t1);
+        let size = vec2(galley.size().x + 2.0 * GAP, galley.size().y);
+        let top = self.triangle().map_or(self.rect.top() - FRAME - FRAME_GAP, |sign| sign.top());
+        let half = size.x / 2.0;
+        let left_most = room.left() + half;
+        let x = self.rect.center().x.clamp(left_most, (room.right() - half).max(left_most));
+        Align2::CENTER_BOTTOM.anchor_size(pos2(x, top), size)
+    }
+}
+
+fn node(ui: &Ui, bar: &Bar<'_>, rect: Rect, selected: bool) -> Response {
+    let id = ui.make_persistent_id(("pass bar", bar.key));
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| {
+        WidgetInfo::selected(Role::ListBoxOption, true, selected, accessible_name(bar))
+    });
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(selected));
+    response
+}
+
+fn remark(bar: &Bar<'_>) -> Option<&'static str> {
+    match (bar.possible, bar.loses) {
+        (false, _) => Some("not possible"),
+        (true, true) => Some("seconds lost"),
+        (true, false) => None,
+    }
+}
+
+fn accessible_name(bar: &Bar<'_>) -> String {
+    let (from, to) = (format::hours_minutes(bar.aos), format::hours_minutes(bar.los));
+    let highest = format::degrees(bar.max_elevation_deg, 0);
+    let name = format!("{}, {from} to {to}, max {highest}", bar.name);
+    remark(bar).map_or(name.clone(), |remark| format!("{name}, {remark}"))
+}
+
+fn tool_tip(bar: &Bar<'_>) -> String {
+    let (from, to) = (format::time(bar.aos), format::time_z(bar.los));
+    let highest = format::degrees(bar.max_elevation_deg, 0);
+    let tip = format!("{}\n{from} to {to}\nmax {highest}", bar.name);
+    remark(bar).map_or(tip.clone(), |remark| format!("{tip}, {remark}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_leave_room_for_names_in_a_low_lane() {
+        let lane = |height| Rect::from_min_size(egui::Pos2::ZERO, vec2(100.0, height));
+        assert_eq!(fitting(&(14.0..=44.0), lane(80.0)), 14.0..=44.0);
+        assert_eq!(fitting(&(14.0..=44.0), lane(59.0)), 14.0..=30.0);
+        assert_eq!(fitting(&(14.0..=44.0), lane(10.0)), 8.0..=8.0);
+    }
+}

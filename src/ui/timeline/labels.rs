@@ -1,0 +1,178 @@
+//! Which bars get a name above them.
+
+use egui::{Rect, vec2};
+
+/// A name that would like to stand somewhere, in its two lengths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wish {
+    /// Room for the short name.
+    pub short: Rect,
+    /// Room for the full name.
+    pub full: Rect,
+}
+
+/// What came of a wish.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Placed {
+    /// Nothing fits.
+    Out,
+    /// The short name, here.
+    Short(Rect),
+    /// The full name, here.
+    Full(Rect),
+}
+
+/// How far a short name may step aside, in points, the best place first.
+const ASIDE: [f32; 5] = [0.0, 3.0, -3.0, 6.0, -6.0];
+
+/// What a full name leaves free on both sides, in points.
+const AIR: f32 = 4.0;
+
+/// Shares out the room above the bars: first as many short names as fit, the
+/// earlier wish first, then the full name wherever there is room left. No two
+/// names overlap, and none covers an obstacle or leaves `room`.
+pub(super) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
+    let clear = |rect: Rect| !obstacles.iter().any(|obstacle| overlap(*obstacle, rect));
+    let open = |rect: Rect| room.contains_rect(rect) && clear(rect);
+    let mut placed: Vec<Placed> = Vec::with_capacity(wishes.len());
+    for wish in wishes {
+        let mut places = ASIDE.iter().map(|step| wish.short.translate(vec2(*step, 0.0)));
+        let place = places.find(|rect| open(*rect) && placed.iter().all(|one| one.leaves(*rect)));
+        placed.push(place.map_or(Placed::Out, Placed::Short));
+    }
+    for (index, wish) in wishes.iter().enumerate() {
+        let airy = wish.full.expand2(vec2(AIR, 0.0));
+        let mut others = placed.iter().enumerate().filter(|(other, _)| *other != index);
+        let fits =
+            room.contains_rect(wish.full) && clear(airy) && others.all(|(_, one)| one.leaves(airy));
+        if let Some(one @ Placed::Short(_)) = placed.get_mut(index)
+            && fits
+        {
+            *one = Placed::Full(wish.full);
+        }
+    }
+    placed
+}
+
+impl Placed {
+    /// Whether this name leaves `rect` free.
+    fn leaves(&self, rect: Rect) -> bool {
+        match self {
+            Self::Out => true,
+            Self::Short(taken) | Self::Full(taken) => !overlap(*taken, rect),
+        }
+    }
+}
+
+/// Whether two rectangles share an area; a common edge is no overlap.
+fn overlap(a: Rect, b: Rect) -> bool {
+    a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y
+}
+
+/// A name in two to five signs: "NOAA 20" is N20, "METOP-B" is MB, "TERRA" is
+/// TE. Short words and figures stay whole, the M of "METEOR-M2" is said once, and
+/// what stands in brackets is dropped.
+pub(super) fn short_name(name: &str) -> String {
+    let before_brackets = name.split('(').next().unwrap_or(name);
+    let words: Vec<&str> =
+        before_brackets.split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
+    match words.as_slice() {
+        [] => name.chars().take(3).collect(),
+        [word] if word.chars().count() <= 3 => (*word).to_owned(),
+        [word] => {
+            let figures = word.trim_start_matches(|sign: char| !sign.is_ascii_digit());
+            let letters = if figures.is_empty() { 2 } else { 1 };
+            word.chars().take(letters).chain(figures.chars().take(3)).collect()
+        }
+        several => {
+            let followers = several.iter().skip(1).map(Some).chain([None]);
+            let parts = several.iter().zip(followers).flat_map(|(word, follower)| {
+                let whole = has_figure(word) || word.chars().count() <= 3;
+                let said_again = follower.is_some_and(|follower| {
+                    has_figure(follower) && follower.chars().next() == word.chars().next()
+                });
+                word.chars().take(match (whole, said_again) {
+                    (true, _) => 4,
+                    (false, true) => 0,
+                    (false, false) => 1,
+                })
+            });
+            parts.take(5).collect()
+        }
+    }
+}
+
+fn has_figure(word: &str) -> bool {
+    word.contains(|sign: char| sign.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::pos2;
+
+    const ROOM: Rect = Rect { min: pos2(0.0, 0.0), max: pos2(200.0, 40.0) };
+
+    fn wish(middle: f32, y: f32) -> Wish {
+        let rect = |width| Rect::from_center_size(pos2(middle, y), vec2(width, 12.0));
+        Wish { short: rect(20.0), full: rect(50.0) }
+    }
+
+    fn short(middle: f32, y: f32) -> Placed {
+        Placed::Short(wish(middle, y).short)
+    }
+
+    fn full(middle: f32, y: f32) -> Placed {
+        Placed::Full(wish(middle, y).full)
+    }
+
+    #[test]
+    fn names_apart_are_both_written_in_full() {
+        let placed = place(&[wish(40.0, 10.0), wish(120.0, 10.0)], &[], ROOM);
+        assert_eq!(placed, [full(40.0, 10.0), full(120.0, 10.0)]);
+    }
+
+    #[test]
+    fn near_names_are_short_and_the_later_of_two_that_collide_is_left_out() {
+        let placed = place(&[wish(60.0, 10.0), wish(72.0, 10.0), wish(85.0, 10.0)], &[], ROOM);
+        assert_eq!(placed, [short(60.0, 10.0), Placed::Out, short(85.0, 10.0)]);
+        let above = place(&[wish(60.0, 10.0), wish(66.0, 30.0)], &[], ROOM);
+        assert_eq!(above, [full(60.0, 10.0), full(66.0, 30.0)]);
+    }
+
+    #[test]
+    fn a_name_steps_aside_a_little() {
+        let placed = place(&[wish(60.0, 10.0), wish(75.0, 10.0)], &[], ROOM);
+        assert_eq!(placed, [short(60.0, 10.0), short(81.0, 10.0)]);
+    }
+
+    #[test]
+    fn names_keep_off_obstacles_and_borders() {
+        let bar = Rect::from_min_max(pos2(80.0, 0.0), pos2(90.0, 40.0));
+        assert_eq!(place(&[wish(85.0, 10.0)], &[bar], ROOM), [Placed::Out]);
+        assert_eq!(place(&[wish(60.0, 10.0)], &[bar], ROOM), [short(60.0, 10.0)]);
+        assert_eq!(place(&[wish(2.0, 10.0)], &[], ROOM), [Placed::Out]);
+        assert_eq!(place(&[wish(100.0, 3.0)], &[], ROOM), [Placed::Out]);
+        assert_eq!(place(&[wish(15.0, 10.0)], &[], ROOM), [short(15.0, 10.0)]);
+    }
+
+    #[test]
+    fn short_names() {
+        for (name, short) in [
+            ("NOAA 20", "N20"),
+            ("METOP-B", "MB"),
+            ("FENGYUN 3E", "F3E"),
+            ("SENTINEL-6", "S6"),
+            ("METEOR-M2 4", "M24"),
+            ("SUOMI NPP", "SNPP"),
+            ("NOAA 11", "N11"),
+            ("TERRA", "TE"),
+            ("LANDSAT9", "L9"),
+            ("SWOT", "SW"),
+            ("ISS (ZARYA)", "ISS"),
+            ("", ""),
+        ] {
+            assert_eq!(short_name(name), short, "{name}");
+        }
+    }
+}

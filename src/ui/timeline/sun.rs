@@ -1,0 +1,45 @@
+//! The lane that shows day and night.
+
+use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2};
+
+use super::{SunSpan, scale::Scale};
+use crate::ui::{format, text, theme, widgets::paint};
+
+/// Between two words below the lane, in points.
+const GAP: f32 = 8.0;
+
+/// Shows the spans in `bar`, and what begins when in `words`, the band below.
+pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: Rect) {
+    let t = theme::tokens(ui);
+    let mut free_from = words.left();
+    for span in spans {
+        let Some(x) = scale.span(span.from, span.to) else {
+            continue;
+        };
+        let rect = Rect::from_x_y_ranges(x, bar.y_range());
+        let (fill, line) = if span.up { (t.bg1, t.sun) } else { (t.bg3, t.line) };
+        ui.painter().rect(rect, 0, fill, Stroke::new(1.0, line), StrokeKind::Inside);
+        let word = caption(span, scale);
+        let width = paint::text_width(ui, &word, text::caption());
+        let left = x.min.min(words.right() - width);
+        if left < free_from {
+            continue;
+        }
+        let at = pos2(left, words.center().y);
+        paint::text(ui, at, Align2::LEFT_CENTER, &word, text::caption(), t.t2);
+        let name = Rect::from_x_y_ranges(left..=left + width, words.y_range());
+        paint::name_text(ui, ("sun", span.from), name, &word);
+        free_from = left + width + GAP;
+    }
+}
+
+/// A state that was there before the window, or the change that begins it.
+fn caption(span: &SunSpan, scale: &Scale) -> String {
+    let began = format::hours_minutes(span.from);
+    match (span.from > scale.from(), span.up) {
+        (false, true) => "day".to_owned(),
+        (false, false) => "night".to_owned(),
+        (true, true) => format!("sunrise {began}"),
+        (true, false) => format!("sunset {began}"),
+    }
+}

@@ -1,0 +1,155 @@
+//! The bar at the top of every view: station, clock, antennas, alarms, STOP.
+
+mod chips;
+mod clock;
+mod station;
+
+use egui::{Area, Id, Order, Rect, Ui, UiBuilder, pos2, vec2};
+
+use super::{
+    icons, theme,
+    tokens::ThemeName,
+    widgets::{
+        alarm_list::{self, AlarmAction, AlarmModel},
+        link_chip::ChipModel,
+        paint,
+        stop_button::{self, StopState},
+    },
+};
+pub use clock::ClockModel;
+
+/// Height of the bar.
+pub const HEIGHT: f32 = 56.0;
+/// Height of the bar in a low window.
+pub const SMALL_HEIGHT: f32 = 48.0;
+/// Below this height of the window the bar is small.
+pub const SMALL_BELOW: f32 = 800.0;
+/// Below this width local time and date move to a tool-tip.
+const DATE_FROM: f32 = 1360.0;
+/// Below this width the chips have one line.
+const TWO_LINES_FROM: f32 = 1200.0;
+
+/// All that the bar shows.
+#[derive(Debug, Clone, Copy)]
+pub struct TopBarModel<'a> {
+    /// Name of the station.
+    pub station: &'a str,
+    /// Where it is.
+    pub coordinates: &'a str,
+    /// Times and date.
+    pub clock: ClockModel<'a>,
+    /// One chip for each antenna, in the order of the keys F1 to F4.
+    pub chips: &'a [ChipModel<'a>],
+    /// Alarms.
+    pub alarms: AlarmModel<'a>,
+    /// What became of the last STOP.
+    pub stop: StopState<'a>,
+}
+
+/// What the operator did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TopBarAction {
+    /// Stop every antenna.
+    Stop,
+    /// Show the card of the antenna with this index.
+    SelectAntenna(usize),
+    /// Did something with the alarms.
+    Alarm(AlarmAction),
+    /// Open the settings of the station.
+    OpenStationSettings,
+    /// Change the theme.
+    SetTheme(ThemeName),
+}
+
+/// The height for a window of this height.
+pub fn height(window_height: f32) -> f32 {
+    if window_height < SMALL_BELOW { SMALL_HEIGHT } else { HEIGHT }
+}
+
+/// Shows the bar in `rect`. Draw it before anything else: STOP is the first
+/// control in the order of Tab.
+pub fn show(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>) -> Vec<TopBarAction> {
+    let mut actions = Vec::new();
+    let builder = UiBuilder::new().id_salt("top bar").max_rect(rect);
+    ui.scope_builder(builder, |ui| fill(ui, rect, model, &mut actions));
+    actions
+}
+
+fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopBarAction>) {
+    let t = theme::tokens(ui);
+    let small = rect.height() < HEIGHT;
+    let wide = rect.width() >= TWO_LINES_FROM;
+    let edge = if wide { 16.0 } else { 8.0 };
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+
+    let size = if small { stop_button::SMALL_SIZE } else { stop_button::SIZE };
+    let min = pos2(rect.right() - edge - size.x, rect.center().y - size.y / 2.0);
+    let stop = Rect::from_min_size(min, size);
+    if stop_clicked(ui, stop, model.stop) {
+        actions.push(TopBarAction::Stop);
+    }
+
+    let rail = if wide { 72.0 } else { 48.0 };
+    let sign = paint::square(pos2(rect.left() + rail / 2.0, rect.center().y), 30.0);
+    icons::paint_sign(ui.painter(), sign, t.t1, t.sat);
+
+    let width = if wide { 200.0 } else { station::one_line_width(ui, model.station) };
+    let start = rect.left() + rail;
+    let selector = rect.with_min_x(start + 4.0).with_max_x(start + width);
+    station::show(ui, selector, model, wide, actions);
+    let mut left = selector.right();
+    if wide {
+        ui.painter().vline(left, rect.y_range().shrink(8.0), (1.0, t.line));
+        left += 18.0;
+    } else {
+        left += 24.0;
+    }
+
+    let alarm_width = if wide { 104.0 } else { 48.0 };
+    let control = if small { 32.0 } else { 40.0 };
+    let gap = if wide { 16.0 } else { 12.0 };
+    let min = pos2(stop.left() - gap - alarm_width, rect.center().y - control / 2.0);
+    let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
+
+    let clock = clock::show(ui, rect.with_min_x(left), &model.clock, wide);
+    let chips_left = chips::show(
+        ui,
+        Rect::from_min_max(
+            pos2(clock.utc + 12.0, alarms.top()),
+            pos2(alarms.left() - 8.0, alarms.bottom()),
+        ),
+        model.chips,
+        wide,
+        actions,
+    );
+    let free = rect.with_max_x(chips_left - 8.0);
+    if let StopState::NotConfirmed { text } = model.stop {
+        clock::not_confirmed(ui, free.with_min_x(clock.utc + 10.0), text);
+    } else if rect.width() >= DATE_FROM {
+        clock::date(ui, free.with_min_x(clock.time + 10.0), &model.clock);
+    }
+
+    let mut done = Vec::new();
+    alarm_list::show(ui, alarms, &model.alarms, !wide, &mut done);
+    actions.extend(done.into_iter().map(TopBarAction::Alarm));
+}
+
+/// STOP has a layer of its own above everything, so that it works while a
+/// dialog is open.
+fn stop_clicked(ui: &Ui, rect: Rect, state: StopState<'_>) -> bool {
+    Area::new(Id::unique("stop layer"))
+        .order(Order::Tooltip)
+        .fixed_pos(rect.min)
+        .default_size(rect.size())
+        .constrain(false)
+        .show(ui.ctx(), |ui| {
+            ui.set_clip_rect(rect.expand(6.0));
+            ui.allocate_rect(rect, egui::Sense::hover());
+            stop_button::show(ui, rect, state).clicked()
+        })
+        .inner
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,121 @@
+//! The chips of the antennas, and one for those that have no room.
+
+use egui::{Align2, Popup, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::TopBarAction;
+use crate::ui::{
+    icons,
+    text::{self, Weight},
+    theme,
+    widgets::{
+        link_chip::{self, ChipForm, ChipModel, LinkGlyph, TWO_LINES_WIDTH},
+        paint,
+    },
+};
+
+const MORE_WIDTH: f32 = 56.0;
+/// More chips than this keep glyph and name only.
+const FULL_CHIPS: usize = 4;
+
+/// Shows the chips at the right end of `rect` and returns where they begin.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    chips: &[ChipModel<'_>],
+    wide: bool,
+    actions: &mut Vec<TopBarAction>,
+) -> f32 {
+    let gap = if wide { 8.0 } else { 6.0 };
+    let form = match (chips.len() > FULL_CHIPS, wide) {
+        (true, _) => ChipForm::Name,
+        (false, true) => ChipForm::TwoLines,
+        (false, false) => ChipForm::OneLine,
+    };
+    let widths: Vec<f32> = chips.iter().map(|chip| chip.width(ui, form)).collect();
+    let shown = how_many_fit(&widths, gap, rect.width());
+    let hidden = chips.get(shown..).unwrap_or_default();
+    let more = if hidden.is_empty() { 0.0 } else { MORE_WIDTH + gap };
+    let taken: f32 = widths.iter().take(shown).map(|width| width + gap).sum::<f32>() + more - gap;
+    let start = rect.right() - taken.max(0.0);
+    let mut x = start;
+    for (index, (chip, width)) in chips.iter().zip(&widths).take(shown).enumerate() {
+        let place = Rect::from_min_size(pos2(x, rect.top()), vec2(*width, rect.height()));
+        if link_chip::show(ui, place, chip, form).clicked() {
+            actions.push(TopBarAction::SelectAntenna(index));
+        }
+        x += width + gap;
+    }
+    if !hidden.is_empty() {
+        let place = Rect::from_min_size(pos2(x, rect.top()), vec2(MORE_WIDTH, rect.height()));
+        let response = more_chip(ui, place, hidden);
+        Popup::menu(&response).width(TWO_LINES_WIDTH).accessible_name("More antennas").show(|ui| {
+            for (index, chip) in hidden.iter().enumerate() {
+                let (place, _) =
+                    ui.allocate_exact_size(vec2(TWO_LINES_WIDTH, 40.0), egui::Sense::hover());
+                if link_chip::show(ui, place, chip, ChipForm::TwoLines).clicked() {
+                    actions.push(TopBarAction::SelectAntenna(shown + index));
+                    ui.close();
+                }
+            }
+        });
+    }
+    start
+}
+
+/// How many chips have room, with the chip for the others if they are not all.
+fn how_many_fit(widths: &[f32], gap: f32, room: f32) -> usize {
+    let all: f32 = widths.iter().map(|width| width + gap).sum::<f32>() - gap;
+    if all <= room {
+        return widths.len();
+    }
+    let mut left = room - MORE_WIDTH;
+    widths
+        .iter()
+        .take_while(|width| {
+            left -= *width + gap;
+            left >= 0.0
+        })
+        .count()
+}
+
+/// The chip that stands for the hidden ones and carries their worst state.
+fn more_chip(ui: &Ui, rect: Rect, hidden: &[ChipModel<'_>]) -> Response {
+    let t = theme::tokens(ui);
+    let worst = hidden.iter().map(|chip| chip.link).max_by_key(|link| badness(*link));
+    let worst = worst.unwrap_or_default();
+    let name = format!("{} more antennas, the worst link is {}", hidden.len(), worst.word());
+    let response = paint::control(ui, "more chips", rect, Role::Button, true, &name);
+    let selected = hidden.iter().any(|chip| chip.selected);
+    let border = Stroke::new(1.0, if selected { t.sat } else { t.line });
+    ui.painter().rect(rect, 6.0, t.bg2, border, StrokeKind::Inside);
+    let (icon, colour) = worst.look(t);
+    let glyph = paint::square(pos2(rect.left() + 16.0, rect.center().y), 13.0);
+    icons::paint(ui.painter(), glyph, icon, colour);
+    let at = pos2(rect.left() + 28.0, rect.center().y);
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::text(ui, at, Align2::LEFT_CENTER, format!("+{}", hidden.len()), font, t.t1);
+    paint::focus_ring(ui, &response, 6);
+    response
+}
+
+fn badness(link: LinkGlyph) -> u8 {
+    match link {
+        LinkGlyph::Live => 0,
+        LinkGlyph::Off => 1,
+        LinkGlyph::Late => 2,
+        LinkGlyph::Lost => 3,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_room_goes_into_the_last_chip() {
+        assert_eq!(how_many_fit(&[100.0, 100.0], 8.0, 208.0), 2);
+        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 280.0), 2);
+        assert_eq!(how_many_fit(&[100.0, 100.0, 100.0], 8.0, 260.0), 1);
+        assert_eq!(how_many_fit(&[], 8.0, 0.0), 0);
+    }
+}

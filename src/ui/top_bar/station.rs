@@ -1,0 +1,67 @@
+//! The station and its menu.
+
+use egui::{Align2, Button, Popup, Rect, Role, Ui, pos2, vec2};
+
+use super::{TopBarAction, TopBarModel};
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    tokens::ThemeName,
+    widgets::paint,
+};
+
+/// Width of the selector without coordinates.
+pub(super) fn one_line_width(ui: &Ui, name: &str) -> f32 {
+    (paint::text_width(ui, name, text::sized(14.0, Weight::SemiBold)) + 48.0).min(170.0)
+}
+
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &TopBarModel<'_>,
+    two_lines: bool,
+    actions: &mut Vec<TopBarAction>,
+) {
+    let t = theme::tokens(ui);
+    let place = rect.shrink2(vec2(0.0, 6.0));
+    let name = format!("Station {}", model.station);
+    let response = paint::control(ui, "station", place, Role::Button, true, &name);
+    let response = response.on_hover_text(model.station);
+    if response.hovered() {
+        ui.painter().rect_filled(place, 5.0, t.bg3);
+    }
+    let room = rect.with_min_x(rect.left() + 12.0).with_max_x(rect.right() - 30.0);
+    let strong = text::sized(14.0, Weight::SemiBold);
+    if two_lines {
+        let up = room.translate(vec2(0.0, -8.0));
+        paint::text_in(ui, up, Align2::LEFT_CENTER, model.station, strong, t.t1);
+        let down = room.translate(vec2(0.0, 9.0));
+        paint::text_in(ui, down, Align2::LEFT_CENTER, model.coordinates, text::small(), t.t2);
+    } else {
+        paint::text_in(ui, room, Align2::LEFT_CENTER, model.station, strong, t.t1);
+    }
+    let at = pos2(rect.right() - 22.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
+    paint::focus_ring(ui, &response, 5);
+    Popup::menu(&response).width(180.0).accessible_name("Station menu").show(|ui| {
+        menu(ui, actions);
+    });
+}
+
+fn menu(ui: &mut Ui, actions: &mut Vec<TopBarAction>) {
+    if ui.button("Station settings…").clicked() {
+        actions.push(TopBarAction::OpenStationSettings);
+    }
+    ui.separator();
+    let shown = theme::name(ui);
+    for (theme, word) in [
+        (ThemeName::Dark, "Dark theme"),
+        (ThemeName::Light, "Light theme"),
+        (ThemeName::Night, "Night theme"),
+    ] {
+        if ui.add(Button::selectable(shown == theme, word)).clicked() {
+            actions.push(TopBarAction::SetTheme(theme));
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The small components. Each takes plain data and a rectangle, paints, and
+//! says what the operator did; none of them calls anything else.
+
+pub mod alarm_list;
+pub mod axes_table;
+pub mod beam_bar;
+pub mod button;
+pub mod fold;
+pub mod go_to;
+pub mod hold_button;
+pub mod jog_pad;
+pub mod link_chip;
+pub mod mode_selector;
+pub mod paint;
+pub mod rate_slider;
+pub mod segmented;
+pub mod sentence;
+pub mod stop_button;
+pub mod travel_gauge;
+
+#[cfg(test)]
+pub(crate) mod testing;

@@ -1,0 +1,274 @@
+//! The alarm button of the top bar and the list that it opens.
+
+use std::time::Duration;
+
+use egui::{
+    Align2, Color32, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke, StrokeKind,
+    Ui, ViewportId, WidgetInfo, pos2, vec2,
+};
+
+use super::{
+    button::{Button, SMALL_HEIGHT},
+    paint,
+};
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    tokens::Tokens,
+};
+
+const RADIUS: u8 = 6;
+const LIST_WIDTH: f32 = 360.0;
+const ROW_HEIGHT: f32 = 52.0;
+/// The bell goes on and off once a second until the list was opened.
+const HALF_BLINK_S: f64 = 0.5;
+
+/// How much an alarm matters. Each has its own shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlarmPriority {
+    /// Act now.
+    Urgent,
+    /// Look soon.
+    Caution,
+}
+
+/// Where an alarm stands in its life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlarmState<'a> {
+    /// Nobody has acknowledged it.
+    New,
+    /// Acknowledged, the cause is still there.
+    Seen,
+    /// The cause is gone.
+    Cleared,
+    /// Quiet until a time.
+    Shelved {
+        /// The time as it is shown.
+        until: &'a str,
+    },
+}
+
+/// One alarm.
+#[derive(Debug, Clone, Copy)]
+pub struct AlarmRow<'a> {
+    /// What the answer of the operator names it by.
+    pub id: u64,
+    /// How much it matters.
+    pub priority: AlarmPriority,
+    /// Where it stands.
+    pub state: AlarmState<'a>,
+    /// What is wrong.
+    pub text: &'a str,
+    /// When it came, as it is shown.
+    pub time: &'a str,
+}
+
+/// All alarms.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct AlarmModel<'a> {
+    /// The newest first.
+    pub rows: &'a [AlarmRow<'a>],
+    /// The bell blinks: there is a new alarm since the list was last opened.
+    pub unopened: bool,
+}
+
+impl AlarmModel<'_> {
+    fn count(&self, wanted: impl Fn(AlarmState<'_>) -> bool) -> usize {
+        self.rows.iter().filter(|row| wanted(row.state)).count()
+    }
+
+    fn active(&self) -> usize {
+        self.count(|state| matches!(state, AlarmState::New | AlarmState::Seen))
+    }
+
+    fn unacknowledged(&self) -> usize {
+        self.count(|state| state == AlarmState::New)
+    }
+}
+
+/// What the operator did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlarmAction {
+    /// The list was opened, so the bell may rest.
+    Opened,
+    /// One alarm was acknowledged.
+    Acknowledge(u64),
+}
+
+/// Shows the button in `rect` and, when it was clicked, the list below it.
+pub fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &AlarmModel<'_>,
+    one_line: bool,
+    actions: &mut Vec<AlarmAction>,
+) {
+    let response = button(ui, rect, model, one_line);
+    let was_open = Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
+    if response.clicked() && !was_open {
+        actions.push(AlarmAction::Opened);
+    }
+    Popup::from_toggle_button_response(&response)
+        .width(LIST_WIDTH)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .accessible_name("Alarms")
+        .show(|ui| list(ui, model, actions));
+}
+
+fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Response {
+    let t = theme::tokens(ui);
+    let (active, new) = (model.active(), model.unacknowledged());
+    let first = match active {
+        0 => "No alarms".to_owned(),
+        1 => "1 alarm".to_owned(),
+        more => format!("{more} alarms"),
+    };
+    let second = match (active, new) {
+        (0, _) => "all quiet".to_owned(),
+        (_, 0) => "seen".to_owned(),
+        (_, new) => format!("{new} new"),
+    };
+    let response = ui.interact(rect, ui.make_persistent_id("alarms"), Sense::click());
+    let name = format!("{first}, {second}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    let colour = if new > 0 { t.warn } else { t.t2 };
+    let border = if new > 0 { t.warn } else { t.line };
+    let fill = if response.hovered() { t.bg3 } else { t.bg2 };
+    ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
+    if bell_is_lit(ui, model.unopened && new > 0) {
+        let inset = if one_line { 16.0 } else { 20.0 };
+        let at = paint::square(pos2(rect.left() + inset, rect.center().y), 16.0);
+        icons::paint(ui.painter(), at, Icon::Bell, colour);
+    }
+    let strong = text::sized(13.0, Weight::SemiBold);
+    if one_line {
+        let at = pos2(rect.left() + 30.0, rect.center().y);
+        paint::text(ui, at, Align2::LEFT_CENTER, active, strong, t.t1);
+    } else {
+        let at = pos2(rect.left() + 38.0, rect.center().y);
+        let up = at - vec2(0.0, 7.0);
+        paint::text(ui, up, Align2::LEFT_CENTER, first, strong, t.t1);
+        let down = at + vec2(0.0, 8.5);
+        paint::text(ui, down, Align2::LEFT_CENTER, second, text::small(), t.t2);
+    }
+    paint::focus_ring(ui, &response, RADIUS);
+    response
+}
+
+fn bell_is_lit(ui: &Ui, blinking: bool) -> bool {
+    if !blinking {
+        return true;
+    }
+    let phase = ui.input(|input| input.time) % (2.0 * HALF_BLINK_S);
+    let rest = HALF_BLINK_S - phase % HALF_BLINK_S;
+    let rest = Duration::try_from_secs_f64(rest).unwrap_or_default();
+    ui.ctx().request_repaint_after_for(rest, ViewportId::ROOT);
+    phase < HALF_BLINK_S
+}
+
+fn list(ui: &mut Ui, model: &AlarmModel<'_>, actions: &mut Vec<AlarmAction>) {
+    let t = theme::tokens(ui);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    if model.rows.is_empty() {
+        ui.label("No alarms since the program was started.");
+        return;
+    }
+    egui::ScrollArea::vertical().max_height(8.0 * ROW_HEIGHT).show(ui, |ui| {
+        for (index, row) in model.rows.iter().enumerate() {
+            let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, ROW_HEIGHT), Sense::hover());
+            if index > 0 {
+                ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
+            }
+            if list_row(ui, rect, row) {
+                actions.push(AlarmAction::Acknowledge(row.id));
+            }
+        }
+    });
+}
+
+/// Returns whether the row was acknowledged.
+fn list_row(ui: &Ui, rect: Rect, row: &AlarmRow<'_>) -> bool {
+    let t = theme::tokens(ui);
+    let (icon, colour) = mark(row, t);
+    let glyph = paint::square(pos2(rect.left() + 12.0, rect.center().y), 18.0);
+    icons::paint(ui.painter(), glyph, icon, colour);
+    let new = row.state == AlarmState::New;
+    let right = match row.state {
+        AlarmState::New => 104.0,
+        AlarmState::Shelved { .. } => 116.0,
+        AlarmState::Seen | AlarmState::Cleared => 60.0,
+    };
+    let room = rect.with_min_x(rect.left() + 32.0).with_max_x(rect.right() - right);
+    let (weight, ink) = if new { (Weight::SemiBold, t.t1) } else { (Weight::Regular, t.t2) };
+    let up = room.translate(vec2(0.0, -8.0));
+    paint::text_in(ui, up, Align2::LEFT_CENTER, row.text, text::sized(13.0, weight), ink);
+    let down = room.translate(vec2(0.0, 9.0));
+    paint::text_in(ui, down, Align2::LEFT_CENTER, row.time, text::small(), t.t3);
+    let words = match row.state {
+        AlarmState::New => "new".to_owned(),
+        AlarmState::Seen => "seen".to_owned(),
+        AlarmState::Cleared => "cleared".to_owned(),
+        AlarmState::Shelved { until } => format!("shelved to {until}"),
+    };
+    let name = format!("{}, {}, {words}", row.text, row.time);
+    paint::name_text(ui, ("alarm", row.id), room, &name);
+    if new {
+        let size = vec2(100.0, SMALL_HEIGHT);
+        let at = Rect::from_min_size(pos2(rect.right() - 100.0, rect.center().y - 12.0), size);
+        let pressed = Button::normal("Acknowledge").show(ui, ("acknowledge", row.id), at);
+        return pressed.accessible_name(format!("Acknowledge: {}", row.text)).clicked();
+    }
+    let at = pos2(rect.right() - 4.0, rect.center().y);
+    paint::text(ui, at, Align2::RIGHT_CENTER, words, text::small(), t.t2);
+    false
+}
+
+fn mark(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
+    match (row.state, row.priority) {
+        (AlarmState::Cleared, _) => (Icon::Check, t.t3),
+        (AlarmState::Shelved { .. }, _) => (Icon::Dash, t.t3),
+        (_, AlarmPriority::Urgent) => (Icon::Octagon, t.bad),
+        (_, AlarmPriority::Caution) => (Icon::Warning, t.warn),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::Queryable as _;
+
+    const ROWS: [AlarmRow<'_>; 2] = [
+        AlarmRow {
+            id: 7,
+            priority: AlarmPriority::Urgent,
+            state: AlarmState::New,
+            text: "RC2000C does not reply",
+            time: "11:05:58Z",
+        },
+        AlarmRow {
+            id: 5,
+            priority: AlarmPriority::Caution,
+            state: AlarmState::Seen,
+            text: "METEOR-M2 3 elements are 9 days old",
+            time: "10:41:10Z",
+        },
+    ];
+
+    #[test]
+    fn an_alarm_is_acknowledged_from_the_list() {
+        let mut window = testing::window([500.0, 300.0], Vec::new(), |ui, actions| {
+            let model = AlarmModel { rows: &ROWS, unopened: false };
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(104.0, 40.0));
+            show(ui, rect, &model, false, actions);
+        });
+        window.get_by_label("2 alarms, 1 new").click();
+        window.run();
+        assert_eq!(*window.state(), [AlarmAction::Opened]);
+        window.get_by_label("METEOR-M2 3 elements are 9 days old, 10:41:10Z, seen");
+        window.get_by_label("Acknowledge: RC2000C does not reply").click();
+        window.run();
+        assert_eq!(*window.state(), [AlarmAction::Opened, AlarmAction::Acknowledge(7)]);
+    }
+}

@@ -1,0 +1,133 @@
+//! Push buttons.
+
+use egui::{Align2, Color32, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::paint;
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+};
+
+/// Height of a button.
+pub const HEIGHT: f32 = 32.0;
+/// Height of a small button.
+pub const SMALL_HEIGHT: f32 = 24.0;
+/// Corner of buttons and jog keys.
+pub const RADIUS: u8 = 5;
+
+/// How much a button stands out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// The one thing to do here.
+    Primary,
+    /// The usual button.
+    Normal,
+    /// A button that stays in the background.
+    Quiet,
+}
+
+/// A button at a fixed place.
+#[derive(Debug, Clone, Copy)]
+pub struct Button<'a> {
+    text: &'a str,
+    weight: Weight,
+    locked: bool,
+    chevron: bool,
+}
+
+impl<'a> Button<'a> {
+    /// The usual button.
+    pub fn normal(text: &'a str) -> Self {
+        Self { text, weight: Weight::Normal, locked: false, chevron: false }
+    }
+
+    /// The one thing to do here.
+    pub fn primary(text: &'a str) -> Self {
+        Self { weight: Weight::Primary, ..Self::normal(text) }
+    }
+
+    /// A button that stays in the background.
+    pub fn quiet(text: &'a str) -> Self {
+        Self { weight: Weight::Quiet, ..Self::normal(text) }
+    }
+
+    /// Refused for now: dashed, and not to be clicked. The reason has to stand
+    /// beside it.
+    #[must_use]
+    pub fn locked(self, locked: bool) -> Self {
+        Self { locked, ..self }
+    }
+
+    /// With a mark that it opens something below.
+    #[must_use]
+    pub fn chevron(self) -> Self {
+        Self { chevron: true, ..self }
+    }
+
+    /// The width that the text wants, with the space around it.
+    pub fn width(&self, ui: &Ui) -> f32 {
+        let chevron = if self.chevron { 20.0 } else { 0.0 };
+        (paint::text_width(ui, self.text, text::body_medium()) + 24.0 + chevron).ceil()
+    }
+
+    /// Shows the button in `rect`.
+    pub fn show(self, ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect) -> Response {
+        let response = paint::control(ui, salt, rect, Role::Button, !self.locked, self.text);
+        let t = theme::tokens(ui);
+        let down = response.is_pointer_button_down_on();
+        let colour = if self.locked {
+            paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, t.edge));
+            t.t3
+        } else {
+            let (fill, border, colour) = match self.weight {
+                Weight::Primary => (t.sat, t.sat, t.onsat),
+                Weight::Normal => (if down { t.bgsel } else { t.bg3 }, t.edge, t.t1),
+                Weight::Quiet => {
+                    let fill = if down { t.bg3 } else { Color32::TRANSPARENT };
+                    (fill, t.line, t.t1)
+                }
+            };
+            let border =
+                if response.hovered() && self.weight != Weight::Primary { t.t2 } else { border };
+            ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
+            colour
+        };
+        let room = rect.shrink2(vec2(6.0, 0.0));
+        if self.chevron {
+            let at = pos2(rect.right() - 14.0, rect.center().y);
+            icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, colour);
+            let room = room.with_max_x(rect.right() - 22.0);
+            paint::text_in(ui, room, Align2::CENTER_CENTER, self.text, text::body_medium(), colour);
+        } else {
+            paint::text_in(ui, room, Align2::CENTER_CENTER, self.text, text::body_medium(), colour);
+        }
+        paint::focus_ring(ui, &response, RADIUS);
+        response
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui::pos2;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn a_click_is_reported_and_a_locked_button_is_silent() {
+        let mut window = testing::window([300.0, 100.0], [0, 0], |ui, clicks| {
+            let at = |x| Rect::from_min_size(pos2(x, 20.0), vec2(100.0, HEIGHT));
+            if Button::primary("Track").show(ui, "a", at(10.0)).clicked() {
+                clicks[0] += 1;
+            }
+            if Button::normal("Go to").locked(true).show(ui, "b", at(130.0)).clicked() {
+                clicks[1] += 1;
+            }
+        });
+        window.get_by_role_and_label(Role::Button, "Track").click();
+        window.run();
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        window.run();
+        assert_eq!(*window.state(), [1, 0]);
+    }
+}

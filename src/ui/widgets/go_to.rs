@@ -1,0 +1,228 @@
+//! Two fields for a direction, and the button that sends it.
+
+pub mod parse;
+
+use egui::{
+    Align2, Frame, Id, Key, Margin, Rect, Role, Sense, Stroke, TextEdit, Ui, WidgetInfo, pos2,
+};
+
+use super::{
+    axes_table::{UNKNOWN, angle},
+    button::Button,
+    paint,
+};
+use crate::ui::{text, theme};
+
+pub use parse::Field;
+
+/// Height of the two fields and the button.
+pub const HEIGHT: f32 = 104.0;
+/// The same in a small window.
+pub const SMALL_HEIGHT: f32 = 94.0;
+const LABEL: f32 = 40.0;
+const RADIUS: f32 = 4.0;
+
+/// What the fields accept.
+#[derive(Debug, Clone, Copy)]
+pub struct GoToModel {
+    /// Going to a direction is refused now. The reason has to stand below.
+    pub locked: bool,
+    /// Azimuths that are taken, in degrees.
+    pub azimuth_range_deg: (f64, f64),
+    /// Elevations that are taken, in degrees; none for a rotator with one axis.
+    pub elevation_range_deg: Option<(f64, f64)>,
+    /// Where the antenna was told to be, shown in fields that are empty.
+    pub commanded_deg: (Option<f64>, Option<f64>),
+}
+
+/// A direction, in degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// From north over east.
+    pub azimuth_deg: f64,
+    /// Above the horizon; none for a rotator with one axis.
+    pub elevation_deg: Option<f64>,
+}
+
+/// What the operator asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GoToAction {
+    /// Show where it leads, move nothing.
+    Preview(Target),
+    /// Go there.
+    Send(Target),
+}
+
+/// What the operator typed, kept from frame to frame.
+#[derive(Debug, Clone, Default)]
+pub struct GoToState {
+    /// Azimuth as typed.
+    pub azimuth: String,
+    /// Elevation as typed.
+    pub elevation: String,
+    refusal: Option<(Field, String)>,
+    previewed: Option<Target>,
+    wants_focus: bool,
+}
+
+impl GoToState {
+    /// Puts the keyboard into the first field, in the next frame.
+    pub fn focus(&mut self) {
+        self.wants_focus = true;
+    }
+
+    /// Why the last input was not taken.
+    pub fn refusal(&self) -> Option<&str> {
+        self.refusal.as_ref().map(|(_, sentence)| sentence.as_str())
+    }
+
+    /// The direction in preview, as long as the typing stays as it is.
+    pub fn previewed(&self) -> Option<Target> {
+        self.previewed
+    }
+
+    fn read(&mut self, model: &GoToModel) -> Option<Target> {
+        let azimuth = parse::angle(&self.azimuth, Field::Azimuth, model.azimuth_range_deg)
+            .map_err(|sentence| (Field::Azimuth, sentence));
+        let elevation = model
+            .elevation_range_deg
+            .map(|range| parse::angle(&self.elevation, Field::Elevation, range))
+            .transpose()
+            .map_err(|sentence| (Field::Elevation, sentence));
+        match azimuth.and_then(|azimuth| elevation.map(|elevation| (azimuth, elevation))) {
+            Ok((azimuth_deg, elevation_deg)) => {
+                self.refusal = None;
+                Some(Target { azimuth_deg, elevation_deg })
+            }
+            Err(refusal) => {
+                self.refusal = Some(refusal);
+                None
+            }
+        }
+    }
+
+    /// Enter: the first shows the way, the second goes it.
+    fn enter(&mut self, model: &GoToModel) -> Option<GoToAction> {
+        let target = self.read(model)?;
+        if self.previewed.take() == Some(target) {
+            return Some(GoToAction::Send(target));
+        }
+        self.previewed = Some(target);
+        Some(GoToAction::Preview(target))
+    }
+}
+
+/// Shows the fields and the button in `rect`. What was typed stays, whatever
+/// becomes of it; [`GoToState::refusal`] has to stand below.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &GoToModel,
+    state: &mut GoToState,
+) -> Option<GoToAction> {
+    let small = rect.height() < HEIGHT;
+    let (field, gap) = if small { (26.0, 6.0) } else { (28.0, 8.0) };
+    let row = |index: f32| {
+        let top = rect.top() + index * (field + gap);
+        Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right(), top + field))
+    };
+    let mut entered = field_row(ui, row(0.0), Field::Azimuth, model, state);
+    if model.elevation_range_deg.is_some() {
+        entered |= field_row(ui, row(1.0), Field::Elevation, model, state);
+    }
+    let button = rect.with_min_y(row(2.0).top());
+    let pressed = Button::normal("Go to").locked(model.locked).show(ui, "go to", button).clicked();
+    if model.locked {
+        state.previewed = None;
+        state.refusal = None;
+        return None;
+    }
+    if pressed {
+        let target = state.read(model)?;
+        state.previewed = None;
+        return Some(GoToAction::Send(target));
+    }
+    if entered { state.enter(model) } else { None }
+}
+
+/// Returns whether Enter was pressed in the field.
+fn field_row(
+    ui: &mut Ui,
+    row: Rect,
+    field: Field,
+    model: &GoToModel,
+    state: &mut GoToState,
+) -> bool {
+    let t = theme::tokens(ui);
+    let word = if field == Field::Azimuth { "Az" } else { "El" };
+    paint::text(ui, row.left_center(), Align2::LEFT_CENTER, word, text::small(), t.t2);
+    let rect = row.with_min_x(row.left() + LABEL);
+    let (buffer, commanded) = match field {
+        Field::Azimuth => (&mut state.azimuth, model.commanded_deg.0),
+        Field::Elevation => (&mut state.elevation, model.commanded_deg.1),
+    };
+    let commanded = commanded.map_or_else(|| UNKNOWN.to_owned(), |deg| angle(Some(deg)));
+    let name = format!("Go to {}, degrees", field.name().to_lowercase());
+    let id = ui.make_persistent_id(("go to", word));
+    if model.locked {
+        let shown = if buffer.is_empty() { &commanded } else { buffer };
+        locked_field(ui, rect, id, &name, shown);
+        return false;
+    }
+    let refused = state.refusal.as_ref().is_some_and(|(at, _)| *at == field);
+    let stroke = if refused {
+        Stroke::new(2.0, t.bad)
+    } else if ui.memory(|memory| memory.has_focus(id)) {
+        Stroke::new(2.0, t.sat)
+    } else {
+        Stroke::new(1.0, t.edge)
+    };
+    let frame = Frame::new()
+        .fill(t.bg0)
+        .stroke(stroke)
+        .corner_radius(RADIUS)
+        .inner_margin(Margin::symmetric(8, 0));
+    let edit = TextEdit::singleline(buffer)
+        .id(id)
+        .frame(frame)
+        .font(text::body())
+        .text_color(t.t1)
+        .hint_text(egui::RichText::new(commanded).color(t.t3))
+        .align(Align2::LEFT_CENTER)
+        .char_limit(16)
+        .min_size(rect.size())
+        .desired_width(rect.width());
+    let response = ui.place(rect, edit).accessible_name(name);
+    if state.wants_focus && field == Field::Azimuth {
+        state.wants_focus = false;
+        response.request_focus();
+    }
+    if response.changed() {
+        state.previewed = None;
+        if refused {
+            state.refusal = None;
+        }
+    }
+    let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    if entered {
+        response.request_focus();
+    }
+    entered
+}
+
+fn locked_field(ui: &Ui, rect: Rect, id: Id, name: &str, shown: &str) {
+    let t = theme::tokens(ui);
+    let response = ui.interact(rect, id, Sense::hover());
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::TextInput, false, name);
+        info.current_text_value = Some(shown.to_owned());
+        info
+    });
+    ui.painter().rect_filled(rect, RADIUS, t.bg0);
+    paint::dashed_border(ui, rect, RADIUS, (1.0, t.edge));
+    let room = rect.with_min_x(rect.left() + 9.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, shown, text::body(), t.t3);
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,224 @@
+//! Four keys that move an antenna as long as one of them is held.
+
+mod hold;
+
+use std::time::Duration;
+
+use egui::{
+    Align2, EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId,
+};
+
+use super::{button::RADIUS, paint};
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+};
+
+use hold::Frame;
+pub use hold::JogState;
+
+/// A held key is reported at least so often.
+const WHILE_HELD: Duration = Duration::from_millis(100);
+
+/// Where a key moves the antenna. On an az/el mount X is the azimuth and Y the
+/// elevation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum JogDirection {
+    /// Up the first axis.
+    XPlus,
+    /// Down the first axis.
+    XMinus,
+    /// Up the second axis.
+    YPlus,
+    /// Down the second axis.
+    YMinus,
+}
+
+impl JogDirection {
+    /// All directions in the order of Tab.
+    pub const ALL: [Self; 4] = [Self::YPlus, Self::XMinus, Self::XPlus, Self::YMinus];
+
+    /// Signs of the two axes.
+    pub fn signs(self) -> (i8, i8) {
+        match self {
+            Self::XPlus => (1, 0),
+            Self::XMinus => (-1, 0),
+            Self::YPlus => (0, 1),
+            Self::YMinus => (0, -1),
+        }
+    }
+
+    fn arrow(self) -> Key {
+        match self {
+            Self::XPlus => Key::ArrowRight,
+            Self::XMinus => Key::ArrowLeft,
+            Self::YPlus => Key::ArrowUp,
+            Self::YMinus => Key::ArrowDown,
+        }
+    }
+}
+
+/// What the keys are called, by the kind of mount.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum JogKeys {
+    /// X/Y mount.
+    #[default]
+    Xy,
+    /// Azimuth over elevation.
+    AzEl,
+    /// A rotator with one axis.
+    Rotator,
+}
+
+impl JogKeys {
+    /// The word on a key and its name, or nothing if there is no such key.
+    fn label(self, direction: JogDirection) -> Option<(&'static str, &'static str)> {
+        use JogDirection::{XMinus, XPlus, YMinus, YPlus};
+        match (self, direction) {
+            (Self::Xy, XPlus) => Some(("X+", "Jog X+")),
+            (Self::Xy, XMinus) => Some(("X−", "Jog X−")),
+            (Self::Xy, YPlus) => Some(("Y+", "Jog Y+")),
+            (Self::Xy, YMinus) => Some(("Y−", "Jog Y−")),
+            (Self::AzEl, XPlus) => Some(("Az →", "Jog azimuth up")),
+            (Self::AzEl, XMinus) => Some(("← Az", "Jog azimuth down")),
+            (Self::AzEl, YPlus) => Some(("El ↑", "Jog elevation up")),
+            (Self::AzEl, YMinus) => Some(("El ↓", "Jog elevation down")),
+            (Self::Rotator, XPlus) => Some(("CW", "Jog clockwise")),
+            (Self::Rotator, XMinus) => Some(("CCW", "Jog counterclockwise")),
+            (Self::Rotator, YPlus | YMinus) => None,
+        }
+    }
+}
+
+/// What the pad shows.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct JogModel<'a> {
+    /// Names of the keys.
+    pub keys: JogKeys,
+    /// Jogging is refused now. The reason has to stand below the pad.
+    pub locked: bool,
+    /// Directions in which a limit stops the antenna.
+    pub blocked: &'a [JogDirection],
+    /// The rate that is asked for, in degrees per second.
+    pub asked_deg_s: f64,
+    /// The measured rate of the axis that moves, in degrees per second.
+    pub real_deg_s: Option<f64>,
+}
+
+/// Shows the pad in `rect`, a square. Returns the direction that is held, in
+/// every frame in which it is held; the first frame with `None` is the release.
+/// A key is held with the pointer, or with the arrow keys, Space or Enter while
+/// the pad has the focus. Losing the window, the pointer or the focus releases
+/// it, and only a new press holds it again.
+pub fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &JogModel<'_>,
+    state: &mut JogState,
+) -> Option<JogDirection> {
+    let side = (rect.width() * 5.0 / 17.0).floor();
+    let mut frame = Frame::new(model.locked);
+    let mut keys = Vec::new();
+    for direction in JogDirection::ALL {
+        let Some((word, name)) = model.keys.label(direction) else { continue };
+        let (x, y) = direction.signs();
+        let reach = (rect.width() - side) / 2.0;
+        let place =
+            paint::square(rect.center() + Vec2::new(f32::from(x), -f32::from(y)) * reach, side);
+        let free = !model.locked && !model.blocked.contains(&direction);
+        let response = paint::held_control(ui, ("jog", direction), place, free, name);
+        if free {
+            look_at(ui, &mut frame, direction, &response);
+        }
+        keys.push((direction, word, free, response));
+    }
+    frame.blocked = JogDirection::ALL
+        .map(|direction| !keys.iter().any(|(at, _, free, _)| *at == direction && *free));
+    ui.input(|input| frame.read(input));
+    let held = state.step(&frame);
+    if held.is_some() {
+        // Without a frame nobody would hear that the key is still held.
+        ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
+    }
+    for (direction, word, free, response) in &keys {
+        paint_key(ui, word, *free, model.locked, held == Some(*direction), response);
+    }
+    paint_middle(ui, rect, model, held.is_some());
+    held
+}
+
+/// Takes pointer and focus of one key into the frame.
+fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Response) {
+    if response.is_pointer_button_down_on() {
+        frame.pointer_on = Some(direction);
+        response.request_focus();
+    }
+    if response.has_focus() {
+        if ui.input(|input| !input.focused) {
+            // Coming back to the window must not bring the keys back to life.
+            response.surrender_focus();
+            return;
+        }
+        frame.focus = Some(direction);
+        let filter =
+            EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    }
+}
+
+/// Steps up (+1) or down (−1) that the rate was asked to take with `PageUp` and
+/// `PageDown`, while the pad has the focus.
+pub fn rate_steps(ui: &Ui, state: JogState) -> i32 {
+    if !state.has_focus() {
+        return 0;
+    }
+    ui.input_mut(|input| {
+        i32::from(input.consume_key(Modifiers::NONE, Key::PageUp))
+            - i32::from(input.consume_key(Modifiers::NONE, Key::PageDown))
+    })
+}
+
+fn paint_key(ui: &Ui, word: &str, free: bool, locked: bool, held: bool, response: &Response) {
+    let t = theme::tokens(ui);
+    let rect = response.rect;
+    let colour = if held {
+        ui.painter().rect_filled(rect, RADIUS, t.cmd);
+        t.onsat
+    } else if free {
+        let border = Stroke::new(1.0, if response.hovered() { t.t2 } else { t.edge });
+        ui.painter().rect(rect, RADIUS, t.bg3, border, StrokeKind::Inside);
+        t.t1
+    } else {
+        let colour = if locked { t.edge } else { t.bad };
+        paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, colour));
+        if locked { t.t3 } else { t.bad }
+    };
+    let size = if word.chars().count() > 3 { 12.0 } else { 13.0 };
+    let font = text::sized(size, Weight::SemiBold);
+    paint::text(ui, rect.center(), Align2::CENTER_CENTER, word, font, colour);
+    paint::focus_ring(ui, response, RADIUS);
+}
+
+fn paint_middle(ui: &Ui, rect: Rect, model: &JogModel<'_>, held: bool) {
+    let t = theme::tokens(ui);
+    if model.locked {
+        let at = paint::square(rect.center(), 18.0);
+        icons::paint(ui.painter(), at, Icon::Lock, t.t2);
+        return;
+    }
+    let (words, colour) = if held {
+        let real = model.real_deg_s.map_or_else(
+            || super::axes_table::UNKNOWN.to_owned(),
+            |rate| format!("{rate:+.2}").replace('-', "−"),
+        );
+        (real, t.t1)
+    } else {
+        (format!("{:.2}", model.asked_deg_s), t.t2)
+    };
+    let font = text::sized(12.0, Weight::SemiBold);
+    paint::text(ui, rect.center(), Align2::CENTER_CENTER, words, font, colour);
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,172 @@
+use super::*;
+use crate::ui::widgets::testing;
+use egui::{Event, Pos2, pos2, vec2};
+use egui_kittest::{Harness, kittest::Queryable as _};
+
+#[derive(Default)]
+struct Pad {
+    state: JogState,
+    locked: bool,
+    blocked: Vec<JogDirection>,
+    held: Option<JogDirection>,
+}
+
+fn pad(pad: Pad) -> Harness<'static, Pad> {
+    let mut window = testing::window([200.0, 200.0], pad, |ui, pad| {
+        let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(136.0, 136.0));
+        let model = JogModel {
+            locked: pad.locked,
+            blocked: &pad.blocked,
+            asked_deg_s: 0.5,
+            real_deg_s: Some(0.48),
+            ..JogModel::default()
+        };
+        pad.held = show(ui, rect, &model, &mut pad.state);
+    });
+    window.run();
+    window
+}
+
+fn key_at(window: &Harness<'_, Pad>, name: &str) -> Pos2 {
+    window.get_by_label(name).rect().center()
+}
+
+#[test]
+fn a_pointer_holds_a_key_until_it_is_released() {
+    let mut window = pad(Pad::default());
+    let at = key_at(&window, "Jog X+");
+    window.drag_at(at);
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    // Ten seconds, and a hand that is not quite still.
+    for _ in 0..40 {
+        window.hover_at(at + vec2(9.0, 3.0));
+        window.step();
+        assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    }
+    window.drop_at(at);
+    window.step();
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn losing_the_window_releases_and_only_a_new_press_holds_again() {
+    let mut window = pad(Pad::default());
+    let at = key_at(&window, "Jog Y−");
+    window.drag_at(at);
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::YMinus));
+    window.input_mut().focused = false;
+    window.step();
+    assert_eq!(window.state().held, None);
+    window.input_mut().focused = true;
+    window.step();
+    assert_eq!(window.state().held, None, "the old press must not move metal again");
+    window.drop_at(at);
+    window.step();
+    window.drag_at(at);
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::YMinus));
+}
+
+#[test]
+fn a_pointer_that_leaves_the_window_releases() {
+    let mut window = pad(Pad::default());
+    window.drag_at(key_at(&window, "Jog X−"));
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+    window.event(Event::PointerGone);
+    window.step();
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn arrow_keys_jog_only_with_the_focus_on_the_pad() {
+    let mut window = pad(Pad::default());
+    window.key_down(Key::ArrowRight);
+    window.step();
+    assert_eq!(window.state().held, None);
+    window.key_up(Key::ArrowRight);
+    window.get_by_label("Jog Y+").focus();
+    window.run();
+    window.key_down(Key::ArrowRight);
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    window.key_up(Key::ArrowRight);
+    window.step();
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn space_holds_the_key_with_the_focus() {
+    let mut window = pad(Pad::default());
+    window.get_by_label("Jog X−").focus();
+    window.run();
+    window.key_down(Key::Space);
+    window.run_steps(2);
+    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+    window.key_up(Key::Space);
+    window.step();
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn losing_the_window_ends_a_jog_by_keyboard() {
+    let mut window = pad(Pad::default());
+    window.get_by_label("Jog Y+").focus();
+    window.run();
+    window.key_down(Key::ArrowUp);
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::YPlus));
+    window.input_mut().focused = false;
+    window.step();
+    assert_eq!(window.state().held, None);
+    window.input_mut().focused = true;
+    window.run_steps(2);
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn escape_ends_a_jog() {
+    let mut window = pad(Pad::default());
+    window.drag_at(key_at(&window, "Jog X+"));
+    window.step();
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn a_limit_blocks_its_own_direction_only() {
+    let mut window = pad(Pad { blocked: vec![JogDirection::XPlus], ..Pad::default() });
+    let at = key_at(&window, "Jog X+");
+    window.drag_at(at);
+    window.step();
+    assert_eq!(window.state().held, None);
+    window.drop_at(at);
+    window.step();
+    window.drag_at(key_at(&window, "Jog X−"));
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XMinus));
+}
+
+#[test]
+fn a_limit_that_is_reached_ends_the_jog() {
+    let mut window = pad(Pad::default());
+    window.drag_at(key_at(&window, "Jog X+"));
+    window.step();
+    assert_eq!(window.state().held, Some(JogDirection::XPlus));
+    window.state_mut().blocked.push(JogDirection::XPlus);
+    window.step();
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn a_locked_pad_does_nothing() {
+    let mut window = pad(Pad { locked: true, ..Pad::default() });
+    window.drag_at(key_at(&window, "Jog Y+"));
+    window.run_steps(2);
+    assert_eq!(window.state().held, None);
+}

@@ -1,0 +1,176 @@
+//! One antenna in the top bar: its link, and what it does.
+
+use egui::{Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::paint;
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    tokens::Tokens,
+};
+
+const RADIUS: u8 = 6;
+/// Width of a chip with two lines.
+pub const TWO_LINES_WIDTH: f32 = 144.0;
+
+/// How the link to a unit stands. Each has its own shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LinkGlyph {
+    /// Replies in time.
+    Live,
+    /// The last reply is older than two poll periods.
+    Late,
+    /// No reply.
+    Lost,
+    /// Switched off.
+    #[default]
+    Off,
+}
+
+impl LinkGlyph {
+    /// Shape and colour.
+    pub fn look(self, t: &Tokens) -> (Icon, Color32) {
+        match self {
+            Self::Live => (Icon::Disc, t.ok),
+            Self::Late => (Icon::HalfDisc, t.warn),
+            Self::Lost => (Icon::CrossedRing, t.bad),
+            Self::Off => (Icon::OpenRing, t.t3),
+        }
+    }
+
+    /// The word for those who do not see the shape.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Live => "live",
+            Self::Late => "late",
+            Self::Lost => "lost",
+            Self::Off => "off",
+        }
+    }
+}
+
+/// How much of a chip is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ChipForm {
+    /// Name over activity and age.
+    TwoLines,
+    /// Name and age.
+    OneLine,
+    /// Name only.
+    Name,
+}
+
+/// One antenna.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ChipModel<'a> {
+    /// Name of the antenna.
+    pub name: &'a str,
+    /// How its link stands.
+    pub link: LinkGlyph,
+    /// What it does, in one or two words.
+    pub activity: &'a str,
+    /// Age of the last good reply with its unit, or nothing.
+    pub age: &'a str,
+    /// Its card is shown.
+    pub selected: bool,
+    /// Somebody else controls it.
+    pub foreign_control: bool,
+}
+
+impl ChipModel<'_> {
+    fn second_line(&self) -> String {
+        if self.age.is_empty() {
+            self.activity.to_owned()
+        } else {
+            format!("{}, {}", self.activity, self.age)
+        }
+    }
+
+    /// Width of a form.
+    pub fn width(&self, ui: &Ui, form: ChipForm) -> f32 {
+        let name = paint::text_width(ui, self.name, text::sized(13.0, Weight::SemiBold));
+        match form {
+            ChipForm::TwoLines => TWO_LINES_WIDTH,
+            ChipForm::OneLine => {
+                let age = paint::text_width(ui, self.age, text::small());
+                (26.0 + name + 6.0 + age + 10.0).ceil()
+            }
+            ChipForm::Name => (26.0 + name + 10.0).ceil(),
+        }
+    }
+}
+
+/// Shows the chip in `rect`.
+pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Response {
+    let t = theme::tokens(ui);
+    let second = model.second_line();
+    let response = ui.interact(rect, ui.make_persistent_id(("chip", model.name)), Sense::click());
+    response.widget_info(|| {
+        let control = if model.foreign_control { ", somebody else controls it" } else { "" };
+        let link = model.link.word();
+        let name = format!("{}: {second}, link {link}{control}", model.name);
+        egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
+    });
+    ui.painter().rect_filled(rect, RADIUS, if response.hovered() { t.bg3 } else { t.bg2 });
+    let border = if model.selected { t.sat } else { t.line };
+    if model.foreign_control {
+        let border = if model.selected { t.sat } else { t.edge };
+        paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, border));
+    } else {
+        ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, border), StrokeKind::Inside);
+    }
+    let (icon, colour) = model.link.look(t);
+    let strong = text::sized(13.0, Weight::SemiBold);
+    let centre = rect.center().y;
+    if form == ChipForm::TwoLines {
+        let glyph = paint::square(pos2(rect.left() + 18.0, centre), 14.0);
+        icons::paint(ui.painter(), glyph, icon, colour);
+        let room = rect.with_min_x(rect.left() + 34.0).with_max_x(rect.right() - 6.0);
+        let first = room.translate(vec2(0.0, -7.0));
+        paint::text_in(ui, first, Align2::LEFT_CENTER, model.name, strong, t.t1);
+        let below = room.translate(vec2(0.0, 8.5));
+        paint::text_in(ui, below, Align2::LEFT_CENTER, &second, text::small(), t.t2);
+    } else {
+        let glyph = paint::square(pos2(rect.left() + 14.0, centre), 13.0);
+        icons::paint(ui.painter(), glyph, icon, colour);
+        let room = rect.with_min_x(rect.left() + 26.0).with_max_x(rect.right() - 6.0);
+        let name = paint::text_in(ui, room, Align2::LEFT_CENTER, model.name, strong, t.t1);
+        if form == ChipForm::OneLine {
+            let room = room.with_min_x(name.right() + 6.0);
+            paint::text_in(ui, room, Align2::LEFT_CENTER, model.age, text::small(), t.t3);
+        }
+    }
+    paint::focus_ring(ui, &response, RADIUS);
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn the_chip_says_what_its_shape_shows() {
+        let mut window = testing::window([300.0, 80.0], 0, |ui, clicks| {
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(144.0, 40.0));
+            let model = ChipModel {
+                name: "RC2000C",
+                link: LinkGlyph::Lost,
+                activity: "No reply",
+                age: "14 s",
+                foreign_control: true,
+                ..ChipModel::default()
+            };
+            if show(ui, rect, &model, ChipForm::TwoLines).clicked() {
+                *clicks += 1;
+            }
+        });
+        window
+            .get_by_label("RC2000C: No reply, 14 s, link lost, somebody else controls it")
+            .click();
+        window.run();
+        assert_eq!(*window.state(), 1);
+    }
+}

@@ -1,0 +1,97 @@
+//! What the operator wants of an antenna.
+
+use egui::{Rect, Ui};
+
+use super::segmented::{self, Segment};
+
+/// What an antenna can be asked to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// Drives off.
+    Standby,
+    /// Jog keys move it.
+    Manual,
+    /// It goes to an azimuth and elevation and holds there.
+    Position,
+    /// It follows a satellite.
+    Track,
+    /// It goes to its park position.
+    Park,
+}
+
+impl Mode {
+    /// All modes in the order in which they are shown.
+    pub const ALL: [Self; 5] =
+        [Self::Standby, Self::Manual, Self::Position, Self::Track, Self::Park];
+
+    /// The word on the segment.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Standby => "Standby",
+            Self::Manual => "Manual",
+            Self::Position => "Position",
+            Self::Track => "Track",
+            Self::Park => "Park",
+        }
+    }
+}
+
+/// The modes of one unit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ModeModel<'a> {
+    /// The modes that the unit has; the others are left out.
+    pub offered: &'a [Mode],
+    /// The mode that the unit reports.
+    pub current: Option<Mode>,
+    /// The mode that was asked for and is not reported yet.
+    pub pending: Option<Mode>,
+}
+
+/// Shows the modes in `rect` and returns the one that was clicked.
+pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Mode> {
+    let modes: Vec<Mode> =
+        Mode::ALL.into_iter().filter(|mode| model.offered.contains(mode)).collect();
+    let segments: Vec<(&str, Segment)> = modes
+        .iter()
+        .map(|mode| {
+            let state = if model.pending == Some(*mode) {
+                Segment::Pending
+            } else if model.current == Some(*mode) {
+                Segment::Chosen
+            } else {
+                Segment::Free
+            };
+            (mode.word(), state)
+        })
+        .collect();
+    let clicked = segmented::show(ui, "mode", rect, "Mode", &segments)?;
+    modes.get(clicked).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui::{Role, pos2, vec2};
+    use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+    #[test]
+    fn a_mode_click_is_reported_and_missing_modes_are_left_out() {
+        let mut window = testing::window([400.0, 80.0], None, |ui, clicked| {
+            let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(312.0, 32.0));
+            let model = ModeModel {
+                offered: &[Mode::Manual, Mode::Position, Mode::Track],
+                current: Some(Mode::Track),
+                pending: Some(Mode::Manual),
+            };
+            *clicked = show(ui, rect, &model).or(*clicked);
+        });
+        assert!(window.query_by_label("Standby").is_none());
+        assert!(window.query_by_label("Park").is_none());
+        let track = window.get_by_role_and_label(Role::RadioButton, "Track");
+        assert_eq!(track.accesskit_node().toggled(), Some(egui::accesskit::Toggled::True));
+        window.get_by_role_and_label(Role::RadioButton, "Position").click();
+        window.run();
+        assert_eq!(*window.state(), Some(Mode::Position));
+    }
+}

@@ -1,0 +1,84 @@
+//! One of a few, side by side.
+
+use egui::{Align2, CornerRadius, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+
+use super::{button::RADIUS, paint};
+use crate::ui::{text, theme};
+
+/// How one segment stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Segment {
+    /// Can be chosen.
+    #[default]
+    Free,
+    /// Is in force.
+    Chosen,
+    /// Was asked for and is not confirmed yet.
+    Pending,
+}
+
+/// Shows segments in `rect`, each as wide as its text needs and the rest shared
+/// out evenly. Returns the index of the segment that was clicked.
+pub fn show(
+    ui: &Ui,
+    salt: &str,
+    rect: Rect,
+    name: &str,
+    segments: &[(&str, Segment)],
+) -> Option<usize> {
+    let t = theme::tokens(ui);
+    let group = ui.interact(rect, ui.make_persistent_id(salt), egui::Sense::hover());
+    group.widget_info(|| WidgetInfo::labeled(Role::RadioGroup, true, name));
+    ui.painter().rect_filled(rect, RADIUS, t.bg2);
+    let wanted: Vec<f32> =
+        segments.iter().map(|(word, _)| paint::text_width(ui, word, text::body_medium())).collect();
+    let spare = (rect.width() - wanted.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let mut x = rect.left();
+    let mut clicked = None;
+    let mut over_border = Vec::new();
+    for (index, ((word, state), width)) in segments.iter().zip(wanted).enumerate() {
+        let right = (x + width + spare).min(rect.right());
+        let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
+        let id = ui.make_persistent_id((salt, *word));
+        let response = ui.interact(cell, id, egui::Sense::click());
+        let chosen = *state == Segment::Chosen;
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, chosen, word));
+        let radius = corners(index, segments.len());
+        let colour = match state {
+            Segment::Chosen => {
+                ui.painter().rect_filled(cell, radius, t.sat);
+                t.onsat
+            }
+            _ if response.hovered() => {
+                ui.painter().rect_filled(cell, radius, t.bg3);
+                t.t1
+            }
+            _ => t.t1,
+        };
+        if index > 0 {
+            ui.painter().vline(cell.left(), cell.y_range().shrink(1.0), (1.0, t.line));
+        }
+        let room = cell.shrink2(vec2(1.0, 0.0));
+        paint::text_in(ui, room, Align2::CENTER_CENTER, word, text::body_medium(), colour);
+        if response.clicked() {
+            clicked = Some(index);
+        }
+        over_border.push((*state, radius, response));
+        x = right;
+    }
+    ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, t.edge), StrokeKind::Inside);
+    for (state, radius, response) in over_border {
+        if state == Segment::Pending {
+            let stroke = Stroke::new(2.0, t.cmd);
+            ui.painter().rect_stroke(response.rect, radius, stroke, StrokeKind::Inside);
+        }
+        paint::focus_ring(ui, &response, RADIUS);
+    }
+    clicked
+}
+
+fn corners(index: usize, count: usize) -> CornerRadius {
+    let left = if index == 0 { RADIUS } else { 0 };
+    let right = if index + 1 == count { RADIUS } else { 0 };
+    CornerRadius { nw: left, sw: left, ne: right, se: right }
+}

@@ -1,0 +1,150 @@
+//! The state sentence: what an antenna does, why, and what comes next.
+
+use egui::{
+    Color32, CornerRadius, Pos2, Rect, Role, Sense, Ui, WidgetInfo,
+    accesskit::Live,
+    pos2,
+    text::{LayoutJob, TextFormat},
+    vec2,
+};
+
+use crate::ui::{
+    text::{self, Weight},
+    theme,
+    tokens::Tokens,
+};
+
+const RADIUS: u8 = 6;
+const BAR: f32 = 3.0;
+const LINE: f32 = 20.0;
+/// Room for so many lines is always kept, so that what stands below does not
+/// move under the hand of the operator when the sentence changes.
+const LEAST_LINES: f32 = 4.0;
+
+/// What kind of thing the sentence says; it colours the bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SentenceKind {
+    /// Tracking as wanted.
+    Tracking,
+    /// Moving or waiting by command.
+    Commanded,
+    /// Holding, or not known.
+    #[default]
+    Holding,
+    /// Outside the beam, or late.
+    Caution,
+    /// Stopped by a fault, a limit or the link.
+    Fault,
+}
+
+impl SentenceKind {
+    fn colour(self, t: &Tokens) -> Color32 {
+        match self {
+            Self::Tracking => t.ok,
+            Self::Commanded => t.cmd,
+            Self::Holding => t.edge,
+            Self::Caution => t.warn,
+            Self::Fault => t.bad,
+        }
+    }
+}
+
+/// Part of a sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Span<'a> {
+    /// Its words, with the spaces around them.
+    pub text: &'a str,
+    /// A name that has to be found at one glance.
+    pub bold: bool,
+}
+
+impl<'a> Span<'a> {
+    /// Running text.
+    pub const fn plain(text: &'a str) -> Self {
+        Self { text, bold: false }
+    }
+
+    /// A name.
+    pub const fn bold(text: &'a str) -> Self {
+        Self { text, bold: true }
+    }
+}
+
+/// A whole sentence.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Sentence<'a> {
+    /// What it is about.
+    pub kind: SentenceKind,
+    /// Its parts in order.
+    pub spans: &'a [Span<'a>],
+}
+
+impl Sentence<'_> {
+    /// The words without weights.
+    pub fn plain_text(&self) -> String {
+        self.spans.iter().map(|span| span.text).collect()
+    }
+}
+
+/// Shows the sentence from `at` on with `width`, wrapped. Returns the rectangle
+/// of the block. Screen readers read it again whenever it changes.
+pub fn show(ui: &Ui, at: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
+    let t = theme::tokens(ui);
+    let padding = if width < 300.0 { vec2(13.0, 6.0) } else { vec2(15.0, 10.0) };
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = width - padding.x - 10.0;
+    for span in sentence.spans {
+        let weight = if span.bold { Weight::SemiBold } else { Weight::Regular };
+        let mut format = TextFormat::simple(text::sized(13.0, weight), t.t1);
+        format.line_height = Some(LINE);
+        job.append(span.text, 0.0, format);
+    }
+    let galley = ui.painter().layout_job(job);
+    let height = galley.size().y.max(LEAST_LINES * LINE);
+    let rect = Rect::from_min_size(at, vec2(width, height + 2.0 * padding.y));
+    ui.painter().rect_filled(rect, RADIUS, t.bg2);
+    let bar = Rect::from_min_max(rect.min, pos2(rect.left() + BAR, rect.bottom()));
+    let radius = CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 };
+    ui.painter().rect_filled(bar, radius, sentence.kind.colour(t));
+    ui.painter().galley(at + padding, galley, t.t1);
+    let response = ui.interact(rect, ui.make_persistent_id("sentence"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence.plain_text()));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(Live::Polite));
+    rect
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+    #[test]
+    fn sentences_of_one_and_of_four_lines_take_the_same_room() {
+        let long = "The antenna holds. ".repeat(8);
+        let heights = vec![0.0; 2];
+        let window = testing::window([400.0, 300.0], heights, move |ui, heights| {
+            for (height, words) in heights.iter_mut().zip(["It holds.", long.as_str()]) {
+                let sentence =
+                    Sentence { kind: SentenceKind::Holding, spans: &[Span::plain(words)] };
+                ui.push_id(words, |ui| {
+                    *height = show(ui, pos2(10.0, 10.0), 312.0, &sentence).height();
+                });
+            }
+        });
+        let heights = window.state();
+        assert!((heights[0] - heights[1]).abs() < 0.01, "{heights:?}");
+    }
+
+    #[test]
+    fn the_sentence_is_one_live_region() {
+        let window = testing::window([400.0, 200.0], (), |ui, ()| {
+            let spans =
+                [Span::plain("Waiting at 205° for "), Span::bold("SUOMI NPP"), Span::plain(".")];
+            let sentence = Sentence { kind: SentenceKind::Commanded, spans: &spans };
+            show(ui, pos2(10.0, 10.0), 312.0, &sentence);
+        });
+        let node = window.get_by_label("Waiting at 205° for SUOMI NPP.");
+        assert_eq!(node.accesskit_node().live(), Live::Polite);
+    }
+}

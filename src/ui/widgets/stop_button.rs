@@ -1,0 +1,111 @@
+//! STOP. It can be clicked in every state, on every view.
+
+use egui::{
+    Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
+
+use super::paint;
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+};
+
+/// Size in the usual window.
+pub const SIZE: Vec2 = Vec2::new(144.0, 40.0);
+/// Size in a small window.
+pub const SMALL_SIZE: Vec2 = Vec2::new(120.0, 32.0);
+const RADIUS: u8 = 6;
+
+/// What became of the last STOP.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StopState<'a> {
+    /// Nothing to report.
+    #[default]
+    Ready,
+    /// It went out and rate zero is not seen yet.
+    Stopping,
+    /// Every antenna stands. Shown for 10 s.
+    AllStopped,
+    /// Something still moves, or does not answer.
+    NotConfirmed {
+        /// What still moves, and what to do.
+        text: &'a str,
+    },
+}
+
+/// Shows STOP in `rect`; it says `clicked` in every state. The sentence of
+/// [`StopState::NotConfirmed`] is part of its name and has to stand beside it.
+pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>) -> Response {
+    let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));
+    let t = theme::tokens(ui);
+    let outline = state == StopState::AllStopped;
+    let (fill, colour) = if outline { (Color32::TRANSPARENT, t.bad) } else { (t.stop, t.onstop) };
+    ui.painter().rect(rect, RADIUS, fill, Stroke::new(2.0, t.stop), StrokeKind::Inside);
+    let small = rect.height() < SIZE.y;
+    let font = text::sized(if small { 16.0 } else { 18.0 }, Weight::Bold);
+    if state == StopState::Stopping {
+        let inner = Stroke::new(3.0, t.onstop);
+        ui.painter().rect_stroke(rect.shrink(3.0), 3.0, inner, StrokeKind::Inside);
+        let font = text::sized(15.0, Weight::Bold);
+        paint::text(ui, rect.center(), Align2::CENTER_CENTER, "STOPPING", font, colour);
+    } else {
+        let icon = if small || outline { 0.0 } else { 30.0 };
+        let word = paint::text_width(ui, "STOP", font.clone());
+        let cap = vec2(32.0, 18.0);
+        let x = rect.center().x - (icon + word + 10.0 + cap.x) / 2.0;
+        if icon > 0.0 {
+            let at = paint::square(pos2(x + 9.0, rect.center().y), 20.0);
+            icons::paint(ui.painter(), at, Icon::Octagon, colour);
+        }
+        let word_at = pos2(x + icon, rect.center().y);
+        paint::text(ui, word_at, Align2::LEFT_CENTER, "STOP", font, colour);
+        let left = x + icon + word + 10.0;
+        let key = Rect::from_min_size(pos2(left, rect.center().y - cap.y / 2.0), cap);
+        ui.painter().rect_stroke(key, 3.0, Stroke::new(1.0, colour), StrokeKind::Inside);
+        let font = text::sized(11.0, Weight::Bold);
+        paint::text(ui, key.center(), Align2::CENTER_CENTER, "Esc", font, colour);
+    }
+    paint::focus_ring(ui, &response, RADIUS);
+    response
+}
+
+fn name(state: StopState<'_>) -> String {
+    match state {
+        StopState::Ready => "STOP".to_owned(),
+        StopState::Stopping => "STOP, stopping".to_owned(),
+        StopState::AllStopped => "STOP, all stopped".to_owned(),
+        StopState::NotConfirmed { text } => format!("STOP, not confirmed: {text}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn stop_is_clicked_in_every_state_and_size() {
+        for state in [
+            StopState::Ready,
+            StopState::Stopping,
+            StopState::AllStopped,
+            StopState::NotConfirmed { text: "Satrak still moves 3 s after STOP." },
+        ] {
+            for size in [SIZE, SMALL_SIZE] {
+                let mut window = testing::window([200.0, 80.0], 0, |ui, clicks| {
+                    let rect = Rect::from_min_size(pos2(10.0, 10.0), size);
+                    if show(ui, rect, state).clicked() {
+                        *clicks += 1;
+                    }
+                });
+                window.get_by_role(Role::Button).click();
+                window.run();
+                assert_eq!(*window.state(), 1, "{state:?} {size:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! A window without a display for the stories of the widgets.
+
+use egui::{Ui, Vec2};
+use egui_kittest::Harness;
+
+use crate::ui::{theme, tokens::ThemeName};
+
+/// A window of `size` with the fonts and colours of the program.
+pub(crate) fn window<'a, State: 'a>(
+    size: impl Into<Vec2>,
+    state: State,
+    show: impl FnMut(&mut Ui, &mut State) + 'a,
+) -> Harness<'a, State> {
+    Harness::builder()
+        .with_size(size)
+        .with_context_setup(|ctx| theme::install(ctx, ThemeName::Dark))
+        .build_ui_state(show, state)
+}

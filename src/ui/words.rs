@@ -1,0 +1,34 @@
+//! What the lower layers report, in plain sentences: what did not happen, why,
+//! what is true now, what to do.
+
+mod alarms;
+mod faults;
+mod refusals;
+
+pub use alarms::alarm;
+pub use faults::{fault_advice, fault_name};
+pub use refusals::{link_loss, prepare_error, refusal};
+
+use crate::{controller::Motion, driver::Intent};
+
+/// What a motion is called.
+pub fn motion(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Jog { .. } => "Jog",
+        Motion::Step { .. } => "Step",
+        Motion::Position { .. } => "Go to",
+        Motion::StartProgram => "Track",
+        Motion::EnableAuto => "Auto-track on",
+    }
+}
+
+/// What an intent is called.
+pub fn intent(intent: Intent) -> &'static str {
+    match intent {
+        Intent::Standby => "Standby",
+        Intent::Manual => "Manual",
+        Intent::Position => "Position",
+        Intent::Track => "Track",
+        Intent::Park => "Park",
+    }
+}

@@ -1,0 +1,68 @@
+//! The alarm list.
+
+use crate::{app::alarms::AlarmKind, station::NoteReason, ui::format};
+
+/// An alarm in words. `antenna` is its name, where it is about one.
+pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
+    match kind {
+        AlarmKind::LinkLost(loss) => {
+            format!("{antenna} does not reply: {}.", super::link_loss(loss))
+        }
+        AlarmKind::StopNotConfirmed => {
+            format!("{antenna} is not known to stand 3 s after STOP. Use the local panel.")
+        }
+        AlarmKind::StopRefused(code) => {
+            format!("{antenna} answered ERR,{code} to STOP. Use the local panel.")
+        }
+        AlarmKind::JogLeaseOver => {
+            format!("{antenna}: the jog was stopped, the window did not hold it in time.")
+        }
+        AlarmKind::JogPositionOld => {
+            format!("{antenna}: the jog was stopped, its position came too late.")
+        }
+        AlarmKind::AutoTrackStillOn => {
+            format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
+        }
+        AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
+        AlarmKind::Refused(motion, code) => {
+            format!("{}: {antenna} answered ERR,{code}.", super::motion(*motion))
+        }
+        AlarmKind::Unanswered(motion) => {
+            format!("{}: {antenna} did not answer and does not move.", super::motion(*motion))
+        }
+        AlarmKind::CannotTrack(target, reason) => {
+            format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))
+        }
+        AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
+        AlarmKind::EndedShort => format!("{antenna} stands still before its target."),
+        AlarmKind::StartedByItself => {
+            format!("{antenna} tracks by its own program, not by this console.")
+        }
+        AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
+        AlarmKind::SessionBroke => format!(
+            "The connection to {antenna} broke down inside Azel and was started again with STOP."
+        ),
+        AlarmKind::NotTaken => {
+            format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
+        }
+        AlarmKind::Fault(kind) => {
+            format!("{antenna}: {}. {}", super::fault_name(*kind), super::fault_advice(*kind))
+        }
+        AlarmKind::ClockOff(ahead_s) => {
+            let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
+            format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))
+        }
+        AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
+        AlarmKind::Setting(note) => match &note.reason {
+            NoteReason::Invalid(why) => {
+                format!("Setting {} is not used: it {why}.", note.place)
+            }
+            NoteReason::Unknown => format!("Setting {} is not known.", note.place),
+        },
+        AlarmKind::Settings(text) | AlarmKind::Elements(text) => {
+            let mut letters = text.chars();
+            let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+            first.chain(letters).collect()
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Why something was not sent or not done.
+
+use crate::{
+    controller::PrepareError,
+    driver::{LinkLoss, Refusal},
+    ui::format,
+};
+
+/// Why a motion was not sent.
+pub fn refusal(refusal: &Refusal) -> String {
+    match refusal {
+        Refusal::PositionUnknown => {
+            "Not sent: the position of the antenna is not known.".to_owned()
+        }
+        Refusal::PositionOld(age) => {
+            format!("Not sent: the last position is {} old.", format::age(age.as_secs_f64()))
+        }
+        Refusal::Intent(intent) => {
+            format!("Not sent: not possible in {}. Choose another mode.", super::intent(*intent))
+        }
+        Refusal::Fault => {
+            "Not sent: a fault of the unit forbids motion. Look at Faults.".to_owned()
+        }
+        Refusal::FaultsUnknown => {
+            "Not sent: the unit has not said yet which faults it has. Try again.".to_owned()
+        }
+        Refusal::Limit { axis, plus } => {
+            let (sign, back) = if *plus { ("+", "−") } else { ("−", "+") };
+            format!(
+                "Not sent: {axis}{sign} limit switch is set. Jog {axis}{back} to leave the limit."
+            )
+        }
+        Refusal::Nothing => "Not sent: no motion was asked for.".to_owned(),
+        Refusal::TooFast { asked_deg_s, allowed_deg_s } => format!(
+            "Not sent: {} °/s is faster than the {} °/s allowed.",
+            format::number(*asked_deg_s, 2),
+            format::number(*allowed_deg_s, 2)
+        ),
+        Refusal::StepTooLarge { asked_deg, allowed_deg } => format!(
+            "Not sent: a step of {} is larger than the {} allowed.",
+            format::degrees(*asked_deg, 1),
+            format::degrees(*allowed_deg, 1)
+        ),
+        Refusal::Elevation { asked_deg, lowest_deg } => format!(
+            "Not sent: elevation {} is not between {} and 90°.",
+            format::degrees(*asked_deg, 1),
+            format::degrees(*lowest_deg, 1)
+        ),
+        Refusal::Travel { axis, asked_deg, from_deg, to_deg } => format!(
+            "Not sent: {axis} would have to go to {}, it travels {} to {}.",
+            format::degrees(*asked_deg, 1),
+            format::degrees(*from_deg, 1),
+            format::degrees(*to_deg, 1)
+        ),
+        Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
+    }
+}
+
+/// Why a link is lost.
+pub fn link_loss(loss: &LinkLoss) -> String {
+    match loss {
+        LinkLoss::Refused(why) => format!("the connection was not made ({why})"),
+        LinkLoss::ConnectTimeout => "nobody answers at the address".to_owned(),
+        LinkLoss::Closed => "the unit closed the connection".to_owned(),
+        LinkLoss::Broken(why) => format!("the connection broke ({why})"),
+        LinkLoss::Silent => "the connection is open, but the unit is silent".to_owned(),
+    }
+}
+
+/// Why a satellite is not on the unit.
+pub fn prepare_error(error: &PrepareError) -> String {
+    match error {
+        PrepareError::CannotBeSent(why) => format!("it cannot be sent: {why}"),
+        PrepareError::Refused { code } => format!("the unit answered ERR,{code}"),
+        PrepareError::Unanswered => "the unit did not answer".to_owned(),
+        PrepareError::Differs { held } => format!("the unit still holds {held}"),
+        PrepareError::NotOnDevice { file } => {
+            format!("the unit has no elements of it in {file}")
+        }
+        PrepareError::NoElementFile => {
+            "the unit uses no element file yet, name one in Preferences".to_owned()
+        }
+        PrepareError::Stopped => "a stop came in between".to_owned(),
+    }
+}
