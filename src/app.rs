@@ -1,1 +1,203 @@
-//! The eframe app.
+//! The window's app: what it knows, what it does once a frame, and what it
+//! carries out for the views.
+//!
+//! Invariants: this thread never blocks and never does I/O but for saving the
+//! settings on the operator's word; views change nothing, they queue
+//! [`UiCommand`]s.
+
+pub mod alarms;
+pub mod antenna;
+mod carry_out;
+pub mod command;
+pub mod daylight;
+mod demo;
+pub mod forecast;
+mod job;
+mod logic;
+pub mod model;
+
+use std::{path::PathBuf, sync::Arc, time::Instant};
+
+pub use command::UiCommand;
+pub use model::{Model, View};
+
+use self::{antenna::AntennaModel, demo::Demo, job::Job, model::CatalogState};
+use crate::{
+    driver::{self, Clock, Driver, Wake},
+    orbit::{BundledError, Catalog},
+    station::{self, LoadError, Station},
+    ui::{self, tokens::ThemeName},
+};
+
+/// What the command line says about the window.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Where the station file is; `None` for the user's own.
+    pub path: Option<PathBuf>,
+}
+
+/// The app behind the window.
+pub struct App {
+    model: Model,
+    views: ui::Views,
+    // The sessions end before their thread does.
+    driver: Driver,
+    demo: Option<Demo>,
+    clock: Clock,
+    wake: Wake,
+    settings_path: Option<PathBuf>,
+    catalog_job: Option<Job<Result<Catalog, BundledError>>>,
+    drawn: bool,
+}
+
+impl App {
+    /// The app in a new window.
+    pub fn new(ctx: &egui::Context, settings: &Settings, clock: Clock) -> std::io::Result<Self> {
+        ui::theme::install(ctx, ThemeName::default());
+        let wake = wake(ctx.clone());
+        let driver = Driver::start(clock.clone(), Arc::clone(&wake))?;
+        let settings_path = settings.path.clone().or_else(station::settings_path);
+        let model = Model {
+            now: clock.utc(),
+            steady: Instant::now(),
+            station: Station::default(),
+            demo: false,
+            catalog: CatalogState::Loading,
+            antennas: Vec::new(),
+            selected_antenna: 0,
+            forecasts: forecast::Forecasts::default(),
+            selected: None,
+            sky: model::Sky::default(),
+            alarms: alarms::Alarms::default(),
+            view: View::Operate,
+        };
+        close_on_signals(&driver, ctx.clone());
+        let catalog_job =
+            Job::start("azel-catalog", Arc::clone(&wake), |_| crate::orbit::bundled())?;
+        let mut app = Self {
+            model,
+            views: ui::Views::default(),
+            driver,
+            demo: None,
+            clock,
+            wake,
+            settings_path,
+            catalog_job: Some(catalog_job),
+            drawn: false,
+        };
+        app.load_station();
+        Ok(app)
+    }
+
+    /// What is shown.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    fn load_station(&mut self) {
+        let loaded = self.settings_path.as_deref().map_or(Err(LoadError::Missing), station::load);
+        match loaded {
+            Ok(loaded) => {
+                for note in loaded.notes {
+                    self.model.alarms.raise(None, alarms::AlarmKind::Setting(note), self.model.now);
+                }
+                self.use_station(loaded.station);
+            }
+            // The address is known once the simulator runs.
+            Err(LoadError::Missing) => {
+                self.model.demo = true;
+                self.use_station(Station { antennas: Vec::new(), ..Station::demo("") });
+            }
+            Err(error) => {
+                let text = error.to_string();
+                tracing::error!("{text}");
+                self.model.alarms.raise(None, alarms::AlarmKind::Settings(text), self.model.now);
+                // Nothing is connected and nothing is overwritten by itself.
+                self.use_station(Station::default());
+            }
+        }
+    }
+
+    /// Takes a station into use. Antennas that stay as they are keep their session.
+    fn use_station(&mut self, station: Station) {
+        let mut before = std::mem::take(&mut self.model.antennas);
+        // A unit has one place for a client: the old session leaves first.
+        before.retain(|antenna| station.antennas.contains(&antenna.config));
+        for config in &station.antennas {
+            let kept = before.iter().position(|antenna| antenna.config == *config);
+            let antenna = kept.map_or_else(
+                || self.open_antenna(config.clone()),
+                |index| before.swap_remove(index),
+            );
+            self.model.antennas.push(antenna);
+        }
+        self.model.selected_antenna =
+            self.model.selected_antenna.min(self.model.antennas.len().saturating_sub(1));
+        self.model.station = station;
+    }
+
+    fn open_antenna(&self, config: station::Antenna) -> AntennaModel {
+        let handle = self.driver.open(&config);
+        AntennaModel::new(config, handle)
+    }
+}
+
+/// Every jog ends with a STOP on the wire before the window is gone.
+impl Drop for App {
+    fn drop(&mut self) {
+        self.model.antennas.clear();
+    }
+}
+
+/// A log-out or Ctrl C in the terminal closes the window in order, so that a
+/// jog ends with STOP.
+fn close_on_signals(driver: &Driver, ctx: egui::Context) {
+    driver.runtime().spawn(async move {
+        if let Err(error) = driver::told_to_end().await {
+            return tracing::error!(%error, "signals are not heard");
+        }
+        ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
+        ctx.request_repaint_after_for(std::time::Duration::from_millis(1), egui::ViewportId::ROOT);
+    });
+}
+
+/// Asks for a frame soon. A delay that is not zero gives one frame, not two,
+/// and merges what comes in between.
+fn wake(ctx: egui::Context) -> Wake {
+    Arc::new(move || {
+        ctx.request_repaint_after_for(std::time::Duration::from_millis(30), egui::ViewportId::ROOT);
+    })
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+        self.think();
+        self.schedule_repaint(ctx);
+    }
+
+    /// The ground of the window: cleared, not painted, which halves what a
+    /// software renderer has to fill.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.extreme_bg_color.to_normalized_gamma_f32()
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        tracing::trace!(causes = ?ui.repaint_causes(), "frame");
+        // Before any other input of the frame, whatever is open or focused.
+        let stop = ui.input(|input| input.key_pressed(egui::Key::Escape));
+        if stop {
+            self.stop_all();
+        }
+        let mut commands = Vec::new();
+        self.views.show(ui, &self.model, &mut commands);
+        if stop || commands.contains(&UiCommand::Stop) {
+            commands.retain(|command| !command.may_move());
+        }
+        if !std::mem::replace(&mut self.drawn, true) {
+            tracing::info!("first frame");
+        }
+        for command in commands {
+            self.carry_out(command, ui.ctx());
+        }
+    }
+}

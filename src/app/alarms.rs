@@ -1,0 +1,270 @@
+//! What the operator must not miss.
+
+use jiff::Timestamp;
+
+use crate::{
+    controller::{Motion, PrepareError, TrackTarget},
+    driver::{Event, Found, LinkLoss},
+    protocol::satrak::FaultKind,
+    station::Note,
+};
+
+/// Older ones are forgotten, seen ones first.
+const MOST: usize = 100;
+
+/// How much it matters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Priority {
+    /// Something will go wrong or was not done.
+    Caution,
+    /// Something is wrong now.
+    Warning,
+}
+
+/// What happened. The words are the view's.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AlarmKind {
+    /// No link to the antenna.
+    LinkLost(LinkLoss),
+    /// It moves three seconds after STOP.
+    StopNotConfirmed,
+    /// The unit refused STOP, with this code.
+    StopRefused(String),
+    /// A jog was stopped because the window was too busy to renew it.
+    JogLeaseOver,
+    /// A jog was stopped because the position grew too old.
+    JogPositionOld,
+    /// Stopped, but the unit may start by itself.
+    AutoTrackStillOn,
+    /// The unit did not switch auto-track off.
+    AutoStaysOn,
+    /// The unit refused, with this code.
+    Refused(Motion, String),
+    /// The unit did not answer.
+    Unanswered(Motion),
+    /// The satellite cannot be tracked.
+    CannotTrack(TrackTarget, PrepareError),
+    /// Tracking ended before LOS.
+    TrackingEnded,
+    /// A motion ended somewhere else.
+    EndedShort,
+    /// The unit tracks without having been asked to by this console.
+    StartedByItself,
+    /// The unit moves without having been asked to by this console.
+    MovesByItself,
+    /// The part of the program that talks to the antenna broke down and was
+    /// started again.
+    SessionBroke,
+    /// The part of the program that talks to the antenna is too busy to take
+    /// what was asked for.
+    NotTaken,
+    /// A fault of the unit.
+    Fault(FaultKind),
+    /// The unit's clock is this far ahead of ours, seconds.
+    ClockOff(f64),
+    /// The unit's clock was never set.
+    ClockNotSet,
+    /// A setting of the station file that was not taken over.
+    Setting(Note),
+    /// The settings could not be read or written; in words.
+    Settings(String),
+    /// The elements could not be read; in words.
+    Elements(String),
+}
+
+/// One entry of the list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alarm {
+    /// Never used twice.
+    pub id: u64,
+    /// The antenna that it is about.
+    pub antenna: Option<usize>,
+    /// What happened.
+    pub kind: AlarmKind,
+    /// When.
+    pub time: Timestamp,
+    /// The operator has acknowledged it.
+    pub seen: bool,
+    /// It is over.
+    pub cleared: bool,
+}
+
+impl Alarm {
+    /// How much it matters.
+    pub fn priority(&self) -> Priority {
+        match &self.kind {
+            AlarmKind::LinkLost(_)
+            | AlarmKind::StopNotConfirmed
+            | AlarmKind::StopRefused(_)
+            | AlarmKind::SessionBroke
+            | AlarmKind::StartedByItself
+            | AlarmKind::MovesByItself
+            | AlarmKind::JogPositionOld => Priority::Warning,
+            AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
+            _ => Priority::Caution,
+        }
+    }
+}
+
+/// All alarms, the newest last.
+#[derive(Debug, Default)]
+pub struct Alarms {
+    list: Vec<Alarm>,
+    next_id: u64,
+    /// One has come since the list was opened.
+    pub unopened: bool,
+}
+
+impl Alarms {
+    /// The alarms, the newest last.
+    pub fn list(&self) -> &[Alarm] {
+        &self.list
+    }
+
+    /// Adds one, unless the same is standing already.
+    pub fn raise(&mut self, antenna: Option<usize>, kind: AlarmKind, time: Timestamp) {
+        let standing = self.list.iter().any(|alarm| {
+            !alarm.cleared && alarm.antenna == antenna && same_matter(&alarm.kind, &kind)
+        });
+        if standing {
+            return;
+        }
+        if self.list.len() >= MOST {
+            let oldest = self.list.iter().position(|alarm| alarm.seen).unwrap_or(0);
+            self.list.remove(oldest);
+        }
+        self.list.push(Alarm {
+            id: self.next_id,
+            antenna,
+            kind,
+            time,
+            seen: false,
+            cleared: false,
+        });
+        self.next_id += 1;
+        self.unopened = true;
+    }
+
+    /// What `is_over` says is over.
+    pub fn clear(&mut self, antenna: Option<usize>, is_over: impl Fn(&AlarmKind) -> bool) {
+        for alarm in &mut self.list {
+            if alarm.antenna == antenna && is_over(&alarm.kind) {
+                alarm.cleared = true;
+            }
+        }
+        // What is over and was seen need not stay.
+        self.list.retain(|alarm| !(alarm.cleared && alarm.seen));
+    }
+
+    /// The operator has seen this one.
+    pub fn acknowledge(&mut self, id: u64) {
+        for alarm in &mut self.list {
+            if alarm.id == id {
+                alarm.seen = true;
+            }
+        }
+        self.list.retain(|alarm| !(alarm.seen && (alarm.cleared || alarm.kind.is_momentary())));
+    }
+
+    /// The newest that was not seen.
+    pub fn newest_unseen(&self) -> Option<u64> {
+        self.list.iter().rev().find(|alarm| !alarm.seen).map(|alarm| alarm.id)
+    }
+}
+
+impl AlarmKind {
+    /// It tells of a moment rather than of a state that goes on.
+    fn is_momentary(&self) -> bool {
+        !matches!(
+            self,
+            Self::LinkLost(_)
+                | Self::StopNotConfirmed
+                | Self::Fault(_)
+                | Self::ClockOff(_)
+                | Self::ClockNotSet
+                | Self::Setting(_)
+                | Self::Settings(_)
+                | Self::Elements(_)
+        )
+    }
+}
+
+/// Figures change while the matter stays.
+fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
+    match (a, b) {
+        (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
+        | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_)) => true,
+        _ => a == b,
+    }
+}
+
+/// The alarm that an event calls for, if any.
+pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
+    Some(match event.clone() {
+        Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
+        Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
+        Event::StopRefused(code) => AlarmKind::StopRefused(code),
+        Event::JogLeaseOver => AlarmKind::JogLeaseOver,
+        Event::JogPositionOld => AlarmKind::JogPositionOld,
+        Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
+        Event::AutoStaysOn => AlarmKind::AutoStaysOn,
+        Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
+        Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
+        Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
+        Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,
+        Event::EndedShort { .. } => AlarmKind::EndedShort,
+        Event::StartedByItself | Event::Connected(Found::Tracking) => AlarmKind::StartedByItself,
+        Event::Connected(Found::Moving) => AlarmKind::MovesByItself,
+        Event::TrackingEnded { completed: true }
+        | Event::Connected(Found::Still)
+        | Event::Back { .. }
+        | Event::NotSent(_)
+        | Event::Tracking(_)
+        | Event::Arrived(_)
+        | Event::Stopped => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn time() -> Timestamp {
+        "2026-08-12T00:00:00Z".parse().unwrap()
+    }
+
+    #[test]
+    fn the_same_matter_stands_once_and_comes_again_after_it_was_over() {
+        let mut alarms = Alarms::default();
+        alarms.raise(Some(0), AlarmKind::ClockOff(1.5), time());
+        alarms.raise(Some(0), AlarmKind::ClockOff(1.6), time());
+        alarms.raise(Some(1), AlarmKind::ClockOff(1.6), time());
+        assert_eq!(alarms.list().len(), 2);
+        alarms.clear(Some(0), |kind| matches!(kind, AlarmKind::ClockOff(_)));
+        alarms.raise(Some(0), AlarmKind::ClockOff(2.0), time());
+        assert_eq!(alarms.list().len(), 3);
+    }
+
+    #[test]
+    fn an_alarm_stays_until_it_is_seen_and_over() {
+        let mut alarms = Alarms::default();
+        alarms.raise(None, AlarmKind::StopNotConfirmed, time());
+        let id = alarms.newest_unseen().unwrap();
+        alarms.acknowledge(id);
+        assert_eq!(alarms.list().len(), 1, "still moving");
+        alarms.clear(None, |_| true);
+        assert_eq!(alarms.list(), []);
+        alarms.raise(None, AlarmKind::AutoTrackStillOn, time());
+        alarms.acknowledge(alarms.newest_unseen().unwrap());
+        assert_eq!(alarms.list(), [], "a moment is over when seen");
+    }
+
+    #[test]
+    fn the_list_is_bounded() {
+        let mut alarms = Alarms::default();
+        for number in 0..1000_u32 {
+            alarms.raise(None, AlarmKind::Settings(number.to_string()), time());
+        }
+        assert_eq!(alarms.list().len(), MOST);
+    }
+}

@@ -1,0 +1,166 @@
+//! One antenna as the window sees it: the newest snapshot, what we predict for
+//! it, and how far the two are apart.
+
+use std::{collections::VecDeque, sync::Arc};
+
+use jiff::Timestamp;
+
+use super::forecast::Followed;
+use crate::{
+    astro::{Angle, AzEl, Site, time::seconds_between},
+    controller::{Measured, Phase},
+    driver::{AntennaHandle, Event, Intent, Snapshot},
+    station::Antenna,
+};
+
+/// The errors of this long are kept for the profile of a pass.
+const KEPT_S: f64 = 3600.0;
+/// Rates are taken over at least this long, so that rounding does not show.
+const RATE_SPAN_S: f64 = 0.9;
+
+/// Where a satellite stood when the antenna was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Its catalogue number.
+    pub catalog_number: u32,
+    /// When.
+    pub at: Timestamp,
+    /// Where.
+    pub direction: AzEl,
+}
+
+/// How far a measured direction was from the predicted one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorSample {
+    /// When.
+    pub time: Timestamp,
+    /// Between the beam axis and the satellite.
+    pub off_beam: Angle,
+    /// Measured less predicted azimuth, the short way round.
+    pub azimuth: Angle,
+    /// Measured less predicted elevation.
+    pub elevation: Angle,
+}
+
+/// One antenna.
+pub struct AntennaModel {
+    /// What it is.
+    pub config: Antenna,
+    /// The near end of its session.
+    pub handle: AntennaHandle,
+    /// What its session told last.
+    pub snapshot: Arc<Snapshot>,
+    /// Our own prediction at the time of the last measurement.
+    pub prediction: Option<Prediction>,
+    /// Errors of the present track, oldest first.
+    pub errors: VecDeque<ErrorSample>,
+    /// Measured rates of azimuth and elevation, degrees a second.
+    pub rates_deg_s: Option<(f64, f64)>,
+    /// The last event that the operator should read, and when it came.
+    pub news: Option<(Event, Timestamp)>,
+    recent: VecDeque<Measured>,
+}
+
+impl AntennaModel {
+    /// An antenna whose session has just begun.
+    pub fn new(config: Antenna, handle: AntennaHandle) -> Self {
+        Self {
+            config,
+            snapshot: handle.snapshot(),
+            handle,
+            prediction: None,
+            errors: VecDeque::new(),
+            rates_deg_s: None,
+            news: None,
+            recent: VecDeque::new(),
+        }
+    }
+
+    /// Takes the newest snapshot. `followed` finds a satellite by its number.
+    pub fn refresh<'a>(&mut self, site: Site, followed: impl Fn(u32) -> Option<&'a Arc<Followed>>) {
+        self.snapshot = self.handle.snapshot();
+        let Some(measured) = self.snapshot.state.measured else { return };
+        if self.recent.back().is_some_and(|last| last.received == measured.received) {
+            return;
+        }
+        self.take_rate(measured);
+        let before = self.prediction.map(|prediction| prediction.catalog_number);
+        self.prediction = self.tracked_number().and_then(|number| {
+            let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
+            // What has not risen yet is waited for, not missed.
+            (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
+                catalog_number: number,
+                at: measured.at,
+                direction: look.direction,
+            })
+        });
+        if self.prediction.map(|prediction| prediction.catalog_number) != before {
+            self.errors.clear();
+        }
+        if let Some(error) = self.error() {
+            self.errors.push_back(error);
+            while self
+                .errors
+                .front()
+                .is_some_and(|oldest| seconds_between(oldest.time, error.time) > KEPT_S)
+            {
+                self.errors.pop_front();
+            }
+        }
+    }
+
+    fn take_rate(&mut self, measured: Measured) {
+        while self.recent.len() > 1
+            && self
+                .recent
+                .get(1)
+                .is_some_and(|next| seconds_between(next.at, measured.at) >= RATE_SPAN_S)
+        {
+            self.recent.pop_front();
+        }
+        self.rates_deg_s = self.recent.front().and_then(|before| {
+            let span_s = seconds_between(before.at, measured.at);
+            if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
+                return None;
+            }
+            let azimuth = (measured.direction.azimuth - before.direction.azimuth).wrapped_180();
+            let elevation = measured.direction.elevation - before.direction.elevation;
+            Some((azimuth.degrees() / span_s, elevation.degrees() / span_s))
+        });
+        self.recent.push_back(measured);
+    }
+
+    /// The satellite that the unit follows by itself, or is about to: the one
+    /// it holds, whatever we asked for.
+    pub fn tracked_number(&self) -> Option<u32> {
+        let state = &self.snapshot.state;
+        let enabled = state.program.is_some_and(|program| program.enabled);
+        if enabled {
+            return state.satrak.satellite.as_ref().map(|held| held.catalog_number);
+        }
+        (self.snapshot.intent == Intent::Track)
+            .then(|| self.snapshot.target.as_ref().map(|target| target.catalog_number))
+            .flatten()
+    }
+
+    /// Whether the unit follows its satellite right now.
+    pub fn tracks(&self) -> bool {
+        self.snapshot
+            .state
+            .program
+            .is_some_and(|program| program.enabled && program.phase == Phase::Tracking)
+    }
+
+    /// How far the last measurement was from the prediction for its time.
+    pub fn error(&self) -> Option<ErrorSample> {
+        let prediction = self.prediction?;
+        let measured = self.snapshot.state.measured?;
+        let difference = measured.direction.azimuth - prediction.direction.azimuth;
+        Some(ErrorSample {
+            time: measured.at,
+            off_beam: measured.direction.separation(prediction.direction),
+            azimuth: difference.wrapped_180(),
+            elevation: measured.direction.elevation - prediction.direction.elevation,
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! Carries out what the views asked for.
+
+use super::{App, UiCommand, alarms::AlarmKind, forecast::PassKey};
+use crate::{controller::TrackTarget, driver, station, ui::theme};
+
+impl App {
+    /// Past every queue, to every antenna.
+    pub(super) fn stop_all(&self) {
+        for antenna in &self.model.antennas {
+            antenna.handle.stop();
+        }
+    }
+
+    pub(super) fn carry_out(&mut self, command: UiCommand, ctx: &egui::Context) {
+        let model = &mut self.model;
+        match command {
+            UiCommand::Stop => self.stop_all(),
+            UiCommand::SelectPass(key) => model.selected = Some(key),
+            UiCommand::SelectSatellite(number) => {
+                model.selected =
+                    model.pass_of(number).map(super::forecast::Forecast::key).or(model.selected);
+            }
+            UiCommand::SelectAntenna(index) => model.selected_antenna = index,
+            UiCommand::Antenna(antenna, command) => self.send(antenna, command),
+            UiCommand::Track { antenna, pass } => self.track(antenna, pass),
+            UiCommand::SetElevationFloor(floor_deg) => {
+                model.station.elevation_floor_deg = floor_deg;
+            }
+            UiCommand::Show(view) => model.view = view,
+            UiCommand::SetTheme(name) => theme::set(ctx, name),
+            UiCommand::OpenedAlarms => model.alarms.unopened = false,
+            UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(id),
+            UiCommand::SaveStation(station) => self.save_station(*station),
+        }
+        (self.wake)();
+    }
+
+    fn send(&mut self, index: usize, command: driver::Command) {
+        let Some(antenna) = self.model.antennas.get(index) else { return };
+        let Err(command) = antenna.handle.send(command) else { return };
+        tracing::error!(?command, "the session is too busy to take a command");
+        // What ends a motion must not get lost: stop instead.
+        if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
+            antenna.handle.stop();
+        }
+        self.model.alarms.raise(Some(index), AlarmKind::NotTaken, self.model.now);
+    }
+
+    fn track(&mut self, antenna: usize, pass: PassKey) {
+        // A pass that is over since it was asked for is not replaced by another.
+        let Some(forecast) = self.model.forecasts.find(pass) else { return };
+        let target = TrackTarget {
+            catalog_number: forecast.satellite.elements.catalog_number(),
+            name: forecast.satellite.elements.name().to_owned(),
+            from: self.track_from(forecast.pass.aos.time),
+            until: forecast.pass.los.time,
+        };
+        self.send(antenna, driver::Command::Track(target));
+    }
+
+    /// The new settings are used once they are safe on disk.
+    fn save_station(&mut self, station: station::Station) {
+        let now = self.model.now;
+        let saved = match &self.settings_path {
+            Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
+            None => Err("this user has no folder for settings".to_owned()),
+        };
+        match saved {
+            Ok(()) => {
+                self.model.alarms.clear(None, |kind| {
+                    matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
+                });
+                self.model.demo = false;
+                self.use_station(station);
+                self.demo = None;
+                self.views.saved(Ok(now));
+            }
+            Err(text) => {
+                tracing::error!("{text}");
+                self.views.saved(Err(text.clone()));
+                self.model.alarms.raise(None, AlarmKind::Settings(text), now);
+            }
+        }
+    }
+}

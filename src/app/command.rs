@@ -1,0 +1,55 @@
+//! What a view asks for. Carried out once a frame, after everything is drawn.
+
+use super::{
+    forecast::{Forecast, PassKey},
+    model::{Model, View},
+};
+use crate::{driver, station::Station, ui::tokens::ThemeName};
+
+/// What a view asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum UiCommand {
+    /// Stop every antenna.
+    Stop,
+    /// Show this pass.
+    SelectPass(PassKey),
+    /// Show the present or next pass of this satellite.
+    SelectSatellite(u32),
+    /// Show this antenna.
+    SelectAntenna(usize),
+    /// Something for the antenna with this index, which was shown when it was
+    /// asked for.
+    Antenna(usize, driver::Command),
+    /// Track a pass with the antenna of this index.
+    Track {
+        /// Which antenna was shown when it was asked for.
+        antenna: usize,
+        /// Which pass was shown when it was asked for.
+        pass: PassKey,
+    },
+    /// List passes from this maximum elevation on, degrees.
+    SetElevationFloor(f64),
+    /// Fill the window with this view.
+    Show(View),
+    /// Change the colours.
+    SetTheme(ThemeName),
+    /// The alarm list is open.
+    OpenedAlarms,
+    /// This alarm was seen.
+    AcknowledgeAlarm(u64),
+    /// Save these settings and use them.
+    SaveStation(Box<Station>),
+}
+
+impl UiCommand {
+    /// Track what is selected now with the antenna that is selected now.
+    pub fn track_selected(model: &Model) -> Option<Self> {
+        let pass = model.selected_pass().map(Forecast::key)?;
+        Some(Self::Track { antenna: model.selected_antenna, pass })
+    }
+
+    /// Whether it may move an antenna. A stop in the same frame voids it.
+    pub fn may_move(&self) -> bool {
+        matches!(self, Self::Antenna(..) | Self::Track { .. })
+    }
+}

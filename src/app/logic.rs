@@ -1,0 +1,182 @@
+//! Once a frame, drawn or not: take what has come in and keep the model right.
+
+use std::{sync::Arc, time::Duration, time::Instant};
+
+use super::{
+    App,
+    alarms::{AlarmKind, alarm_of},
+    demo::Demo,
+    model::CatalogState,
+};
+use crate::{
+    astro::time::add_seconds,
+    controller::AxisMotion,
+    driver::{Event, StopState},
+    station::Station,
+};
+
+/// A unit whose clock is further off than this misses a low satellite.
+const CLOCK_OFF_S: f64 = 1.0;
+/// While something moves, the numbers run.
+const MOVING_FRAME: Duration = Duration::from_millis(100);
+
+impl App {
+    /// Takes everything that has come in since the last frame.
+    pub(super) fn think(&mut self) {
+        self.model.now = self.clock.utc();
+        self.model.steady = Instant::now();
+        self.take_catalog();
+        if let CatalogState::Ready(catalog) = &self.model.catalog {
+            let catalog = Arc::clone(catalog);
+            let renewed = self.model.forecasts.refresh(
+                &catalog,
+                &self.model.station,
+                self.model.now,
+                &self.wake,
+            );
+            if renewed && self.model.selected_pass().is_none() {
+                self.model.selected = self.model.next_pass().map(super::forecast::Forecast::key);
+            }
+        }
+        for index in 0..self.model.antennas.len() {
+            self.take_antenna(index);
+        }
+        self.model.refresh_sky();
+    }
+
+    fn take_catalog(&mut self) {
+        let Some(result) = self.catalog_job.as_ref().and_then(super::Job::poll) else { return };
+        self.catalog_job = None;
+        match result {
+            Ok(catalog) => {
+                self.model.catalog = CatalogState::Ready(Arc::new(catalog));
+                if self.model.demo && self.demo.is_none() {
+                    self.start_demo();
+                }
+            }
+            Err(error) => {
+                self.model.catalog = CatalogState::Failed;
+                let text = error.to_string();
+                tracing::error!("{text}");
+                self.model.alarms.raise(None, AlarmKind::Elements(text), self.model.now);
+            }
+        }
+    }
+
+    fn start_demo(&mut self) {
+        let CatalogState::Ready(catalog) = &self.model.catalog else { return };
+        let favourites = &self.model.station.favourites;
+        let elements = favourites.iter().filter_map(|number| catalog.get(*number).cloned());
+        match Demo::start(&self.model.station, elements.collect()) {
+            Ok(demo) => {
+                let antennas = Station::demo(&demo.satrak.to_string()).antennas;
+                self.demo = Some(demo);
+                let station = Station { antennas, ..self.model.station.clone() };
+                self.use_station(station);
+            }
+            Err(error) => tracing::error!(%error, "the demo station did not start"),
+        }
+    }
+
+    fn take_antenna(&mut self, index: usize) {
+        let forecasts = &self.model.forecasts;
+        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        antenna.refresh(self.model.station.site, |number| forecasts.satellite(number));
+        let mut events = Vec::new();
+        while let Some(event) = antenna.handle.next_event() {
+            events.push(event);
+        }
+        for event in events {
+            self.take_event(index, event);
+        }
+        self.revive_session(index);
+        self.watch_state(index);
+    }
+
+    /// A session never ends while its antenna is in use. If one did, the
+    /// antenna may move unwatched: start another, with STOP as its first word.
+    fn revive_session(&mut self, index: usize) {
+        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        if antenna.handle.has_ended() {
+            antenna.handle = self.driver.open(&antenna.config);
+            antenna.handle.stop();
+            self.model.alarms.raise(Some(index), AlarmKind::SessionBroke, self.model.now);
+        }
+    }
+
+    fn take_event(&mut self, index: usize, event: Event) {
+        let now = self.model.now;
+        let antenna = Some(index);
+        match &event {
+            Event::Back { .. } | Event::Connected(_) => {
+                self.model.alarms.clear(antenna, |kind| matches!(kind, AlarmKind::LinkLost(_)));
+            }
+            Event::Stopped => {
+                self.model.alarms.clear(antenna, |kind| *kind == AlarmKind::StopNotConfirmed);
+            }
+            _ => {}
+        }
+        if let Some(kind) = alarm_of(&event) {
+            self.model.alarms.raise(antenna, kind, now);
+        }
+        if let Some(antenna) = self.model.antennas.get_mut(index) {
+            antenna.news = Some((event, now));
+        }
+    }
+
+    /// Alarms that follow from the state rather than from an event.
+    fn watch_state(&mut self, index: usize) {
+        let Some(antenna) = self.model.antennas.get(index) else { return };
+        let snapshot = Arc::clone(&antenna.snapshot);
+        let (alarms, now, of) = (&mut self.model.alarms, self.model.now, Some(index));
+        if snapshot.stop == StopState::Ready
+            && snapshot.state.measured.is_some_and(|measured| !measured.moving())
+        {
+            alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        if let Some((faults, _)) = &snapshot.state.satrak.faults {
+            for kind in faults.active() {
+                alarms.raise(of, AlarmKind::Fault(kind), now);
+            }
+            alarms.clear(of, |alarm| {
+                matches!(alarm, AlarmKind::Fault(kind) if !faults.active().any(|active| active == *kind))
+            });
+        }
+        if let Some(clock) = snapshot.state.satrak.clock {
+            let off = clock.is_set && clock.ahead_s.abs() > CLOCK_OFF_S;
+            if off {
+                alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
+            } else {
+                alarms.clear(of, |kind| matches!(kind, AlarmKind::ClockOff(_)));
+            }
+            if clock.is_set {
+                alarms.clear(of, |kind| *kind == AlarmKind::ClockNotSet);
+            } else {
+                alarms.raise(of, AlarmKind::ClockNotSet, now);
+            }
+        }
+    }
+
+    /// The next frame: ten a second while metal moves or a key is held, else on
+    /// the full second. Whatever comes in asks for its own.
+    pub(super) fn schedule_repaint(&self, ctx: &egui::Context) {
+        let lively = self.model.antennas.iter().any(|antenna| {
+            let snapshot = &antenna.snapshot;
+            let axes = snapshot.state.measured.map(|measured| measured.axes);
+            snapshot.jog.is_some()
+                || axes.is_some_and(|axes| axes.iter().any(|axis| axis.motion != AxisMotion::Still))
+        });
+        let into_second = self.model.now.subsec_nanosecond();
+        let to_next = Duration::from_nanos(1_000_000_000 - u64::from(into_second.unsigned_abs()));
+        let wait = if lively { MOVING_FRAME.min(to_next) } else { to_next };
+        // A clock that stands at the second when the frame comes early would
+        // ask for a frame at once, again and again.
+        let wait = wait.max(Duration::from_millis(5));
+        ctx.request_repaint_after_for(wait, egui::ViewportId::ROOT);
+    }
+
+    /// When a pass under way began, for the unit: it may not lie in the past.
+    pub(super) fn track_from(&self, aos: jiff::Timestamp) -> jiff::Timestamp {
+        aos.max(add_seconds(self.model.now, -1.0))
+    }
+}

@@ -1,0 +1,185 @@
+//! What the views show. Only the app's logic changes it; a view reads it and
+//! queues commands.
+
+use std::{sync::Arc, time::Instant};
+
+use jiff::Timestamp;
+
+use super::{
+    alarms::Alarms,
+    antenna::AntennaModel,
+    daylight::{self, SunSpan},
+    forecast::{Followed, Forecast, Forecasts, PassKey, ahead},
+};
+use crate::{
+    astro::{AzEl, Site, sun_moon},
+    orbit::{Catalog, LookAngles, is_sunlit},
+    station::Station,
+};
+
+/// For how long the way of a satellite that is not selected is drawn.
+const AHEAD_S: f64 = 300.0;
+
+/// Which view fills the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum View {
+    /// Watch and drive.
+    #[default]
+    Operate,
+    /// The station's settings.
+    Preferences,
+}
+
+/// The elements.
+#[derive(Debug, Clone)]
+pub enum CatalogState {
+    /// They are being read.
+    Loading,
+    /// They are here.
+    Ready(Arc<Catalog>),
+    /// There are none, and why.
+    Failed,
+}
+
+/// Everything that is shown.
+pub struct Model {
+    /// UTC of this frame.
+    pub now: Timestamp,
+    /// The steady clock of this frame, for ages.
+    pub steady: Instant,
+    /// The station as saved.
+    pub station: Station,
+    /// The station is the demo station with simulated antennas.
+    pub demo: bool,
+    /// The elements.
+    pub catalog: CatalogState,
+    /// The antennas of the station.
+    pub antennas: Vec<AntennaModel>,
+    /// Which of them the card shows.
+    pub selected_antenna: usize,
+    /// The passes to come.
+    pub forecasts: Forecasts,
+    /// The pass that is shown.
+    pub selected: Option<PassKey>,
+    /// The sky at `now`.
+    pub sky: Sky,
+    /// What must not be missed.
+    pub alarms: Alarms,
+    /// Which view fills the window.
+    pub view: View,
+}
+
+/// The sky of the site.
+#[derive(Debug, Default)]
+pub struct Sky {
+    /// The satellites of the list that are up.
+    pub satellites: Vec<Seen>,
+    /// The satellite of the selected pass, up or not.
+    pub selected: Option<Selected>,
+    /// The Sun.
+    pub sun: Option<AzEl>,
+    /// The Moon.
+    pub moon: Option<AzEl>,
+    /// Day and night from a little before now for the next hours.
+    pub sun_spans: Vec<SunSpan>,
+    seconds: Option<i64>,
+    sun_spans_of: Option<(Site, i64)>,
+}
+
+/// A satellite above the horizon.
+#[derive(Debug)]
+pub struct Seen {
+    /// Which.
+    pub satellite: Arc<Followed>,
+    /// Where.
+    pub direction: AzEl,
+    /// Where it goes in the next minutes.
+    pub ahead: Vec<AzEl>,
+}
+
+/// The satellite of the selected pass.
+#[derive(Debug, Clone, Copy)]
+pub struct Selected {
+    /// Where it stands and how it moves.
+    pub look: LookAngles,
+    /// The Sun shines on it.
+    pub sunlit: bool,
+}
+
+impl Model {
+    /// The selected antenna.
+    pub fn antenna(&self) -> Option<&AntennaModel> {
+        self.antennas.get(self.selected_antenna)
+    }
+
+    /// The selected pass.
+    pub fn selected_pass(&self) -> Option<&Forecast> {
+        self.forecasts.find(self.selected?)
+    }
+
+    /// The pass of a satellite that is under way, or else its next one.
+    pub fn pass_of(&self, catalog_number: u32) -> Option<&Forecast> {
+        self.forecasts
+            .passes
+            .iter()
+            .find(|forecast| forecast.satellite.elements.catalog_number() == catalog_number)
+    }
+
+    /// The pass that is under way or comes next.
+    pub fn next_pass(&self) -> Option<&Forecast> {
+        let moving = |forecast: &&Forecast| !forecast.satellite.elements.is_geosynchronous();
+        self.forecasts.passes.iter().find(moving).or(self.forecasts.passes.first())
+    }
+
+    /// Puts everything at its place for `now`.
+    pub fn refresh_sky(&mut self) {
+        let (site, now) = (self.station.site, self.now);
+        let selected = self.selected_pass().map(|forecast| Arc::clone(&forecast.satellite));
+        self.sky.refresh(&self.forecasts.satellites, selected.as_deref(), site, now);
+    }
+}
+
+impl Sky {
+    fn refresh(
+        &mut self,
+        satellites: &[Arc<Followed>],
+        selected: Option<&Followed>,
+        site: Site,
+        now: Timestamp,
+    ) {
+        // The one that is compared with the antenna moves with every frame.
+        self.selected = selected.and_then(|satellite| {
+            let look = satellite.propagator.look_from(site, now).ok()?;
+            let state = satellite.propagator.state_at(now).ok()?;
+            Some(Selected { look, sunlit: is_sunlit(&state, now) })
+        });
+        if self.seconds == Some(now.as_second()) {
+            return;
+        }
+        self.seconds = Some(now.as_second());
+        self.sun = Some(sun_moon::sun(site, now));
+        self.refresh_sun_spans(site, now);
+        self.moon = Some(sun_moon::moon(site, now));
+        self.satellites = satellites
+            .iter()
+            .filter_map(|satellite| {
+                let look = satellite.propagator.look_from(site, now).ok()?;
+                (look.direction.elevation_deg() > 0.0).then(|| Seen {
+                    satellite: Arc::clone(satellite),
+                    direction: look.direction,
+                    ahead: ahead(satellite, site, now, AHEAD_S),
+                })
+            })
+            .collect();
+    }
+
+    /// Made anew every minute.
+    fn refresh_sun_spans(&mut self, site: Site, now: Timestamp) {
+        let made_of = (site, now.as_second() / 60);
+        if self.sun_spans_of == Some(made_of) {
+            return;
+        }
+        self.sun_spans_of = Some(made_of);
+        self.sun_spans = daylight::spans(site, now);
+    }
+}

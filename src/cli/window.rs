@@ -1,0 +1,65 @@
+//! Opens the window, or says in one sentence why it cannot.
+
+use std::{
+    panic::{self, AssertUnwindSafe},
+    path::PathBuf,
+};
+
+use anyhow::{anyhow, bail};
+
+use crate::{
+    app::{App, Settings},
+    driver::Clock,
+};
+
+/// The smallest window, in points.
+const SMALLEST: [f32; 2] = [1024.0, 640.0];
+
+pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
+    if cfg!(target_os = "linux") && !has_display() {
+        bail!(
+            "Azel needs a display: neither DISPLAY nor WAYLAND_DISPLAY is set. \
+             Start it in a desktop session."
+        );
+    }
+    let settings = Settings { path: station };
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_app_id("azel")
+            .with_inner_size([1440.0, 900.0])
+            .with_min_inner_size(SMALLEST),
+        // Flat colours do not need it, and a software renderer pays for it in
+        // every pixel.
+        dithering: false,
+        ..Default::default()
+    };
+    // A missing system library makes the window toolkit panic instead of
+    // returning an error. The operator needs a sentence, not a back-trace.
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|panic| tracing::error!("{panic}")));
+    let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
+        eframe::run_native(
+            "Azel",
+            options,
+            Box::new(move |cc| Ok(Box::new(App::new(&cc.egui_ctx, &settings, Clock::system())?))),
+        )
+    }));
+    panic::set_hook(hook);
+    match outcome {
+        Ok(result) => result.map_err(|error| anyhow!("The window could not be opened: {error}")),
+        Err(panic) => {
+            let why = panic
+                .downcast_ref::<String>()
+                .map(String::as_str)
+                .or_else(|| panic.downcast_ref::<&str>().copied())
+                .unwrap_or("unknown reason");
+            bail!("The window broke down: {why}")
+        }
+    }
+}
+
+fn has_display() -> bool {
+    ["DISPLAY", "WAYLAND_DISPLAY"]
+        .iter()
+        .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
+}

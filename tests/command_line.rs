@@ -1,0 +1,58 @@
+//! The program as it is called from a shell.
+
+// A test ends loudly, in its helpers too.
+#![allow(clippy::expect_used)]
+
+use std::process::{Command, Output};
+
+fn azel(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_azel"))
+        .args(arguments)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn without_a_display_there_is_one_sentence_and_exit_code_1() {
+    let output = azel(&[]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(text(&output.stdout), "");
+    let said = text(&output.stderr);
+    assert!(said.starts_with("Azel needs a display"), "{said}");
+    assert_eq!(said.trim_end().lines().count(), 1, "{said}");
+}
+
+#[test]
+fn help_and_version_are_answered() {
+    let version = azel(&["--version"]);
+    assert!(version.status.success());
+    assert_eq!(text(&version.stdout), format!("azel {}\n", env!("CARGO_PKG_VERSION")));
+    let help = azel(&["--help"]);
+    assert!(help.status.success());
+    for word in ["simulate", "--station"] {
+        assert!(text(&help.stdout).contains(word), "{word}");
+    }
+}
+
+#[test]
+fn a_wrong_quirk_names_the_right_ones() {
+    let output = azel(&["simulate", "satrak", "--quirk", "no_coma"]);
+    assert!(!output.status.success());
+    assert!(text(&output.stderr).contains("no_comma"), "{}", text(&output.stderr));
+}
+
+#[test]
+fn an_address_that_is_taken_is_said() {
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap().to_string();
+    let output = azel(&["simulate", "satrak", "--listen", &address]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains(&address), "{}", text(&output.stderr));
+}

@@ -1,0 +1,211 @@
+//! A virtual screen with the program on it, and a simulated Satrak beside it.
+
+use std::{
+    fs,
+    io::{BufRead as _, BufReader},
+    net::SocketAddr,
+    path::PathBuf,
+    process::{Child, Command, Stdio},
+    sync::mpsc,
+    thread,
+    time::{Duration, Instant},
+};
+
+/// Nothing here takes longer on a slow machine.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Ends its process when it goes away.
+pub(super) struct Running(Child);
+
+impl Running {
+    fn start(command: &mut Command) -> Self {
+        Self(command.spawn().unwrap_or_else(|error| panic!("{command:?}: {error}")))
+    }
+
+    /// The exit code, once it has ended by itself.
+    pub(super) fn exit_code(&mut self) -> Option<i32> {
+        wait_for("the program to end", || self.0.try_wait().expect("a child")).code()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Asks until there is an answer.
+pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(answer) = ask() {
+            return answer;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited too long for {what}");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// A screen of its own.
+pub(super) struct Screen {
+    display: String,
+    _server: Running,
+    pub(super) folder: tempfile::TempDir,
+}
+
+impl Screen {
+    pub(super) fn new(number: u32, size: &str) -> Self {
+        let display = format!(":{number}");
+        let server = Running::start(
+            Command::new("Xvfb")
+                .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
+                .stderr(Stdio::null()),
+        );
+        let screen =
+            Self { display, _server: server, folder: tempfile::tempdir().expect("a folder") };
+        wait_for("the screen", || {
+            screen
+                .command("xdotool")
+                .arg("getmouselocation")
+                .output()
+                .ok()?
+                .status
+                .success()
+                .then_some(())
+        });
+        screen
+    }
+
+    pub(super) fn command(&self, program: &str) -> Command {
+        let mut command = Command::new(program);
+        command
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("HOME", self.folder.path())
+            .env_remove("XDG_CONFIG_HOME");
+        command
+    }
+
+    /// The program on this screen, and its window.
+    pub(super) fn azel(&self, arguments: &[&str]) -> (Running, String) {
+        let running = Running::start(
+            self.command(env!("CARGO_BIN_EXE_azel")).args(arguments).stderr(Stdio::null()),
+        );
+        let window = wait_for("the window", || {
+            let found = self.xdotool(&["search", "--onlyvisible", "--name", "^Azel$"]);
+            found.lines().last().map(str::to_owned)
+        });
+        self.xdotool(&["windowfocus", "--sync", &window]);
+        (running, window)
+    }
+
+    /// Asks the window to close, as a window manager does on a click.
+    pub(super) fn close(&self, window: &str) {
+        use x11rb::{
+            connection::Connection as _,
+            protocol::xproto::{ClientMessageEvent, ConnectionExt as _, EventMask},
+        };
+        let window: u32 = window.parse().expect("a window");
+        let (connection, _) = x11rb::connect(Some(&self.display)).expect("the screen");
+        let atom = |name: &str| {
+            let asked = connection.intern_atom(false, name.as_bytes()).expect("a request");
+            asked.reply().expect("an atom").atom
+        };
+        let delete = [atom("WM_DELETE_WINDOW"), x11rb::CURRENT_TIME, 0, 0, 0];
+        let message = ClientMessageEvent::new(32, window, atom("WM_PROTOCOLS"), delete);
+        connection
+            .send_event(false, window, EventMask::NO_EVENT, message)
+            .expect("a request")
+            .check()
+            .expect("the window is there");
+        connection.flush().expect("the screen");
+    }
+
+    pub(super) fn xdotool(&self, arguments: &[&str]) -> String {
+        let output = self.command("xdotool").args(arguments).output().expect("xdotool");
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    }
+
+    /// The pixels of the screen.
+    pub(super) fn picture(&self) -> Vec<u8> {
+        let output = self
+            .command("import")
+            .args(["-window", "root", "-depth", "8", "rgb:-"])
+            .output()
+            .expect("ImageMagick");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.stdout
+    }
+
+    pub(super) fn station_file(&self, satrak: SocketAddr) -> PathBuf {
+        let path = self.folder.path().join("station.toml");
+        let text = format!(
+            "name = \"Bench\"\n[[antenna]]\nname = \"Satrak\"\n[antenna.connection]\n\
+             controller = \"satrak\"\naddress = \"{satrak}\"\nelement_file = \"active.txt\"\n"
+        );
+        fs::write(&path, text).expect("a station file");
+        path
+    }
+}
+
+/// A simulated Satrak in a process of its own, and what it wrote.
+pub(super) struct Satrak {
+    pub(super) address: SocketAddr,
+    _process: Running,
+    lines: mpsc::Receiver<String>,
+}
+
+impl Satrak {
+    pub(super) fn start(listen: &str) -> Self {
+        let mut process = Running::start(
+            Command::new(env!("CARGO_BIN_EXE_azel"))
+                .args(["simulate", "satrak", "--listen", listen])
+                .env("NO_COLOR", "1")
+                .stderr(Stdio::piped()),
+        );
+        let stderr = process.0.stderr.take().expect("piped");
+        let (send, lines) = mpsc::sync_channel(100_000);
+        thread::Builder::new()
+            .name("satrak log".to_owned())
+            .spawn(move || {
+                for line in BufReader::new(stderr).lines().map_while(Result::ok) {
+                    if send.send(line).is_err() {
+                        break;
+                    }
+                }
+            })
+            .expect("a thread");
+        let mut satrak =
+            Self { address: SocketAddr::from(([127, 0, 0, 1], 0)), _process: process, lines };
+        let line = satrak.wait_for_line("a simulated Satrak listens");
+        let address = line.split("address=").nth(1).expect("an address");
+        satrak.address = address.trim().parse().expect("an address");
+        satrak
+    }
+
+    /// The same, unless it takes longer than half a second.
+    pub(super) fn line_soon(&mut self, word: &str) -> Option<String> {
+        let until = Instant::now() + Duration::from_millis(500);
+        while let Ok(line) =
+            self.lines.recv_timeout(until.saturating_duration_since(Instant::now()))
+        {
+            if line.contains(word) {
+                return Some(line);
+            }
+        }
+        None
+    }
+
+    /// The next line with `word`, from where the last search ended.
+    pub(super) fn wait_for_line(&mut self, word: &str) -> String {
+        wait_for(word, || {
+            while let Ok(line) = self.lines.try_recv() {
+                if line.contains(word) {
+                    return Some(line);
+                }
+            }
+            None
+        })
+    }
+}

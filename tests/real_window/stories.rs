@@ -1,0 +1,82 @@
+//! What an operator does, and what must come of it.
+
+use super::desk::{Satrak, Screen, wait_for};
+
+/// Places in a window of 1440 x 900 without the demo banner.
+const MANUAL: [&str; 2] = ["1218", "456"];
+const X_PLUS: [&str; 2] = ["1228", "640"];
+
+fn click(screen: &Screen, [x, y]: [&str; 2]) {
+    screen.xdotool(&["mousemove", x, y, "click", "1"]);
+}
+
+/// Holds the key X+ down until the unit has been told to move. A press while
+/// the key is still locked does nothing, so it is tried again.
+fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
+    let [x, y] = X_PLUS;
+    wait_for("the jog", || {
+        screen.xdotool(&["mousemove", x, y, "mousedown", "1"]);
+        let moved = satrak.line_soon("in payload=MOVE=,0.5,0");
+        if moved.is_none() {
+            screen.xdotool(&["mouseup", "1"]);
+        }
+        moved
+    });
+}
+
+#[test]
+#[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
+fn the_demo_station_shows_a_moving_picture_within_three_seconds() {
+    let screen = Screen::new(91, "1440x900");
+    let start = std::time::Instant::now();
+    let (_azel, _) = screen.azel(&[]);
+    let first = wait_for("a picture", || {
+        let picture = screen.picture();
+        let colours: std::collections::HashSet<&[u8]> = picture.chunks_exact(3).collect();
+        (colours.len() > 200).then_some(picture)
+    });
+    wait_for("a change of the picture", || (screen.picture() != first).then_some(()));
+    assert!(start.elapsed().as_secs_f64() < 3.0, "{:?}", start.elapsed());
+}
+
+#[test]
+#[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
+fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
+    let screen = Screen::new(92, "1440x900");
+    let mut satrak = Satrak::start("127.0.0.1:0");
+    let station = screen.station_file(satrak.address);
+    let (mut azel, window) = screen.azel(&["--station", &station.to_string_lossy()]);
+    satrak.wait_for_line("out payload=STATUS?");
+    satrak.wait_for_line("out payload=STATUS?");
+
+    click(&screen, MANUAL);
+    hold_x_plus(&screen, &mut satrak);
+    screen.xdotool(&["mouseup", "1"]);
+    satrak.wait_for_line("in payload=STOP=");
+
+    hold_x_plus(&screen, &mut satrak);
+    screen.xdotool(&["key", "Escape"]);
+    satrak.wait_for_line("in payload=STOP=");
+    screen.xdotool(&["mouseup", "1"]);
+
+    click(&screen, MANUAL);
+    hold_x_plus(&screen, &mut satrak);
+    screen.close(&window);
+    satrak.wait_for_line("in payload=STOP=");
+    assert_eq!(azel.exit_code(), Some(0));
+}
+
+#[test]
+#[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
+fn a_unit_that_comes_back_is_read_again() {
+    let screen = Screen::new(93, "1440x900");
+    let mut satrak = Satrak::start("127.0.0.1:0");
+    let address = satrak.address;
+    let station = screen.station_file(address);
+    let (_azel, _) = screen.azel(&["--station", &station.to_string_lossy()]);
+    satrak.wait_for_line("out payload=STATUS?");
+    drop(satrak);
+    let mut satrak = Satrak::start(&address.to_string());
+    satrak.wait_for_line("in payload=VERSION?");
+    satrak.wait_for_line("in payload=STATUS?");
+}

@@ -1,0 +1,190 @@
+//! The bar at the top: alarms, chips, theme; and the table of the axes.
+
+use std::time::Instant;
+
+use azel::{
+    app::{UiCommand, alarms::AlarmKind},
+    controller::Motion,
+    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    protocol::satrak::FaultKind,
+    station::{Note, NoteReason},
+    ui::{theme, tokens::ThemeName, words},
+};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
+};
+
+/// Carries out what the alarm list asks for, as the app does.
+fn carry_out(window: &mut Window) -> Vec<UiCommand> {
+    let commands = asked(window);
+    let model = &mut window.state_mut().model;
+    for command in &commands {
+        match command {
+            UiCommand::OpenedAlarms => model.alarms.unopened = false,
+            UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(*id),
+            other => panic!("{other:?}"),
+        }
+    }
+    settle(window);
+    commands
+}
+
+#[test]
+fn alarms_are_told_in_words_with_their_antenna() {
+    let note = |reason| AlarmKind::Setting(Note { place: "antenna.park".to_owned(), reason });
+    for (kind, wanted) in [
+        (AlarmKind::LinkLost(LinkLoss::Closed), "Satrak does not reply: the unit closed"),
+        (AlarmKind::StopNotConfirmed, "Satrak is not known to stand 3 s after STOP. Use the"),
+        (AlarmKind::StopRefused("7".to_owned()), "Satrak answered ERR,7 to STOP. Use the local"),
+        (AlarmKind::JogLeaseOver, "Satrak: the jog was stopped, the window did not hold it"),
+        (AlarmKind::Refused(Motion::StartProgram, "7".to_owned()), "Track: Satrak answered ERR,7"),
+        (AlarmKind::Fault(FaultKind::XMotor), "Satrak: X motor. Do not move X"),
+        (AlarmKind::ClockOff(-2.0), "The clock of Satrak is 2.0 s behind."),
+        (note(NoteReason::Unknown), "Setting antenna.park is not known."),
+        (AlarmKind::Elements("the file is empty".to_owned()), "The file is empty"),
+    ] {
+        let said = words::alarm(&kind, "Satrak");
+        assert!(said.starts_with(wanted), "{said}");
+        assert!(said.ends_with('.') || !wanted.ends_with('.'), "{said}");
+    }
+}
+
+#[test]
+fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
+        model.alarms.raise(Some(0), kind.clone(), now);
+        model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
+        let text = words::alarm(&kind, "Satrak");
+        let mut window = rig::window(size, model);
+        window.get_by_label("2 alarms, 2 new").click();
+        assert_eq!(carry_out(&mut window), [UiCommand::OpenedAlarms]);
+        window.get_by_label(&format!("{text}, 11:15:30Z, new"));
+        window.get_by_label(&format!("Acknowledge: {text}")).click();
+        assert_eq!(carry_out(&mut window), [UiCommand::AcknowledgeAlarm(0)]);
+        window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
+        window.get_by_label("2 alarms, 1 new");
+        window.state_mut().model.alarms.clear(Some(0), |_| true);
+        settle(&mut window);
+        assert!(!says(&window, &text));
+    }
+}
+
+#[test]
+fn a_acknowledges_the_newest_alarm_in_every_view() {
+    for size in SIZES {
+        for view in [azel::app::View::Operate, azel::app::View::Preferences] {
+            let mut model = rig::model(states::holding());
+            model.view = view;
+            for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
+                model.alarms.raise(Some(0), kind, model.now);
+            }
+            let mut window = rig::window(size, model);
+            for id in [1, 0] {
+                window.key_press(Key::A);
+                assert_eq!(carry_out(&mut window), [UiCommand::AcknowledgeAlarm(id)]);
+            }
+            window.key_press(Key::A);
+            assert_eq!(carry_out(&mut window), []);
+        }
+    }
+}
+
+#[test]
+fn a_chip_says_in_words_how_its_link_stands() {
+    let now = Instant::now();
+    let lost = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };
+    for size in SIZES {
+        for (link, wanted) in [
+            (LinkState::Off, "Satrak: Not connected, link off"),
+            (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
+            (LinkState::Up { since: now }, "Satrak: Holding, link live"),
+            (LinkState::Stale { last_reply: now }, "Satrak: Slow reply, link late"),
+            (lost.clone(), "Satrak: No reply, 0.0 s, link lost"),
+        ] {
+            let mut model = rig::model(Snapshot { link, ..states::holding() });
+            model.steady = now;
+            rig::window(size, model).get_by_role_and_label(Role::Button, wanted);
+        }
+    }
+}
+
+#[test]
+fn a_chip_says_what_its_antenna_does() {
+    let since = Instant::now();
+    for (snapshot, wanted) in [
+        (states::tracking(0.0), "Tracking"),
+        (states::moving(), "Moving"),
+        (Snapshot { jog: Some([0.5, 0.0]), ..states::moving() }, "Jogging"),
+        (Snapshot { stop: StopState::Stopping { since }, ..states::tracking(0.0) }, "Stopping"),
+        (Snapshot { stop: StopState::Stopped { at: since }, ..states::holding() }, "Stopped"),
+        (rig::quiet(), "Reading"),
+    ] {
+        let window = rig::window(rig::LARGE, rig::model(snapshot));
+        window.get_by_label(&format!("Satrak: {wanted}, link live"));
+    }
+}
+
+#[test]
+fn chips_and_function_keys_select_antennas() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let mut second = model.station.antennas[0].clone();
+        second.name = "Mast".to_owned();
+        model.antennas.push(rig::antenna(second, states::holding()));
+        let mut window = rig::window(size, model);
+        window.get_by_label("Mast: Holding, link live").click();
+        assert_eq!(asked(&mut window), [UiCommand::SelectAntenna(1)]);
+        window.key_press(Key::F1);
+        window.key_press(Key::F2);
+        window.key_press(Key::F3);
+        let wanted = [UiCommand::SelectAntenna(0), UiCommand::SelectAntenna(1)];
+        assert_eq!(asked(&mut window), wanted, "there is no third");
+    }
+}
+
+#[test]
+fn ctrl_l_goes_round_the_themes_and_moves_nothing() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::tracking(0.0)));
+        let places = |window: &Window| -> Vec<egui::Rect> {
+            window.get_all_by_role(Role::Button).map(|node| node.rect()).collect()
+        };
+        let before = places(&window);
+        for wanted in [ThemeName::Light, ThemeName::Night, ThemeName::Dark] {
+            window.key_press_modifiers(Modifiers::COMMAND, Key::L);
+            assert_eq!(asked(&mut window), [UiCommand::SetTheme(wanted)]);
+            theme::set(&window.ctx, wanted);
+            settle(&mut window);
+            assert_eq!(places(&window), before);
+        }
+    }
+}
+
+#[test]
+fn the_table_says_whether_it_compares_with_a_command_or_a_prediction() {
+    let aim = Some(azel::astro::AzEl::from_degrees(136.0, 20.0));
+    let going = Snapshot { intent: Intent::Position, aim, ..states::moving() };
+    for size in SIZES {
+        for (snapshot, wanted) in [
+            (going.clone(), "Az: Command 136.00, actual 120.00, error −16.00"),
+            (going.clone(), "El: Command 20.00, actual 30.00, error +10.00"),
+            (states::holding(), "Az: Command not known, actual 343.10, error not known"),
+            (states::tracking(0.04), "El: Predicted "),
+            (states::tracking(0.04), "error +0.04"),
+        ] {
+            let window = rig::window(size, rig::model(snapshot));
+            assert!(says(&window, wanted), "{wanted}: {:?}", rows(&window));
+        }
+    }
+}
+
+fn rows(window: &Window) -> Vec<String> {
+    let rows = window.get_all_by_label_contains("actual");
+    rows.filter_map(|node| node.accesskit_node().value()).collect()
+}

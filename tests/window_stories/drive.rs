@@ -1,0 +1,233 @@
+//! Driving the antenna from the card: track, modes, jog, go to.
+
+use azel::{
+    app::UiCommand,
+    astro::Angle,
+    driver::{Command, Intent, Snapshot},
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
+};
+
+const AZIMUTH: &str = "Go to azimuth, degrees";
+const ELEVATION: &str = "Go to elevation, degrees";
+
+fn antenna(command: Command) -> UiCommand {
+    UiCommand::Antenna(0, command)
+}
+
+fn type_into(window: &mut Window, field: &str, words: &str) {
+    window.get_by_label(field).focus();
+    settle(window);
+    window.get_by_label(field).type_text(words);
+    settle(window);
+}
+
+#[test]
+fn the_track_button_tracks_the_selected_pass() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
+        assert_eq!(asked(&mut window), [rig::track_noaa_20()]);
+    }
+}
+
+#[test]
+fn while_it_is_tracked_there_is_nothing_to_ask_for() {
+    for size in SIZES {
+        let window = rig::window(size, rig::model(states::tracking(0.0)));
+        window.get_by_label("The unit holds: NOAA 20");
+        window.get_by_label("Selected, is tracked: NOAA 20");
+        assert!(window.query_by_label("Track NOAA 20").is_none());
+    }
+}
+
+#[test]
+fn t_asks_and_only_enter_tracks() {
+    let question = "Track NOAA 20 with Satrak? The antenna moves.";
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::T);
+        assert_eq!(asked(&mut window), [], "only asks");
+        window.get_by_label(question);
+        window.key_press(Key::Escape);
+        assert_eq!(asked(&mut window), []);
+        assert!(window.query_by_label(question).is_none());
+
+        window.key_press(Key::T);
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [rig::track_noaa_20()]);
+        assert!(window.query_by_label(question).is_none());
+    }
+}
+
+#[test]
+fn m_asks_while_tracking_and_only_then() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::M);
+        assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
+
+        let mut window = rig::window(size, rig::model(states::tracking(0.0)));
+        window.key_press(Key::M);
+        assert_eq!(asked(&mut window), []);
+        window.get_by_label("End tracking and move by hand?");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
+    }
+}
+
+#[test]
+fn enter_answers_the_question_and_nothing_that_had_the_focus() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::RadioButton, "Position").focus();
+        settle(&mut window);
+        window.key_press(Key::T);
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [rig::track_noaa_20()]);
+    }
+}
+
+#[test]
+fn a_mode_is_one_click_but_for_park_which_is_held() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::manual()));
+        for (word, command) in [
+            ("Standby", antenna(Command::Standby)),
+            ("Manual", antenna(Command::Manual)),
+            ("Position", antenna(Command::Hold)),
+            ("Track", rig::track_noaa_20()),
+        ] {
+            window.get_by_role_and_label(Role::RadioButton, word).click();
+            assert_eq!(asked(&mut window), [command], "{word}");
+        }
+        window.get_by_role_and_label(Role::RadioButton, "Park").click();
+        assert_eq!(asked(&mut window), []);
+        let hold = window.get_by_label("Hold 1 s to park").rect().center();
+        window.drag_at(hold);
+        window.run_steps(6);
+        window.drop_at(hold);
+        assert_eq!(asked(&mut window), [antenna(Command::Park)]);
+    }
+}
+
+#[test]
+fn a_jog_lasts_as_long_as_its_key_is_held() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::manual()));
+        let key = window.get_by_label("Jog X+").rect().center();
+        window.drag_at(key);
+        let jog = antenna(Command::Jog { rates_deg_s: [0.5, 0.0] });
+        let held = asked(&mut window);
+        assert!(held.len() > 1 && held.iter().all(|command| *command == jog), "{held:?}");
+        window.drop_at(key);
+        assert_eq!(asked(&mut window), [antenna(Command::EndJog)]);
+    }
+}
+
+#[test]
+fn another_view_and_another_antenna_end_the_jog() {
+    for size in SIZES {
+        for other in [UiCommand::SelectAntenna(1), UiCommand::Show(azel::app::View::Preferences)] {
+            let mut model = rig::model(states::manual());
+            let mut second = model.station.antennas[0].clone();
+            second.name = "Mast".to_owned();
+            model.antennas.push(rig::antenna(second, states::manual()));
+            let mut window = rig::window(size, model);
+            window.drag_at(window.get_by_label("Jog X+").rect().center());
+            settle(&mut window);
+            match other {
+                UiCommand::SelectAntenna(index) => {
+                    window.state_mut().model.selected_antenna = index;
+                }
+                _ => window.state_mut().model.view = azel::app::View::Preferences,
+            }
+            window.state_mut().commands.clear();
+            assert_eq!(asked(&mut window), [antenna(Command::EndJog)], "{other:?}");
+        }
+    }
+}
+
+#[test]
+fn outside_manual_a_jog_key_does_nothing_and_says_why() {
+    for size in SIZES {
+        for (snapshot, reason) in [
+            (states::holding(), "Jog is locked. Choose Manual."),
+            (states::tracking(0.0), "Locked while tracking. Choose Manual or Position."),
+        ] {
+            let mut window = rig::window(size, rig::model(snapshot));
+            window.get_by_label(reason);
+            window.drag_at(window.get_by_label("Jog X+").rect().center());
+            assert_eq!(asked(&mut window), []);
+        }
+    }
+}
+
+#[test]
+fn g_leads_to_the_fields_and_what_is_typed_goes_out() {
+    for size in SIZES {
+        let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
+        let mut window = rig::window(size, rig::model(snapshot));
+        // A real key comes with its letter.
+        let g = |pressed| egui::Event::Key {
+            key: Key::G,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: egui::Modifiers::NONE,
+        };
+        window.input_mut().events.extend([g(true), egui::Event::Text("g".to_owned()), g(false)]);
+        settle(&mut window);
+        assert!(window.get_by_label(AZIMUTH).is_focused());
+        assert_ne!(window.get_by_label(AZIMUTH).value().as_deref(), Some("g"));
+        type_into(&mut window, AZIMUTH, "121,5");
+        type_into(&mut window, ELEVATION, "8");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [], "Enter shows the way first");
+        window.key_press(Key::Enter);
+        let target = Command::Position {
+            azimuth: Some(Angle::from_degrees(121.5)),
+            elevation: Some(Angle::from_degrees(8.0)),
+        };
+        assert_eq!(asked(&mut window), [antenna(target)]);
+    }
+}
+
+#[test]
+fn a_bad_number_stays_as_typed_and_nothing_goes_out() {
+    for size in SIZES {
+        let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
+        let mut window = rig::window(size, rig::model(snapshot));
+        type_into(&mut window, AZIMUTH, "12..5");
+        type_into(&mut window, ELEVATION, "2");
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        assert_eq!(asked(&mut window), []);
+        assert_eq!(window.get_by_label(AZIMUTH).value().as_deref(), Some("12..5"));
+        assert_eq!(window.get_by_label(ELEVATION).value().as_deref(), Some("2"));
+        window.get_by_label_contains("12..5” is not a number");
+    }
+}
+
+#[test]
+fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
+    let mut snapshot = states::manual();
+    snapshot.state.satrak.faults = Some((states::faults(&[8]), rig::now()));
+    snapshot.state.motion_lock = Some(true);
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(snapshot.clone()));
+        assert!(says(&window, "Locked by a fault. Look at Faults."));
+        window.drag_at(window.get_by_label("Jog X+").rect().center());
+        settle(&mut window);
+        window.drop_at(window.get_by_label("Jog X+").rect().center());
+        window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
+        window.get_by_label("STOP").click();
+        assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}

@@ -1,0 +1,170 @@
+//! What seldom happens: long names, nothing there, nothing known.
+
+use azel::{
+    app::{
+        Model, UiCommand, View,
+        forecast::Forecasts,
+        model::{CatalogState, Sky},
+    },
+    driver::{LinkLoss, LinkState, Snapshot},
+    station::Station,
+};
+use egui::{Rect, Role, pos2, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, SIZES, Window, asked, says},
+    states,
+};
+
+/// The longest name that is foreseen.
+const LONG: &str = "Şile northern field unit";
+
+/// Every control lies within the window, and STOP is where it always is. The
+/// two last lines of the card may have to be scrolled to.
+fn nothing_is_cut(window: &Window, size: [f32; 2]) {
+    let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
+    for role in [Role::Button, Role::RadioButton, Role::TextInput, Role::Slider, Role::Tab] {
+        for node in window.query_all_by_role(role) {
+            let name = node.accesskit_node().label().unwrap_or_default();
+            if name.starts_with("Travel: ") || name.starts_with("Faults: ") {
+                continue;
+            }
+            assert!(whole.contains_rect(node.rect()), "{name:?} at {:?}", node.rect());
+        }
+    }
+    let stop = window.get_by_label_contains("STOP").rect();
+    assert!(stop.top() < 12.0 && stop.right() > size[0] - 20.0, "{stop:?}");
+}
+
+/// No control lies on another one.
+fn nothing_overlaps(window: &Window) {
+    let buttons: Vec<(Option<String>, Rect)> = window
+        .get_all_by_role(Role::Button)
+        .map(|node| (node.accesskit_node().label(), node.rect()))
+        .collect();
+    for (index, (name, rect)) in buttons.iter().enumerate() {
+        for (other, place) in &buttons[index + 1..] {
+            let common = rect.intersect(*place);
+            let touch = common.width() <= 1.0 || common.height() <= 1.0;
+            assert!(touch, "{name:?} and {other:?} at {common:?}");
+        }
+    }
+}
+
+#[test]
+fn the_longest_names_cut_nothing() {
+    assert_eq!(LONG.chars().count(), 24);
+    for size in SIZES {
+        for count in [1, 4] {
+            let mut model = rig::model(states::tracking(0.04));
+            LONG.clone_into(&mut model.station.name);
+            let mut config = model.station.antennas[0].clone();
+            model.antennas.clear();
+            for index in 0..count {
+                config.name = format!("{}{index}", &LONG[..LONG.len() - 1]);
+                let mut antenna = rig::antenna(config.clone(), states::tracking(0.04));
+                antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+                model.antennas.push(antenna);
+            }
+            let window = rig::window(size, model);
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+        }
+    }
+}
+
+#[test]
+fn every_state_fits_both_windows() {
+    for size in SIZES {
+        for snapshot in [rig::quiet(), states::holding(), states::moving(), states::manual()] {
+            let window = rig::window(size, rig::model(snapshot));
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+        }
+    }
+}
+
+#[test]
+fn a_station_without_antennas_offers_to_set_one_up() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        model.antennas.clear();
+        model.station.antennas.clear();
+        let mut window = rig::window(size, model);
+        nothing_is_cut(&window, size);
+        window.get_by_role_and_label(Role::Button, "Set up an antenna").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+        window.key_press(egui::Key::T);
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+fn without_elements(mut model: Model) -> Model {
+    model.catalog = CatalogState::Failed;
+    model.forecasts = Forecasts::default();
+    model.selected = None;
+    model.sky = Sky::default();
+    model.refresh_sky();
+    model
+}
+
+#[test]
+fn without_elements_it_says_so_and_the_antenna_can_still_be_driven() {
+    for size in SIZES {
+        let mut window = rig::window(size, without_elements(rig::model(states::manual())));
+        nothing_is_cut(&window, size);
+        if window.query_by_role_and_label(Role::Button, "Passes").is_some() {
+            window.key_press(egui::Key::P);
+            asked(&mut window);
+        }
+        assert!(says(&window, "No elements: they could not be read. See the alarms."));
+        window.drag_at(window.get_by_label("Jog X+").rect().center());
+        let commands = asked(&mut window);
+        assert!(matches!(commands[..], [UiCommand::Antenna(..), ..]), "{commands:?}");
+    }
+}
+
+#[test]
+fn the_demo_station_says_that_no_metal_moves() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        model.demo = true;
+        let mut window = rig::window(size, model);
+        assert!(says(&window, "Demo station: the antenna is simulated, no metal moves."));
+        nothing_is_cut(&window, size);
+        window.get_by_label("Set up your station").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+    }
+}
+
+#[test]
+fn the_demo_station_without_elements_says_so() {
+    for size in SIZES {
+        let mut model = without_elements(rig::model(states::holding()));
+        model.demo = true;
+        model.station = Station { antennas: Vec::new(), ..model.station };
+        model.antennas.clear();
+        let window = rig::window(size, model);
+        assert!(says(&window, "Demo station without elements: they could not be read."));
+        nothing_is_cut(&window, size);
+    }
+}
+
+#[test]
+fn a_lost_link_locks_what_cannot_be_sent_and_says_why() {
+    for size in SIZES {
+        let mut model = rig::model(rig::quiet());
+        let (since, retry_at) = (rig::ago(&model, 42), model.steady);
+        let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
+        let config = model.station.antennas[0].clone();
+        model.antennas = vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
+        let mut window = rig::window(size, model);
+        nothing_is_cut(&window, size);
+        assert!(says(&window, "No reply from Satrak for 42 s"));
+        assert!(says(&window, "Locked: the unit does not answer."));
+        assert!(says(&window, "Antenna, no reply for 42 s"), "on the sky as well");
+        window.drag_at(window.get_by_label("Jog X+").rect().center());
+        assert_eq!(asked(&mut window), []);
+    }
+}

@@ -1,0 +1,21 @@
+//! Stories of the operator in front of the whole window, without a display.
+
+#![allow(
+    clippy::expect_used,
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "the data is part of the test"
+)]
+
+mod bar;
+mod drive;
+mod extremes;
+mod passes;
+mod preferences;
+mod rig;
+mod running;
+mod sentences;
+mod states;
+mod stop;
+mod unit;

@@ -1,0 +1,166 @@
+//! Choosing a pass: in the list, on the sky, on the strip, by keys.
+
+use azel::{
+    app::{Model, UiCommand, forecast::Forecast},
+    astro::time::add_seconds,
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, LARGE, NOAA_20, SIZES, SMALL, Window, asked, says, settle},
+    states,
+};
+
+const METEOR_M2_4: u32 = 59_051;
+const EUTELSAT_7C: u32 = 44_334;
+
+/// The window of a quiet station with NOAA 20 selected.
+fn window(size: [f32; 2]) -> Window {
+    rig::window(size, rig::model(states::holding()))
+}
+
+/// The first pass of this satellite that has not begun.
+fn coming(model: &Model, number: u32) -> &Forecast {
+    let of = |forecast: &&Forecast| forecast.satellite.elements.catalog_number() == number;
+    model.forecasts.passes.iter().filter(of).find(|pass| pass.pass.aos.time > model.now).unwrap()
+}
+
+#[test]
+fn a_click_on_a_row_of_the_list_selects_its_pass() {
+    let mut window = window(LARGE);
+    let wanted = coming(&window.state().model, METEOR_M2_4).key();
+    let row = "METEOR-M2 4, AOS T−1:28:52, max 49°, Trackable";
+    window.get_by_role_and_label(Role::ListBoxOption, row).click();
+    assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
+    window.state_mut().model.selected = Some(wanted);
+    settle(&mut window);
+    assert_eq!(window.get_by_label(row).accesskit_node().is_selected(), Some(true));
+    window.get_by_label_contains("METEOR-M2 4, 59051, Elements");
+}
+
+#[test]
+fn a_click_on_a_satellite_of_the_sky_selects_it() {
+    for size in SIZES {
+        let mut window = window(size);
+        window.get_by_label_contains("EUTELSAT 7C, azimuth 211.8°").click();
+        assert_eq!(asked(&mut window), [UiCommand::SelectSatellite(EUTELSAT_7C)]);
+    }
+}
+
+#[test]
+fn a_click_on_a_bar_of_the_strip_selects_its_pass() {
+    for size in SIZES {
+        let mut window = window(size);
+        let wanted = coming(&window.state().model, METEOR_M2_4).key();
+        window.get_by_label("METEOR-M2 4, 12:44 to 12:56, max 49°").click();
+        assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
+    }
+}
+
+#[test]
+fn the_drawer_of_the_small_window_opens_by_key_and_button() {
+    let mut window = window(SMALL);
+    let wanted = coming(&window.state().model, METEOR_M2_4).key();
+    let is_open = |window: &Window| window.query_by_label_contains("Next passes, ").is_some();
+    assert!(!is_open(&window));
+    window.key_press(Key::P);
+    settle(&mut window);
+    assert!(is_open(&window));
+    window.get_by_label_contains("METEOR-M2 4, AOS T−1:28:52").click();
+    assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
+    window.key_press(Key::P);
+    settle(&mut window);
+    assert!(!is_open(&window));
+    for open in [true, false] {
+        window.get_by_role_and_label(Role::Button, "Passes").click();
+        settle(&mut window);
+        assert_eq!(is_open(&window), open);
+    }
+}
+
+#[test]
+fn the_open_drawer_covers_neither_card_nor_stop() {
+    let mut window = window(SMALL);
+    window.key_press(Key::P);
+    settle(&mut window);
+    let list = window.get_by_label_contains("ISS, AOS").rect();
+    for other in ["STOP", "Track NOAA 20", "Jog X−"] {
+        assert!(!window.get_by_label(other).rect().intersects(list), "{other}");
+        window.get_by_label(other).click();
+        settle(&mut window);
+    }
+    assert_eq!(asked(&mut window), [UiCommand::Stop, rig::track_noaa_20()]);
+}
+
+#[test]
+fn a_click_in_the_open_drawer_never_reaches_the_sky_below() {
+    let mut window = window(SMALL);
+    window.key_press(Key::P);
+    settle(&mut window);
+    let rows: Vec<egui::Pos2> = window
+        .get_all_by_role(Role::ListBoxOption)
+        .filter(|node| node.accesskit_node().label().is_some_and(|name| name.contains("OS T−")))
+        .map(|node| node.rect())
+        // A row that is half hidden is scrolled to first.
+        .filter(|row| row.bottom() < 552.0)
+        .map(|row| row.center())
+        .collect();
+    assert!(rows.len() >= 3);
+    for at in rows {
+        window.hover_at(at);
+        window.drag_at(at);
+        window.drop_at(at);
+        let commands = asked(&mut window);
+        assert!(matches!(commands[..], [UiCommand::SelectPass(_)]), "{commands:?}");
+    }
+}
+
+#[test]
+fn n_jumps_to_the_pass_under_way_and_not_to_what_never_sets() {
+    for size in SIZES {
+        let mut window = window(size);
+        window.key_press(Key::N);
+        let under_way = window.state().model.next_pass().unwrap().key();
+        assert_ne!(under_way.0, EUTELSAT_7C);
+        assert_eq!(asked(&mut window), [UiCommand::SelectPass(under_way)]);
+    }
+}
+
+#[test]
+fn the_lowest_elevation_is_chosen_above_the_list() {
+    let mut window = window(LARGE);
+    window.get_by_label("max ≥ 10°").click();
+    settle(&mut window);
+    let choices = window.get_all_by_label_contains("30°");
+    let choice = choices.into_iter().find(|node| node.rect().left() < 392.0).unwrap();
+    choice.click();
+    assert_eq!(asked(&mut window), [UiCommand::SetElevationFloor(30.0)]);
+}
+
+#[test]
+fn the_header_counts_to_los_while_the_satellite_is_up_and_to_aos_before() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let window = rig::window(size, rig::model(states::holding()));
+        assert!(says(&window, "LOS T−05:57"));
+        assert_eq!(model.selected.map(|(number, _)| number), Some(NOAA_20));
+        model.selected = Some(coming(&model, METEOR_M2_4).key());
+        model.refresh_sky();
+        let window = rig::window(size, model);
+        assert!(says(&window, "AOS T−1:28:52"));
+    }
+}
+
+#[test]
+fn a_pass_that_is_over_leaves_nothing_selected() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        model.now = add_seconds(states::los(), 1.0);
+        model.forecasts.passes.retain(|forecast| forecast.pass.los.time > model.now);
+        model.refresh_sky();
+        let window = rig::window(size, model);
+        window.get_by_label("No pass is selected. Choose one from the list.");
+        assert!(window.query_by_label_contains("Track NOAA 20").is_none());
+    }
+}

@@ -1,0 +1,170 @@
+//! The settings of the station, typed, corrected, saved and reverted.
+
+use azel::{
+    app::{Model, UiCommand, View},
+    station::Station,
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
+};
+
+const WRONG: &str = "Latitude must be a number from -90 to 90 °.";
+
+fn form(size: [f32; 2]) -> Window {
+    let mut model = rig::model(states::holding());
+    model.view = View::Preferences;
+    rig::window(size, model)
+}
+
+/// Writes `words` over what stands in the field of the station.
+fn write(window: &mut Window, field: &str, words: &str) {
+    window.get_by_role_and_label(Role::TextInput, field).focus();
+    settle(window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(words.to_owned()));
+    settle(window);
+}
+
+fn is_disabled(window: &Window, button: &str) -> bool {
+    window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
+}
+
+fn saved(commands: Vec<UiCommand>) -> Station {
+    match <[UiCommand; 1]>::try_from(commands) {
+        Ok([UiCommand::SaveStation(station)]) => *station,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_form_opens_from_rail_menu_and_key() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::Tab, "Preferences").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Num6);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Operate)]);
+        window.get_by_label("Station Şile 1").click();
+        settle(&mut window);
+        window.get_by_label("Station settings…").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+    }
+}
+
+#[test]
+fn a_wrong_field_says_why_and_cannot_be_saved() {
+    for size in SIZES {
+        let mut window = form(size);
+        assert!(is_disabled(&window, "Save and use"), "nothing is edited");
+        write(&mut window, "Latitude", "91");
+        assert!(says(&window, WRONG) && says(&window, "Some fields cannot be used yet."));
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        assert_eq!(asked(&mut window), []);
+        let field = window.get_by_role_and_label(Role::TextInput, "Latitude");
+        assert_eq!(field.value().as_deref(), Some("91"));
+    }
+}
+
+#[test]
+fn right_fields_are_saved_as_typed() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Latitude", "91");
+        write(&mut window, "Latitude", "−33,5");
+        assert!(!says(&window, WRONG) && says(&window, "Not saved yet."));
+        write(&mut window, "Satellites", "25544, 43013");
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        let station = saved(asked(&mut window));
+        assert!((station.site.latitude().degrees() + 33.5).abs() < 1e-9);
+        assert_eq!(station.favourites, [25_544, 43_013]);
+        assert_eq!(station.antennas, rig::station().antennas);
+    }
+}
+
+#[test]
+fn revert_brings_back_what_is_used() {
+    for size in SIZES {
+        let mut window = form(size);
+        assert!(is_disabled(&window, "Revert"));
+        write(&mut window, "Latitude", "x");
+        window.get_by_role_and_label(Role::Button, "Revert").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(!says(&window, WRONG) && says(&window, "Nothing to save."));
+        let field = window.get_by_role_and_label(Role::TextInput, "Latitude");
+        assert_eq!(field.value().as_deref(), Some("41.02"));
+    }
+}
+
+#[test]
+fn what_was_typed_survives_another_view() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Latitude", "91");
+        for view in [View::Operate, View::Preferences] {
+            window.state_mut().model.view = view;
+            settle(&mut window);
+        }
+        assert!(says(&window, WRONG));
+    }
+}
+
+#[test]
+fn an_antenna_is_added_and_removed() {
+    for size in SIZES {
+        for (button, antennas) in [("Add a Satrak", 2), ("Remove antenna 1", 0)] {
+            let mut window = form(size);
+            window.get_by_role_and_label(Role::Button, button).scroll_to_me();
+            settle(&mut window);
+            window.get_by_role_and_label(Role::Button, button).click();
+            settle(&mut window);
+            window.get_by_role_and_label(Role::Button, "Save and use").click();
+            assert_eq!(saved(asked(&mut window)).antennas.len(), antennas, "{button}");
+        }
+    }
+}
+
+#[test]
+fn it_says_what_came_of_saving() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.state_mut().views.saved(Err("the disk is full".to_owned()));
+        settle(&mut window);
+        assert!(says(&window, "Not saved: the disk is full."));
+        let now = rig::now();
+        window.state_mut().views.saved(Ok(now));
+        settle(&mut window);
+        assert!(says(&window, "Saved 11:15:30Z."));
+    }
+}
+
+#[test]
+fn the_demo_station_is_taken_over_without_a_change() {
+    for size in SIZES {
+        let mut model: Model = rig::model(states::holding());
+        (model.demo, model.view) = (true, View::Preferences);
+        let station = model.station.clone();
+        let mut window = rig::window(size, model);
+        assert!(says(&window, "Saving ends the demonstration and uses these antennas."));
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        assert_eq!(saved(asked(&mut window)), station);
+    }
+}
+
+#[test]
+fn a_letter_that_is_typed_is_no_command() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.get_by_role_and_label(Role::TextInput, "Latitude").focus();
+        settle(&mut window);
+        for key in [Key::A, Key::T, Key::M, Key::N, Key::P] {
+            window.key_press(key);
+        }
+        assert_eq!(asked(&mut window), []);
+    }
+}

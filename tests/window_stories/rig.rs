@@ -1,0 +1,205 @@
+//! A window without a display on a model made by hand: nothing moves, no clock
+//! runs, and what the operator asks for is collected.
+
+use std::{
+    sync::{Arc, OnceLock},
+    time::{Duration, Instant},
+};
+
+use azel::{
+    app::{
+        Model, UiCommand, View,
+        alarms::Alarms,
+        antenna::AntennaModel,
+        forecast::{Followed, Forecast, Forecasts},
+        model::{CatalogState, Sky},
+    },
+    astro::{Site, time::add_seconds},
+    driver::{AntennaHandle, LinkState, Snapshot},
+    orbit::{Catalog, Propagator, bundled, passes},
+    plan::{Sample, trackability},
+    station::{Antenna, Station},
+    ui::{Views, theme, tokens::ThemeName},
+};
+use egui::{Role, UiBuilder};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+use jiff::Timestamp;
+use tokio::sync::{Notify, mpsc, watch};
+
+/// The usual window and the smallest one.
+pub(crate) const SIZES: [[f32; 2]; 2] = [LARGE, SMALL];
+pub(crate) const LARGE: [f32; 2] = [1440.0, 900.0];
+pub(crate) const SMALL: [f32; 2] = [1024.0, 640.0];
+
+pub(crate) const NOAA_20: u32 = 43_013;
+const FOLLOWED: [u32; 5] = [NOAA_20, 25_544, 59_051, 37_849, 44_334];
+
+/// A window and what was asked for in it.
+pub(crate) struct Story {
+    pub(crate) model: Model,
+    pub(crate) views: Views,
+    pub(crate) commands: Vec<UiCommand>,
+}
+
+pub(crate) type Window = Harness<'static, Story>;
+
+/// The same for every story; NOAA 20 is up.
+pub(crate) fn now() -> Timestamp {
+    "2026-08-12T11:15:30Z".parse().unwrap()
+}
+
+/// The elements and the passes over the site of [`station`], made once.
+struct Orbits {
+    catalog: Arc<Catalog>,
+    satellites: Vec<Arc<Followed>>,
+    passes: Vec<Forecast>,
+}
+
+fn orbits() -> &'static Orbits {
+    static ORBITS: OnceLock<Orbits> = OnceLock::new();
+    ORBITS.get_or_init(|| {
+        let catalog = Arc::new(bundled().unwrap());
+        let satellites: Vec<Arc<Followed>> =
+            FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
+        let mut passes: Vec<Forecast> = satellites.iter().flat_map(forecasts).collect();
+        passes.sort_by_key(|forecast| forecast.pass.aos.time);
+        Orbits { catalog, satellites, passes }
+    })
+}
+
+fn followed(catalog: &Catalog, number: u32) -> Followed {
+    let elements = catalog.get(number).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    Followed { elements, propagator }
+}
+
+/// The passes of the next 12 h, with the one that is under way.
+fn forecasts(satellite: &Arc<Followed>) -> Vec<Forecast> {
+    let station = station();
+    let antenna = &station.antennas[0];
+    let horizon = antenna.limits.minimum_elevation_deg;
+    let (from, to) = (add_seconds(now(), -3600.0), add_seconds(now(), 12.0 * 3600.0));
+    let horizon = azel::astro::Angle::from_degrees(horizon);
+    passes(&satellite.propagator, station.site, from, to, horizon, &|| false)
+        .into_iter()
+        .filter(|pass| pass.los.time > now() && pass.max_elevation() >= station.elevation_floor())
+        .map(|pass| {
+            let steps = (pass.duration_s() / 10.0) as usize;
+            let track: Vec<Sample> = (0..=steps.min(600))
+                .map(|step| sample(satellite, station.site, pass.aos.time, step as f64 * 10.0))
+                .collect();
+            let rate_deg_s = antenna.limits.maximum_rate_deg_s;
+            let trackability = Some(trackability(&track, antenna.mount, rate_deg_s));
+            Forecast { satellite: Arc::clone(satellite), pass, track, trackability }
+        })
+        .collect()
+}
+
+fn sample(satellite: &Followed, site: Site, from: Timestamp, after_s: f64) -> Sample {
+    let time = add_seconds(from, after_s);
+    Sample { time, direction: satellite.propagator.look_from(site, time).unwrap().direction }
+}
+
+/// A station in Istanbul with one Satrak.
+pub(crate) fn station() -> Station {
+    let antennas = vec![Antenna::satrak("Satrak", "192.168.10.21:4001")];
+    let favourites = FOLLOWED.into();
+    Station { name: "Şile 1".to_owned(), antennas, favourites, ..Station::default() }
+}
+
+/// What a new session shows, with its link up.
+pub(crate) fn quiet() -> Snapshot {
+    Snapshot::before_anything(LinkState::Up { since: Instant::now() })
+}
+
+/// An antenna that shows `snapshot` for ever.
+pub(crate) fn antenna(config: Antenna, snapshot: Snapshot) -> AntennaModel {
+    let (commands, _) = mpsc::channel(1);
+    let (_, snapshots) = watch::channel(Arc::new(snapshot));
+    let (_, events) = mpsc::channel(1);
+    let handle = AntennaHandle::new(commands, Arc::new(Notify::new()), snapshots, events);
+    AntennaModel::new(config, handle)
+}
+
+/// The station with its antenna in the state of `snapshot`, NOAA 20 selected.
+pub(crate) fn model(snapshot: Snapshot) -> Model {
+    let (station, orbits) = (station(), orbits());
+    let mut forecasts = Forecasts::default();
+    forecasts.satellites.clone_from(&orbits.satellites);
+    forecasts.passes.clone_from(&orbits.passes);
+    let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
+    let mut model = Model {
+        now: now(),
+        steady: Instant::now(),
+        station,
+        demo: false,
+        catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
+        antennas,
+        selected_antenna: 0,
+        forecasts,
+        selected: None,
+        sky: Sky::default(),
+        alarms: Alarms::default(),
+        view: View::Operate,
+    };
+    model.selected = model.pass_of(NOAA_20).map(Forecast::key);
+    for antenna in &mut model.antennas {
+        antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    }
+    model.refresh_sky();
+    model
+}
+
+/// A moment `seconds` before the frame of `model`.
+pub(crate) fn ago(model: &Model, seconds: u64) -> Instant {
+    model.steady.checked_sub(Duration::from_secs(seconds)).unwrap()
+}
+
+/// The whole window on `model`.
+pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
+    let story = Story { model, views: Views::default(), commands: Vec::new() };
+    let mut window = Harness::builder()
+        .with_size(size)
+        .with_context_setup(|ctx| theme::install(ctx, ThemeName::Dark))
+        .build_ui_state(
+            |ui, story: &mut Story| {
+                // The program has no margin around its views.
+                let whole = ui.ctx().content_rect();
+                ui.scope_builder(UiBuilder::new().max_rect(whole), |ui| {
+                    ui.set_clip_rect(whole);
+                    story.views.show(ui, &story.model, &mut story.commands);
+                });
+            },
+            story,
+        );
+    settle(&mut window);
+    window
+}
+
+/// Some frames; a bell that blinks would never let `run` end.
+pub(crate) fn settle(window: &mut Window) {
+    window.run_steps(4);
+}
+
+/// What was asked for since the last time.
+pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
+    settle(window);
+    std::mem::take(&mut window.state_mut().commands)
+}
+
+/// Whether a text (not a control) of the window contains `words`.
+pub(crate) fn says(window: &Window, words: &str) -> bool {
+    window.query_all_by_role(Role::Label).any(|node| {
+        let node = node.accesskit_node();
+        node.value().is_some_and(|text| text.contains(words))
+    })
+}
+
+/// What is asked for when NOAA 20 is to be tracked: the antenna and the pass
+/// that are selected in every story.
+pub(crate) fn track_noaa_20() -> UiCommand {
+    UiCommand::track_selected(&model(quiet())).expect("a selected pass")
+}

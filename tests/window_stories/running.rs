@@ -1,0 +1,222 @@
+//! The real app with a simulated unit behind a real socket.
+
+use azel::{
+    app::Model,
+    astro::AzEl,
+    controller::Measured,
+    driver::{Clock, Intent, LinkState, StopState},
+    protocol::satrak::AxisMotion,
+    station,
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    rig::NOAA_20,
+    unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
+};
+
+fn measured(model: &Model) -> Option<Measured> {
+    let antenna = model.antenna()?;
+    matches!(antenna.snapshot.link, LinkState::Up { .. })
+        .then_some(antenna.snapshot.state.measured?)
+}
+
+fn moves(model: &Model) -> bool {
+    measured(model).is_some_and(|measured| measured.moving())
+}
+
+fn stands(model: &Model) -> bool {
+    measured(model).is_some_and(|measured| !measured.moving())
+}
+
+fn replies(model: &Model) -> u64 {
+    model.antenna().map_or(0, |antenna| antenna.snapshot.state.traffic.replies)
+}
+
+fn intent(model: &Model) -> Option<Intent> {
+    model.antenna().filter(|antenna| !antenna.snapshot.pending).map(|of| of.snapshot.intent)
+}
+
+fn place(window: &RealWindow) -> AzEl {
+    measured(window.state().model()).unwrap().direction
+}
+
+/// The window of the demo station, once its antenna is measured.
+fn demo(folder: &tempfile::TempDir) -> RealWindow {
+    let mut window = open(&folder.path().join("station.toml"), Clock::system());
+    step_until(&mut window, "the antenna is measured", stands);
+    assert!(window.state().model().demo);
+    window
+}
+
+fn hold_jog(window: &mut RealWindow) {
+    window.get_by_role_and_label(Role::RadioButton, "Manual").click();
+    step_until(window, "manual", |model| intent(model) == Some(Intent::Manual));
+    let key = window.get_by_label("Jog X+").rect().center();
+    window.drag_at(key);
+    step_until(window, "it moves", moves);
+}
+
+#[test]
+fn a_held_jog_moves_the_antenna_and_its_release_stops_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    let before = place(&window);
+    hold_jog(&mut window);
+    step_until(&mut window, "it gets on", |model| {
+        measured(model).is_some_and(|now| now.direction.separation(before).degrees() > 0.3)
+    });
+    window.drop_at(window.get_by_label("Jog X+").rect().center());
+    step_until(&mut window, "it stands", stands);
+    assert_eq!(intent(window.state().model()), Some(Intent::Manual));
+}
+
+#[test]
+fn esc_stops_a_jog_that_is_held_on_and_it_stays_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    hold_jog(&mut window);
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it is stopped", is_stopped);
+    let at = place(&window);
+    let heard = replies(window.state().model());
+    step_until(&mut window, "it goes on telling", |model| replies(model) > heard + 6);
+    assert!(stands(window.state().model()));
+    assert_eq!(place(&window), at);
+}
+
+fn go_to(window: &mut RealWindow, azimuth: &str, elevation: &str) {
+    for (field, words) in [("azimuth", azimuth), ("elevation", elevation)] {
+        let field = format!("Go to {field}, degrees");
+        window.get_by_label(&field).focus();
+        window.run_steps(2);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.event(Event::Text(words.to_owned()));
+        window.run_steps(2);
+    }
+    window.key_press(Key::Enter);
+    window.key_press(Key::Enter);
+    step_until(window, "it goes", moves);
+}
+
+#[test]
+fn esc_stops_from_a_text_field_from_a_question_and_from_another_view() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    window.get_by_role_and_label(Role::RadioButton, "Position").click();
+    step_until(&mut window, "position", |model| intent(model) == Some(Intent::Position));
+    go_to(&mut window, "90", "30");
+    window.get_by_label("Go to azimuth, degrees").focus();
+    window.step();
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it is stopped while typing", is_stopped);
+    assert!(far_from(&window, 90.0, 30.0), "stopped, not arrived");
+
+    for (modifiers, key, sign) in
+        [(Modifiers::NONE, Key::T, "The antenna moves."), (Modifiers::COMMAND, Key::Num6, "Revert")]
+    {
+        window.get_by_role_and_label(Role::RadioButton, "Position").click();
+        step_until(&mut window, "position", |model| intent(model) == Some(Intent::Position));
+        go_to(&mut window, "270", "30");
+        step_until(&mut window, "a pass is selected", |model| model.selected_pass().is_some());
+        window.get_by_role_and_label(Role::Tab, "Operate").focus();
+        window.step();
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(2);
+        window.get_by_label_contains(sign);
+        window.key_press(Key::Escape);
+        step_until(&mut window, "it is stopped", is_stopped);
+        assert!(far_from(&window, 270.0, 30.0), "stopped, not arrived");
+        assert!(window.query_by_label_contains("The antenna moves.").is_none());
+    }
+}
+
+fn far_from(window: &RealWindow, azimuth_deg: f64, elevation_deg: f64) -> bool {
+    let target = AzEl::from_degrees(azimuth_deg, elevation_deg);
+    place(window).separation(target).degrees() > 5.0
+}
+
+fn is_stopped(model: &Model) -> bool {
+    let stop = model.antenna().map(|antenna| antenna.snapshot.stop);
+    matches!(stop, Some(StopState::Stopped { .. })) && stands(model)
+}
+
+#[test]
+fn a_satellite_that_is_up_is_tracked_within_the_beam() {
+    // NOAA 20 is near its greatest elevation.
+    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
+    let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let mut window = open(&path, clock_from(utc));
+    step_until(&mut window, "the antenna is measured", stands);
+    step_until(&mut window, "the passes are there", |model| model.pass_of(NOAA_20).is_some());
+    assert!(!window.state().model().demo);
+    window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
+    step_until(&mut window, "it follows within the beam", |model| {
+        let Some(antenna) = model.antenna().filter(|antenna| antenna.tracks()) else {
+            return false;
+        };
+        let half_beam_deg = antenna.config.beam_width_deg / 2.0;
+        antenna.error().is_some_and(|error| error.off_beam.degrees() < half_beam_deg)
+    });
+    assert!(unit.control.state().is_tracking);
+    window.key_press(Key::Escape);
+    step_until(&mut window, "STOP ends it", |model| stands(model) && !tracks(model));
+}
+
+fn tracks(model: &Model) -> bool {
+    let program = model.antenna().and_then(|antenna| antenna.snapshot.state.program);
+    program.is_some_and(|program| program.enabled)
+}
+
+#[test]
+fn closing_the_window_during_a_jog_stops_the_antenna() {
+    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
+    let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let mut window = open(&path, clock_from(utc));
+    step_until(&mut window, "the antenna is measured", stands);
+    hold_jog(&mut window);
+    drop(window);
+    let mut status = None;
+    wait_until("another client is taken", || {
+        status = unit.status();
+        status.is_some()
+    });
+    wait_until("the unit stands", || {
+        unit.status().is_some_and(|status| {
+            status.x_motion == AxisMotion::Still && status.y_motion == AxisMotion::Still
+        })
+    });
+    let received = unit.control.received();
+    let last = received.iter().rev().find(|(_, frame)| !frame.contains('?')).unwrap();
+    assert!(last.1.contains("STOP"), "{last:?}");
+}
+
+#[test]
+fn saving_writes_the_file_and_ends_the_demonstration() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    let mut window = demo(&folder);
+    assert!(!path.exists());
+    window.get_by_role_and_label(Role::Tab, "Preferences").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::TextInput, "Latitude").focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("-33.5".to_owned()));
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    step_until(&mut window, "the demonstration is over", |model| !model.demo);
+    let saved = station::load(&path).unwrap();
+    assert_eq!(saved.notes, []);
+    assert_eq!(saved.station, window.state().model().station);
+    assert!((saved.station.site.latitude().degrees() + 33.5).abs() < 1e-9);
+    window.run_steps(2);
+    window.get_by_label_contains("Saved ");
+}

@@ -1,0 +1,237 @@
+//! The sentence of the antenna in every case.
+
+use std::time::Duration;
+
+use azel::{
+    app::{Model, forecast::Forecast},
+    astro::{AzEl, time::add_seconds},
+    controller::{AxisMotion, Motion, Phase, PrepareError},
+    driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
+};
+
+use crate::{rig, states};
+
+/// The station with this snapshot, `change`d.
+fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {
+    let mut model = rig::model(rig::quiet());
+    let mut snapshot = snapshot;
+    change(&mut model, &mut snapshot);
+    let config = model.station.antennas[0].clone();
+    let mut antenna = rig::antenna(config, snapshot);
+    antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    antenna.news = model.antennas.remove(0).news;
+    model.antennas = vec![antenna];
+    states::sentence(&model)
+}
+
+fn unchanged(_: &mut Model, _: &mut Snapshot) {}
+
+/// An event that has just come.
+fn just(event: Event) -> impl FnOnce(&mut Model, &mut Snapshot) {
+    move |model, _| model.antennas[0].news = Some((event, model.now))
+}
+
+fn lost(model: &mut Model, snapshot: &mut Snapshot) {
+    let since = rig::ago(model, 42);
+    let retry_at = model.steady + Duration::from_secs(3);
+    snapshot.link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
+}
+
+#[test]
+fn tracking_says_how_far_off_and_when_it_ends() {
+    for (off_deg, wanted) in [
+        (
+            0.04,
+            "Tracking NOAA 20 with the elements stored on the unit. The antenna is 0.04° off the \
+             predicted path, inside its 0.88° beam. At LOS 11:21:27Z it stops and holds.",
+        ),
+        (
+            0.61,
+            "Tracking NOAA 20 with the elements stored on the unit. The antenna is 0.61° off the \
+             predicted path, outside its 0.88° beam. At LOS 11:21:27Z it stops and holds.",
+        ),
+    ] {
+        assert_eq!(told(states::tracking(off_deg), unchanged), wanted);
+    }
+    let by_itself = Snapshot { intent: Intent::Standby, target: None, ..states::tracking(0.04) };
+    assert!(told(by_itself, unchanged).starts_with("Tracking NOAA 20 by its own program. "));
+    let unknown = told(states::tracking(0.04), |model, _| model.forecasts.satellites.clear());
+    assert!(unknown.ends_with("We have no elements of it to compare with."), "{unknown}");
+}
+
+#[test]
+fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
+    for (phase, motion, wanted) in [
+        (
+            Phase::OutOfWindow,
+            AxisMotion::Plus,
+            "Moving to the start of the pass of NOAA 20. Its tracking starts at 11:18:42Z in 3:12.",
+        ),
+        (
+            Phase::AtStart,
+            AxisMotion::Still,
+            "Waiting at 205.0°, 5.0° for NOAA 20. Its tracking starts at 11:18:42Z in 3:12.",
+        ),
+        (
+            Phase::Completed,
+            AxisMotion::Still,
+            "The pass of NOAA 20 is over. Holding at 205.0°, 5.0°.",
+        ),
+        (
+            Phase::Unknown(9),
+            AxisMotion::Still,
+            "Not known: the unit reports tracking state 9 for NOAA 20.",
+        ),
+    ] {
+        assert_eq!(told(states::program(phase, motion), unchanged), wanted);
+    }
+}
+
+#[test]
+fn standing_says_where_and_what_comes_next() {
+    let coming = |model: &mut Model, _: &mut Snapshot| {
+        let after = |forecast: &&Forecast| forecast.pass.aos.time > model.now;
+        model.selected = model.forecasts.passes.iter().find(after).map(Forecast::key);
+    };
+    let nothing = |model: &mut Model, _: &mut Snapshot| model.selected = None;
+    assert_eq!(
+        told(states::holding(), unchanged),
+        "Holding at 343.1°, 5.0°. NOAA 20 is up and not tracked."
+    );
+    assert_eq!(
+        told(states::holding(), coming),
+        "Holding at 343.1°, 5.0°. SUOMI NPP rises in 1:16:28."
+    );
+    assert_eq!(told(states::holding(), nothing), "Holding at 343.1°, 5.0°. Nothing is selected.");
+    let parked = Snapshot { intent: Intent::Park, ..states::holding() };
+    assert!(told(parked, nothing).starts_with("Parked, holding at 343.1°, 5.0°."));
+    let at = rig::model(rig::quiet()).steady;
+    let stopped = Snapshot { stop: StopState::Stopped { at }, ..states::holding() };
+    assert!(told(stopped, nothing).starts_with("Stopped, holding at 343.1°, 5.0°."));
+    let auto = told(states::holding(), |_, snapshot| {
+        snapshot.state.program.as_mut().unwrap().auto = Some(true);
+    });
+    assert!(auto.ends_with("Auto-track is on: the unit may start by itself."), "{auto}");
+}
+
+#[test]
+fn moving_says_who_moves_it_and_where_to() {
+    let aim = Some(AzEl::from_degrees(136.0, 20.0));
+    let going = Snapshot { intent: Intent::Position, aim, ..states::moving() };
+    assert_eq!(told(going.clone(), unchanged), "Moving to 136.0°, 20.0°.");
+    let parking = Snapshot { intent: Intent::Park, ..going };
+    assert_eq!(told(parking, unchanged), "Parking at 136.0°, 20.0°.");
+    for (jog, wanted) in [
+        ([-0.5, 0.0], "Jogging X at −0.50 °/s while the key is held."),
+        ([0.0, 3.0], "Jogging Y at +3.00 °/s while the key is held."),
+    ] {
+        let jogging = Snapshot { jog: Some(jog), intent: Intent::Manual, ..states::moving() };
+        assert_eq!(told(jogging, unchanged), wanted);
+    }
+    assert_eq!(
+        told(states::moving(), unchanged),
+        "Moving, not by this console. Somebody else drives it, or a motion runs out."
+    );
+    let target = Some(states::target());
+    let asked = Snapshot { intent: Intent::Track, pending: true, target, ..states::holding() };
+    assert_eq!(
+        told(asked, unchanged),
+        "Preparing to track NOAA 20: satellite and tracking window are sent to the unit and \
+         read back."
+    );
+}
+
+#[test]
+fn a_limit_says_which_way_out() {
+    for (plus, wanted) in [
+        (true, "Stopped: X+ limit switch is set. Jog X− to leave the limit."),
+        (false, "Stopped: X− limit switch is set. Jog X+ to leave the limit."),
+    ] {
+        let sentence = told(states::holding(), |_, snapshot| {
+            let x = &mut snapshot.state.measured.as_mut().unwrap().axes[0];
+            (x.plus_limit, x.minus_limit) = (plus, !plus);
+        });
+        assert_eq!(sentence, wanted);
+    }
+}
+
+#[test]
+fn a_fault_that_locks_motion_comes_before_all_else_and_a_warning_does_not() {
+    let with = |set: &'static [usize]| {
+        told(states::tracking(0.0), move |model, snapshot| {
+            snapshot.state.satrak.faults = Some((states::faults(set), model.now));
+        })
+    };
+    assert_eq!(
+        with(&[2, 8]),
+        "Motion is locked by a fault: X motor. Do not move X: check motor, brake and drive."
+    );
+    assert!(with(&[2, 12]).starts_with("Tracking NOAA 20"));
+}
+
+#[test]
+fn a_stop_says_what_is_not_proved() {
+    let stopping = told(states::moving(), |model, snapshot| {
+        snapshot.stop = StopState::Stopping { since: rig::ago(model, 2) };
+    });
+    assert_eq!(stopping, "Stopping Satrak: STOP was sent 2.0 s ago, waiting for standstill.");
+    let unproved = told(states::moving(), |model, snapshot| {
+        snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
+    });
+    assert_eq!(unproved, "Satrak is not known to stand 4.0 s after STOP. Use the local panel.");
+}
+
+#[test]
+fn without_a_reply_it_says_since_when_and_what_was_going_on() {
+    let silent = "No reply from Satrak for 42 s: the connection is open, but the unit is silent. ";
+    for (snapshot, did) in [
+        (states::tracking(0.0), "It was tracking NOAA 20 and probably still moves. "),
+        (states::moving(), "It was moving and probably still moves. "),
+        (states::holding(), ""),
+    ] {
+        assert_eq!(told(snapshot, lost), format!("{silent}{did}Next try in 3.0 s."));
+    }
+    for (link, wanted) in [
+        (LinkState::Off, "Not known: Satrak is not connected."),
+        (
+            LinkState::Connecting { since: rig::model(rig::quiet()).steady },
+            "Not known: connecting to Satrak at 192.168.10.21:4001.",
+        ),
+    ] {
+        assert_eq!(told(Snapshot::before_anything(link), unchanged), wanted);
+    }
+    assert_eq!(told(rig::quiet(), unchanged), "Not known: Satrak is connected and being read.");
+}
+
+#[test]
+fn what_has_just_happened_is_told_first_and_for_a_while() {
+    let after = Duration::from_secs(42);
+    let back = Event::Back { after, found: Found::Tracking };
+    assert_eq!(
+        told(states::tracking(0.0), just(back.clone())),
+        "Satrak answers again after 42 s. It is still tracking NOAA 20."
+    );
+    let later = told(states::tracking(0.0), |model, _| {
+        model.antennas[0].news = Some((back, add_seconds(model.now, -13.0)));
+    });
+    assert!(later.starts_with("Tracking NOAA 20"), "{later}");
+    let refused = PrepareError::Refused { code: "7".to_owned() };
+    for (event, wanted) in [
+        (
+            Event::Back { after, found: Found::Still },
+            "Satrak answers again after 42 s. It stands still and tracks nothing.",
+        ),
+        (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),
+        (Event::Refused(Motion::StartProgram, "7".to_owned()), "Track: the unit answered ERR,7."),
+        (
+            Event::CannotTrack(states::target(), refused),
+            "Not tracking NOAA 20: the unit answered ERR,7.",
+        ),
+        (
+            Event::StopRefused("7".to_owned()),
+            "The unit answered ERR,7 to STOP. Use the local panel.",
+        ),
+    ] {
+        assert_eq!(told(states::holding(), just(event)), wanted);
+    }
+}

@@ -1,0 +1,114 @@
+//! What a Satrak may report, ready for the stories.
+
+use std::time::Instant;
+
+use azel::{
+    app::Model,
+    astro::{AzEl, time::add_seconds},
+    controller::{Axis, AxisMotion, Measured, Phase, Program, TrackTarget},
+    driver::{Intent, Snapshot},
+    protocol::satrak::{Faults, Frame, Reply, Satellite, StartStopTime},
+};
+use jiff::Timestamp;
+
+use crate::rig::{NOAA_20, model, now, quiet};
+
+/// A position that has just come in.
+pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {
+    let axis = Axis { angle_deg: 90.0, motion, plus_limit: false, minus_limit: false };
+    let steady = Instant::now();
+    Measured {
+        at: now(),
+        asked: steady,
+        received: steady,
+        direction: AzEl::from_degrees(azimuth_deg, elevation_deg),
+        axes: [axis; 2],
+    }
+}
+
+/// The antenna stands and nothing is to move.
+pub(crate) fn holding() -> Snapshot {
+    let mut snapshot = quiet();
+    snapshot.state.measured = Some(measured(343.1, 5.0, AxisMotion::Still));
+    snapshot.state.program =
+        Some(Program { enabled: false, phase: Phase::OutOfWindow, auto: Some(false) });
+    snapshot
+}
+
+/// The antenna moves, and nobody here asked for it.
+pub(crate) fn moving() -> Snapshot {
+    let mut snapshot = holding();
+    snapshot.state.measured = Some(measured(120.0, 30.0, AxisMotion::Plus));
+    snapshot
+}
+
+/// The operator moves it by hand.
+pub(crate) fn manual() -> Snapshot {
+    Snapshot { intent: Intent::Manual, ..holding() }
+}
+
+/// NOAA 20 as asked for.
+pub(crate) fn target() -> TrackTarget {
+    TrackTarget {
+        catalog_number: NOAA_20,
+        name: "NOAA 20 (JPSS-1)".to_owned(),
+        from: now(),
+        until: los(),
+    }
+}
+
+/// When NOAA 20 goes down, to the second.
+pub(crate) fn los() -> Timestamp {
+    "2026-08-12T11:21:27Z".parse().unwrap()
+}
+
+/// The unit follows NOAA 20, `off_deg` above where we see it.
+pub(crate) fn tracking(off_deg: f64) -> Snapshot {
+    let wanted = model(quiet()).sky.selected.unwrap().look.direction;
+    let (azimuth_deg, elevation_deg) = (wanted.azimuth_deg(), wanted.elevation_deg());
+    let mut snapshot = Snapshot { intent: Intent::Track, target: Some(target()), ..quiet() };
+    snapshot.state.measured =
+        Some(measured(azimuth_deg, elevation_deg + off_deg, AxisMotion::Plus));
+    snapshot.state.program =
+        Some(Program { enabled: true, phase: Phase::Tracking, auto: Some(false) });
+    hold_noaa_20(&mut snapshot);
+    snapshot
+}
+
+/// The unit has its program on, in this phase.
+pub(crate) fn program(phase: Phase, motion: AxisMotion) -> Snapshot {
+    let mut snapshot = Snapshot { intent: Intent::Track, target: Some(target()), ..quiet() };
+    snapshot.state.measured = Some(measured(205.0, 5.0, motion));
+    snapshot.state.program = Some(Program { enabled: true, phase, auto: Some(false) });
+    hold_noaa_20(&mut snapshot);
+    snapshot.state.satrak.window =
+        Some(StartStopTime { start: add_seconds(now(), 192.0), stop: los() });
+    snapshot
+}
+
+fn hold_noaa_20(snapshot: &mut Snapshot) {
+    snapshot.state.satrak.satellite = Some(Satellite {
+        file: "active.txt".to_owned(),
+        name: "NOAA 20 (JPSS-1)".to_owned(),
+        period: 1,
+        catalog_number: NOAA_20,
+        maximum_elevation_deg: 70.8,
+    });
+    snapshot.state.satrak.window = Some(StartStopTime { start: now(), stop: los() });
+}
+
+/// The sentence of the first antenna.
+pub(crate) fn sentence(model: &Model) -> String {
+    azel::ui::state_sentence::state_sentence(model, &model.antennas[0]).text()
+}
+
+/// The checks as the unit reports them, the numbered ones (1 to 12) set.
+pub(crate) fn faults(set: &[usize]) -> Faults {
+    let flags: Vec<&str> =
+        (1..=12).map(|number| if set.contains(&number) { "1" } else { "0" }).collect();
+    let frame = Frame::from_payload(&format!("ERRSTATUS?,{}", flags.join(",")));
+    match Reply::parse(&frame).unwrap().reply {
+        Reply::Faults(faults) => faults,
+        other => panic!("{other:?}"),
+    }
+}

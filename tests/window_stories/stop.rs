@@ -1,0 +1,112 @@
+//! STOP, whatever is open and whatever became of the last one.
+
+use azel::{
+    app::{UiCommand, View, alarms::AlarmKind},
+    driver::{LinkLoss, LinkState, Snapshot, StopState},
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    rig::{self, SIZES, Window, asked, settle},
+    states,
+};
+
+/// Clicks STOP, which must be named `name` and be the only thing asked for.
+fn stop_stops(window: &mut Window, name: &str) {
+    window.state_mut().commands.clear();
+    window.get_by_role_and_label(Role::Button, name).click();
+    assert_eq!(asked(window), [UiCommand::Stop], "{name}");
+}
+
+#[test]
+fn stop_goes_out_in_every_state_of_the_last_one() {
+    for size in SIZES {
+        let since = states::moving().state.measured.unwrap().received;
+        for (stop, name) in [
+            (StopState::Ready, "STOP"),
+            (StopState::Stopping { since }, "STOP, stopping"),
+            (StopState::Stopped { at: since }, "STOP, all stopped"),
+        ] {
+            let mut window = rig::window(size, rig::model(Snapshot { stop, ..states::moving() }));
+            stop_stops(&mut window, name);
+        }
+    }
+}
+
+#[test]
+fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
+    for size in SIZES {
+        let mut model = rig::model(states::moving());
+        let since = rig::ago(&model, 4);
+        let snapshot = Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
+        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        let text = states::sentence(&model);
+        assert!(text.contains("after STOP. Use the local panel."), "{text}");
+        let mut window = rig::window(size, model);
+        stop_stops(&mut window, &format!("STOP, not confirmed: {text}"));
+    }
+}
+
+#[test]
+fn stop_goes_out_while_the_alarm_list_is_open() {
+    for size in SIZES {
+        let mut model = rig::model(states::moving());
+        model.alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), model.now);
+        let mut window = rig::window(size, model);
+        window.get_by_label("1 alarm, 1 new").click();
+        settle(&mut window);
+        window.get_by_label_contains("Acknowledge: ");
+        stop_stops(&mut window, "STOP");
+    }
+}
+
+#[test]
+fn stop_goes_out_while_a_question_is_asked() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::T);
+        settle(&mut window);
+        window.get_by_label("Track NOAA 20 with Satrak? The antenna moves.");
+        stop_stops(&mut window, "STOP");
+    }
+}
+
+#[test]
+fn stop_goes_out_from_the_preferences_also_while_typing() {
+    for size in SIZES {
+        let mut model = rig::model(states::moving());
+        model.view = View::Preferences;
+        let mut window = rig::window(size, model);
+        window.get_by_role_and_label(Role::TextInput, "Latitude").focus();
+        settle(&mut window);
+        stop_stops(&mut window, "STOP");
+    }
+}
+
+#[test]
+fn stop_goes_out_without_link_and_without_antennas() {
+    for size in SIZES {
+        let mut model = rig::model(states::moving());
+        let since = model.steady;
+        let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at: since };
+        let snapshot = Snapshot { link, ..states::moving() };
+        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        stop_stops(&mut rig::window(size, model), "STOP");
+
+        let mut model = rig::model(states::moving());
+        model.antennas.clear();
+        stop_stops(&mut rig::window(size, model), "STOP");
+    }
+}
+
+#[test]
+fn stop_is_the_first_control_in_the_order_of_tab() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::moving()));
+        window.key_press(Key::Tab);
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}

@@ -1,0 +1,121 @@
+//! A simulated Satrak behind a real socket, and a window with the real app.
+
+use std::{
+    collections::BTreeMap,
+    io::{BufRead as _, BufReader, Write as _},
+    net::{SocketAddr, TcpStream},
+    path::Path,
+    thread,
+    time::{Duration, Instant},
+};
+
+use azel::{
+    app::{App, Model, Settings},
+    astro::time::add_seconds,
+    driver::Clock,
+    orbit::bundled,
+    protocol::satrak::{Frame, Reply, Status, encode},
+    sim::satrak::{Control, Options, Simulator},
+    station::{Antenna, Connection, DEMO_ELEMENT_FILE, Station},
+};
+use egui_kittest::Harness;
+use jiff::Timestamp;
+use tokio::sync::oneshot;
+
+use crate::rig;
+
+/// No story may take longer for one step.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+pub(crate) type RealWindow = Harness<'static, App>;
+
+/// A unit that runs until it is dropped.
+pub(crate) struct Unit {
+    pub(crate) address: SocketAddr,
+    pub(crate) control: Control,
+    _end: oneshot::Sender<()>,
+}
+
+impl Unit {
+    /// A unit that holds the elements of the station and whose clock starts at
+    /// `utc`.
+    pub(crate) fn start(utc: Timestamp) -> Self {
+        let station = rig::station();
+        let catalog = bundled().unwrap();
+        let elements =
+            station.favourites.iter().map(|number| catalog.get(*number).unwrap().clone());
+        let options = Options {
+            elements: BTreeMap::from([(DEMO_ELEMENT_FILE.to_owned(), elements.collect())]),
+            ..Options::new(station.site, utc)
+        };
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+        let free_port = SocketAddr::from(([127, 0, 0, 1], 0));
+        let simulator = runtime.block_on(Simulator::bind(free_port, options)).unwrap();
+        let (address, control) = (simulator.local_addr().unwrap(), simulator.control());
+        let (end, ended) = oneshot::channel::<()>();
+        let run = move || {
+            runtime.block_on(async {
+                tokio::select! {
+                    () = simulator.run() => {}
+                    _ = ended => {}
+                }
+            });
+        };
+        thread::Builder::new().name("unit".to_owned()).spawn(run).unwrap();
+        Self { address, control, _end: end }
+    }
+
+    /// The station with this unit as its antenna.
+    pub(crate) fn station(&self) -> Station {
+        let address = self.address.to_string();
+        let element_file = DEMO_ELEMENT_FILE.to_owned();
+        let connection = Connection::Satrak { address: address.clone(), element_file };
+        let antenna = Antenna { connection, ..Antenna::satrak("Satrak", &address) };
+        Station { antennas: vec![antenna], ..rig::station() }
+    }
+
+    /// What the unit tells a new client, once it takes one.
+    pub(crate) fn status(&self) -> Option<Status> {
+        let mut stream = TcpStream::connect(self.address).ok()?;
+        stream.set_read_timeout(Some(PATIENCE)).ok()?;
+        stream.write_all(&encode("STATUS?")).ok()?;
+        let mut line = String::new();
+        BufReader::new(stream).read_line(&mut line).ok()?;
+        let payload = line.strip_prefix('$')?.split('*').next()?;
+        match Reply::parse(&Frame::from_payload(payload)).ok()?.reply {
+            Reply::Status(status) => Some(status),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// A clock that starts at `utc` and runs as clocks do.
+pub(crate) fn clock_from(utc: Timestamp) -> Clock {
+    let start = Instant::now();
+    Clock::new(move || add_seconds(utc, start.elapsed().as_secs_f64()))
+}
+
+/// A window with the real app on the settings at `path`.
+pub(crate) fn open(path: &Path, clock: Clock) -> RealWindow {
+    let settings = Settings { path: Some(path.to_owned()) };
+    Harness::builder()
+        .with_size(rig::LARGE)
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, clock).unwrap())
+}
+
+/// Frames until it is so.
+pub(crate) fn step_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Model) -> bool) {
+    wait_until(what, || {
+        window.step();
+        is_so(window.state().model())
+    });
+}
+
+/// The one place that sleeps: real sockets are waited for.
+pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let end = Instant::now() + PATIENCE;
+    while !is_so() {
+        assert!(Instant::now() < end, "not in time: {what}");
+        thread::sleep(Duration::from_millis(5));
+    }
+}
