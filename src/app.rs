@@ -175,10 +175,10 @@ impl eframe::App for App {
         self.schedule_repaint(ctx);
     }
 
-    /// The ground of the window: cleared, not painted, which halves what a
-    /// software renderer has to fill.
+    /// The ground of the panels: cleared, not painted, which spares a software
+    /// renderer most of what it would have to fill.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.extreme_bg_color.to_normalized_gamma_f32()
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {

@@ -158,7 +158,6 @@ fn fill(
     let t = theme::tokens(ui);
     let short = rect.height() < FULL_HEIGHT;
     let padding = if rect.width() < WIDTH { 12.0 } else { 16.0 };
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
     let mut at =
         Cursor { left: rect.left() + padding, right: rect.right() - padding, y: rect.top() };

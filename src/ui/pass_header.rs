@@ -62,7 +62,6 @@ pub struct PassHeaderModel<'a> {
 /// Shows the header in `rect`. True when the operator wants the list of passes.
 pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let padding = if model.drawer_button { SMALL_PADDING } else { PADDING };
     let mut room = rect.shrink2(vec2(padding.min(rect.width() / 2.0), 0.0));

@@ -42,6 +42,7 @@ pub fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
     let (station, mut draft) =
         state.draft.take().unwrap_or_else(|| (model.station.clone(), Draft::of(&model.station)));
     let mut revert = false;

@@ -53,8 +53,6 @@ pub struct ProfileModel<'a> {
 
 /// Shows the profile in `rect`, made for 392 by 208 points.
 pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     let response = ui.interact(rect, ui.make_persistent_id("pass profile"), Sense::hover());
     let Some(model) = model else {
         let sentence = "No pass selected.";

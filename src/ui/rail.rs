@@ -41,7 +41,6 @@ pub fn show(ui: &mut Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize>
 fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     let t = theme::tokens(ui);
     let small = rect.width() < WIDTH;
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
     let (height, gap) = if small { (40.0, 4.0) } else { (60.0, 4.0) };
     let mut clicked = None;

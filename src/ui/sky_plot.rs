@@ -78,6 +78,7 @@ pub fn show(
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui.ctx());
     let dome = Dome::fitted(rect);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
 
     // Before the buttons of the corners, which lie above it.
     let canvas = nodes::canvas(ui, rect, scene);

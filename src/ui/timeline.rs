@@ -84,7 +84,6 @@ const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
 /// Shows the strip in `rect`. Returns the key of the bar that was clicked or
 /// chosen with Enter.
 pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, Timestamp)> {
-    ui.painter().rect_filled(rect, 0, theme::tokens(ui).bg1);
     let is_small = rect.height() < SMALL_BELOW;
     let hours = if is_small { model.hours.min(SMALL_HOURS) } else { model.hours };
     let title = format!("Next {} hours", format::number(hours, 0));

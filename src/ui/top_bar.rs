@@ -80,7 +80,6 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let small = rect.height() < HEIGHT;
     let wide = rect.width() >= TWO_LINES_FROM;
     let edge = if wide { 16.0 } else { 8.0 };
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 
     let size = if small { stop_button::SMALL_SIZE } else { stop_button::SIZE };

@@ -120,7 +120,6 @@ pub(super) fn show(
 /// The place of the card while there is no antenna.
 pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg1);
     let inner = rect.shrink(16.0);
     if model.demo && !matches!(model.catalog, CatalogState::Failed) {
         let words = "The simulated antenna is starting.";
