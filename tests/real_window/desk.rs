@@ -90,7 +90,7 @@ impl Screen {
     /// The program on this screen, and its window.
     pub(super) fn azel(&self, arguments: &[&str]) -> (Running, String) {
         let running = Running::start(
-            self.command(env!("CARGO_BIN_EXE_azel")).args(arguments).stderr(Stdio::null()),
+            self.command(env!("CARGO_BIN_EXE_azel")).args(arguments).env("AZEL_LOG", "error"),
         );
         let window = wait_for("the window", || {
             let found = self.xdotool(&["search", "--onlyvisible", "--name", "^Azel$"]);
