@@ -135,10 +135,6 @@ pub enum PrepareError {
 /// What the controller can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Follows a satellite from elements it holds.
-    pub tracks_on_board: bool,
-    /// Can start to follow by itself.
-    pub auto_track: bool,
     /// Names of the two axes that are jogged.
     pub axes: [&'static str; 2],
 }

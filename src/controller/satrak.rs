@@ -132,7 +132,7 @@ impl Satrak {
 
 impl Device for Satrak {
     fn capabilities(&self) -> Capabilities {
-        Capabilities { tracks_on_board: true, auto_track: true, axes: ["X", "Y"] }
+        Capabilities { axes: ["X", "Y"] }
     }
 
     fn link_up(&mut self, now: Moment) {

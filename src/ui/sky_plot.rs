@@ -17,7 +17,6 @@ mod scene;
 mod stories;
 #[cfg(test)]
 mod testing;
-mod thumbnail;
 mod track;
 
 use std::collections::HashMap;
@@ -32,7 +31,6 @@ use self::{
 use super::{text, theme, tokens::Tokens};
 
 pub use scene::{Keyholes, Measured, OtherSatellite, SkyScene, Track};
-pub use thumbnail::thumbnail;
 
 /// What the plot remembers from frame to frame.
 #[derive(Debug, Clone, Default)]

@@ -22,7 +22,7 @@ struct Metal {
 
 impl Device for Metal {
     fn capabilities(&self) -> Capabilities {
-        Capabilities { tracks_on_board: true, auto_track: true, axes: ["X", "Y"] }
+        Capabilities { axes: ["X", "Y"] }
     }
     fn link_up(&mut self, _: Moment) {}
     fn link_down(&mut self) {}

@@ -1,6 +1,6 @@
 //! The shapes of the things in the sky. Each meaning has its own.
 
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::geometry::{circle, dashed};
 use crate::ui::tokens::Tokens;
@@ -122,13 +122,4 @@ pub(super) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
 
 fn arms() -> [Vec2; 4] {
     [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)]
-}
-
-/// The head of an arrow at the end of a path, `size` points long.
-pub(super) fn arrow_head(painter: &Painter, tip: Pos2, from: Pos2, size: f32, colour: Color32) {
-    let along = (tip - from).normalized() * size;
-    let foot = tip - along;
-    let across = pos2(-along.y, along.x).to_vec2() * 0.6;
-    let corners = vec![tip, foot + across, foot - across];
-    painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
 }
