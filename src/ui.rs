@@ -7,6 +7,7 @@ pub mod confirm;
 pub mod format;
 pub mod icons;
 pub mod keys;
+mod lean_shapes;
 pub mod operate;
 pub mod pass_header;
 pub mod pass_list;

@@ -64,6 +64,10 @@ pub fn show(
         passes::profile(ui, profile, model);
     }
     if let Some(list) = areas.list {
+        if areas.small {
+            // The drawer lies over the plot; elsewhere the list stands on the ground.
+            ui.painter().rect_filled(list, 0.0, t.bg1);
+        }
         passes::list(ui, list, model, areas.thumbnails, commands);
     }
     if let Some(antenna) = model.antenna() {

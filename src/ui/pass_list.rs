@@ -105,7 +105,6 @@ pub enum PassListAction {
 pub fn show(ui: &mut Ui, rect: Rect, model: &PassListModel<'_>) -> Vec<PassListAction> {
     let mut actions = Vec::new();
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
-    ui.painter().rect_filled(rect, 0.0, theme::tokens(ui).bg1);
     header::show(ui, head, model, &mut actions);
     if model.rows == 0 {
         nothing(ui, body, model.empty);

@@ -3,6 +3,7 @@
 use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
 
 use super::{
+    lean_shapes::LeanShapes,
     text,
     tokens::{ThemeName, Tokens},
 };
@@ -17,9 +18,10 @@ pub fn name(ctx: &Context) -> ThemeName {
     ctx.data(|data| data.get_temp(Id::unique("azel theme"))).unwrap_or_default()
 }
 
-/// Once, when the window opens: fonts, text styles and the theme.
+/// Once, when the window opens: fonts, text styles, the theme, and how it is painted.
 pub fn install(ctx: &Context, theme: ThemeName) {
     ctx.set_fonts(text::definitions());
+    ctx.add_plugin(LeanShapes);
     set(ctx, theme);
 }
 

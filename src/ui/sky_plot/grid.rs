@@ -110,13 +110,13 @@ pub(super) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2> {
         AzEl { azimuth: azimuth + Angle::from_degrees(90.0), elevation: Angle::ZERO }.to_enu();
     let (sin, cos) = radius.radians().sin_cos();
     // Inwards of the ends, so that rounding does not put them below the rim.
-    let arc = (1..90_u8).filter_map(|step| {
-        let (up, side) = (f64::from(step) * 2.0).to_radians().sin_cos();
+    let arc = (1..30_u8).filter_map(|step| {
+        let (up, side) = (f64::from(step) * 6.0).to_radians().sin_cos();
         let towards = along * side + glam::DVec3::Z * up;
         dome.point(AzEl::from_enu(middle * cos + towards * sin))
     });
-    let rim = (0..=40_u8).map(|step| {
-        let part = f64::from(step) / 20.0 - 1.0;
+    let rim = (0..=10_u8).map(|step| {
+        let part = f64::from(step) / 5.0 - 1.0;
         dome.at((azimuth + radius * part).radians() as f32, 0.0)
     });
     arc.chain(rim).collect()

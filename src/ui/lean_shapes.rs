@@ -1,0 +1,174 @@
+//! Fewer pixels to shade for the same picture.
+//!
+//! egui gives every shape a soft edge, also where the edge lies on the border
+//! of two pixels, and fills round shapes with slivers that all meet in one
+//! point. A graphics card does not mind. A software renderer, on a remote desk
+//! or a machine without a card, shades the same pixel again and again. So what
+//! is upright goes out as two plain triangles, and what is round as few and
+//! compact ones.
+
+mod mesh;
+#[cfg(test)]
+mod tests;
+
+use egui::{
+    Color32, Context, FullOutput, Plugin, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2,
+    emath::GuiRounding,
+    epaint::{CircleShape, ColorMode, CornerRadiusF32, PathShape, RectShape},
+};
+
+/// Smaller discs are one textured square in egui already, points.
+const SMALLEST_DISC: f32 = 12.0;
+
+/// Rewrites the shapes of every frame before they are cut into triangles.
+#[derive(Debug, Default)]
+pub(super) struct LeanShapes;
+
+impl Plugin for LeanShapes {
+    fn debug_name(&self) -> &'static str {
+        "lean shapes"
+    }
+
+    fn output_hook(&mut self, _: &Context, output: &mut FullOutput) {
+        let scale = output.pixels_per_point;
+        for clipped in &mut output.shapes {
+            rewrite(&mut clipped.shape, scale);
+        }
+    }
+}
+
+/// Replaces `shape`, at `scale` pixels a point, where there is a leaner one.
+fn rewrite(shape: &mut Shape, scale: f32) {
+    let leaner = match shape {
+        Shape::Vec(shapes) => {
+            for shape in shapes {
+                rewrite(shape, scale);
+            }
+            None
+        }
+        Shape::LineSegment { points: [from, to], stroke } => line(*from, *to, *stroke, scale),
+        Shape::Path(path) => dash(path, scale),
+        Shape::Rect(rect) => rectangle(rect, scale),
+        Shape::Circle(circle) => disc(*circle, scale),
+        _ => None,
+    };
+    if let Some(leaner) = leaner {
+        *shape = leaner;
+    }
+}
+
+/// A line between two points: upright and of whole pixels, or thin.
+fn line(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Option<Shape> {
+    if stroke.is_empty() || !(from.x + from.y + to.x + to.y).is_finite() || from == to {
+        return None;
+    }
+    let width_px = stroke.width * scale;
+    let whole = width_px >= 1.0 && (width_px - width_px.round()).abs() < 1e-3;
+    let across = (to - from).abs();
+    if whole && across.min_elem() <= 0.0 {
+        return Some(upright(from, to, stroke, scale));
+    }
+    (width_px <= 1.0).then(|| mesh::thin_line(from, to, stroke, scale))
+}
+
+/// One dash of a dashed line.
+fn dash(path: &PathShape, scale: f32) -> Option<Shape> {
+    let ColorMode::Solid(colour) = path.stroke.color else { return None };
+    match path.points[..] {
+        [from, to] if path.stroke.width * scale <= 1.0 => {
+            line(from, to, Stroke::new(path.stroke.width, colour), scale)
+        }
+        _ => None,
+    }
+}
+
+/// An upright line of whole pixels, placed as egui places it.
+fn upright(from: Pos2, to: Pos2, stroke: Stroke, scale: f32) -> Shape {
+    let vertical = (to.x - from.x).abs() <= 0.0;
+    // A quarter of a pixel off each end, so that ends on pixel borders stay there.
+    let shorter = (to - from).normalized() * (0.25 / scale);
+    let [from, to] = [from + shorter, to - shorter].map(|mut end| {
+        let (across, along) =
+            if vertical { (&mut end.x, &mut end.y) } else { (&mut end.y, &mut end.x) };
+        stroke.round_center_to_pixel(scale, across);
+        *along = along.round_to_pixel_center(scale);
+        end
+    });
+    let (half, cap) = (stroke.width / 2.0, 0.5 / scale);
+    let grown = if vertical { Vec2::new(half, cap) } else { Vec2::new(cap, half) };
+    mesh::plain(&[Rect::from_two_pos(from, to).expand2(grown)], stroke.color)
+}
+
+/// A rectangle, with or without rounded corners and a border.
+fn rectangle(shape: &RectShape, scale: f32) -> Option<Shape> {
+    let RectShape { rect, corner_radius, fill, stroke, .. } = *shape;
+    let bordered = !stroke.is_empty();
+    let special = shape.brush.is_some()
+        || shape.angle != 0.0
+        || shape.blur_width != 0.0
+        || shape.round_to_pixels == Some(false)
+        || (bordered && shape.stroke_kind != StrokeKind::Inside);
+    if special || !rect.is_finite() {
+        return None;
+    }
+    let line_of = |width| Stroke::new(width, fill);
+    if !bordered && rect.height() <= 2.0 / scale {
+        return line(rect.left_center(), rect.right_center(), line_of(rect.height()), scale);
+    }
+    if !bordered && rect.width() <= 2.0 / scale {
+        return line(rect.center_top(), rect.center_bottom(), line_of(rect.width()), scale);
+    }
+    if rect.size().min_elem() <= 2.0 * stroke.width + 2.0 / scale {
+        return None;
+    }
+    let rect = rect.round_to_pixels(scale);
+    let sharp = corner_radius == egui::CornerRadius::ZERO;
+    let outline = |shrunk: f32| {
+        let mut radius = CornerRadiusF32::from(corner_radius);
+        radius -= shrunk;
+        mesh::rounded(rect.shrink(shrunk), radius)
+    };
+    let mut parts = Vec::with_capacity(2);
+    if fill != Color32::TRANSPARENT {
+        parts.push(if sharp {
+            mesh::plain(&[rect], fill)
+        } else {
+            mesh::soft(&outline(0.0), fill, scale)
+        });
+    }
+    if bordered && sharp {
+        parts.push(mesh::plain(&frame(rect, stroke.width), stroke.color));
+    } else if bordered {
+        parts.push(mesh::ring(&outline(stroke.width / 2.0), stroke, scale));
+    }
+    Some(Shape::Vec(parts))
+}
+
+/// The four sides of a border inside `rect`.
+fn frame(rect: Rect, width: f32) -> [Rect; 4] {
+    let inner = rect.shrink(width);
+    [
+        rect.with_max_y(inner.top()),
+        rect.with_min_y(inner.bottom()),
+        Rect::from_x_y_ranges(rect.left()..=inner.left(), inner.y_range()),
+        Rect::from_x_y_ranges(inner.right()..=rect.right(), inner.y_range()),
+    ]
+}
+
+/// A large disc or circle.
+fn disc(shape: CircleShape, scale: f32) -> Option<Shape> {
+    let CircleShape { center, radius, fill, stroke } = shape;
+    if radius < SMALLEST_DISC || !(center + Vec2::splat(radius)).is_finite() {
+        return None;
+    }
+    let mut parts = Vec::with_capacity(2);
+    if fill != Color32::TRANSPARENT {
+        parts.push(mesh::soft(&mesh::circle(center, radius, scale), fill, scale));
+    }
+    if !stroke.is_empty() {
+        // egui draws the stroke of a circle around it.
+        let middle = radius + stroke.width / 2.0;
+        parts.push(mesh::ring(&mesh::circle(center, middle, scale), stroke, scale));
+    }
+    Some(Shape::Vec(parts))
+}
