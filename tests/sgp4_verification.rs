@@ -63,18 +63,19 @@ fn every_case_agrees_with_the_authors_code() {
     let (mut worst_km, mut worst_km_s, mut states) = (0.0_f64, 0.0_f64, 0);
     for ((first, second), (number, rows)) in sets().iter().zip(expected()) {
         let report = read_elements(&format!("{first}\n{second}\n"));
+        if number == "33334" {
+            // Its one row repeats the last state of the case before: the mean
+            // motion of 0.00001 is an error from the start.
+            let reason = RefusalReason::Orbit(ElementsError::Decayed);
+            assert_eq!(report.refused[0].reason, reason);
+            continue;
+        }
         assert_eq!(report.refused, [], "{number}");
         let elements = &report.elements[0];
         assert_eq!(elements.catalog_number().to_string(), number.trim_start_matches('0'));
         let propagator = Propagator::new(elements).unwrap();
         let state_at =
             |minutes: f64| propagator.state_at(time::add_seconds(elements.epoch(), minutes * 60.0));
-        if number == "33334" {
-            // Its one row repeats the last state of the case before: the mean
-            // motion of 0.00001 is an error from the start.
-            assert_eq!(state_at(0.0), Err(PropagationError::Decayed));
-            continue;
-        }
         for row in &rows {
             let state = state_at(row.minutes).unwrap();
             let off_km = state.position_km.distance(row.position_km);

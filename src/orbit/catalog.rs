@@ -1,21 +1,34 @@
 //! All elements the operator has, the newest of every object.
 
-use std::collections::BTreeMap;
+use std::cmp::Ordering;
 
 use jiff::Timestamp;
 
-use super::{Elements, ReadReport, Refusal};
+use super::{Elements, Note, ReadReport, Refusal, RefusalReason};
 
-/// Elements by catalogue number, each with the name of its source.
+/// The newest elements of every object, and the sources each came from.
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
-    entries: BTreeMap<u32, Entry>,
+    /// In the order of their numbers: a sorted list takes half the memory of a map.
+    entries: Vec<Entry>,
+    groups: Vec<Group>,
 }
 
 #[derive(Debug, Clone)]
 struct Entry {
     elements: Elements,
-    source: String,
+    /// The place in `groups` of the source of these elements.
+    source: u32,
+    /// The line of the source where they start, from 1.
+    line: u32,
+}
+
+/// What one source holds.
+#[derive(Debug, Clone)]
+struct Group {
+    name: String,
+    /// Catalogue numbers, sorted.
+    members: Vec<u32>,
 }
 
 /// What a merge changed.
@@ -25,62 +38,124 @@ pub struct MergeSummary {
     pub added: usize,
     /// Objects that got a newer epoch.
     pub updated: usize,
-    /// Sets with an older or the same epoch, which were left out.
-    pub not_newer: usize,
-    /// Objects that could not be read.
+    /// Sets of the same epoch as the one that was held.
+    pub known: usize,
+    /// Objects that could not be read, and sets older than what was held.
     pub refused: Vec<Refusal>,
+    /// How many more were refused.
+    pub refused_unlisted: usize,
+    /// What was taken although it is not as it should be.
+    pub notes: Vec<Note>,
 }
 
 impl Catalog {
     /// Takes over what was read from `source`. The newest epoch of an object
-    /// wins, whatever the order of merging.
+    /// wins, whatever the order of merging. A set without a name leaves the
+    /// name that is known.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
-        let mut summary = MergeSummary { refused: report.refused, ..MergeSummary::default() };
-        for elements in report.elements {
-            match self.entries.get(&elements.catalog_number()) {
-                Some(known) if known.elements.epoch() >= elements.epoch() => {
-                    summary.not_newer += 1;
-                    continue;
-                }
-                Some(_) => summary.updated += 1,
-                None => summary.added += 1,
+        let mut summary = MergeSummary {
+            refused: report.refused,
+            refused_unlisted: report.refused_unlisted,
+            notes: report.notes,
+            ..MergeSummary::default()
+        };
+        let source = self.group(source);
+        let known = self.entries.len();
+        let mut members: Vec<u32> = Vec::with_capacity(report.elements.len());
+        self.entries.reserve(report.elements.len());
+        for (elements, line) in report.elements.into_iter().zip(report.lines) {
+            let number = elements.catalog_number();
+            members.push(number);
+            let mut entry = Entry { elements, source, line };
+            let (sorted, _) = self.entries.split_at_mut(known);
+            let place = sorted.binary_search_by_key(&number, Entry::number).ok();
+            match place.and_then(|place| sorted.get_mut(place)) {
+                Some(held) => held.settle(&mut entry, &mut summary),
+                None => self.entries.push(entry),
             }
-            let entry = Entry { source: source.to_owned(), elements };
-            self.entries.insert(entry.elements.catalog_number(), entry);
+        }
+        // Stable, so that sets of one object stay in the order of the text.
+        self.entries.sort_by_key(Entry::number);
+        self.entries.dedup_by(|later, held| {
+            let is_same = later.number() == held.number();
+            if is_same {
+                held.settle(later, &mut summary);
+            }
+            is_same
+        });
+        summary.added = self.entries.len() - known;
+        summary.refused.sort_by_key(|refusal| refusal.line);
+        if let Some(group) = self.groups.get_mut(source as usize) {
+            group.members.extend(members);
+            group.members.sort_unstable();
+            group.members.dedup();
         }
         summary
     }
 
+    /// The place of the group called `name`, which is made when it is new.
+    fn group(&mut self, name: &str) -> u32 {
+        let place = self.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
+            self.groups.push(Group { name: name.to_owned(), members: Vec::new() });
+            self.groups.len() - 1
+        });
+        place as u32
+    }
+
+    fn entry(&self, catalog_number: u32) -> Option<&Entry> {
+        let place = self.entries.binary_search_by_key(&catalog_number, Entry::number).ok()?;
+        self.entries.get(place)
+    }
+
     /// The elements of an object.
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
-        self.entries.get(&catalog_number).map(|entry| &entry.elements)
+        self.entry(catalog_number).map(|entry| &entry.elements)
     }
 
     /// Where the elements of an object came from.
     pub fn source(&self, catalog_number: u32) -> Option<&str> {
-        self.entries.get(&catalog_number).map(|entry| entry.source.as_str())
+        let group = self.groups.get(self.entry(catalog_number)?.source as usize)?;
+        Some(group.name.as_str())
+    }
+
+    /// The sources, each with the number of its objects, in the order of
+    /// merging.
+    pub fn groups(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.groups.iter().map(|group| (group.name.as_str(), group.members.len()))
+    }
+
+    /// All sources that hold an object, whichever has the newest set.
+    pub fn groups_of(&self, catalog_number: u32) -> impl Iterator<Item = &str> {
+        self.groups
+            .iter()
+            .filter(move |group| group.members.binary_search(&catalog_number).is_ok())
+            .map(|group| group.name.as_str())
+    }
+
+    /// The elements of all objects that the source `group` holds, by catalogue
+    /// number.
+    pub fn in_group(&self, group: &str) -> impl Iterator<Item = &Elements> {
+        self.groups
+            .iter()
+            .filter(move |known| known.name == group)
+            .flat_map(|known| &known.members)
+            .filter_map(|number| self.get(*number))
     }
 
     /// At most `limit` objects whose number starts with `text` or whose name
     /// holds it in any case, by name, then by number. An empty text finds all.
     pub fn search(&self, text: &str, limit: usize) -> Vec<&Elements> {
-        let text = text.trim().to_lowercase();
-        let mut found: Vec<(String, &Elements)> = self
-            .iter()
-            .map(|elements| (elements.name().to_lowercase(), elements))
-            .filter(|(name, elements)| {
-                name.contains(&text) || elements.catalog_number().to_string().starts_with(&text)
-            })
-            .collect();
-        found.sort_by(|(a, first), (b, second)| {
-            a.cmp(b).then(first.catalog_number().cmp(&second.catalog_number()))
-        });
-        found.into_iter().take(limit).map(|(_, elements)| elements).collect()
+        search(self.iter(), text, limit)
+    }
+
+    /// The same search among the objects of one source.
+    pub fn search_group(&self, group: &str, text: &str, limit: usize) -> Vec<&Elements> {
+        search(self.in_group(group), text, limit)
     }
 
     /// All elements by catalogue number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
-        self.entries.values().map(|entry| &entry.elements)
+        self.entries.iter().map(|entry| &entry.elements)
     }
 
     /// How many objects there are.
@@ -97,6 +172,48 @@ impl Catalog {
     pub fn newest_epoch(&self) -> Option<Timestamp> {
         self.iter().map(Elements::epoch).max()
     }
+}
+
+impl Entry {
+    fn number(&self) -> u32 {
+        self.elements.catalog_number()
+    }
+
+    /// Keeps the newer of two sets of one object here and leaves the other.
+    fn settle(&mut self, other: &mut Self, summary: &mut MergeSummary) {
+        let held = self.elements.epoch();
+        match other.elements.epoch().cmp(&held) {
+            Ordering::Greater => {
+                std::mem::swap(self, other);
+                summary.updated += 1;
+            }
+            Ordering::Equal => summary.known += 1,
+            Ordering::Less => summary.refused.push(Refusal {
+                line: other.line as usize,
+                object: Some(other.elements.label()),
+                reason: RefusalReason::OlderThanHeld { held },
+            }),
+        }
+        self.elements.take_name(&other.elements);
+    }
+}
+
+fn search<'a>(
+    among: impl Iterator<Item = &'a Elements>,
+    text: &str,
+    limit: usize,
+) -> Vec<&'a Elements> {
+    let text = text.trim().to_lowercase();
+    let mut found: Vec<(String, &Elements)> = among
+        .map(|elements| (elements.name().to_lowercase(), elements))
+        .filter(|(name, elements)| {
+            name.contains(&text) || elements.catalog_number().to_string().starts_with(&text)
+        })
+        .collect();
+    found.sort_by(|(a, first), (b, second)| {
+        a.cmp(b).then(first.catalog_number().cmp(&second.catalog_number()))
+    });
+    found.into_iter().take(limit).map(|(_, elements)| elements).collect()
 }
 
 #[cfg(test)]
@@ -124,13 +241,52 @@ mod tests {
     fn the_newest_epoch_wins_whatever_the_order() {
         let mut catalog = Catalog::default();
         let first = catalog.merge(report(&[(5, "OLD", 10), (6, "B", 12)]), "first");
-        assert_eq!((first.added, first.updated, first.not_newer), (2, 0, 0));
+        assert_eq!((first.added, first.updated, first.known), (2, 0, 0));
         let second = catalog.merge(report(&[(5, "NEW", 11), (6, "STALE", 11)]), "second");
-        assert_eq!((second.added, second.updated, second.not_newer), (0, 1, 1));
+        assert_eq!((second.added, second.updated, second.known), (0, 1, 0));
+        let held = "2026-08-12T00:00:00Z".parse().unwrap();
+        let reason = RefusalReason::OlderThanHeld { held };
+        assert_eq!(second.refused, [Refusal { line: 1, object: Some("STALE".into()), reason }]);
         assert_eq!((catalog.get(5).unwrap().name(), catalog.source(5)), ("NEW", Some("second")));
         assert_eq!((catalog.get(6).unwrap().name(), catalog.source(6)), ("B", Some("first")));
         assert_eq!(catalog.newest_epoch(), Some("2026-08-12T00:00:00Z".parse().unwrap()));
         assert_eq!(catalog.len(), 2);
+    }
+
+    #[test]
+    fn the_newest_set_of_one_text_wins() {
+        let mut catalog = Catalog::default();
+        let objects = [(7, "A", 2), (5, "B", 3), (7, "C", 4), (7, "D", 1), (5, "E", 3)];
+        let summary = catalog.merge(report(&objects), "one");
+        assert_eq!((summary.added, summary.updated, summary.known), (2, 1, 1));
+        assert_eq!(summary.refused.len(), 1);
+        assert_eq!(catalog.iter().map(Elements::name).collect::<Vec<_>>(), ["B", "C"]);
+    }
+
+    #[test]
+    fn a_set_without_a_name_leaves_the_known_one() {
+        let mut catalog = Catalog::default();
+        catalog.merge(report(&[(5, "KNOWN", 1), (6, "", 1)]), "one");
+        catalog.merge(report(&[(5, "", 2), (6, "LATE", 1)]), "two");
+        assert_eq!(catalog.get(5).unwrap().name(), "KNOWN");
+        assert_eq!(catalog.source(5), Some("two"));
+        assert_eq!(catalog.get(6).unwrap().name(), "LATE");
+    }
+
+    #[test]
+    fn an_object_is_in_every_group_that_holds_it() {
+        let mut catalog = Catalog::default();
+        catalog.merge(report(&[(5, "A", 2), (6, "B", 2), (9, "AB", 2)]), "weather");
+        catalog.merge(report(&[(6, "B", 1), (7, "C", 1), (6, "B", 1)]), "noaa");
+        assert_eq!(catalog.groups().collect::<Vec<_>>(), [("weather", 3), ("noaa", 2)]);
+        assert_eq!(catalog.groups_of(6).collect::<Vec<_>>(), ["weather", "noaa"]);
+        assert_eq!(catalog.groups_of(8).count(), 0);
+        let numbers = |found: Vec<&Elements>| -> Vec<u32> {
+            found.into_iter().map(Elements::catalog_number).collect()
+        };
+        assert_eq!(numbers(catalog.in_group("noaa").collect()), [6, 7]);
+        assert_eq!(numbers(catalog.search_group("weather", "b", 9)), [9, 6]);
+        assert!(catalog.search_group("no such", "", 9).is_empty());
     }
 
     #[test]

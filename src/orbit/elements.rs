@@ -1,7 +1,10 @@
 //! The elements of one orbit.
 
 use jiff::Timestamp;
+use sgp4::chrono::{DateTime, TimeDelta};
+use smol_str::SmolStr;
 
+use super::Propagator;
 use crate::astro::{Angle, time};
 
 /// Seconds of a sidereal day.
@@ -10,18 +13,55 @@ const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 /// One orbit: SGP4 mean elements with the name and number of their object.
 ///
 /// Values of this type can be handed to the propagator: all numbers are
-/// finite, the eccentricity lies in `0.0..1.0`, the mean motion is positive and
-/// the epoch lies within [`EPOCH_YEARS`].
+/// finite, the eccentricity lies in `0.0..1.0`, the mean motion is positive,
+/// the epoch lies within [`EPOCH_YEARS`], and SGP4 finds the object above the
+/// ground at its epoch. A value takes 152 bytes and, while its texts have 23
+/// bytes at most, nothing on the heap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elements {
-    inner: sgp4::Elements,
-    catalog_number: u32,
-    epoch: Timestamp,
+    /// Empty when the source gave none.
+    pub(super) name: SmolStr,
+    /// Such as `1998-067A`; empty when the source gave none.
+    pub(super) international_designator: SmolStr,
+    pub(super) catalog_number: u32,
+    /// Whole microseconds.
+    pub(super) epoch: Timestamp,
+    /// Kozai mean motion.
+    pub(super) mean_motion_rev_day: f64,
+    /// Half the first derivative of the mean motion, rev/day^2.
+    pub(super) mean_motion_dot: f64,
+    /// A sixth of the second derivative of the mean motion, rev/day^3.
+    pub(super) mean_motion_ddot: f64,
+    /// B*, per Earth radius.
+    pub(super) bstar: f64,
+    pub(super) inclination_deg: f64,
+    /// Right ascension of the ascending node.
+    pub(super) node_deg: f64,
+    pub(super) eccentricity: f64,
+    /// Argument of perigee.
+    pub(super) perigee_deg: f64,
+    pub(super) mean_anomaly_deg: f64,
+    pub(super) set_number: u32,
+    pub(super) revolution_number: u32,
+    pub(super) ephemeris_type: u8,
+    pub(super) classification: Classification,
+}
+
+/// Who may see a set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Classification {
+    #[default]
+    Unclassified,
+    Classified,
+    Secret,
 }
 
 /// The calendar years an epoch may lie in: from the first satellite to what two
 /// digits and every known file need.
 pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2156;
+
+/// Nine digits.
+const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
 /// Why numbers are no orbit.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -44,56 +84,80 @@ pub enum ElementsError {
     /// Outside [`EPOCH_YEARS`].
     #[error("the epoch is out of range")]
     Epoch,
+    /// Below the ground at the epoch, or SGP4 cannot start at all.
+    #[error("the object is not above the ground at its epoch")]
+    Decayed,
+}
+
+impl Classification {
+    /// What the letter of a source means; other letters and none are unclassified.
+    pub(super) fn from_letter(letter: &str) -> Self {
+        match letter {
+            "C" => Self::Classified,
+            "S" => Self::Secret,
+            _ => Self::Unclassified,
+        }
+    }
+}
+
+/// The catalogue number that a source wrote, if it has nine digits at most.
+pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
+    u32::try_from(number)
+        .ok()
+        .filter(|number| *number <= MAX_CATALOG_NUMBER)
+        .ok_or(ElementsError::CatalogNumber(number))
 }
 
 impl Elements {
     /// Takes what a reader found, once it is sure to be an orbit.
-    pub(super) fn new(inner: sgp4::Elements) -> Result<Self, ElementsError> {
+    pub(super) fn checked(mut self) -> Result<Self, ElementsError> {
         // 2 and 3 are old marks for SGP4 and SDP4; all sources now write 0.
-        if !matches!(inner.ephemeris_type, 0 | 2 | 3) {
-            return Err(ElementsError::EphemerisType(inner.ephemeris_type));
+        if !matches!(self.ephemeris_type, 0 | 2 | 3) {
+            return Err(ElementsError::EphemerisType(self.ephemeris_type));
         }
-        let catalog_number = u32::try_from(inner.norad_id)
-            .ok()
-            .filter(|number| *number <= 999_999_999)
-            .ok_or(ElementsError::CatalogNumber(inner.norad_id))?;
         let numbers = [
-            inner.mean_motion,
-            inner.mean_motion_dot,
-            inner.mean_motion_ddot,
-            inner.drag_term,
-            inner.inclination,
-            inner.right_ascension,
-            inner.eccentricity,
-            inner.argument_of_perigee,
-            inner.mean_anomaly,
+            self.mean_motion_rev_day,
+            self.mean_motion_dot,
+            self.mean_motion_ddot,
+            self.bstar,
+            self.inclination_deg,
+            self.node_deg,
+            self.eccentricity,
+            self.perigee_deg,
+            self.mean_anomaly_deg,
         ];
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(ElementsError::NotFinite);
         }
-        if !(0.0..1.0).contains(&inner.eccentricity) {
-            return Err(ElementsError::Eccentricity(inner.eccentricity));
+        if !(0.0..1.0).contains(&self.eccentricity) {
+            return Err(ElementsError::Eccentricity(self.eccentricity));
         }
-        if inner.mean_motion <= 0.0 {
-            return Err(ElementsError::MeanMotion(inner.mean_motion));
+        if self.mean_motion_rev_day <= 0.0 {
+            return Err(ElementsError::MeanMotion(self.mean_motion_rev_day));
         }
-        let utc = inner.datetime.and_utc();
-        let utc_ns =
-            i128::from(utc.timestamp()) * 1_000_000_000 + i128::from(utc.timestamp_subsec_nanos());
-        let epoch = Timestamp::from_nanosecond(utc_ns)
+        // A TLE's fraction of a day leaves noise below what an OMM writes.
+        // Without it both forms of one set have the same epoch.
+        self.epoch = self
+            .epoch
+            .round(jiff::Unit::Microsecond)
             .ok()
-            // A TLE's fraction of a day leaves noise below what an OMM writes.
-            // Without it both forms of one set have the same epoch.
-            .and_then(|epoch| epoch.round(jiff::Unit::Microsecond).ok())
             // The library computes with unsigned years, so years before 1 would end it.
             .filter(|epoch| EPOCH_YEARS.contains(&epoch.to_zoned(jiff::tz::TimeZone::UTC).year()))
             .ok_or(ElementsError::Epoch)?;
-        Ok(Self { inner, catalog_number, epoch })
+        Propagator::new(&self)
+            .and_then(|propagator| propagator.state_at(self.epoch))
+            .map_err(|_| ElementsError::Decayed)?;
+        Ok(self)
     }
 
     /// The name, empty when the source gave none.
     pub fn name(&self) -> &str {
-        self.inner.object_name.as_deref().unwrap_or_default()
+        &self.name
+    }
+
+    /// The name, or the catalogue number where there is none.
+    pub fn label(&self) -> String {
+        if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }
     }
 
     /// The catalogue number, up to nine digits.
@@ -103,7 +167,7 @@ impl Elements {
 
     /// The international designator, such as `1998-067A`.
     pub fn international_designator(&self) -> Option<&str> {
-        self.inner.international_designator.as_deref()
+        Some(self.international_designator.as_str()).filter(|text| !text.is_empty())
     }
 
     /// The instant the elements describe best.
@@ -113,22 +177,22 @@ impl Elements {
 
     /// Mean motion (Kozai) in revolutions per day, above 0.
     pub fn mean_motion_rev_day(&self) -> f64 {
-        self.inner.mean_motion
+        self.mean_motion_rev_day
     }
 
     /// Inclination to the equator.
     pub fn inclination(&self) -> Angle {
-        Angle::from_degrees(self.inner.inclination)
+        Angle::from_degrees(self.inclination_deg)
     }
 
     /// Eccentricity, from 0 to below 1.
     pub fn eccentricity(&self) -> f64 {
-        self.inner.eccentricity
+        self.eccentricity
     }
 
     /// Time of one revolution in seconds.
     pub fn period_s(&self) -> f64 {
-        time::DAY_S / self.inner.mean_motion
+        time::DAY_S / self.mean_motion_rev_day
     }
 
     /// Age at `now` in seconds, negative while the epoch lies ahead.
@@ -142,9 +206,44 @@ impl Elements {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }
 
-    /// What the propagator computes with.
-    pub(super) fn sgp4(&self) -> &sgp4::Elements {
-        &self.inner
+    /// Takes over name and designator where this set has none.
+    pub(super) fn take_name(&mut self, other: &Self) {
+        for (own, other) in [
+            (&mut self.name, &other.name),
+            (&mut self.international_designator, &other.international_designator),
+        ] {
+            if own.is_empty() {
+                own.clone_from(other);
+            }
+        }
+    }
+
+    /// What the propagator computes with; name and designator stay behind.
+    pub(super) fn sgp4(&self) -> sgp4::Elements {
+        sgp4::Elements {
+            object_name: None,
+            international_designator: None,
+            norad_id: u64::from(self.catalog_number),
+            classification: match self.classification {
+                Classification::Unclassified => sgp4::Classification::Unclassified,
+                Classification::Classified => sgp4::Classification::Classified,
+                Classification::Secret => sgp4::Classification::Secret,
+            },
+            datetime: (DateTime::UNIX_EPOCH + TimeDelta::microseconds(self.epoch.as_microsecond()))
+                .naive_utc(),
+            mean_motion_dot: self.mean_motion_dot,
+            mean_motion_ddot: self.mean_motion_ddot,
+            drag_term: self.bstar,
+            element_set_number: u64::from(self.set_number),
+            inclination: self.inclination_deg,
+            right_ascension: self.node_deg,
+            eccentricity: self.eccentricity,
+            argument_of_perigee: self.perigee_deg,
+            mean_anomaly: self.mean_anomaly_deg,
+            mean_motion: self.mean_motion_rev_day,
+            revolution_number: u64::from(self.revolution_number),
+            ephemeris_type: self.ephemeris_type,
+        }
     }
 }
 

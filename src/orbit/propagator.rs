@@ -46,7 +46,7 @@ impl Propagator {
     /// Prepares the propagation of `elements` (WGS72, AFSPC sidereal time: what
     /// the elements were fitted with).
     pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
-        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(elements.sgp4())
+        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&elements.sgp4())
             .map_err(|_| PropagationError::Elements)?;
         Ok(Self { constants, epoch: elements.epoch() })
     }

@@ -1,235 +1,209 @@
-//! OMM in JSON: one object, or a list of them.
+//! OMM: one object as named fields, in JSON, XML, KVN or CSV.
 //!
-//! Source: CCSDS 502.0-B "Orbit Data Messages", with the keys `CelesTrak` and
+//! Every form fills a [`Message`]; what its fields mean is decided here once.
+//!
+//! Source: CCSDS 502.0-B "Orbit Data Messages", with the fields `CelesTrak` and
 //! Space-Track write. Space-Track writes numbers as strings; some sources end
 //! the epoch with `Z` and leave out the ephemeris type and the classification.
 
-mod split;
+pub(super) mod json;
 
-use jiff::civil;
-use serde_json::{Map, Value};
-use sgp4::chrono::{DateTime, NaiveDateTime};
+use std::borrow::Cow;
 
-use self::split::{Part, parts};
-use super::{ReadReport, Refusal, RefusalReason};
-use crate::orbit::{Elements, elements::ElementsError};
+use jiff::{Timestamp, civil, tz::TimeZone};
 
-/// The fields of one message.
-type Fields = Map<String, Value>;
+use super::{RefusalReason, clean, numbers};
+use crate::orbit::{
+    Elements,
+    elements::{Classification, ElementsError, catalog_number},
+};
 
-/// Reads all objects of `text`.
-pub(super) fn read(text: &str) -> ReadReport {
-    let mut report = ReadReport::default();
-    for Part { line, text } in parts(text) {
-        let mut refuse = |object, reason| report.refused.push(Refusal { line, object, reason });
-        if !text.starts_with('{') {
-            refuse(None, RefusalReason::NotAnObject);
-            continue;
+/// The fields that are read. All others are passed over.
+const FIELDS: [&str; 21] = [
+    "OBJECT_NAME",
+    "OBJECT_ID",
+    "NORAD_CAT_ID",
+    "EPOCH",
+    "MEAN_MOTION",
+    "ECCENTRICITY",
+    "INCLINATION",
+    "RA_OF_ASC_NODE",
+    "ARG_OF_PERICENTER",
+    "MEAN_ANOMALY",
+    "BSTAR",
+    "MEAN_MOTION_DOT",
+    "MEAN_MOTION_DDOT",
+    "EPHEMERIS_TYPE",
+    "CLASSIFICATION_TYPE",
+    "ELEMENT_SET_NO",
+    "REV_AT_EPOCH",
+    "MEAN_ELEMENT_THEORY",
+    "CENTER_NAME",
+    "REF_FRAME",
+    "TIME_SYSTEM",
+];
+
+/// A field that is read: its place in [`FIELDS`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Field(usize);
+
+impl Field {
+    /// The field called `name`, in any case.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        FIELDS.iter().position(|known| known.eq_ignore_ascii_case(name)).map(Self)
+    }
+}
+
+/// What a field holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value<'a> {
+    /// Text, which may write a number.
+    Text(Cow<'a, str>),
+    /// A number.
+    Number(f64),
+    /// Something no field can hold.
+    Other,
+}
+
+/// The fields of one message, those with a value.
+#[derive(Debug, Default)]
+pub(super) struct Message<'a> {
+    values: [Option<Value<'a>>; FIELDS.len()],
+}
+
+impl<'a> Message<'a> {
+    /// Sets a field. Empty text is no value.
+    pub(super) fn set(&mut self, field: Field, value: Value<'a>) {
+        if let Value::Text(text) = &value
+            && text.trim().is_empty()
+        {
+            return;
         }
-        let Ok(fields) = serde_json::from_str::<Fields>(text) else {
-            refuse(None, RefusalReason::Json);
-            continue;
-        };
-        match message(&fields) {
-            Ok(elements) => report.elements.push(elements),
-            Err(reason) => refuse(object(&fields), reason),
+        if let Some(place) = self.values.get_mut(field.0) {
+            *place = Some(value);
         }
     }
-    report
-}
 
-/// The name of a message, or its number, to name a refused one.
-fn object(fields: &Fields) -> Option<String> {
-    let field = |key| match fields.get(key)? {
-        Value::String(text) => Some(text.clone()),
-        Value::Number(number) => Some(number.to_string()),
-        _ => None,
-    };
-    field("OBJECT_NAME").or_else(|| field("NORAD_CAT_ID"))
-}
-
-/// Reads one message.
-fn message(fields: &Fields) -> Result<Elements, RefusalReason> {
-    if let Some(theory) = text(fields, "MEAN_ELEMENT_THEORY")
-        && !matches!(theory, "SGP4" | "SGP" | "SGP/SGP4")
-    {
-        return Err(RefusalReason::Field("MEAN_ELEMENT_THEORY"));
-    }
-    let inner = sgp4::Elements {
-        object_name: text(fields, "OBJECT_NAME").map(str::to_owned),
-        international_designator: text(fields, "OBJECT_ID").map(str::to_owned),
-        norad_id: whole(fields, "NORAD_CAT_ID")?
-            .ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?,
-        classification: match text(fields, "CLASSIFICATION_TYPE") {
-            Some("C") => sgp4::Classification::Classified,
-            Some("S") => sgp4::Classification::Secret,
-            _ => sgp4::Classification::Unclassified,
-        },
-        datetime: epoch(fields)?,
-        mean_motion_dot: decimal(fields, "MEAN_MOTION_DOT")?.unwrap_or(0.0),
-        mean_motion_ddot: decimal(fields, "MEAN_MOTION_DDOT")?.unwrap_or(0.0),
-        drag_term: needed(fields, "BSTAR")?,
-        element_set_number: whole(fields, "ELEMENT_SET_NO")?.unwrap_or(0),
-        inclination: needed(fields, "INCLINATION")?,
-        right_ascension: needed(fields, "RA_OF_ASC_NODE")?,
-        eccentricity: needed(fields, "ECCENTRICITY")?,
-        argument_of_perigee: needed(fields, "ARG_OF_PERICENTER")?,
-        mean_anomaly: needed(fields, "MEAN_ANOMALY")?,
-        mean_motion: needed(fields, "MEAN_MOTION")?,
-        revolution_number: whole(fields, "REV_AT_EPOCH")?.unwrap_or(0),
-        ephemeris_type: u8::try_from(whole(fields, "EPHEMERIS_TYPE")?.unwrap_or(0))
-            .map_err(|_| RefusalReason::Field("EPHEMERIS_TYPE"))?,
-    };
-    Ok(Elements::new(inner)?)
-}
-
-/// A text that says something.
-fn text<'a>(fields: &'a Fields, key: &str) -> Option<&'a str> {
-    fields.get(key)?.as_str().map(str::trim).filter(|text| !text.is_empty())
-}
-
-/// A number, written as such or as a string. `None` when it is absent or null.
-fn number<T: std::str::FromStr>(
-    fields: &Fields,
-    key: &'static str,
-    plain: fn(&Value) -> Option<T>,
-) -> Result<Option<T>, RefusalReason> {
-    let value = match fields.get(key) {
-        None | Some(Value::Null) => return Ok(None),
-        Some(Value::String(text)) => text.trim().parse().ok(),
-        Some(other) => plain(other),
-    };
-    value.map(Some).ok_or(RefusalReason::Field(key))
-}
-
-fn whole(fields: &Fields, key: &'static str) -> Result<Option<u64>, RefusalReason> {
-    number(fields, key, Value::as_u64)
-}
-
-fn decimal(fields: &Fields, key: &'static str) -> Result<Option<f64>, RefusalReason> {
-    number(fields, key, Value::as_f64)
-}
-
-fn needed(fields: &Fields, key: &'static str) -> Result<f64, RefusalReason> {
-    decimal(fields, key)?.ok_or(RefusalReason::MissingField(key))
-}
-
-/// The epoch, which is UTC whether it says so or not.
-fn epoch(fields: &Fields) -> Result<NaiveDateTime, RefusalReason> {
-    let text = text(fields, "EPOCH").ok_or(RefusalReason::MissingField("EPOCH"))?;
-    let civil: civil::DateTime =
-        text.trim_end_matches(['Z', 'z']).parse().map_err(|_| RefusalReason::Field("EPOCH"))?;
-    let out_of_range = RefusalReason::Orbit(ElementsError::Epoch);
-    let utc =
-        civil.to_zoned(jiff::tz::TimeZone::UTC).map_err(|_| out_of_range.clone())?.timestamp();
-    // Never negative: the range of epochs begins before 1970, so take the floor.
-    let seconds = utc.as_nanosecond().div_euclid(1_000_000_000);
-    let nanoseconds = utc.as_nanosecond().rem_euclid(1_000_000_000);
-    i64::try_from(seconds)
-        .ok()
-        .zip(u32::try_from(nanoseconds).ok())
-        .and_then(|(seconds, nanoseconds)| DateTime::from_timestamp(seconds, nanoseconds))
-        .map(|time| time.naive_utc())
-        .ok_or(out_of_range)
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::*;
-
-    /// A message as `CelesTrak` writes it, with a number no TLE can carry.
-    fn celestrak() -> Value {
-        json!({
-            "OBJECT_NAME": "NEW OBJECT", "OBJECT_ID": "2026-150A",
-            "EPOCH": "2026-08-11T01:21:00.123456", "MEAN_MOTION": 15.495_605_32,
-            "ECCENTRICITY": 0.000_177_1, "INCLINATION": 51.6435, "RA_OF_ASC_NODE": 225.4004,
-            "ARG_OF_PERICENTER": 44.9625, "MEAN_ANOMALY": 5.1087, "EPHEMERIS_TYPE": 0,
-            "CLASSIFICATION_TYPE": "U", "NORAD_CAT_ID": 100_123, "ELEMENT_SET_NO": 999,
-            "REV_AT_EPOCH": 23587, "BSTAR": 0.004_964_5, "MEAN_MOTION_DOT": 0.002_890_36,
-            "MEAN_MOTION_DDOT": 0
-        })
-    }
-
-    /// The message with one field changed; null takes it away.
-    fn with(key: &str, value: Value) -> Value {
-        let mut message = celestrak();
-        let fields = message.as_object_mut().unwrap();
-        if value.is_null() {
-            fields.remove(key)
-        } else {
-            fields.insert(key.into(), value)
+    /// The name of the object, or its number, to name a refused one.
+    pub(super) fn object(&self) -> Option<String> {
+        let field = |name| match self.value(name)? {
+            Value::Text(text) => Some(text.trim().to_owned()),
+            Value::Number(number) => Some(number.to_string()),
+            Value::Other => None,
         };
-        message
+        field("OBJECT_NAME").or_else(|| field("NORAD_CAT_ID"))
     }
 
-    #[test]
-    fn one_object_and_a_list_are_read() {
-        let one = read(&celestrak().to_string());
-        let two = read(&json!([celestrak(), with("NORAD_CAT_ID", json!(999_999_999))]).to_string());
-        assert_eq!((&one.refused, &two.refused), (&vec![], &vec![]));
-        assert_eq!(one.elements[0], two.elements[0]);
-        assert_eq!(one.elements[0].catalog_number(), 100_123);
-        assert_eq!(one.elements[0].name(), "NEW OBJECT");
-        assert_eq!(one.elements[0].epoch(), "2026-08-11T01:21:00.123456Z".parse().unwrap());
-        assert_eq!(two.elements[1].catalog_number(), 999_999_999);
+    /// The elements the message tells.
+    pub(super) fn elements(&self) -> Result<Elements, RefusalReason> {
+        self.is_sgp4()?;
+        let number = self
+            .read("NORAD_CAT_ID", numbers::catalog_number)?
+            .ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?;
+        let elements = Elements {
+            name: clean(self.text("OBJECT_NAME").unwrap_or_default()),
+            international_designator: clean(self.text("OBJECT_ID").unwrap_or_default()),
+            catalog_number: catalog_number(number)?,
+            epoch: self.epoch()?,
+            mean_motion_rev_day: self.needed("MEAN_MOTION")?,
+            mean_motion_dot: self.decimal("MEAN_MOTION_DOT")?.unwrap_or(0.0),
+            mean_motion_ddot: self.decimal("MEAN_MOTION_DDOT")?.unwrap_or(0.0),
+            bstar: self.needed("BSTAR")?,
+            inclination_deg: self.needed("INCLINATION")?,
+            node_deg: self.needed("RA_OF_ASC_NODE")?,
+            eccentricity: self.needed("ECCENTRICITY")?,
+            perigee_deg: self.needed("ARG_OF_PERICENTER")?,
+            mean_anomaly_deg: self.needed("MEAN_ANOMALY")?,
+            set_number: self.count("ELEMENT_SET_NO")?,
+            revolution_number: self.count("REV_AT_EPOCH")?,
+            ephemeris_type: self.count("EPHEMERIS_TYPE")?,
+            classification: Classification::from_letter(
+                self.text("CLASSIFICATION_TYPE").unwrap_or_default(),
+            ),
+        };
+        Ok(elements.checked()?)
     }
 
-    #[test]
-    fn the_dialects_give_the_same_orbit() {
-        let plain = read(&celestrak().to_string()).elements;
-        let mut dialect = celestrak();
-        for (_, value) in dialect.as_object_mut().unwrap() {
-            if value.is_number() {
-                *value = json!(value.to_string());
+    /// Whether the numbers are for SGP4 as it is used here, as far as the
+    /// message says. Numbers of another theory or frame would be km off.
+    fn is_sgp4(&self) -> Result<(), RefusalReason> {
+        let fits = |name, fit: fn(&str) -> bool| match self.text(name) {
+            Some(text) if !fit(text) => Err(RefusalReason::Field(name)),
+            _ => Ok(()),
+        };
+        fits("MEAN_ELEMENT_THEORY", |theory| {
+            matches!(theory, "SGP4" | "SGP" | "SGP/SGP4" | "SDP4")
+        })?;
+        fits("CENTER_NAME", |center| center.eq_ignore_ascii_case("EARTH"))?;
+        fits("REF_FRAME", |frame| frame.starts_with("TEME"))?;
+        fits("TIME_SYSTEM", |system| system == "UTC")
+    }
+
+    fn value(&self, name: &'static str) -> Option<&Value<'a>> {
+        self.values.get(Field::named(name)?.0)?.as_ref()
+    }
+
+    /// A text that says something.
+    fn text(&self, name: &'static str) -> Option<&str> {
+        match self.value(name)? {
+            Value::Text(text) => Some(text.trim()),
+            _ => None,
+        }
+    }
+
+    /// A whole number, read from text by `parse`.
+    fn read(
+        &self,
+        name: &'static str,
+        parse: fn(&str) -> Option<u64>,
+    ) -> Result<Option<u64>, RefusalReason> {
+        let whole = match self.value(name) {
+            None => return Ok(None),
+            Some(Value::Text(text)) => parse(text.trim()),
+            Some(Value::Number(number)) if *number >= 0.0 && number.fract() == 0.0 => {
+                Some(*number as u64)
             }
-        }
-        dialect["EPOCH"] = json!("2026-08-11T01:21:00.123456Z");
-        dialect["CREATION_DATE"] = json!("2026-08-11T02:00:00");
-        dialect["DECAY_DATE"] = Value::Null;
-        assert_eq!(read(&dialect.to_string()).elements, plain);
-        for key in ["EPHEMERIS_TYPE", "CLASSIFICATION_TYPE"] {
-            let report = read(&with(key, Value::Null).to_string());
-            assert_eq!(report.elements, plain, "{key}");
-        }
+            Some(_) => None,
+        };
+        whole.map(Some).ok_or(RefusalReason::Field(name))
     }
 
-    #[test]
-    fn epochs_before_1970_keep_their_fraction() {
-        let report = read(&with("EPOCH", json!("1959-02-17T16:05:00.25")).to_string());
-        assert_eq!(report.elements[0].epoch(), "1959-02-17T16:05:00.25Z".parse().unwrap());
+    /// A whole number that is 0 when nothing is said.
+    fn count<T: TryFrom<u64>>(&self, name: &'static str) -> Result<T, RefusalReason> {
+        let count = self.read(name, numbers::digits)?.unwrap_or(0);
+        T::try_from(count).map_err(|_| RefusalReason::Field(name))
     }
 
-    #[test]
-    fn what_is_no_orbit_is_refused_by_its_field() {
-        use RefusalReason as Why;
-        for (key, value, reason) in [
-            ("EPOCH", json!("soon"), Why::Field("EPOCH")),
-            ("EPOCH", json!("-009999-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
-            ("EPOCH", json!("0000-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
-            ("MEAN_MOTION", Value::Null, Why::MissingField("MEAN_MOTION")),
-            ("MEAN_MOTION", json!(-1.0), Why::Orbit(ElementsError::MeanMotion(-1.0))),
-            ("ECCENTRICITY", json!(1.0), Why::Orbit(ElementsError::Eccentricity(1.0))),
-            ("INCLINATION", json!("inf"), Why::Orbit(ElementsError::NotFinite)),
-            ("BSTAR", json!([]), Why::Field("BSTAR")),
-            ("EPHEMERIS_TYPE", json!(4), Why::Orbit(ElementsError::EphemerisType(4))),
-            ("EPHEMERIS_TYPE", json!(256), Why::Field("EPHEMERIS_TYPE")),
-            ("MEAN_ELEMENT_THEORY", json!("SGP4-XP"), Why::Field("MEAN_ELEMENT_THEORY")),
-        ] {
-            let report = read(&json!([with(key, value), celestrak()]).to_string());
-            assert_eq!(report.elements.len(), 1, "{key}");
-            let object = Some("NEW OBJECT".to_owned());
-            assert_eq!(report.refused, [Refusal { line: 1, object, reason }]);
-        }
+    fn decimal(&self, name: &'static str) -> Result<Option<f64>, RefusalReason> {
+        let number = match self.value(name) {
+            None => return Ok(None),
+            Some(Value::Text(text)) => text.trim().parse().ok(),
+            Some(Value::Number(number)) => Some(*number),
+            Some(Value::Other) => None,
+        };
+        number.map(Some).ok_or(RefusalReason::Field(name))
     }
 
-    #[test]
-    fn a_torn_download_keeps_what_arrived() {
-        let whole = format!("[\n{},\n{}\n]", celestrak(), celestrak());
-        let report = read(&whole[..whole.len() - 40]);
-        assert_eq!(report.elements.len(), 1);
-        let torn = Refusal { line: 3, object: None, reason: RefusalReason::Json };
-        assert_eq!(report.refused, [torn]);
+    fn needed(&self, name: &'static str) -> Result<f64, RefusalReason> {
+        self.decimal(name)?.ok_or(RefusalReason::MissingField(name))
     }
+
+    /// The epoch, which is UTC whether it says so or not.
+    fn epoch(&self) -> Result<Timestamp, RefusalReason> {
+        let text = self.text("EPOCH").ok_or(RefusalReason::MissingField("EPOCH"))?;
+        let text = text.trim_end_matches(['Z', 'z']);
+        let civil: Option<civil::DateTime> = text.parse().ok().or_else(|| by_day_of_year(text));
+        let civil = civil.ok_or(RefusalReason::Field("EPOCH"))?;
+        let zoned = civil.to_zoned(TimeZone::UTC).map_err(|_| ElementsError::Epoch)?;
+        Ok(zoned.timestamp())
+    }
+}
+
+/// The other date of CCSDS: `2026-223T01:21:00`.
+fn by_day_of_year(text: &str) -> Option<civil::DateTime> {
+    let (date, time) = text.split_once('T')?;
+    let (year, day) = date.split_once('-')?;
+    let date = civil::Date::new(year.parse().ok()?, 1, 1).ok()?;
+    let date = date.with().day_of_year(day.parse().ok()?).build().ok()?;
+    Some(date.to_datetime(time.parse().ok()?))
 }

@@ -1,12 +1,10 @@
 //! TLE: two lines of 69 columns, perhaps a line with the name before them.
-//!
-//! Source: `CelesTrak`, "NORAD Two-Line Element Set Format".
 
-use super::{ReadReport, Refusal, RefusalReason};
+mod columns;
+
+use self::columns::{Columns, elements};
+use super::{ReadReport, RefusalReason, report::NoteKind};
 use crate::orbit::Elements;
-
-/// Columns of a line; what follows them is not part of the set.
-const COLUMNS: usize = 69;
 
 /// A line with its place in the text, from 1.
 #[derive(Clone, Copy)]
@@ -20,7 +18,9 @@ impl Line<'_> {
     fn is_numbered(self, number: char) -> bool {
         // A name may start with a digit too, but it has 24 columns at most.
         let mut letters = self.text.chars();
-        letters.next() == Some(number) && letters.next() == Some(' ') && self.text.len() > 24
+        letters.next() == Some(number)
+            && matches!(letters.next(), Some(' ' | '\t'))
+            && self.text.len() > 24
     }
 }
 
@@ -30,95 +30,61 @@ pub(super) fn read(text: &str) -> ReadReport {
     let mut lines = text
         .lines()
         .enumerate()
-        .map(|(index, text)| Line { place: index + 1, text: text.trim_end() })
-        .filter(|line| !line.text.is_empty())
+        .map(|(index, text)| Line { place: index + 1, text: text.trim() })
+        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .peekable();
-    let mut name: Option<Line<'_>> = None;
+    // Only the last line before a set can be its name; all else is remarks.
+    let mut name = "";
     while let Some(line) = lines.next() {
-        let mut refuse = |place, object, reason| {
-            report.refused.push(Refusal { line: place, object, reason });
-        };
-        if line.is_numbered('1') {
-            let title = name.take().map(|name| title(name.text));
-            let object = title.clone().or_else(|| number_text(line.text));
-            let Some(second) = lines.next_if(|next| next.is_numbered('2')) else {
-                refuse(line.place, object, RefusalReason::MissingLine { missing: 2 });
-                continue;
-            };
-            match set(title, line.text, second.text) {
-                Ok(elements) => report.elements.push(elements),
-                Err(reason) => refuse(line.place, object, reason),
+        let refused = if line.is_numbered('1') {
+            match lines.next_if(|next| next.is_numbered('2')) {
+                Some(second) => set(name, line, second, &mut report).err(),
+                None => Some(RefusalReason::MissingLine { missing: 2 }),
             }
         } else if line.is_numbered('2') {
-            let object = name.take().map(|name| title(name.text));
-            let object = object.or_else(|| number_text(line.text));
-            refuse(line.place, object, RefusalReason::MissingLine { missing: 1 });
+            Some(RefusalReason::MissingLine { missing: 1 })
         } else {
-            // Only the last line before a set can be its name; all else is remarks.
-            name = Some(line).filter(|line| !line.text.starts_with('#'));
+            // Space-Track starts name lines with a line number too.
+            name = line.text.strip_prefix("0 ").unwrap_or(line.text).trim();
+            continue;
+        };
+        if let Some(reason) = refused {
+            report.refuse(line.place, object(name, line.text), reason);
         }
+        name = "";
     }
     report
 }
 
-/// The name on a name line, which Space-Track starts with `0 `.
-fn title(text: &str) -> String {
-    text.strip_prefix("0 ").unwrap_or(text).trim().to_owned()
-}
-
-/// The catalogue number of a set line as it is written, to name a refused set.
-fn number_text(line: &str) -> Option<String> {
-    let number = line.get(2..7)?.trim();
-    (!number.is_empty()).then(|| number.to_owned())
+/// What to call a set: its name, else its number as it is written.
+fn object<'a>(name: &'a str, line: &'a str) -> Option<&'a str> {
+    let number = || line.get(2..7).map(str::trim);
+    Some(name).filter(|name| !name.is_empty()).or_else(number).filter(|text| !text.is_empty())
 }
 
 /// Reads one set.
-fn set(title: Option<String>, first: &str, second: &str) -> Result<Elements, RefusalReason> {
-    let mut first = columns(1, first)?;
-    let second = columns(2, second)?;
-    // Old sets leave these blank. Blanks and zeros count the same in the checksum.
-    if let Some(class @ b' ') = first.get_mut(7) {
-        *class = b'U';
+fn set(
+    name: &str,
+    first: Line<'_>,
+    second: Line<'_>,
+    report: &mut ReadReport,
+) -> Result<(), RefusalReason> {
+    let lines = [Columns::new(1, first.text)?, Columns::new(2, second.text)?];
+    let elements: Elements = elements(name, &lines)?;
+    for (line, columns) in [1, 2].into_iter().zip(&lines) {
+        if !columns.has_checksum {
+            let object = object(name, first.text);
+            report.note(first.place, object, NoteKind::BlankChecksum { line });
+        }
     }
-    if let Some(kind @ b' ') = first.get_mut(62) {
-        *kind = b'0';
-    }
-    let inner = sgp4::Elements::from_tle(title, &first, &second).map_err(RefusalReason::Columns)?;
-    Ok(Elements::new(inner)?)
-}
-
-/// The 69 columns of a line, sure to be ASCII and to have the right checksum:
-/// the library relies on both.
-fn columns(line: u8, text: &str) -> Result<[u8; COLUMNS], RefusalReason> {
-    let bytes = text.as_bytes();
-    let Some(columns) = bytes.first_chunk::<COLUMNS>() else {
-        return Err(RefusalReason::TooShort { line, columns: bytes.len() });
-    };
-    if !columns.is_ascii() {
-        return Err(RefusalReason::NotAscii { line });
-    }
-    let [content @ .., check] = columns;
-    if !check.is_ascii_digit() {
-        return Err(RefusalReason::ChecksumNotDigit { line });
-    }
-    let sum: u32 = content
-        .iter()
-        .map(|byte| match byte {
-            b'-' => 1,
-            b'0'..=b'9' => u32::from(byte - b'0'),
-            _ => 0,
-        })
-        .sum();
-    let (found, expected) = (check - b'0', (sum % 10) as u8);
-    if found != expected {
-        return Err(RefusalReason::Checksum { line, found, expected });
-    }
-    Ok(*columns)
+    report.accept(first.place, elements);
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::orbit::{ElementsError, reader::Refusal};
 
     const LINE_1: &str = "1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927";
     const LINE_2: &str = "2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537";
@@ -175,6 +141,41 @@ mod tests {
     }
 
     #[test]
+    fn blank_checksums_are_read_and_noted() {
+        let (first, second) = (&LINE_1[..68], &LINE_2[..68]);
+        let text = format!("{first}\r\n{second}\r\n{first} \t remark\n{LINE_2}\n");
+        let report = read(&text);
+        assert_eq!((report.elements.len(), report.refused.len()), (2, 0));
+        assert_eq!(report.elements[0], read(&format!("{LINE_1}\n{LINE_2}")).elements[0]);
+        let noted: Vec<_> = report.notes.iter().map(|note| (note.line, note.kind)).collect();
+        let blank = |line| NoteKind::BlankChecksum { line };
+        assert_eq!(noted, [(1, blank(1)), (1, blank(2)), (3, blank(1))]);
+        assert_eq!(report.notes[0].object.as_deref(), Some("25544"));
+    }
+
+    #[test]
+    fn tabs_and_blanks_around_the_lines_do_no_harm() {
+        let text = format!("  ISS\n\t{LINE_1}\t\n {}  \n", LINE_2.replacen(' ', "\t", 1));
+        let report = read(&text);
+        assert_eq!((report.refused.as_slice(), report.notes.as_slice()), (&[][..], &[][..]));
+        assert_eq!(report.elements[0].name(), "ISS");
+    }
+
+    #[test]
+    fn the_epoch_is_exact_and_its_day_exists() {
+        let epoch = |text: &str| {
+            let first = with(LINE_1, 19, text);
+            read(&format!("{first}\n{LINE_2}")).elements.first().map(Elements::epoch)
+        };
+        assert_eq!(epoch("26  1.00000001"), Some("2026-01-01T00:00:00.000864Z".parse().unwrap()));
+        assert_eq!(epoch("24366.99999999"), Some("2024-12-31T23:59:59.999136Z".parse().unwrap()));
+        assert_eq!(epoch("57001.5       "), Some("1957-01-01T12:00:00Z".parse().unwrap()));
+        for wrong in ["26366.00000000", "26000.50000000", "26 -1.50000000", "26001.0e000000"] {
+            assert_eq!(epoch(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
     fn a_bad_set_is_named_and_costs_no_other() {
         let text = format!("BAD\n{LINE_1}\n{}8\n{LINE_1}\n{LINE_2}\n", &LINE_2[..68]);
         let report = read(&text);
@@ -189,20 +190,22 @@ mod tests {
         use RefusalReason as Why;
         assert_eq!(refusal(&format!("{LINE_1}\n")), Why::MissingLine { missing: 2 });
         assert_eq!(refusal(&format!("{LINE_2}\n")), Why::MissingLine { missing: 1 });
-        let short = &LINE_1[..68];
-        assert_eq!(refusal(&format!("{short}\n{LINE_2}")), Why::TooShort { line: 1, columns: 68 });
-        // Below '0' the library would end the program in debug builds.
+        let short = &LINE_1[..67];
+        assert_eq!(refusal(&format!("{short}\n{LINE_2}")), Why::TooShort { line: 1, columns: 67 });
         let check = Why::ChecksumNotDigit { line: 1 };
-        assert_eq!(refusal(&format!("{short}-\n{LINE_2}")), check);
+        assert_eq!(refusal(&format!("{short}2-\n{LINE_2}")), check);
         let wide = LINE_1.replace(" 08", "\u{b0}08");
         assert_eq!(refusal(&format!("{wide}\n{LINE_2}")), Why::NotAscii { line: 1 });
         let other = with(LINE_2, 3, "25545");
-        assert!(matches!(refusal(&format!("{LINE_1}\n{other}")), Why::Columns(_)));
+        assert_eq!(refusal(&format!("{LINE_1}\n{other}")), Why::TwoObjects);
+        let shifted = with(LINE_2, 17, "2");
+        let column = Why::Shifted { line: 2, column: 17 };
+        assert_eq!(refusal(&format!("{LINE_1}\n{shifted}")), column);
         let xp = with(LINE_1, 63, "4");
-        let orbit = Why::Orbit(crate::orbit::ElementsError::EphemerisType(4));
+        let orbit = Why::Orbit(ElementsError::EphemerisType(4));
         assert_eq!(refusal(&format!("{xp}\n{LINE_2}")), orbit);
         let still = with(LINE_2, 53, " 0.00000000");
-        let orbit = Why::Orbit(crate::orbit::ElementsError::MeanMotion(0.0));
+        let orbit = Why::Orbit(ElementsError::MeanMotion(0.0));
         assert_eq!(refusal(&format!("{LINE_1}\n{still}")), orbit);
     }
 }

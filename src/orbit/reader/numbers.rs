@@ -1,0 +1,55 @@
+//! Numbers that more than one form writes.
+
+/// The catalogue number that `text` writes: digits, or Alpha-5, where a letter
+/// stands for the first two digits of six: `A0001` is 100001, `Z9999` 339999.
+/// The letters I and O are left out, because they look like digits.
+///
+/// Source: Space-Track, "Alpha-5".
+pub(super) fn catalog_number(text: &str) -> Option<u64> {
+    let mut letters = text.chars();
+    let Some(letter @ 'A'..='Z') = letters.next() else {
+        return digits(text);
+    };
+    let leading = ALPHA_5.chars().position(|known| known == letter)? as u64 + 10;
+    let rest = Some(letters.as_str()).filter(|rest| rest.len() == 4)?;
+    Some(leading * 10_000 + digits(rest)?)
+}
+
+/// The letters of Alpha-5, from 10 on.
+pub(in crate::orbit) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
+
+/// A number written with digits alone: no sign.
+pub(super) fn digits(text: &str) -> Option<u64> {
+    Some(text).filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()))?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alpha_5_has_24_letters() {
+        for (text, number) in [
+            ("5", Some(5)),
+            ("00900", Some(900)),
+            ("999999999", Some(999_999_999)),
+            ("A0000", Some(100_000)),
+            ("H9999", Some(179_999)),
+            ("J0000", Some(180_000)),
+            ("N0000", Some(220_000)),
+            ("P0000", Some(230_000)),
+            ("T0001", Some(270_001)),
+            ("Z9999", Some(339_999)),
+            ("I0000", None),
+            ("O0000", None),
+            ("A000", None),
+            ("A+000", None),
+            ("a0000", None),
+            ("+5", None),
+            ("", None),
+            ("5 5", None),
+        ] {
+            assert_eq!(catalog_number(text), number, "{text}");
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! OMM in JSON: one object, or a list of them.
+
+mod split;
+
+use std::{borrow::Cow, fmt};
+
+use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+use self::split::{Part, parts};
+use super::{Field, Message, Value};
+use crate::orbit::reader::{ReadReport, RefusalReason};
+
+/// Reads all objects of `text`.
+pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+    let mut report = ReadReport::default();
+    for Part { line, text } in parts(text) {
+        if !text.starts_with('{') {
+            report.refuse(line, None, RefusalReason::NotAnObject);
+            continue;
+        }
+        let mut message = Message::default();
+        let mut json = serde_json::Deserializer::from_str(text);
+        let filled = Fill(&mut message).deserialize(&mut json).and_then(|()| json.end());
+        match filled.map_err(|_| RefusalReason::Json).and_then(|()| message.elements()) {
+            Ok(elements) => report.accept(line, elements),
+            Err(reason) => report.refuse(line, message.object().as_deref(), reason),
+        }
+    }
+    report
+}
+
+/// Puts a JSON object into a message, as far as it goes.
+struct Fill<'m, 'a>(&'m mut Message<'a>);
+
+impl<'de> DeserializeSeed<'de> for Fill<'_, 'de> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_map(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Fill<'_, 'de> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<(), A::Error> {
+        while let Some(field) = fields.next_key_seed(KeySeed)? {
+            let value = fields.next_value_seed(ValueSeed)?;
+            if let (Some(field), Some(value)) = (field, value) {
+                self.0.set(field, value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads a key; `None` when nothing asks for its field.
+struct KeySeed;
+
+impl<'de> DeserializeSeed<'de> for KeySeed {
+    type Value = Option<Field>;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl Visitor<'_> for KeySeed {
+    type Value = Option<Field>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a key")
+    }
+
+    fn visit_str<E>(self, key: &str) -> Result<Self::Value, E> {
+        Ok(Field::named(key))
+    }
+}
+
+/// Reads a value of any kind; `None` is null.
+struct ValueSeed;
+
+impl<'de> DeserializeSeed<'de> for ValueSeed {
+    type Value = Option<Value<'de>>;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for ValueSeed {
+    type Value = Option<Value<'de>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_borrowed_str<E>(self, text: &'de str) -> Result<Self::Value, E> {
+        Ok(Some(Value::Text(Cow::Borrowed(text))))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
+        Ok(Some(Value::Text(Cow::Owned(text.to_owned()))))
+    }
+
+    fn visit_u64<E>(self, number: u64) -> Result<Self::Value, E> {
+        Ok(Some(Value::Number(number as f64)))
+    }
+
+    fn visit_i64<E>(self, number: i64) -> Result<Self::Value, E> {
+        Ok(Some(Value::Number(number as f64)))
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Self::Value, E> {
+        Ok(Some(Value::Number(number)))
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<Self::Value, E> {
+        Ok(Some(Value::Other))
+    }
+
+    fn visit_unit<E>(self) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+        while list.next_element::<IgnoredAny>()?.is_some() {}
+        Ok(Some(Value::Other))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Self::Value, A::Error> {
+        while object.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+        Ok(Some(Value::Other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value as Json, json};
+
+    use super::*;
+    use crate::orbit::{ElementsError, reader::Refusal};
+
+    /// A message as `CelesTrak` writes it, with a number no TLE can carry.
+    fn celestrak() -> Json {
+        json!({
+            "OBJECT_NAME": "NEW OBJECT", "OBJECT_ID": "2026-150A",
+            "EPOCH": "2026-08-11T01:21:00.123456", "MEAN_MOTION": 15.495_605_32,
+            "ECCENTRICITY": 0.000_177_1, "INCLINATION": 51.6435, "RA_OF_ASC_NODE": 225.4004,
+            "ARG_OF_PERICENTER": 44.9625, "MEAN_ANOMALY": 5.1087, "EPHEMERIS_TYPE": 0,
+            "CLASSIFICATION_TYPE": "U", "NORAD_CAT_ID": 100_123, "ELEMENT_SET_NO": 999,
+            "REV_AT_EPOCH": 23587, "BSTAR": 0.004_964_5, "MEAN_MOTION_DOT": 0.002_890_36,
+            "MEAN_MOTION_DDOT": 0
+        })
+    }
+
+    /// The message with one field changed; null takes it away.
+    fn with(key: &str, value: Json) -> Json {
+        let mut message = celestrak();
+        let fields = message.as_object_mut().unwrap();
+        if value.is_null() {
+            fields.remove(key)
+        } else {
+            fields.insert(key.into(), value)
+        };
+        message
+    }
+
+    #[test]
+    fn one_object_and_a_list_are_read() {
+        let one = read(&celestrak().to_string());
+        let two = read(&json!([celestrak(), with("NORAD_CAT_ID", json!(999_999_999))]).to_string());
+        assert_eq!((&one.refused, &two.refused), (&vec![], &vec![]));
+        assert_eq!(one.elements[0], two.elements[0]);
+        assert_eq!(one.elements[0].catalog_number(), 100_123);
+        assert_eq!(one.elements[0].name(), "NEW OBJECT");
+        assert_eq!(one.elements[0].epoch(), "2026-08-11T01:21:00.123456Z".parse().unwrap());
+        assert_eq!(two.elements[1].catalog_number(), 999_999_999);
+    }
+
+    #[test]
+    fn the_dialects_give_the_same_orbit() {
+        let plain = read(&celestrak().to_string()).elements;
+        let mut dialect = celestrak();
+        for (_, value) in dialect.as_object_mut().unwrap() {
+            if value.is_number() {
+                *value = json!(value.to_string());
+            }
+        }
+        dialect["EPOCH"] = json!("2026-08-11T01:21:00.123456Z");
+        dialect["CREATION_DATE"] = json!("2026-08-11T02:00:00");
+        dialect["DECAY_DATE"] = Json::Null;
+        assert_eq!(read(&dialect.to_string()).elements, plain);
+        for key in ["EPHEMERIS_TYPE", "CLASSIFICATION_TYPE"] {
+            let report = read(&with(key, Json::Null).to_string());
+            assert_eq!(report.elements, plain, "{key}");
+        }
+    }
+
+    #[test]
+    fn epochs_before_1970_keep_their_fraction() {
+        let report = read(&with("EPOCH", json!("1959-02-17T16:05:00.25")).to_string());
+        assert_eq!(report.elements[0].epoch(), "1959-02-17T16:05:00.25Z".parse().unwrap());
+    }
+
+    #[test]
+    fn what_is_no_orbit_is_refused_by_its_field() {
+        use RefusalReason as Why;
+        for (key, value, reason) in [
+            ("EPOCH", json!("soon"), Why::Field("EPOCH")),
+            ("EPOCH", json!("-009999-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
+            ("EPOCH", json!("0000-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
+            ("MEAN_MOTION", Json::Null, Why::MissingField("MEAN_MOTION")),
+            ("MEAN_MOTION", json!(-1.0), Why::Orbit(ElementsError::MeanMotion(-1.0))),
+            ("ECCENTRICITY", json!(1.0), Why::Orbit(ElementsError::Eccentricity(1.0))),
+            ("INCLINATION", json!("inf"), Why::Orbit(ElementsError::NotFinite)),
+            ("BSTAR", json!([]), Why::Field("BSTAR")),
+            ("EPHEMERIS_TYPE", json!(4), Why::Orbit(ElementsError::EphemerisType(4))),
+            ("EPHEMERIS_TYPE", json!(256), Why::Field("EPHEMERIS_TYPE")),
+            ("MEAN_ELEMENT_THEORY", json!("SGP4-XP"), Why::Field("MEAN_ELEMENT_THEORY")),
+        ] {
+            let report = read(&json!([with(key, value), celestrak()]).to_string());
+            assert_eq!(report.elements.len(), 1, "{key}");
+            let object = Some("NEW OBJECT".to_owned());
+            assert_eq!(report.refused, [Refusal { line: 1, object, reason }]);
+        }
+    }
+
+    #[test]
+    fn a_torn_download_keeps_what_arrived() {
+        let whole = format!("[\n{},\n{}\n]", celestrak(), celestrak());
+        let report = read(&whole[..whole.len() - 40]);
+        assert_eq!(report.elements.len(), 1);
+        let object = Some("NEW OBJECT".to_owned());
+        let torn = Refusal { line: 3, object, reason: RefusalReason::Json };
+        assert_eq!(report.refused, [torn]);
+    }
+}

@@ -1,0 +1,197 @@
+//! What a text held: elements, refusals, notes.
+
+use crate::orbit::{Elements, elements::ElementsError};
+
+/// How many refusals and notes are listed one by one. A text that is all wrong
+/// says the same thing over and over, and must not fill the memory with it.
+const MAX_LISTED: usize = 100_000;
+/// Characters of a name that are kept to name a refused object.
+const MAX_OBJECT_CHARS: usize = 60;
+
+/// What a text held.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReadReport {
+    /// The objects that were read, in the order of the text.
+    pub elements: Vec<Elements>,
+    /// The objects that were not, in the order of the text, the first 100,000.
+    pub refused: Vec<Refusal>,
+    /// How many more were refused.
+    pub refused_unlisted: usize,
+    /// What was accepted although it is not as it should be, the first 100,000.
+    pub notes: Vec<Note>,
+    /// The line of each of `elements`, from 1.
+    pub(in crate::orbit) lines: Vec<u32>,
+}
+
+/// One object that was not taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// The line of the text where the object starts, from 1.
+    pub line: usize,
+    /// Its name or catalogue number, as far as they could be read.
+    pub object: Option<String>,
+    /// Why it was refused.
+    pub reason: RefusalReason,
+}
+
+/// Something odd about an object that was taken.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// The line of the text where the object starts, from 1.
+    pub line: usize,
+    /// Its name or catalogue number.
+    pub object: Option<String>,
+    /// What is odd.
+    pub kind: NoteKind,
+}
+
+/// What can be odd about an object that is still taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoteKind {
+    /// Nothing guards the line of a TLE against wrong characters.
+    #[error("line {line} has no checksum")]
+    BlankChecksum {
+        /// The line of the set, 1 or 2.
+        line: u8,
+    },
+}
+
+/// Why an object was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RefusalReason {
+    /// A TLE line 1 without its line 2, or the other way about.
+    #[error("line {missing} of the element set is missing")]
+    MissingLine {
+        /// The line that is missing, 1 or 2.
+        missing: u8,
+    },
+    /// A TLE line ends before its checksum.
+    #[error("line {line} has {columns} of 69 columns")]
+    TooShort {
+        /// The line of the set, 1 or 2.
+        line: u8,
+        /// How many columns it has.
+        columns: usize,
+    },
+    /// A TLE line holds letters no TLE has.
+    #[error("line {line} holds characters outside ASCII")]
+    NotAscii {
+        /// The line of the set, 1 or 2.
+        line: u8,
+    },
+    /// Column 69 of a TLE line is neither a digit nor blank.
+    #[error("the checksum of line {line} is no digit")]
+    ChecksumNotDigit {
+        /// The line of the set, 1 or 2.
+        line: u8,
+    },
+    /// Column 69 of a TLE line does not agree with the line.
+    #[error("the checksum of line {line} is {found}, the line gives {expected}")]
+    Checksum {
+        /// The line of the set, 1 or 2.
+        line: u8,
+        /// What column 69 says.
+        found: u8,
+        /// What the columns before it add up to.
+        expected: u8,
+    },
+    /// A column between two fields of a TLE line is not blank: something is
+    /// missing before it, or is too much.
+    #[error("column {column} of line {line} is not blank")]
+    Shifted {
+        /// The line of the set, 1 or 2.
+        line: u8,
+        /// The column, from 1.
+        column: usize,
+    },
+    /// The two lines of a TLE carry different catalogue numbers.
+    #[error("the two lines are of different objects")]
+    TwoObjects,
+    /// A field is missing; the name is the one of the OMM.
+    #[error("{0} is missing")]
+    MissingField(&'static str),
+    /// A field does not hold what belongs there; the name is the one of the OMM.
+    #[error("{0} cannot be read")]
+    Field(&'static str),
+    /// What stands between the braces is no JSON.
+    #[error("no JSON")]
+    Json,
+    /// An entry of a JSON list is no object.
+    #[error("not an object")]
+    NotAnObject,
+    /// A message is no XML.
+    #[error("no XML")]
+    Xml,
+    /// A row of a CSV has not as many fields as its header.
+    #[error("the row has {found} of {expected} fields")]
+    FieldCount {
+        /// How many fields it has.
+        found: usize,
+        /// How many the header has.
+        expected: usize,
+    },
+    /// The numbers are no orbit.
+    #[error(transparent)]
+    Orbit(#[from] ElementsError),
+    /// The catalog holds a newer set of this object.
+    #[error("older than the set that is held, of {held}")]
+    OlderThanHeld {
+        /// Its epoch.
+        held: jiff::Timestamp,
+    },
+}
+
+impl ReadReport {
+    /// How many objects were refused, listed or not.
+    pub fn refused_count(&self) -> usize {
+        self.refused.len() + self.refused_unlisted
+    }
+
+    /// Adds an object that starts at `line`.
+    pub(super) fn accept(&mut self, line: usize, elements: Elements) {
+        self.elements.push(elements);
+        self.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
+    }
+
+    /// Adds an object that cannot be taken.
+    pub(super) fn refuse(&mut self, line: usize, object: Option<&str>, reason: RefusalReason) {
+        if self.refused.len() < MAX_LISTED {
+            self.refused.push(Refusal { line, object: object.map(shortened), reason });
+        } else {
+            self.refused_unlisted += 1;
+        }
+    }
+
+    /// Says what is odd about an object that is taken.
+    pub(super) fn note(&mut self, line: usize, object: Option<&str>, kind: NoteKind) {
+        if self.notes.len() < MAX_LISTED {
+            self.notes.push(Note { line, object: object.map(shortened), kind });
+        }
+    }
+}
+
+fn shortened(object: &str) -> String {
+    object.chars().take(MAX_OBJECT_CHARS).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refusals_without_end_are_counted_but_not_kept() {
+        let mut report = ReadReport::default();
+        for line in 1..=MAX_LISTED + 5 {
+            report.refuse(line, None, RefusalReason::Json);
+        }
+        assert_eq!((report.refused.len(), report.refused_unlisted), (MAX_LISTED, 5));
+        assert_eq!(report.refused_count(), MAX_LISTED + 5);
+    }
+
+    #[test]
+    fn a_name_without_end_is_cut() {
+        let mut report = ReadReport::default();
+        report.refuse(1, Some(&"x".repeat(1_000_000)), RefusalReason::Json);
+        assert_eq!(report.refused[0].object.as_ref().unwrap().len(), MAX_OBJECT_CHARS);
+    }
+}
