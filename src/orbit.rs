@@ -15,5 +15,7 @@ pub use elements::{EPOCH_YEARS, Elements, ElementsError};
 pub use look::{LookAngles, look_angles};
 pub use passes::{Pass, PassPoint, passes};
 pub use propagator::{PropagationError, Propagator, State};
-pub use reader::{Note, NoteKind, ReadReport, Refusal, RefusalReason, read_elements};
+pub use reader::{
+    Note, NoteKind, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,
+};
 pub use shadow::is_sunlit;

@@ -10,17 +10,71 @@ mod omm;
 mod report;
 mod tle;
 
+use std::borrow::Cow;
+
 use smol_str::SmolStr;
 
-use self::omm::json;
+use self::omm::{csv, json, kvn, xml};
 pub use self::report::{Note, NoteKind, ReadReport, Refusal, RefusalReason};
 
 /// Reads all elements of `text`: TLE with two or three lines a set (Alpha-5
-/// numbers too), or OMM in JSON, one object or a list, as `CelesTrak` and
+/// numbers too), or OMM in JSON, XML, KVN or CSV, as `CelesTrak` and
 /// Space-Track write them. Never fails as a whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
     let text = text.trim_start_matches('\u{feff}');
-    if text.trim_start().starts_with(['{', '[']) { json::read(text) } else { tle::read(text) }
+    match form(text) {
+        Form::Json => json::read(text),
+        Form::Xml => xml::read(text),
+        Form::Kvn => kvn::read(text),
+        Form::Csv => csv::read(text),
+        Form::Tle => tle::read(text),
+    }
+}
+
+/// Reads all elements of a file as it is on disk or came over a wire. Bytes
+/// that are no UTF-8 are replaced; UTF-16 is read where its mark says so, as
+/// some shells write it.
+pub fn read_element_bytes(bytes: &[u8]) -> ReadReport {
+    read_elements(&decoded(bytes))
+}
+
+fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    let (code, is_big) = match bytes {
+        [0xff, 0xfe, code @ ..] => (code, false),
+        [0xfe, 0xff, code @ ..] => (code, true),
+        _ => return String::from_utf8_lossy(bytes),
+    };
+    let (pairs, _) = code.as_chunks();
+    let unit = if is_big { u16::from_be_bytes } else { u16::from_le_bytes };
+    let units = pairs.iter().map(|pair| unit(*pair));
+    let letters = char::decode_utf16(units).map(|letter| letter.unwrap_or('\u{fffd}'));
+    Cow::Owned(letters.collect())
+}
+
+/// How elements are written.
+enum Form {
+    Json,
+    Xml,
+    Kvn,
+    Csv,
+    Tle,
+}
+
+/// The form of `text`, from its first line that is no remark.
+fn form(text: &str) -> Form {
+    let first = text
+        .lines()
+        .map(str::trim)
+        .find(|line| !line.is_empty() && !line.starts_with('#') && !kvn::is_comment(line))
+        .unwrap_or_default();
+    match first.chars().next() {
+        Some('{' | '[') => Form::Json,
+        // A page around a list of TLE starts so too, but has no such words.
+        Some('<') if ["<?xml", "<ndm", "<omm"].iter().any(|tag| first.contains(tag)) => Form::Xml,
+        _ if kvn::is_first(first) => Form::Kvn,
+        _ if csv::is_header(first) => Form::Csv,
+        _ => Form::Tle,
+    }
 }
 
 /// A text of a source on one line: without blanks around it, and with blanks
@@ -63,6 +117,65 @@ mod tests {
             let text = serde_json::json!([{ key.clone(): value }, { key: number }]).to_string();
             prop_assert_eq!(read_elements(&text).refused.len(), 2);
         }
+    }
+
+    /// One object in every form.
+    const FORMS: [&str; 5] = [
+        "0 A\r\n1 25544U 98067A   26223.50000000  .00000000  00000-0  10000-3 0  9994\r\n\
+         2 25544  51.6000 225.4000 0001771  44.9000   5.1000 15.50000000    18\r\n",
+        r#" [{"OBJECT_NAME":"A","OBJECT_ID":"1998-067A","NORAD_CAT_ID":"25544",
+         "EPOCH":"2026-08-11T12:00:00","MEAN_MOTION":15.5,"ECCENTRICITY":0.0001771,
+         "INCLINATION":51.6,"RA_OF_ASC_NODE":225.4,"ARG_OF_PERICENTER":44.9,"MEAN_ANOMALY":5.1,
+         "BSTAR":1e-4,"ELEMENT_SET_NO":999,"REV_AT_EPOCH":1}]"#,
+        "# remark\n<ndm><omm><OBJECT_NAME>A</OBJECT_NAME><OBJECT_ID>1998-067A</OBJECT_ID>\
+         <NORAD_CAT_ID>25544</NORAD_CAT_ID><EPOCH>2026-08-11T12:00:00</EPOCH>\
+         <MEAN_MOTION>15.5</MEAN_MOTION><ECCENTRICITY>.0001771</ECCENTRICITY>\
+         <INCLINATION>51.6</INCLINATION><RA_OF_ASC_NODE>225.4</RA_OF_ASC_NODE>\
+         <ARG_OF_PERICENTER>44.9</ARG_OF_PERICENTER><MEAN_ANOMALY>5.1</MEAN_ANOMALY>\
+         <BSTAR>.1E-3</BSTAR><ELEMENT_SET_NO>999</ELEMENT_SET_NO>\
+         <REV_AT_EPOCH>1</REV_AT_EPOCH></omm></ndm>",
+        "COMMENT A\nOBJECT_NAME=A\nOBJECT_ID=1998-067A\nNORAD_CAT_ID=25544\n\
+         EPOCH=2026-223T12:00:00Z\nMEAN_MOTION=15.5\nECCENTRICITY=.0001771\nINCLINATION=51.6\n\
+         RA_OF_ASC_NODE=225.4\nARG_OF_PERICENTER=44.9\nMEAN_ANOMALY=5.1\nBSTAR=0.0001\n\
+         ELEMENT_SET_NO=999\nREV_AT_EPOCH=1\n",
+        "OBJECT_NAME,OBJECT_ID,NORAD_CAT_ID,EPOCH,MEAN_MOTION,ECCENTRICITY,INCLINATION,\
+         RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,BSTAR,ELEMENT_SET_NO,REV_AT_EPOCH\n\
+         A,1998-067A,25544,2026-08-11 12:00:00,15.5,1.771e-4,51.6,225.4,44.9,5.1,1e-4,999,1\n",
+    ];
+
+    #[test]
+    fn every_form_is_known_by_its_content_and_says_the_same() {
+        let first = read_elements(FORMS[0]);
+        assert_eq!((first.elements.len(), first.refused.len()), (1, 0), "{:?}", first.refused);
+        for text in FORMS {
+            for text in [text.to_owned(), format!("\u{feff}{text}")] {
+                let report = read_elements(&text);
+                assert_eq!(
+                    (&report.elements, &report.refused),
+                    (&first.elements, &vec![]),
+                    "{text}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn bytes_of_other_encodings_are_read() {
+        let latin = FORMS[0].replace("0 A", "0 Caf\u{e9}");
+        let bytes: Vec<u8> = latin.chars().map(|letter| letter as u8).collect();
+        assert_eq!(read_element_bytes(&bytes).elements[0].name(), "Caf\u{fffd}");
+        let units: Vec<u16> = format!("\u{feff}{}", FORMS[1]).encode_utf16().collect();
+        let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        for bytes in [little, big] {
+            assert_eq!(read_element_bytes(&bytes).elements, read_elements(FORMS[1]).elements);
+        }
+    }
+
+    #[test]
+    fn names_lose_what_no_screen_can_show() {
+        let text = FORMS[1].replace("\"A\"", "\" A\\u0007\\nB \"");
+        assert_eq!(read_elements(&text).elements[0].name(), "A  B");
     }
 
     #[test]

@@ -6,13 +6,16 @@
 //! Space-Track write. Space-Track writes numbers as strings; some sources end
 //! the epoch with `Z` and leave out the ephemeris type and the classification.
 
+pub(super) mod csv;
 pub(super) mod json;
+pub(super) mod kvn;
+pub(super) mod xml;
 
 use std::borrow::Cow;
 
 use jiff::{Timestamp, civil, tz::TimeZone};
 
-use super::{RefusalReason, clean, numbers};
+use super::{ReadReport, RefusalReason, clean, numbers};
 use crate::orbit::{
     Elements,
     elements::{Classification, ElementsError, catalog_number},
@@ -45,18 +48,23 @@ const FIELDS: [&str; 21] = [
 
 /// A field that is read: its place in [`FIELDS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Field(usize);
+struct Field(usize);
 
 impl Field {
     /// The field called `name`, in any case.
-    pub(super) fn named(name: &str) -> Option<Self> {
+    fn named(name: &str) -> Option<Self> {
         FIELDS.iter().position(|known| known.eq_ignore_ascii_case(name)).map(Self)
+    }
+
+    /// Whether it holds text that is taken as it is.
+    fn is_text(self) -> bool {
+        FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }
 }
 
 /// What a field holds.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value<'a> {
+enum Value<'a> {
     /// Text, which may write a number.
     Text(Cow<'a, str>),
     /// A number.
@@ -67,13 +75,13 @@ pub(super) enum Value<'a> {
 
 /// The fields of one message, those with a value.
 #[derive(Debug, Default)]
-pub(super) struct Message<'a> {
+struct Message<'a> {
     values: [Option<Value<'a>>; FIELDS.len()],
 }
 
 impl<'a> Message<'a> {
     /// Sets a field. Empty text is no value.
-    pub(super) fn set(&mut self, field: Field, value: Value<'a>) {
+    fn set(&mut self, field: Field, value: Value<'a>) {
         if let Value::Text(text) = &value
             && text.trim().is_empty()
         {
@@ -84,8 +92,29 @@ impl<'a> Message<'a> {
         }
     }
 
+    /// Whether a field has a value.
+    fn has(&self, field: Field) -> bool {
+        self.values.get(field.0).is_some_and(Option::is_some)
+    }
+
+    /// Whether no field has a value.
+    fn is_empty(&self) -> bool {
+        self.values.iter().all(Option::is_none)
+    }
+
+    /// Adds what the message tells to `report`; nothing when it tells nothing.
+    fn finish(&self, line: usize, report: &mut ReadReport) {
+        if self.is_empty() {
+            return;
+        }
+        match self.elements() {
+            Ok(elements) => report.accept(line, elements),
+            Err(reason) => report.refuse(line, self.object().as_deref(), reason),
+        }
+    }
+
     /// The name of the object, or its number, to name a refused one.
-    pub(super) fn object(&self) -> Option<String> {
+    fn object(&self) -> Option<String> {
         let field = |name| match self.value(name)? {
             Value::Text(text) => Some(text.trim().to_owned()),
             Value::Number(number) => Some(number.to_string()),
@@ -95,7 +124,7 @@ impl<'a> Message<'a> {
     }
 
     /// The elements the message tells.
-    pub(super) fn elements(&self) -> Result<Elements, RefusalReason> {
+    fn elements(&self) -> Result<Elements, RefusalReason> {
         self.is_sgp4()?;
         let number = self
             .read("NORAD_CAT_ID", numbers::catalog_number)?

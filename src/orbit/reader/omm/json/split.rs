@@ -9,21 +9,21 @@ pub(super) struct Part<'a> {
     pub(super) text: &'a str,
 }
 
-/// The objects of `text`, and what else stands between the commas.
+/// The objects of `text`, and what else stands between them. Looks at every
+/// byte a fixed number of times.
 pub(super) fn parts(text: &str) -> impl Iterator<Item = Part<'_>> {
-    let between = |letter: char| letter.is_whitespace() || matches!(letter, ',' | '[' | ']');
+    let between = |letter: char| letter.is_whitespace() || matches!(letter, ',' | '[' | ']' | '}');
     let (mut rest, mut line) = (text, 1);
     std::iter::from_fn(move || {
         let start = rest.find(|letter| !between(letter))?;
         let (skipped, entry) = rest.split_at(start);
         line += newlines(skipped);
-        let end = if entry.starts_with('{') {
-            object_end(entry)
-        } else {
-            entry.find(|letter| between(letter) || letter == '{').unwrap_or(entry.len())
-        };
+        let is_object = entry.starts_with('{');
+        let end =
+            if is_object { object_end(entry) } else { entry.find('{').unwrap_or(entry.len()) };
         let (entry, after) = entry.split_at(end);
-        let part = Part { line, text: entry };
+        let text = if is_object { entry } else { entry.trim_end_matches(between) };
+        let part = Part { line, text };
         line += newlines(entry);
         rest = after;
         Some(part)
@@ -34,16 +34,31 @@ fn newlines(text: &str) -> usize {
     text.bytes().filter(|byte| *byte == b'\n').count()
 }
 
-/// The length of the object that `text` starts with; all of `text` when the
-/// object does not end.
+/// The length of the object that `text` starts with.
+///
+/// An object that does not end where it should must not swallow the ones after
+/// it. So it also ends where another one starts: at a brace that is no value of
+/// a key, or at one in what looks like a string when a key follows. A string
+/// ends with its line, because JSON has no line breaks in strings.
 fn object_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
     let (mut depth, mut in_string, mut escaped) = (0_usize, false, false);
-    for (index, byte) in text.bytes().enumerate() {
+    let mut before = b':';
+    for (index, byte) in bytes.iter().enumerate() {
         match byte {
+            b'\n' => (in_string, escaped) = (false, false),
             _ if escaped => escaped = false,
             b'\\' if in_string => escaped = true,
             b'"' => in_string = !in_string,
-            b'{' if !in_string => depth += 1,
+            b'{' if in_string => {
+                if let Some([b'"', letter]) = bytes.get(index + 1..index + 3)
+                    && letter.is_ascii_alphabetic()
+                {
+                    return index;
+                }
+            }
+            b'{' if before == b':' => depth += 1,
+            b'{' => return index,
             b'}' if !in_string => {
                 depth -= 1;
                 if depth == 0 {
@@ -51,6 +66,9 @@ fn object_end(text: &str) -> usize {
                 }
             }
             _ => {}
+        }
+        if !byte.is_ascii_whitespace() {
+            before = *byte;
         }
     }
     text.len()
@@ -60,12 +78,31 @@ fn object_end(text: &str) -> usize {
 mod tests {
     use super::*;
 
+    fn cut(text: &str) -> Vec<(usize, &str)> {
+        parts(text).map(|part| (part.line, part.text)).collect()
+    }
+
     #[test]
     fn entries_are_cut_at_their_braces() {
-        let text = "[{\"a\":\"}\\\"{\"},\n 5 {\"b\":{\"c\":1}}\n{\"d\":\n";
-        let found: Vec<_> = parts(text).map(|part| (part.line, part.text)).collect();
+        let text = "[{\"a\":\"}\\\"{\"},\n 5, 7 {\"b\": {\"c\":1}}\n{\"d\":\n";
         let expected =
-            [(1, "{\"a\":\"}\\\"{\"}"), (2, "5"), (2, "{\"b\":{\"c\":1}}"), (3, "{\"d\":\n")];
-        assert_eq!(found, expected);
+            [(1, "{\"a\":\"}\\\"{\"}"), (2, "5, 7"), (2, "{\"b\": {\"c\":1}}"), (3, "{\"d\":\n")];
+        assert_eq!(cut(text), expected);
+    }
+
+    #[test]
+    fn an_entry_without_an_end_swallows_no_other() {
+        for (bad, next) in [
+            ("{\"a\":1,", " {\"b\":2}"),
+            ("{\"a\":\"open}", "\n,{\"b\":2}"),
+            ("{\"a\":\"open,\"c\":\"d\"}", ",{\"b\":2}"),
+            ("{\"a\":\"open\\", "\n{\"b\":2}"),
+            ("{\"data\":", "[{\"b\":2}"),
+        ] {
+            let text = format!("[{bad}{next}]}}");
+            let found = cut(&text);
+            assert_eq!(found.last().map(|(_, text)| *text), Some("{\"b\":2}"), "{bad}");
+            assert_eq!(found.len(), 2, "{found:?}");
+        }
     }
 }

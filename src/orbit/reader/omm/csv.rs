@@ -1,0 +1,160 @@
+//! OMM as rows of comma-separated values under a header with the field names.
+
+use std::borrow::Cow;
+
+use csv_core::{ReadRecordResult, Reader};
+
+use super::{Field, Message, Value};
+use crate::orbit::reader::{ReadReport, RefusalReason};
+
+/// Whether `line` is such a header.
+pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
+    let mut names = line.split(',').map(|name| name.trim().trim_matches('"'));
+    line.contains(',') && names.any(|name| name.eq_ignore_ascii_case("NORAD_CAT_ID"))
+}
+
+/// Reads all rows of `text`. A header may come again: files are put together.
+///
+/// Every line is taken by itself, because no field of an OMM spans lines: a
+/// quotation mark too much costs one row and not the rest of the text.
+pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+    let mut report = ReadReport::default();
+    let mut row = Row::new();
+    let mut header: Vec<Option<Field>> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let (place, line) = (index + 1, line.trim());
+        if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        row.split(line);
+        if is_header(line) {
+            header = row.fields().map(|name| Field::named(name.trim())).collect();
+            continue;
+        }
+        let mut message = Message::default();
+        for (field, text) in header.iter().zip(row.fields()) {
+            if let Some(field) = *field {
+                message.set(field, Value::Text(Cow::Borrowed(text)));
+            }
+        }
+        if row.len() == header.len() {
+            message.finish(place, &mut report);
+        } else {
+            let reason = RefusalReason::FieldCount { found: row.len(), expected: header.len() };
+            report.refuse(place, message.object().as_deref(), reason);
+        }
+    }
+    report
+}
+
+/// The fields of one row, without their quotation marks.
+struct Row {
+    reader: Reader,
+    text: Vec<u8>,
+    /// Where each field ends in `text`.
+    ends: Vec<usize>,
+    len: usize,
+}
+
+impl Row {
+    fn new() -> Self {
+        // Not `Reader::default()`, which has no tables and reads nothing.
+        Self { reader: Reader::new(), text: Vec::new(), ends: Vec::new(), len: 0 }
+    }
+
+    fn split(&mut self, line: &str) {
+        // No field grows when its quotation marks go. One place more says that
+        // nothing was full.
+        self.text.resize(line.len() + 1, 0);
+        self.ends.resize(line.len() + 2, 0);
+        self.reader.reset();
+        let (mut read, mut written) = (0, 0);
+        self.len = 0;
+        loop {
+            let (result, input, output, ends) = self.reader.read_record(
+                line.as_bytes().get(read..).unwrap_or_default(),
+                self.text.get_mut(written..).unwrap_or_default(),
+                self.ends.get_mut(self.len..).unwrap_or_default(),
+            );
+            read += input;
+            written += output;
+            self.len += ends;
+            if result != ReadRecordResult::InputEmpty {
+                return;
+            }
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.len
+    }
+
+    fn fields(&self) -> impl Iterator<Item = &str> {
+        let mut start = 0;
+        self.ends.iter().take(self.len).map(move |&end| {
+            let field = self.text.get(start..end).unwrap_or_default();
+            start = end;
+            str::from_utf8(field).unwrap_or_default()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{Elements, reader::Refusal};
+
+    const HEADER: &str = "OBJECT_NAME,OBJECT_ID,EPOCH,MEAN_MOTION,ECCENTRICITY,INCLINATION,\
+        RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,EPHEMERIS_TYPE,CLASSIFICATION_TYPE,\
+        NORAD_CAT_ID,ELEMENT_SET_NO,REV_AT_EPOCH,BSTAR,MEAN_MOTION_DOT,MEAN_MOTION_DDOT";
+    const ROW: &str = "ISS (ZARYA),1998-067A,2026-08-11T01:21:00.123456,15.49560532,.0001771,\
+        51.6435,225.4004,44.9625,5.1087,0,U,25544,999,23587,.49645E-3,.289036E-3,0";
+
+    fn numbers(report: &ReadReport) -> Vec<u32> {
+        report.elements.iter().map(Elements::catalog_number).collect()
+    }
+
+    #[test]
+    fn both_dialects_give_the_same_orbit() {
+        let plain = read(&format!("{HEADER}\r\n{ROW}\r\n"));
+        assert_eq!(plain.refused, []);
+        assert_eq!(plain.elements[0].name(), "ISS (ZARYA)");
+        let quoted = |line: &str| format!("\"{}\"", line.replace(',', "\",\""));
+        let text = format!(
+            "{},\"DECAY_DATE\"\n{},\"\"\n",
+            quoted(&HEADER.to_lowercase()),
+            quoted(&ROW.replace("0,U,", ",,"))
+        );
+        assert_eq!(read(&text).elements, plain.elements);
+    }
+
+    #[test]
+    fn a_bad_row_costs_no_other() {
+        let open = ROW.replace("ISS", "\"ISS");
+        let torn = &ROW[..ROW.len() - 20];
+        let last = ROW.replace("25544", "100000000").replace("ISS (ZARYA)", "\"A, \"\"B\"\"\"");
+        let text = format!("{HEADER}\n{open}\n{ROW}\n# remark\n\n{torn}\njunk\n{last}\n");
+        let report = read(&text);
+        assert_eq!(numbers(&report), [25_544, 100_000_000]);
+        assert_eq!(report.elements[1].name(), "A, \"B\"");
+        let refusal = |line, object: Option<&str>, found| Refusal {
+            line,
+            object: object.map(str::to_owned),
+            reason: RefusalReason::FieldCount { found, expected: 17 },
+        };
+        assert_eq!(
+            report.refused[1..],
+            [refusal(6, Some("ISS (ZARYA)"), 15), refusal(7, Some("junk"), 1)]
+        );
+        assert_eq!((report.refused.len(), report.refused[0].line), (3, 2));
+    }
+
+    #[test]
+    fn a_second_header_may_have_another_order() {
+        let text = format!(
+            "{HEADER}\n{ROW}\nEPOCH,{},NORAD_CAT_ID\n2026-08-12T00:00:00,15,0,0,0,0,0,0,7\n",
+            "MEAN_MOTION,ECCENTRICITY,INCLINATION,RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,BSTAR"
+        );
+        assert_eq!(numbers(&read(&text)), [25_544, 7]);
+    }
+}

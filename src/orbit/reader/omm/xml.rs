@@ -1,0 +1,161 @@
+//! OMM in XML: one message, or an NDM around many.
+
+use std::borrow::Cow;
+
+use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
+
+use super::{Field, Message, Value};
+use crate::orbit::reader::{ReadReport, RefusalReason};
+
+/// Reads all messages of `text`.
+///
+/// Every message is cut out first and taken by itself: a bad one costs no other.
+pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+    let mut report = ReadReport::default();
+    for (line, text) in messages(text) {
+        let mut message = Message::default();
+        match fill(&mut message, text) {
+            Some(()) => message.finish(line, &mut report),
+            None => report.refuse(line, message.object().as_deref(), RefusalReason::Xml),
+        }
+    }
+    report
+}
+
+/// The messages of `text`: each from its start tag to the next one, with the
+/// line it starts on.
+fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut tags = text.match_indices('<').map(|(at, _)| at).filter(|at| is_start(text, *at));
+    let mut next = tags.next();
+    let (mut line, mut counted) = (1, 0);
+    std::iter::from_fn(move || {
+        let start = next?;
+        next = tags.next();
+        line += text.get(counted..start)?.bytes().filter(|byte| *byte == b'\n').count();
+        counted = start;
+        Some((line, text.get(start..next.unwrap_or(text.len()))?))
+    })
+}
+
+/// Whether the tag at `at` opens a message, with a prefix or without.
+fn is_start(text: &str, at: usize) -> bool {
+    // No prefix is longer, and a tag that never ends must not be searched through.
+    let mut name = text.bytes().skip(at + 1).take(40);
+    let mut local = *b"   ";
+    let mut length = 0_usize;
+    loop {
+        match name.next() {
+            Some(b':') => length = 0,
+            Some(b'/' | b'<') | None => return false,
+            Some(b'>' | b' ' | b'\t' | b'\r' | b'\n') => {
+                return length == 3 && local.eq_ignore_ascii_case(b"omm");
+            }
+            Some(byte) => {
+                if let Some(place) = local.get_mut(length) {
+                    *place = byte;
+                }
+                length += 1;
+            }
+        }
+    }
+}
+
+/// Takes the fields of one message; `None` when it is no sound XML to its end.
+fn fill(message: &mut Message<'_>, text: &str) -> Option<()> {
+    let mut reader = Reader::from_str(text);
+    reader.config_mut().allow_dangling_amp = true;
+    let mut field = None;
+    let mut value = String::new();
+    loop {
+        match reader.read_event().ok()? {
+            Event::Start(tag) => {
+                field = str::from_utf8(tag.local_name().into_inner()).ok().and_then(Field::named);
+                value.clear();
+            }
+            Event::Text(text) => value.push_str(&text.decode().ok()?),
+            Event::CData(text) => value.push_str(&text.decode().ok()?),
+            Event::GeneralRef(entity) => match entity.resolve_char_ref().ok()? {
+                Some(letter) => value.push(letter),
+                None => value.push_str(resolve_predefined_entity(&entity.decode().ok()?)?),
+            },
+            Event::End(tag) => {
+                if let Some(field) = field.take() {
+                    message.set(field, Value::Text(Cow::Owned(value.clone())));
+                }
+                if tag.local_name().into_inner().eq_ignore_ascii_case(b"omm") {
+                    return Some(());
+                }
+            }
+            Event::Eof => return None,
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{Elements, reader::Refusal};
+
+    /// A message with the object's name and number and anything in its data.
+    fn message(name: &str, number: u32, more: &str) -> String {
+        format!(
+            "<omm id=\"CCSDS_OMM_VERS\" version=\"2.0\">\n<header><CREATION_DATE/>\
+             <ORIGINATOR>18 SPCS</ORIGINATOR></header><body><segment><metadata>\n\
+             <OBJECT_NAME>{name}</OBJECT_NAME><OBJECT_ID>1998-067A</OBJECT_ID>\
+             <CENTER_NAME>EARTH</CENTER_NAME><REF_FRAME>TEME</REF_FRAME>\
+             <TIME_SYSTEM>UTC</TIME_SYSTEM><MEAN_ELEMENT_THEORY>SGP4</MEAN_ELEMENT_THEORY>\n\
+             </metadata><data><meanElements><EPOCH>2026-08-11T01:21:00.123456</EPOCH>\
+             <MEAN_MOTION units=\"rev/day\">15.49560532</MEAN_MOTION>\
+             <ECCENTRICITY>.0001771</ECCENTRICITY><INCLINATION>51.6435</INCLINATION>\
+             <RA_OF_ASC_NODE>225.4004</RA_OF_ASC_NODE>\
+             <ARG_OF_PERICENTER>44.9625</ARG_OF_PERICENTER>\
+             <MEAN_ANOMALY> 5.1087 </MEAN_ANOMALY></meanElements>\n\
+             <tleParameters><NORAD_CAT_ID>{number}</NORAD_CAT_ID>\
+             <BSTAR>.49645E-3</BSTAR><MEAN_MOTION_DDOT/>{more}</tleParameters></data>\
+             </segment></body></omm>\n"
+        )
+    }
+
+    fn numbers(report: &ReadReport) -> Vec<u32> {
+        report.elements.iter().map(Elements::catalog_number).collect()
+    }
+
+    #[test]
+    fn one_message_and_an_ndm_of_many_are_read() {
+        let one = message("R&#38;D &amp; &lt;1&gt;", 100_123, "");
+        let report = read(&one);
+        assert_eq!(report.refused, []);
+        assert_eq!(report.elements[0].name(), "R&D & <1>");
+        let prefixed =
+            message("B", 7, "").replace("<omm", "<ndm:omm").replace("</omm", "</ndm:omm");
+        let text = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\r\n<ndm xmlns:ndm=\"urn:x\">\
+             <!-- remark -->{one}{prefixed}</ndm>\n"
+        );
+        let report = read(&text);
+        assert_eq!((numbers(&report), report.refused), (vec![100_123, 7], vec![]));
+    }
+
+    #[test]
+    fn a_bad_message_costs_no_other() {
+        let bad = [
+            message("CROSSED", 1, "<a></b>"),
+            message("OPEN", 2, "<USER_DEFINED parameter=\"x>"),
+            message("TORN", 3, "").split_once("<MEAN_ANOMALY>").unwrap().0.to_owned(),
+            message("ENTITY", 4, "&no-such;"),
+        ];
+        let good = message("GOOD", 9, "");
+        let text: String = bad.iter().map(|bad| format!("{bad}\n{good}")).collect();
+        let report = read(&format!("<ndm>\n{text}"));
+        assert_eq!(numbers(&report), [9; 4]);
+        let named: Vec<_> =
+            report.refused.iter().map(|refused| refused.object.as_deref().unwrap()).collect();
+        assert_eq!(named, ["CROSSED", "OPEN", "TORN", "ENTITY"]);
+        let expected =
+            Refusal { line: 2, object: Some("CROSSED".to_owned()), reason: RefusalReason::Xml };
+        assert_eq!(report.refused[0], expected);
+        let lines = good.lines().count();
+        assert_eq!(report.refused[1].line, 2 + 2 * lines + 1);
+    }
+}
