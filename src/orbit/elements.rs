@@ -98,6 +98,15 @@ impl Classification {
             _ => Self::Unclassified,
         }
     }
+
+    /// The letter in every form.
+    pub(super) fn letter(self) -> char {
+        match self {
+            Self::Unclassified => 'U',
+            Self::Classified => 'C',
+            Self::Secret => 'S',
+        }
+    }
 }
 
 /// The catalogue number that a source wrote, if it has nine digits at most.

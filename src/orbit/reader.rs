@@ -16,6 +16,7 @@ use smol_str::SmolStr;
 
 use self::omm::{csv, json, kvn, xml};
 pub use self::report::{Note, NoteKind, ReadReport, Refusal, RefusalReason};
+pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 
 /// Reads all elements of `text`: TLE with two or three lines a set (Alpha-5
 /// numbers too), or OMM in JSON, XML, KVN or CSV, as `CelesTrak` and
@@ -62,18 +63,28 @@ enum Form {
 
 /// The form of `text`, from its first line that is no remark.
 fn form(text: &str) -> Form {
+    // Two signs, because a name may start with any one of them.
+    let mut signs = text.chars().filter(|sign| !sign.is_whitespace());
+    if matches!(
+        (signs.next(), signs.next()),
+        (Some('['), Some('{' | ']')) | (Some('{'), Some('"' | '}'))
+    ) {
+        return Form::Json;
+    }
     let first = text
         .lines()
         .map(str::trim)
         .find(|line| !line.is_empty() && !line.starts_with('#') && !kvn::is_comment(line))
         .unwrap_or_default();
-    match first.chars().next() {
-        Some('{' | '[') => Form::Json,
-        // A page around a list of TLE starts so too, but has no such words.
-        Some('<') if ["<?xml", "<ndm", "<omm"].iter().any(|tag| first.contains(tag)) => Form::Xml,
-        _ if kvn::is_first(first) => Form::Kvn,
-        _ if csv::is_header(first) => Form::Csv,
-        _ => Form::Tle,
+    // A page around a list of TLE starts with a tag too, but with another one.
+    if first.starts_with("<?xml") || xml::is_first(first) {
+        Form::Xml
+    } else if kvn::is_first(first) {
+        Form::Kvn
+    } else if csv::is_header(first) {
+        Form::Csv
+    } else {
+        Form::Tle
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod columns;
 
+pub(in crate::orbit) use self::columns::checksum;
 use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
 use crate::orbit::Elements;

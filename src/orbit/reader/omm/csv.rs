@@ -23,10 +23,11 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut header: Vec<Option<Field>> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let (place, line) = (index + 1, line.trim());
-        if line.is_empty() || line.starts_with('#') {
+        row.split(line);
+        // A name may start like a remark.
+        if line.is_empty() || (line.starts_with('#') && row.len() != header.len()) {
             continue;
         }
-        row.split(line);
         if is_header(line) {
             header = row.fields().map(|name| Field::named(name.trim())).collect();
             continue;

@@ -7,6 +7,11 @@ use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
+/// Whether `line` opens a message or an NDM, with a prefix or without.
+pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
+    line.starts_with('<') && [*b"omm", *b"ndm"].iter().any(|tag| is_start(line, 0, *tag))
+}
+
 /// Reads all messages of `text`.
 ///
 /// Every message is cut out first and taken by itself: a bad one costs no other.
@@ -25,7 +30,8 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
 /// The messages of `text`: each from its start tag to the next one, with the
 /// line it starts on.
 fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut tags = text.match_indices('<').map(|(at, _)| at).filter(|at| is_start(text, *at));
+    let mut tags =
+        text.match_indices('<').map(|(at, _)| at).filter(|at| is_start(text, *at, *b"omm"));
     let mut next = tags.next();
     let (mut line, mut counted) = (1, 0);
     std::iter::from_fn(move || {
@@ -37,8 +43,8 @@ fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Whether the tag at `at` opens a message, with a prefix or without.
-fn is_start(text: &str, at: usize) -> bool {
+/// Whether the tag at `at` is a start tag called `called`, with a prefix or without.
+fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
     // No prefix is longer, and a tag that never ends must not be searched through.
     let mut name = text.bytes().skip(at + 1).take(40);
     let mut local = *b"   ";
@@ -48,7 +54,7 @@ fn is_start(text: &str, at: usize) -> bool {
             Some(b':') => length = 0,
             Some(b'/' | b'<') | None => return false,
             Some(b'>' | b' ' | b'\t' | b'\r' | b'\n') => {
-                return length == 3 && local.eq_ignore_ascii_case(b"omm");
+                return length == 3 && local.eq_ignore_ascii_case(&called);
             }
             Some(byte) => {
                 if let Some(place) = local.get_mut(length) {

@@ -1,0 +1,12 @@
+//! Writes elements as text: TLE, OMM in JSON, OMM in CSV.
+//!
+//! The OMM forms carry every number to its last bit and the epoch to the
+//! microsecond. A TLE carries what its columns hold.
+
+mod omm;
+mod tle;
+
+pub use self::{
+    omm::{write_omm_csv, write_omm_json},
+    tle::{TleRefusal, TleRefusalReason, tle_lines, write_tle},
+};
