@@ -81,6 +81,9 @@ pub enum Refusal {
         /// Upper end of its travel.
         to_deg: f64,
     },
+    /// A step needs an antenna that stands.
+    #[error("the antenna still moves")]
+    StillMoving,
     /// A stop is under way.
     #[error("a stop is under way")]
     Stopping,

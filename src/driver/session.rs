@@ -8,6 +8,7 @@ mod farewell;
 mod halting;
 mod jog;
 mod liveness;
+mod step;
 mod supervise;
 
 use std::{
@@ -31,6 +32,7 @@ use crate::{
 use command::Waiting;
 use halting::Halting;
 use jog::Jog;
+use step::Stepping;
 use supervise::Doubt;
 
 /// The far ends of the channels to the window.
@@ -65,6 +67,8 @@ pub struct Session {
     aim: Option<AzEl>,
     target: Option<TrackTarget>,
     jog: Option<Jog>,
+    /// A step that is not known to be over.
+    stepping: Option<Stepping>,
     /// Is done as soon as no halt is under way.
     waiting: Option<Waiting>,
     halting: Option<Halting>,
@@ -111,6 +115,7 @@ impl Session {
             aim: None,
             target: None,
             jog: None,
+            stepping: None,
             waiting: None,
             halting: None,
             doubt: None,
@@ -138,6 +143,7 @@ impl Session {
             target: self.target.clone(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
+            step: self.stepping.map(|stepping| stepping.steps_deg),
             state: self.gate.state().clone(),
             poll_period: self.gate.device().poll_period(),
         };
@@ -171,6 +177,7 @@ impl Session {
             || self.pending.is_some()
             || self.waiting.is_some()
             || self.jog.is_some()
+            || self.stepping.is_some()
             || self.intent == Intent::Track
             || self.gate.device().motion_under_way()
     }

@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub stop: StopState,
     /// Signed rates of a jog that is held, degrees a second.
     pub jog: Option<[f64; 2]>,
+    /// Signed amounts of a step that is not known to be over, degrees.
+    pub step: Option<[f64; 2]>,
     /// What the device reported.
     pub state: AntennaState,
     /// The time between two questions at present.
@@ -42,6 +44,7 @@ impl Snapshot {
             target: None,
             stop: StopState::Ready,
             jog: None,
+            step: None,
             state: AntennaState::default(),
             poll_period: Duration::from_millis(500),
         }

@@ -4,6 +4,7 @@
 mod drive;
 mod faults;
 mod header;
+mod steps;
 mod track;
 
 use egui::{Align2, Pos2, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
@@ -97,6 +98,15 @@ pub enum CardAction {
     },
     /// The jog key is not held any more. Comes once.
     JogReleased,
+    /// Turn an axis by an amount, once.
+    Step {
+        /// Sign of the first axis, −1 to 1.
+        x: i8,
+        /// Sign of the second axis, −1 to 1.
+        y: i8,
+        /// The amount, in degrees.
+        step_deg: f64,
+    },
     /// Shows where a direction leads, moves nothing.
     PreviewGoTo(Target),
     /// Go to a direction.

@@ -5,8 +5,8 @@ use egui::{Key, Modifiers, Ui};
 
 use super::{confirm::Question, operate::OperateState, theme};
 use crate::{
-    app::{Model, UiCommand, View},
-    driver,
+    app::{Model, UiCommand, View, antenna::AntennaModel},
+    driver::{self, Intent},
 };
 
 /// Takes the keys of this frame.
@@ -50,6 +50,14 @@ pub fn take(
     if pressed(Modifiers::NONE, Key::G) {
         operate.card.drive.go_to.focus();
     }
+    let rate = i32::from(pressed(Modifiers::NONE, Key::PageUp))
+        - i32::from(pressed(Modifiers::NONE, Key::PageDown));
+    let manual = |antenna: &&AntennaModel| antenna.snapshot.intent == Intent::Manual;
+    if rate != 0
+        && let Some(antenna) = model.antenna().filter(manual)
+    {
+        operate.card.drive.change_rate(rate, antenna.config.limits.maximum_rate_deg_s);
+    }
     if pressed(Modifiers::NONE, Key::N)
         && let Some(next) = model.next_pass()
     {
@@ -60,7 +68,7 @@ pub fn take(
     }
     if pressed(Modifiers::NONE, Key::M) {
         let manual = UiCommand::Antenna(model.selected_antenna, driver::Command::Manual);
-        if model.antenna().is_some_and(crate::app::antenna::AntennaModel::tracks) {
+        if model.antenna().is_some_and(AntennaModel::tracks) {
             *question = Some(Question {
                 text: "End tracking and move by hand?".to_owned(),
                 yes: "Manual",

@@ -206,6 +206,13 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
             format::signed(rate, 2)
         )));
     }
+    if let Some([x, y]) = snapshot.step {
+        let (axis, by_deg) = if x == 0.0 { ("Y", y) } else { ("X", x) };
+        return Some(
+            Spoken::new(SentenceKind::Commanded)
+                .plain(format!("Moving {axis} by {}° in one step.", format::signed(by_deg, 2))),
+        );
+    }
     let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
     let aim = snapshot.aim.filter(|_| moving || snapshot.pending)?;
     let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };

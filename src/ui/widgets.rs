@@ -2,6 +2,7 @@
 //! says what the operator did; none of them calls anything else.
 
 pub mod alarm_list;
+pub mod angle_field;
 pub mod axes_table;
 pub mod beam_bar;
 pub mod button;

@@ -224,3 +224,36 @@ async fn a_limit_switch_during_a_held_jog_ends_it_although_the_key_stays_down() 
     assert!(!events.is_empty() && events.iter().all(|event| *event == limit), "{events:?}");
     assert_eq!(unit.handle.snapshot().jog, None);
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_second_step_waits_until_the_first_is_over() {
+    let mut rig = in_manual().await;
+    for _ in 0..3 {
+        rig.send(Command::Step { steps_deg: [2.0, 0.0] });
+    }
+    rig.seconds(0.3).await;
+    assert_eq!(rig.events(), vec![Event::NotSent(Refusal::StillMoving); 2]);
+    assert_eq!(rig.shown().step, Some([2.0, 0.0]));
+    rig.until("it stands", 5, |shown| shown.step.is_none()).await;
+    assert!((rig.shown().state.measured.unwrap().axes[0].angle_deg - 92.0).abs() < 0.01);
+    rig.send(Command::Step { steps_deg: [-1.0, 0.0] });
+    rig.seconds(3.0).await;
+    assert_eq!(rig.orders(), ["STEP=,2,0", "STEP=,-1,0"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn no_step_comes_into_a_jog_and_stop_ends_a_step() {
+    let mut rig = in_manual().await;
+    rig.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
+    rig.send(Command::Step { steps_deg: [2.0, 0.0] });
+    rig.seconds(0.1).await;
+    assert_eq!(rig.events(), [Event::NotSent(Refusal::StillMoving)]);
+    rig.send(Command::EndJog);
+    rig.seconds(2.0).await;
+    rig.send(Command::Step { steps_deg: [5.0, 0.0] });
+    rig.seconds(0.3).await;
+    rig.stop();
+    rig.until_event(3, |event| *event == Event::Stopped).await;
+    assert_eq!(rig.shown().step, None);
+    assert!(rig.shown().state.measured.unwrap().axes[0].angle_deg < 94.0);
+}

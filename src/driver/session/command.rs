@@ -65,9 +65,7 @@ impl Session {
             Command::Standby => self.leave_for(Intent::Standby, now),
             Command::Manual => self.leave_for(Intent::Manual, now),
             Command::Hold => self.leave_for(Intent::Position, now),
-            Command::Step { steps_deg: [x_deg, y_deg] } => {
-                self.start(Motion::Step { x_deg, y_deg }, now);
-            }
+            Command::Step { steps_deg } => self.step(steps_deg, now),
             Command::Position { azimuth, elevation } => {
                 self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
             }
@@ -79,7 +77,9 @@ impl Session {
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Track(target) => self.track(target, now),
-            Command::AutoTrack(true) => self.start(Motion::EnableAuto, now),
+            Command::AutoTrack(true) => {
+                self.start(Motion::EnableAuto, now);
+            }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
         }
     }
@@ -93,10 +93,17 @@ impl Session {
         self.intent = intent;
     }
 
-    fn start(&mut self, motion: Motion, now: Moment) {
+    /// Whether the motion went through the gate; if not, the reason was told.
+    pub(super) fn start(&mut self, motion: Motion, now: Moment) -> bool {
         match self.gate.start(motion, self.intent, self.halting.is_some(), now) {
-            Ok(()) => self.stopped_at = None,
-            Err(refusal) => self.tell(Event::NotSent(refusal)),
+            Ok(()) => {
+                self.stopped_at = None;
+                true
+            }
+            Err(refusal) => {
+                self.tell(Event::NotSent(refusal));
+                false
+            }
         }
     }
 

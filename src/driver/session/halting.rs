@@ -54,6 +54,7 @@ impl Session {
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
         self.jog = None;
+        self.stepping = None;
         self.waiting = None;
         self.pending = None;
         self.aim = None;

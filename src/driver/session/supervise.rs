@@ -37,6 +37,7 @@ impl Session {
         self.watch_program();
         self.resolve_doubt(now);
         self.watch_jog(now);
+        self.watch_step();
         self.watch_halt(now);
         self.forget_old_stop(now);
         self.start_waiting(now);
@@ -91,7 +92,11 @@ impl Session {
                 self.halt_quietly(now);
                 self.tell(event);
             }
-            Motion::Step { .. } | Motion::EnableAuto => self.tell(event),
+            Motion::Step { .. } => {
+                self.stepping = None;
+                self.tell(event);
+            }
+            Motion::EnableAuto => self.tell(event),
             Motion::Position { .. } | Motion::StartProgram => self.give_up(event, now),
         }
     }

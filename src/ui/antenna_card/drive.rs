@@ -2,7 +2,10 @@
 
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
-use super::{CardAction, Cursor};
+use super::{
+    CardAction, Cursor,
+    steps::{self, StepState},
+};
 use crate::ui::{
     icons::{self, Icon},
     text, theme,
@@ -15,6 +18,7 @@ use crate::ui::{
 
 /// Rate of the first jog, in degrees per second.
 const FIRST_RATE_DEG_S: f64 = 0.5;
+const TWO_LINES: f32 = 32.0;
 
 /// What moving by hand needs to know.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +33,8 @@ pub struct DriveModel<'a> {
     pub real_deg_s: Option<f64>,
     /// The most that the unit does, in degrees per second.
     pub most_deg_s: f64,
+    /// The largest step of an axis, in degrees.
+    pub most_step_deg: f64,
     /// Why going to a direction is refused now.
     pub go_to_locked: Option<&'a str>,
     /// Azimuths that are taken, in degrees.
@@ -50,11 +56,17 @@ pub struct DriveState {
     pub rate_deg_s: f64,
     /// The go-to fields.
     pub go_to: GoToState,
+    steps: StepState,
     jog: JogState,
     jogging: bool,
 }
 
 impl DriveState {
+    /// Takes the next rate up (`by` positive) or down.
+    pub fn change_rate(&mut self, by: i32, most_deg_s: f64) {
+        self.rate_deg_s = rate_slider::stepped(self.rate_deg_s, by, most_deg_s);
+    }
+
     /// Lets go of the jog key. Returns true if one was held.
     pub(super) fn let_go(&mut self) -> bool {
         self.jog = JogState::default();
@@ -67,6 +79,7 @@ impl Default for DriveState {
         Self {
             rate_deg_s: FIRST_RATE_DEG_S,
             go_to: GoToState::default(),
+            steps: StepState::default(),
             jog: JogState::default(),
             jogging: false,
         }
@@ -110,7 +123,14 @@ pub(super) fn show(
         GoToAction::Send(target) => CardAction::GoTo(target),
     }));
     at.skip(6.0);
+    // Two lines are kept free, so that nothing moves when a sentence comes.
+    let end = at.y + TWO_LINES;
+    if model.jog_locked.is_none() {
+        steps::show(ui, at, model, &mut state.steps, state.jog, actions);
+        at.skip(4.0);
+    }
     messages(ui, at, model, state);
+    at.y = at.y.max(end);
 }
 
 fn jog(
@@ -128,10 +148,6 @@ fn jog(
         real_deg_s: model.real_deg_s,
     };
     let held = jog_pad::show(ui, pad, &jog_model, &mut state.jog);
-    let steps = jog_pad::rate_steps(ui, state.jog);
-    if steps != 0 {
-        state.rate_deg_s = rate_slider::stepped(state.rate_deg_s, steps, model.most_deg_s);
-    }
     if let Some(direction) = held {
         let (x, y) = direction.signs();
         let rate_deg_s = state.rate_deg_s.min(model.most_deg_s);
@@ -142,16 +158,16 @@ fn jog(
     state.jogging = held.is_some();
 }
 
-/// Says why something is refused, below the controls that it is about. Two
-/// lines are kept free, so that nothing moves when a sentence comes.
+/// Says why something is refused, below the controls that it is about.
 fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
-    const TWO_LINES: f32 = 32.0;
     let t = theme::tokens(ui);
-    let end = at.y + TWO_LINES;
     let refusal = state.go_to.refusal().or(model.go_to_refusal);
+    let step = state.steps.size_deg(model.most_step_deg).err();
+    let step = step.as_deref().filter(|_| model.jog_locked.is_none());
     let lock = model.jog_locked;
     let other_lock = model.go_to_locked.filter(|reason| Some(*reason) != lock);
-    let found: [(Option<&str>, Icon, Color32, Color32); 4] = [
+    let found: [(Option<&str>, Icon, Color32, Color32); 5] = [
+        (step, Icon::Warning, t.bad, t.bad),
         (refusal, Icon::Warning, t.bad, t.bad),
         (lock, Icon::Lock, t.t2, t.t2),
         (other_lock, Icon::Lock, t.t2, t.t2),
@@ -167,5 +183,4 @@ fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState
         paint::name_text(ui, ("message", index), taken, words);
         at.y = taken.bottom() + 1.0;
     }
-    at.y = at.y.max(end);
 }

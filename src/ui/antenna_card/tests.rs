@@ -5,7 +5,7 @@ use crate::ui::widgets::{
     sentence::{SentenceKind, Span},
     testing,
 };
-use egui::{Event, Key, Role};
+use egui::{Event, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 
 const SPANS: [Span<'_>; 3] = [
@@ -78,6 +78,7 @@ fn model() -> CardModel<'static> {
             blocked: &[],
             real_deg_s: Some(0.48),
             most_deg_s: 3.0,
+            most_step_deg: 5.0,
             go_to_locked: None,
             azimuth_range_deg: (0.0, 360.0),
             elevation_range_deg: Some((0.0, 90.0)),
@@ -188,19 +189,6 @@ fn hiding_the_card_releases_the_jog_once() {
     window.state_mut().actions.clear();
     window.run_steps(2);
     assert!(window.state().actions.is_empty(), "only a new press moves it again");
-}
-
-#[test]
-fn page_keys_change_the_rate_of_the_next_jog() {
-    let mut window = card(LARGE, &model());
-    window.get_by_label("Jog X+").focus();
-    window.run();
-    window.key_press(Key::PageUp);
-    window.run();
-    window.key_down(Key::ArrowRight);
-    window.run_steps(2);
-    let jog = CardAction::Jog { x: 1, y: 0, rate_deg_s: 1.0 };
-    assert_eq!(window.state().actions.last(), Some(&jog));
 }
 
 #[test]

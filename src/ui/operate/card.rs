@@ -102,6 +102,7 @@ pub(super) fn show(
                 blocked: &blocked,
                 real_deg_s: snapshot.jog.and(fastest(antenna)),
                 most_deg_s: antenna.config.limits.maximum_rate_deg_s,
+                most_step_deg: antenna.config.limits.maximum_step_deg,
                 go_to_locked: locks.go_to,
                 azimuth_range_deg: (0.0, 360.0),
                 elevation_range_deg: Some((antenna.config.limits.minimum_elevation_deg, 90.0)),
@@ -286,6 +287,9 @@ fn command(action: CardAction, model: &Model) -> Option<UiCommand> {
             Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
         }
         CardAction::JogReleased => Command::EndJog,
+        CardAction::Step { x, y, step_deg } => {
+            Command::Step { steps_deg: [f64::from(x) * step_deg, f64::from(y) * step_deg] }
+        }
         CardAction::GoTo(Target { azimuth_deg, elevation_deg }) => Command::Position {
             azimuth: Some(Angle::from_degrees(azimuth_deg)),
             elevation: elevation_deg.map(Angle::from_degrees),

@@ -2,11 +2,10 @@
 
 pub mod parse;
 
-use egui::{
-    Align2, Frame, Id, Key, Margin, Rect, Role, Sense, Stroke, TextEdit, Ui, WidgetInfo, pos2,
-};
+use egui::{Align2, Id, Key, Rect, Role, Sense, Ui, WidgetInfo, pos2};
 
 use super::{
+    angle_field::{AngleField, RADIUS},
     axes_table::{UNKNOWN, angle},
     button::Button,
     paint,
@@ -20,7 +19,6 @@ pub const HEIGHT: f32 = 104.0;
 /// The same in a small window.
 pub const SMALL_HEIGHT: f32 = 94.0;
 const LABEL: f32 = 40.0;
-const RADIUS: f32 = 4.0;
 
 /// What the fields accept.
 #[derive(Debug, Clone, Copy)]
@@ -82,11 +80,11 @@ impl GoToState {
     }
 
     fn read(&mut self, model: &GoToModel) -> Option<Target> {
-        let azimuth = parse::angle(&self.azimuth, Field::Azimuth, model.azimuth_range_deg)
+        let azimuth = parse::angle(&self.azimuth, Field::Azimuth.name(), model.azimuth_range_deg)
             .map_err(|sentence| (Field::Azimuth, sentence));
         let elevation = model
             .elevation_range_deg
-            .map(|range| parse::angle(&self.elevation, Field::Elevation, range))
+            .map(|range| parse::angle(&self.elevation, Field::Elevation.name(), range))
             .transpose()
             .map_err(|sentence| (Field::Elevation, sentence));
         match azimuth.and_then(|azimuth| elevation.map(|elevation| (azimuth, elevation))) {
@@ -170,29 +168,7 @@ fn field_row(
         return false;
     }
     let refused = state.refusal.as_ref().is_some_and(|(at, _)| *at == field);
-    let stroke = if refused {
-        Stroke::new(2.0, t.bad)
-    } else if ui.memory(|memory| memory.has_focus(id)) {
-        Stroke::new(2.0, t.sat)
-    } else {
-        Stroke::new(1.0, t.edge)
-    };
-    let frame = Frame::new()
-        .fill(t.bg0)
-        .stroke(stroke)
-        .corner_radius(RADIUS)
-        .inner_margin(Margin::symmetric(8, 0));
-    let edit = TextEdit::singleline(buffer)
-        .id(id)
-        .frame(frame)
-        .font(text::body())
-        .text_color(t.t1)
-        .hint_text(egui::RichText::new(commanded).color(t.t3))
-        .align(Align2::LEFT_CENTER)
-        .char_limit(16)
-        .min_size(rect.size())
-        .desired_width(rect.width());
-    let response = ui.place(rect, edit).accessible_name(name);
+    let response = AngleField { refused, hint: &commanded, name: &name }.show(ui, id, rect, buffer);
     if state.wants_focus && field == Field::Azimuth {
         state.wants_focus = false;
         response.request_focus();

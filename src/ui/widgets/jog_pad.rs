@@ -4,9 +4,7 @@ mod hold;
 
 use std::time::Duration;
 
-use egui::{
-    Align2, EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId,
-};
+use egui::{Align2, EventFilter, Key, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{
@@ -49,6 +47,11 @@ impl JogDirection {
         }
     }
 
+    /// The direction that an arrow key stands for.
+    pub fn of_arrow(key: Key) -> Option<Self> {
+        Self::ALL.into_iter().find(|direction| direction.arrow() == key)
+    }
+
     fn arrow(self) -> Key {
         match self {
             Self::XPlus => Key::ArrowRight,
@@ -73,7 +76,7 @@ pub enum JogKeys {
 
 impl JogKeys {
     /// The word on a key and its name, or nothing if there is no such key.
-    fn label(self, direction: JogDirection) -> Option<(&'static str, &'static str)> {
+    pub fn label(self, direction: JogDirection) -> Option<(&'static str, &'static str)> {
         use JogDirection::{XMinus, XPlus, YMinus, YPlus};
         match (self, direction) {
             (Self::Xy, XPlus) => Some(("X+", "Jog X+")),
@@ -165,18 +168,6 @@ fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Respo
             EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
     }
-}
-
-/// Steps up (+1) or down (−1) that the rate was asked to take with `PageUp` and
-/// `PageDown`, while the pad has the focus.
-pub fn rate_steps(ui: &Ui, state: JogState) -> i32 {
-    if !state.has_focus() {
-        return 0;
-    }
-    ui.input_mut(|input| {
-        i32::from(input.consume_key(Modifiers::NONE, Key::PageUp))
-            - i32::from(input.consume_key(Modifiers::NONE, Key::PageDown))
-    })
 }
 
 fn paint_key(ui: &Ui, word: &str, free: bool, locked: bool, held: bool, response: &Response) {

@@ -52,6 +52,9 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::degrees(*from_deg, 1),
             format::degrees(*to_deg, 1)
         ),
+        Refusal::StillMoving => {
+            "Not sent: the antenna still moves. Step again when it stands.".to_owned()
+        }
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
     }
 }

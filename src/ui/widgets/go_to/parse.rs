@@ -19,13 +19,12 @@ impl Field {
     }
 }
 
-/// An angle in degrees within `range_deg`, both ends included. Takes a decimal
+/// The angle called `name`, in degrees within `range_deg`, both ends included. Takes a decimal
 /// point or a decimal comma, a minus sign of either kind and a degree sign.
 ///
 /// # Errors
 /// The sentence that stands under the field.
-pub fn angle(text: &str, field: Field, range_deg: (f64, f64)) -> Result<f64, String> {
-    let name = field.name();
+pub fn angle(text: &str, name: &str, range_deg: (f64, f64)) -> Result<f64, String> {
     let typed = text.trim();
     if typed.is_empty() {
         return Err(format!("{name} is empty. Write an angle, such as 85.5."));
@@ -53,7 +52,7 @@ mod tests {
     const RANGE: (f64, f64) = (-10.0, 360.0);
 
     fn read(text: &str) -> Result<f64, String> {
-        angle(text, Field::Azimuth, RANGE)
+        angle(text, "Azimuth", RANGE)
     }
 
     #[test]

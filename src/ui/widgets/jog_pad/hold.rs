@@ -90,7 +90,7 @@ impl Frame {
         self.pressed.iter().find_map(|key| {
             let direction = match key {
                 Key::Space | Key::Enter => Some(focus),
-                arrow => JogDirection::ALL.into_iter().find(|at| at.arrow() == *arrow),
+                arrow => JogDirection::of_arrow(*arrow),
             };
             Some((direction?, Source::Keyboard(*key)))
         })
@@ -116,7 +116,12 @@ impl JogState {
     }
 
     /// One of the keys has the focus of the keyboard.
-    pub(super) fn has_focus(self) -> bool {
+    pub fn has_focus(self) -> bool {
         self.focus
+    }
+
+    /// One of the keys is held.
+    pub fn is_held(self) -> bool {
+        self.held.is_some()
     }
 }

@@ -1,0 +1,124 @@
+//! Turning an axis by a set amount: the size, and a key for each direction.
+
+use egui::{Align2, Event, EventFilter, Rect, Response, Ui, pos2, vec2};
+
+use super::{CardAction, Cursor, DriveModel};
+use crate::ui::{
+    text, theme,
+    widgets::{
+        angle_field::AngleField,
+        button::{Button, SMALL_HEIGHT},
+        go_to::parse,
+        jog_pad::{JogDirection, JogState},
+        paint,
+    },
+};
+
+/// Size of the first step, in degrees.
+const FIRST_DEG: f64 = 0.5;
+/// The unit reports hundredths: a smaller step would not show.
+const LEAST_DEG: f64 = 0.01;
+const LABEL: f32 = 36.0;
+const FIELD: f32 = 64.0;
+const KEY: f32 = 36.0;
+const GAP: f32 = 4.0;
+
+/// What the operator typed.
+#[derive(Debug, Clone)]
+pub(super) struct StepState {
+    typed: String,
+}
+
+impl Default for StepState {
+    fn default() -> Self {
+        Self { typed: FIRST_DEG.to_string() }
+    }
+}
+
+impl StepState {
+    /// The size in degrees, or why what was typed is none.
+    pub(super) fn size_deg(&self, most_deg: f64) -> Result<f64, String> {
+        parse::angle(&self.typed, "Step", (LEAST_DEG, most_deg))
+    }
+}
+
+/// Shows the row. It stands there only while the keys may be used.
+pub(super) fn show(
+    ui: &mut Ui,
+    at: &mut Cursor,
+    model: &DriveModel<'_>,
+    state: &mut StepState,
+    jog: JogState,
+    actions: &mut Vec<CardAction>,
+) {
+    let row = at.take(SMALL_HEIGHT);
+    let t = theme::tokens(ui);
+    paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
+    let size = state.size_deg(model.most_step_deg);
+    let field = row.with_min_x(row.left() + LABEL).with_max_x(row.left() + LABEL + FIELD);
+    let id = ui.make_persistent_id("step size");
+    AngleField { refused: size.is_err(), hint: "", name: "Step size, degrees" }.show(
+        ui,
+        id,
+        field,
+        &mut state.typed,
+    );
+
+    let mut focused = jog.has_focus();
+    let mut asked = None;
+    let names = JogDirection::ALL.into_iter().filter_map(|direction| {
+        let (word, name) = model.keys.label(direction)?;
+        Some((direction, word, name.replacen("Jog", "Step", 1)))
+    });
+    let mut right = row.right();
+    for (direction, word, name) in names.collect::<Vec<_>>().into_iter().rev() {
+        let min = pos2(right - KEY, row.top());
+        let place = Rect::from_min_size(min, vec2(KEY, SMALL_HEIGHT));
+        right = place.left() - GAP;
+        let free = size.is_ok() && !model.blocked.contains(&direction);
+        let button = Button::normal(word).locked(!free);
+        let response = button.show(ui, ("step", direction), place).accessible_name(name);
+        focused |= keeps_arrows(ui, &response);
+        if response.clicked() {
+            asked = Some(direction);
+        }
+    }
+    if focused {
+        asked = asked.or_else(|| arrow(ui));
+    }
+    if let (Some(direction), Ok(step_deg)) = (asked, size)
+        && !model.blocked.contains(&direction)
+        && !jog.is_held()
+    {
+        let (x, y) = direction.signs();
+        actions.push(CardAction::Step { x, y, step_deg });
+    }
+}
+
+/// The arrows of a key that has the focus step; they do not lead elsewhere.
+fn keeps_arrows(ui: &Ui, key: &Response) -> bool {
+    if key.has_focus() {
+        let filter = EventFilter {
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(key.id, filter));
+    }
+    key.has_focus()
+}
+
+/// The direction of an arrow that went down with Shift in this frame. A key
+/// that repeats by itself asks for nothing.
+fn arrow(ui: &Ui) -> Option<JogDirection> {
+    ui.input(|input| {
+        input.events.iter().find_map(|event| match event {
+            Event::Key { key, pressed: true, repeat: false, modifiers, .. }
+                if modifiers.shift_only() =>
+            {
+                JogDirection::of_arrow(*key)
+            }
+            _ => None,
+        })
+    })
+}
