@@ -8,7 +8,7 @@ use crate::astro::{Site, sun_moon, time::add_seconds};
 /// its radius and the refraction together.
 const RISE_DEG: f64 = -0.833;
 /// How far back and ahead.
-const SPAN_MIN: (i32, i32) = (-60, 13 * 60);
+const SPAN_MIN: (i32, i32) = (-60, 25 * 60);
 
 /// A stretch of day or of night.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ pub struct SunSpan {
     pub up: bool,
 }
 
-/// Day and night from an hour before `now` to 13 h after it, to the minute.
+/// Day and night from an hour before `now` to 25 h after it, to the minute.
 pub fn spans(site: Site, now: Timestamp) -> Vec<SunSpan> {
     let (from, to) = SPAN_MIN;
     let mut spans: Vec<SunSpan> = Vec::new();

@@ -1,95 +1,159 @@
-//! Keys that work in every view. STOP's key is older than all of them and is
-//! taken by the app itself.
+//! The keys that work in every view, in one table: what is in it works, and
+//! the list that the operator can open is drawn from it.
+
+mod act;
+pub mod list;
 
 use egui::{Key, Modifiers, Ui};
 
-use super::{confirm::Question, operate::OperateState, theme};
-use crate::{
-    app::{Model, UiCommand, View, antenna::AntennaModel},
-    driver::{self, Intent},
-};
+use super::{confirm::Question, operate::OperateState};
+use crate::app::{Model, UiCommand, View};
+use act::Act;
 
-/// Takes the keys of this frame.
-pub fn take(
-    ui: &Ui,
-    model: &Model,
-    question: &mut Option<Question>,
-    operate: &mut OperateState,
-    commands: &mut Vec<UiCommand>,
-) {
-    let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
-    if pressed(Modifiers::COMMAND, Key::L) {
-        commands.push(UiCommand::SetTheme(theme::name(ui).next()));
-    }
-    if pressed(Modifiers::COMMAND, Key::Num1) {
-        commands.push(UiCommand::Show(View::Operate));
-    }
-    if pressed(Modifiers::COMMAND, Key::Num6) {
-        commands.push(UiCommand::Show(View::Preferences));
-    }
-    for (index, key) in [Key::F1, Key::F2, Key::F3, Key::F4].into_iter().enumerate() {
-        if index < model.antennas.len() && pressed(Modifiers::NONE, key) {
-            commands.push(UiCommand::SelectAntenna(index));
-        }
-    }
-    // A letter that is typed is no command.
-    if ui.text_edit_focused() || question.is_some() {
-        return;
-    }
-    if pressed(Modifiers::NONE, Key::A)
-        && let Some(id) = model.alarms.newest_unseen()
-    {
-        commands.push(UiCommand::AcknowledgeAlarm(id));
-    }
-    if model.view != View::Operate {
-        return;
-    }
-    if pressed(Modifiers::NONE, Key::P) {
-        operate.drawer_open = !operate.drawer_open;
-    }
-    if pressed(Modifiers::NONE, Key::G) {
-        operate.card.drive.go_to.focus();
-    }
-    let rate = i32::from(pressed(Modifiers::NONE, Key::PageUp))
-        - i32::from(pressed(Modifiers::NONE, Key::PageDown));
-    let manual = |antenna: &&AntennaModel| antenna.snapshot.intent == Intent::Manual;
-    if rate != 0
-        && let Some(antenna) = model.antenna().filter(manual)
-    {
-        operate.card.drive.change_rate(rate, antenna.config.limits.maximum_rate_deg_s);
-    }
-    if pressed(Modifiers::NONE, Key::N)
-        && let Some(next) = model.next_pass()
-    {
-        commands.push(UiCommand::SelectPass(next.key()));
-    }
-    if pressed(Modifiers::NONE, Key::T) {
-        *question = ask_to_track(model);
-    }
-    if pressed(Modifiers::NONE, Key::M) {
-        let manual = UiCommand::Antenna(model.selected_antenna, driver::Command::Manual);
-        if model.antenna().is_some_and(AntennaModel::tracks) {
-            *question = Some(Question {
-                text: "End tracking and move by hand?".to_owned(),
-                yes: "Manual",
-                command: manual,
-            });
-        } else {
-            commands.push(manual);
-        }
+/// One line of the list of keys.
+#[derive(Debug, Clone, Copy)]
+pub struct Binding {
+    /// What is held with each of the keys.
+    pub modifiers: Modifiers,
+    /// The keys, each with what it brings about.
+    keys: &'static [(Key, Act)],
+    /// Where they work.
+    pub place: Place,
+    /// What they do, in a few words.
+    pub does: &'static str,
+}
+
+/// Where a key works.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Everywhere, also while typing.
+    Everywhere,
+    /// In every view, but not while typing.
+    Views,
+    /// In the Operate view, but not while typing.
+    Operate,
+    /// Where the focus is; the control that has it takes the key itself.
+    Focus,
+}
+
+impl Binding {
+    /// The keys.
+    pub fn keys(&self) -> impl Iterator<Item = Key> {
+        self.keys.iter().map(|(key, _)| *key)
     }
 }
 
-fn ask_to_track(model: &Model) -> Option<Question> {
-    let antenna = model.antenna()?;
-    let forecast = model.selected_pass()?;
-    Some(Question {
-        text: format!(
-            "Track {} with {}? The antenna moves.",
-            forecast.satellite.short_name(),
-            antenna.config.name
+const fn row(place: Place, keys: &'static [(Key, Act)], does: &'static str) -> Binding {
+    Binding { modifiers: Modifiers::NONE, keys, place, does }
+}
+
+const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
+    Binding { modifiers, ..binding }
+}
+
+/// All keys, in the order of the list. STOP's key is taken by the app before
+/// anything else.
+pub const ALL: [Binding; 19] = [
+    row(Place::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
+    with(
+        Modifiers::COMMAND,
+        row(
+            Place::Everywhere,
+            &[(Key::Num1, Act::Show(View::Operate)), (Key::Num6, Act::Show(View::Preferences))],
+            "Operate, Preferences",
         ),
-        yes: "Track",
-        command: UiCommand::track_selected(model)?,
-    })
+    ),
+    row(
+        Place::Everywhere,
+        &[
+            (Key::F1, Act::SelectAntenna(0)),
+            (Key::F2, Act::SelectAntenna(1)),
+            (Key::F3, Act::SelectAntenna(2)),
+            (Key::F4, Act::SelectAntenna(3)),
+        ],
+        "select an antenna",
+    ),
+    row(
+        Place::Operate,
+        &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
+        "the pass before or after, unless the focus is elsewhere",
+    ),
+    row(Place::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
+    row(Place::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
+    row(Place::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
+    row(Place::Operate, &[(Key::T, Act::Track)], "track the selected pass (asks)"),
+    row(Place::Operate, &[(Key::G, Act::GoTo)], "type a direction: Enter shows, Enter goes"),
+    row(Place::Operate, &[(Key::M, Act::Manual)], "Manual (asks while tracking)"),
+    row(
+        Place::Focus,
+        &[
+            (Key::ArrowLeft, Act::There),
+            (Key::ArrowRight, Act::There),
+            (Key::ArrowUp, Act::There),
+            (Key::ArrowDown, Act::There),
+        ],
+        "held: jog, in Manual with the pad focused",
+    ),
+    with(
+        Modifiers::SHIFT,
+        row(
+            Place::Focus,
+            &[
+                (Key::ArrowLeft, Act::There),
+                (Key::ArrowRight, Act::There),
+                (Key::ArrowUp, Act::There),
+                (Key::ArrowDown, Act::There),
+            ],
+            "one step, in Manual with the pad or a step key focused",
+        ),
+    ),
+    row(
+        Place::Operate,
+        &[(Key::PageUp, Act::Rate(1)), (Key::PageDown, Act::Rate(-1))],
+        "jog rate up, down, in Manual",
+    ),
+    row(
+        Place::Operate,
+        &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
+        "fewer hours, more hours in the strip of passes",
+    ),
+    row(Place::Operate, &[(Key::Num0, Act::UsualZoom)], "the usual hours in the strip of passes"),
+    row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
+    with(
+        Modifiers::COMMAND,
+        row(Place::Everywhere, &[(Key::L, Act::NextTheme)], "next theme: dark, light, night"),
+    ),
+    row(Place::Focus, &[(Key::Tab, Act::There)], "the next control; the first is STOP"),
+    row(Place::Views, &[(Key::Questionmark, Act::List)], "this list"),
+];
+
+/// What the keys change beside the model.
+pub struct Desk<'a> {
+    /// A question that waits for its answer.
+    pub question: &'a mut Option<Question>,
+    /// The Operate view.
+    pub operate: &'a mut OperateState,
+    /// The list of keys is open.
+    pub list_open: &'a mut bool,
+}
+
+/// Takes the keys of this frame.
+pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+    // A letter that is typed is no command, and a dialog has its own keys.
+    let typing = ui.text_edit_focused() || desk.question.is_some() || *desk.list_open;
+    let works = |place| match place {
+        Place::Everywhere => true,
+        Place::Views => !typing,
+        Place::Operate => !typing && model.view == View::Operate,
+        Place::Focus => false,
+    };
+    for binding in ALL.iter().filter(|binding| works(binding.place)) {
+        for (key, act) in binding.keys {
+            if act.is_possible(ui, model)
+                && ui.input_mut(|input| input.consume_key(binding.modifiers, *key))
+            {
+                act.carry_out(ui, model, desk, commands);
+            }
+        }
+    }
 }

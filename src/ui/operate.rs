@@ -10,8 +10,10 @@ use egui::{Rect, Ui};
 use super::{
     antenna_card::{self, CardState},
     pass_header,
+    pass_list::PassListState,
     sky_plot::SkyPlotState,
     theme,
+    timeline::Zoom,
 };
 use crate::app::{Model, UiCommand};
 use layout::Areas;
@@ -23,6 +25,9 @@ pub struct OperateState {
     pub card: CardState,
     /// The pass list is drawn over the plot, in a small window.
     pub drawer_open: bool,
+    /// How many hours the strip of passes shows.
+    pub zoom: Zoom,
+    passes: PassListState,
     /// The antenna whose card was shown last.
     shown_antenna: usize,
     sky: SkyPlotState,
@@ -58,7 +63,7 @@ pub fn show(
     }
     sky::show(ui, areas.sky, model, state, commands);
     if let Some(timeline) = areas.timeline {
-        passes::timeline(ui, timeline, model, commands);
+        passes::timeline(ui, timeline, model, &mut state.zoom, commands);
     }
     if let Some(profile) = areas.profile {
         passes::profile(ui, profile, model);
@@ -68,7 +73,7 @@ pub fn show(
             // The drawer lies over the plot; elsewhere the list stands on the ground.
             ui.painter().rect_filled(list, 0.0, t.bg1);
         }
-        passes::list(ui, list, model, areas.thumbnails, commands);
+        passes::list(ui, list, model, areas.thumbnails, &mut state.passes, commands);
     }
     if let Some(antenna) = model.antenna() {
         card::show(ui, areas.card, model, antenna, &mut state.card, commands);

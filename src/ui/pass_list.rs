@@ -13,7 +13,7 @@ use egui::{Rect, Ui, vec2};
 use jiff::Timestamp;
 
 use super::{text, theme, widgets::paint};
-use crate::plan::Sample;
+use crate::{astro::time::seconds_between, plan::Sample};
 
 /// Width of the column with thumbnails.
 pub const WIDTH: f32 = 320.0;
@@ -92,6 +92,28 @@ pub struct PassListModel<'a> {
     pub empty: &'a str,
 }
 
+/// What the column remembers from frame to frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PassListState {
+    /// The pass that was selected when the rows were shown last.
+    shown: Option<PassKey>,
+}
+
+impl PassListState {
+    /// Whether another pass is selected than in the last frame. A new list has
+    /// the same pass with an AOS that differs by a little.
+    fn is_news(&mut self, selected: Option<PassKey>) -> bool {
+        let before = std::mem::replace(&mut self.shown, selected);
+        match (before, selected) {
+            (Some((old, then)), Some((new, at))) => {
+                old != new || seconds_between(then, at).abs() > 60.0
+            }
+            (None, Some(_)) => true,
+            (_, None) => false,
+        }
+    }
+}
+
 /// What the operator did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PassListAction {
@@ -102,14 +124,20 @@ pub enum PassListAction {
 }
 
 /// Shows the column in `rect`: its head and the rows, which scroll.
-pub fn show(ui: &mut Ui, rect: Rect, model: &PassListModel<'_>) -> Vec<PassListAction> {
+/// A pass that was selected elsewhere is scrolled to.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &PassListModel<'_>,
+    state: &mut PassListState,
+) -> Vec<PassListAction> {
     let mut actions = Vec::new();
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
     header::show(ui, head, model, &mut actions);
     if model.rows == 0 {
         nothing(ui, body, model.empty);
     } else {
-        rows::show(ui, body, model, &mut actions);
+        rows::show(ui, body, model, state.is_news(model.selected), &mut actions);
     }
     actions
 }

@@ -1,5 +1,5 @@
 //! The strip "Next 12 hours": the passes of one antenna as bars over time,
-//! with day and night below. In a low place it shrinks to one lane of 4 hours.
+//! with day and night below. In a low place it shrinks to one lane.
 
 mod axis;
 mod bars;
@@ -7,6 +7,7 @@ mod head;
 mod labels;
 mod scale;
 mod sun;
+mod zoom;
 
 use std::ops::RangeInclusive;
 
@@ -17,6 +18,7 @@ use crate::app::daylight::SunSpan;
 
 use super::{format, text, theme, widgets::paint};
 use scale::Scale;
+pub use zoom::Zoom;
 
 /// One pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +44,7 @@ pub struct Bar<'a> {
 pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
-    /// Length of the full form, in hours.
+    /// How long, in hours.
     pub hours: f64,
     /// Name of the antenna.
     pub lane: &'a str,
@@ -55,8 +57,7 @@ pub struct TimelineModel<'a> {
 }
 
 /// Below this height the strip has its small form, in points.
-const SMALL_BELOW: f32 = 120.0;
-const SMALL_HOURS: f64 = 4.0;
+pub const SMALL_BELOW: f32 = 120.0;
 /// In less room than this nothing can be told apart, in points.
 const LEAST: Vec2 = vec2(160.0, 60.0);
 /// Below this height all passes share one lane, in points.
@@ -85,8 +86,11 @@ const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
 /// chosen with Enter.
 pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, Timestamp)> {
     let is_small = rect.height() < SMALL_BELOW;
-    let hours = if is_small { model.hours.min(SMALL_HOURS) } else { model.hours };
-    let title = format!("Next {} hours", format::number(hours, 0));
+    let hours = model.hours;
+    let title = match format::number(hours, 0).as_str() {
+        "1" => "Next hour".to_owned(),
+        count => format!("Next {count} hours"),
+    };
     let group = ui.interact(rect, ui.make_persistent_id("timeline"), Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     if rect.width() < LEAST.x || rect.height() < LEAST.y {

@@ -4,7 +4,12 @@ use egui::{Rect, Ui, pos2};
 use jiff::Timestamp;
 
 use super::{
-    banner, bar, confirm::Question, icons::Icon, keys, operate, preferences, rail, rail::RailEntry,
+    banner, bar,
+    confirm::Question,
+    icons::Icon,
+    keys::{self, Desk},
+    operate, preferences, rail,
+    rail::RailEntry,
     top_bar,
 };
 use crate::app::{Model, UiCommand, View};
@@ -15,6 +20,7 @@ pub struct Views {
     operate: operate::OperateState,
     preferences: preferences::PreferencesState,
     question: Option<Question>,
+    keys_open: bool,
 }
 
 impl Views {
@@ -23,7 +29,12 @@ impl Views {
         let window = ui.max_rect();
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
         bar::show(ui, top, model, commands);
-        keys::take(ui, model, &mut self.question, &mut self.operate, commands);
+        let mut desk = Desk {
+            question: &mut self.question,
+            operate: &mut self.operate,
+            list_open: &mut self.keys_open,
+        };
+        keys::take(ui, model, &mut desk, commands);
 
         let mut body = window.with_min_y(top.bottom());
         if model.demo {
@@ -44,6 +55,7 @@ impl Views {
             }
         }
         Question::show(&mut self.question, ui, commands);
+        keys::list::show(ui, &mut self.keys_open);
     }
 
     /// The settings were saved at this time, or not, and why.

@@ -11,6 +11,7 @@
 mod bar;
 mod drive;
 mod extremes;
+mod keys;
 mod passes;
 mod preferences;
 mod rig;

@@ -14,9 +14,9 @@ use crate::{
     ui::{
         format,
         pass_header::{self, PassHeaderModel},
-        pass_list::{self, PassListAction, PassListModel, PassRow, Verdict},
+        pass_list::{self, PassListAction, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, ProfileModel},
-        timeline::{self, Bar, TimelineModel},
+        timeline::{self, Bar, TimelineModel, Zoom},
     },
 };
 
@@ -26,6 +26,7 @@ pub(super) fn list(
     rect: Rect,
     model: &Model,
     thumbnails: bool,
+    state: &mut PassListState,
     commands: &mut Vec<UiCommand>,
 ) {
     let passes = &model.forecasts.passes;
@@ -70,7 +71,7 @@ pub(super) fn list(
         thumbnails,
         empty,
     };
-    for action in pass_list::show(ui, rect, &list) {
+    for action in pass_list::show(ui, rect, &list, state) {
         commands.push(match action {
             PassListAction::Select(key) => UiCommand::SelectPass(key),
             PassListAction::SetFloor(floor_deg) => UiCommand::SetElevationFloor(floor_deg),
@@ -160,8 +161,15 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
 }
 
 /// Shows the strip of the next hours.
-pub(super) fn timeline(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    let hours = if rect.height() < 120.0 { 4.0 } else { 12.0 };
+pub(super) fn timeline(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    zoom: &mut Zoom,
+    commands: &mut Vec<UiCommand>,
+) {
+    let usual = if rect.height() < timeline::SMALL_BELOW { 4 } else { 12 };
+    let hours = f64::from(zoom.hours(usual));
     let end = add_seconds(model.now, hours * 3600.0);
     let bars: Vec<Bar<'_>> = model
         .forecasts

@@ -15,8 +15,12 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &PassListModel<'_>,
+    selection_is_news: bool,
     actions: &mut Vec<PassListAction>,
 ) {
+    let selected = model.selected.filter(|_| selection_is_news).and_then(|selected| {
+        (0..model.rows).find(|index| (model.row)(*index).is_some_and(|pass| pass.key == selected))
+    });
     // Of this column and not of the scrolled part, so that a row keeps its id
     // wherever it stands.
     let list = ui.make_persistent_id("passes");
@@ -35,6 +39,9 @@ pub(super) fn show(
                     let min = pos2(rect.left(), top + down);
                     Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
                 };
+                if let Some(index) = selected {
+                    into_view(ui, place(index));
+                }
                 // One row above those in view, so that the focus finds it; below, there is
                 // one already.
                 for index in range.start.saturating_sub(1)..range.end {

@@ -26,6 +26,7 @@ struct Desk {
     floor_deg: f64,
     thumbnails: bool,
     actions: Vec<PassListAction>,
+    state: PassListState,
     /// The highest index that was asked for.
     highest: Rc<Cell<usize>>,
 }
@@ -38,6 +39,7 @@ impl Desk {
             floor_deg: 10.0,
             thumbnails: true,
             actions: Vec::new(),
+            state: PassListState::default(),
             highest: Rc::default(),
         }
     }
@@ -92,7 +94,7 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
             empty: "No pass above 10° in the next 48 hours.",
         };
         let rect = Rect::from_min_size(egui::Pos2::ZERO, vec2(width, 636.0));
-        for action in show(ui, rect, &model) {
+        for action in show(ui, rect, &model, &mut desk.state) {
             match action {
                 PassListAction::Select(key) => desk.selected = Some(key),
                 PassListAction::SetFloor(floor_deg) => desk.floor_deg = floor_deg,

@@ -47,7 +47,7 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
     testing::window(size, None, move |ui, picked: &mut Picked| {
         let model = TimelineModel {
             now: at("11:06:12"),
-            hours: 12.0,
+            hours: if size == SMALL { 4.0 } else { 12.0 },
             lane: "Satrak",
             bars: &bars,
             selected: *picked,

@@ -1,0 +1,123 @@
+//! What a key brings about.
+
+use egui::{FocusDirection, Ui};
+
+use super::Desk;
+use crate::{
+    app::{Model, UiCommand, View, antenna::AntennaModel, forecast::Forecast},
+    driver::{self, Intent},
+    ui::{confirm::Question, theme},
+};
+
+/// What a key brings about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Act {
+    /// The control that has the focus, or the app, takes the key itself.
+    There,
+    Show(View),
+    SelectAntenna(usize),
+    /// So many passes down the list.
+    MoveInList(isize),
+    NextPass,
+    Drawer,
+    Track,
+    GoTo,
+    Manual,
+    /// So many rates up.
+    Rate(i32),
+    /// So many steps closer.
+    Zoom(isize),
+    UsualZoom,
+    Acknowledge,
+    NextTheme,
+    List,
+}
+
+impl Act {
+    /// Whether the key is taken at all; if not, it is left to others.
+    pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
+        match self {
+            Self::SelectAntenna(index) => index < model.antennas.len(),
+            Self::MoveInList(_) => {
+                let plain = ui.input(|input| input.modifiers.is_none());
+                plain && ui.memory(|memory| memory.focused().is_none())
+            }
+            _ => true,
+        }
+    }
+
+    pub(super) fn carry_out(
+        self,
+        ui: &Ui,
+        model: &Model,
+        desk: &mut Desk<'_>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        match self {
+            Self::There => {}
+            Self::Show(view) => commands.push(UiCommand::Show(view)),
+            Self::SelectAntenna(index) => commands.push(UiCommand::SelectAntenna(index)),
+            Self::MoveInList(down) => {
+                ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+                commands.extend(neighbour(model, down).map(UiCommand::SelectPass));
+            }
+            Self::NextPass => {
+                commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
+            }
+            Self::Drawer => desk.operate.drawer_open = !desk.operate.drawer_open,
+            Self::Track => *desk.question = ask_to_track(model),
+            Self::GoTo => desk.operate.card.drive.go_to.focus(),
+            Self::Manual => manual(model, desk, commands),
+            Self::Rate(by) => {
+                let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
+                if let Some(antenna) = model.antenna().filter(manual) {
+                    let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
+                    desk.operate.card.drive.change_rate(by, most_deg_s);
+                }
+            }
+            Self::Zoom(closer) => desk.operate.zoom.change(closer),
+            Self::UsualZoom => desk.operate.zoom.reset(),
+            Self::Acknowledge => {
+                commands.extend(model.alarms.newest_unseen().map(UiCommand::AcknowledgeAlarm));
+            }
+            Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),
+            Self::List => *desk.list_open = true,
+        }
+    }
+}
+
+/// The pass so many places below the selected one in the list.
+fn neighbour(model: &Model, down: isize) -> Option<(u32, jiff::Timestamp)> {
+    let passes = &model.forecasts.passes;
+    let selected = model.selected_pass().map(Forecast::key);
+    let at = passes.iter().position(|forecast| Some(forecast.key()) == selected);
+    let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
+    passes.get(wanted).map(Forecast::key)
+}
+
+fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+    let manual = UiCommand::Antenna(model.selected_antenna, driver::Command::Manual);
+    if model.antenna().is_some_and(AntennaModel::tracks) {
+        *desk.question = Some(Question {
+            text: "End tracking and move by hand?".to_owned(),
+            yes: "Manual",
+            command: manual,
+        });
+    } else {
+        commands.push(manual);
+    }
+}
+
+fn ask_to_track(model: &Model) -> Option<Question> {
+    let antenna = model.antenna()?;
+    let forecast = model.selected_pass()?;
+    Some(Question {
+        text: format!(
+            "Track {} with {}? The antenna moves.",
+            forecast.satellite.short_name(),
+            antenna.config.name
+        ),
+        yes: "Track",
+        command: UiCommand::track_selected(model)?,
+    })
+}
