@@ -14,6 +14,7 @@ mod demo;
 pub mod forecast;
 mod job;
 mod logic;
+mod memory;
 pub mod model;
 
 use std::{path::PathBuf, sync::Arc, time::Instant};
@@ -21,12 +22,12 @@ use std::{path::PathBuf, sync::Arc, time::Instant};
 pub use command::UiCommand;
 pub use model::{Model, View};
 
-use self::{antenna::AntennaModel, demo::Demo, job::Job, model::CatalogState};
+use self::{antenna::AntennaModel, demo::Demo, job::Job, memory::Keeper, model::CatalogState};
 use crate::{
     driver::{self, Clock, Driver, Wake},
     orbit::{BundledError, Catalog},
     station::{self, LoadError, Station},
-    ui::{self, tokens::ThemeName},
+    ui,
 };
 
 /// What the command line says about the window.
@@ -47,16 +48,18 @@ pub struct App {
     wake: Wake,
     settings_path: Option<PathBuf>,
     catalog_job: Option<Job<Result<Catalog, BundledError>>>,
+    keeper: Keeper,
     drawn: bool,
 }
 
 impl App {
     /// The app in a new window.
     pub fn new(ctx: &egui::Context, settings: &Settings, clock: Clock) -> std::io::Result<Self> {
-        ui::theme::install(ctx, ThemeName::default());
+        let settings_path = settings.path.clone().or_else(station::settings_path);
+        let keeper = Keeper::beside(settings_path.as_deref());
+        ui::theme::install(ctx, keeper.memory.theme);
         let wake = wake(ctx.clone());
         let driver = Driver::start(clock.clone(), Arc::clone(&wake))?;
-        let settings_path = settings.path.clone().or_else(station::settings_path);
         let model = Model {
             now: clock.utc(),
             steady: Instant::now(),
@@ -76,13 +79,14 @@ impl App {
             Job::start("azel-catalog", Arc::clone(&wake), |_| crate::orbit::bundled())?;
         let mut app = Self {
             model,
-            views: ui::Views::default(),
+            views: ui::Views::with(keeper.memory.views),
             driver,
             demo: None,
             clock,
             wake,
             settings_path,
             catalog_job: Some(catalog_job),
+            keeper,
             drawn: false,
         };
         app.load_station();
@@ -131,8 +135,11 @@ impl App {
             );
             self.model.antennas.push(antenna);
         }
-        self.model.selected_antenna =
-            self.model.selected_antenna.min(self.model.antennas.len().saturating_sub(1));
+        let last = self.keeper.memory.antenna.as_deref();
+        self.model.selected_antenna = (self.model.antennas.iter())
+            .position(|antenna| Some(antenna.config.name.as_str()) == last)
+            .unwrap_or(self.model.selected_antenna)
+            .min(self.model.antennas.len().saturating_sub(1));
         self.model.station = station;
     }
 
@@ -146,6 +153,8 @@ impl App {
 impl Drop for App {
     fn drop(&mut self) {
         self.model.antennas.clear();
+        self.remember();
+        self.keeper.finish(&self.wake);
     }
 }
 

@@ -25,4 +25,4 @@ mod views;
 pub mod widgets;
 pub mod words;
 
-pub use views::Views;
+pub use views::{Kept, Views};

@@ -20,14 +20,21 @@ impl App {
                 model.selected =
                     model.pass_of(number).map(super::forecast::Forecast::key).or(model.selected);
             }
-            UiCommand::SelectAntenna(index) => model.selected_antenna = index,
+            UiCommand::SelectAntenna(index) => {
+                model.selected_antenna = index;
+                let antenna = model.antenna();
+                self.keeper.memory.antenna = antenna.map(|antenna| antenna.config.name.clone());
+            }
             UiCommand::Antenna(antenna, command) => self.send(antenna, command),
             UiCommand::Track { antenna, pass } => self.track(antenna, pass),
             UiCommand::SetElevationFloor(floor_deg) => {
                 model.station.elevation_floor_deg = floor_deg;
             }
             UiCommand::Show(view) => model.view = view,
-            UiCommand::SetTheme(name) => theme::set(ctx, name),
+            UiCommand::SetTheme(name) => {
+                theme::set(ctx, name);
+                self.keeper.memory.theme = name;
+            }
             UiCommand::OpenedAlarms => model.alarms.unopened = false,
             UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(id),
             UiCommand::SaveStation(station) => self.save_station(*station),

@@ -8,6 +8,7 @@ use std::{
         mpsc,
     },
     thread,
+    time::Duration,
 };
 
 use crate::driver::Wake;
@@ -36,6 +37,11 @@ impl<T: Send + 'static> Job<T> {
             wake();
         })?;
         Ok(Self { result, cancelled })
+    }
+
+    /// Waits for the end of the work, at most this long.
+    pub(super) fn wait(&self, most: Duration) -> Option<T> {
+        self.result.recv_timeout(most).ok()
     }
 
     /// The result, once.

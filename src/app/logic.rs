@@ -42,6 +42,13 @@ impl App {
             self.take_antenna(index);
         }
         self.model.refresh_sky();
+        self.remember();
+    }
+
+    /// Keeps what the operator has changed for the next start.
+    pub(super) fn remember(&mut self) {
+        self.keeper.memory.views = self.views.kept();
+        self.keeper.keep(&self.wake);
     }
 
     fn take_catalog(&mut self) {

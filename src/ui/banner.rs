@@ -4,7 +4,10 @@ use egui::{Align2, Rect, Ui};
 
 use super::{
     format, text, theme,
-    widgets::{button::Button, paint},
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        paint,
+    },
 };
 use crate::{
     app::{Model, UiCommand, View, model::CatalogState},
@@ -14,6 +17,8 @@ use crate::{
 
 /// Height of the strip.
 pub const HEIGHT: f32 = 32.0;
+/// Height of the strip in a low window, where it says less.
+pub const LOW_HEIGHT: f32 = 28.0;
 
 /// Shows the strip in `rect`.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
@@ -22,12 +27,16 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let button = Button::quiet("Set up your station");
     let width = button.width(ui);
     let place = Rect::from_min_max(
-        egui::pos2(rect.right() - width - 8.0, rect.top() + 4.0),
-        egui::pos2(rect.right() - 8.0, rect.bottom() - 4.0),
+        egui::pos2(rect.right() - width - 8.0, rect.center().y - SMALL_HEIGHT / 2.0),
+        egui::pos2(rect.right() - 8.0, rect.center().y + SMALL_HEIGHT / 2.0),
     );
     let words = match &model.catalog {
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
+        // The age stands above the plot as well.
+        CatalogState::Ready(_) if rect.height() < HEIGHT => {
+            "Demo station: the antenna is simulated, no metal moves.".to_owned()
+        }
         CatalogState::Ready(catalog) => {
             let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
                 format!(", {} old", format::age(seconds_between(newest, model.now)))

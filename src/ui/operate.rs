@@ -9,7 +9,7 @@ use egui::{Rect, Ui};
 
 use super::{
     antenna_card::{self, CardState},
-    pass_header,
+    banner, pass_header,
     pass_list::PassListState,
     sky_plot::SkyPlotState,
     theme,
@@ -52,11 +52,14 @@ pub fn show(
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let areas = Areas::of(window, rect, state.drawer_open);
+    let areas = Areas::of(window, rect, state.drawer_open, model.demo);
     let t = theme::tokens(ui);
     if state.shown_antenna != model.selected_antenna {
         state.leave_card(commands);
         state.shown_antenna = model.selected_antenna;
+    }
+    if let Some(strip) = areas.banner {
+        banner::show(ui, strip, model, commands);
     }
     if passes::header(ui, areas.header, model, areas.small) {
         state.drawer_open = !state.drawer_open;

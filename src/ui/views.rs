@@ -10,6 +10,7 @@ use super::{
     keys::{self, Desk},
     operate, preferences, rail,
     rail::RailEntry,
+    timeline::Zoom,
     top_bar,
 };
 use crate::app::{Model, UiCommand, View};
@@ -23,7 +24,37 @@ pub struct Views {
     keys_open: bool,
 }
 
+/// What the views keep from one start to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Kept {
+    /// The travel gauges are unfolded in a low window.
+    pub travel_open: bool,
+    /// The checks are unfolded in a low window.
+    pub faults_open: bool,
+    /// How many hours the strip of passes shows; `None` for the usual.
+    pub strip_hours: Option<u32>,
+}
+
 impl Views {
+    /// As the operator left them.
+    pub fn with(kept: Kept) -> Self {
+        let mut views = Self::default();
+        let operate = &mut views.operate;
+        operate.card.travel_open = kept.travel_open;
+        operate.card.faults_open = kept.faults_open;
+        operate.zoom = Zoom::of(kept.strip_hours);
+        views
+    }
+
+    /// What is to be kept.
+    pub fn kept(&self) -> Kept {
+        Kept {
+            travel_open: self.operate.card.travel_open,
+            faults_open: self.operate.card.faults_open,
+            strip_hours: self.operate.zoom.wanted(),
+        }
+    }
+
     /// Draws everything and collects what the operator asked for.
     pub fn show(&mut self, ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let window = ui.max_rect();
@@ -37,7 +68,9 @@ impl Views {
         keys::take(ui, model, &mut desk, commands);
 
         let mut body = window.with_min_y(top.bottom());
-        if model.demo {
+        // In a low window the antenna card needs the whole height.
+        let beside_card = window.height() < top_bar::SMALL_BELOW && model.view == View::Operate;
+        if model.demo && !beside_card {
             let strip = body.with_max_y(body.top() + banner::HEIGHT);
             banner::show(ui, strip, model, commands);
             body = body.with_min_y(strip.bottom());

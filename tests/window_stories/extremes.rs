@@ -13,7 +13,7 @@ use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
-    rig::{self, SIZES, Window, asked, says},
+    rig::{self, SIZES, SMALL, Window, asked, says},
     states,
 };
 
@@ -133,6 +133,10 @@ fn the_demo_station_says_that_no_metal_moves() {
         let mut window = rig::window(size, model);
         assert!(says(&window, "Demo station: the antenna is simulated, no metal moves."));
         nothing_is_cut(&window, size);
+        // The card is as high as without the banner.
+        let faults =
+            window.get_by_label_contains(if size == SMALL { "Faults: " } else { "Details" });
+        assert!(faults.rect().bottom() <= size[1], "{:?}", faults.rect());
         window.get_by_label("Set up your station").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
     }

@@ -7,6 +7,7 @@ use azel::{
     driver::{Clock, Intent, LinkState, StopState},
     protocol::satrak::AxisMotion,
     station,
+    ui::{theme, tokens::ThemeName},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -219,4 +220,37 @@ fn saving_writes_the_file_and_ends_the_demonstration() {
     assert!((saved.station.site.latitude().degrees() + 33.5).abs() < 1e-9);
     window.run_steps(2);
     window.get_by_label_contains("Saved ");
+}
+
+#[test]
+fn what_was_chosen_is_there_again_after_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, kept) = (folder.path().join("station.toml"), folder.path().join("window.toml"));
+    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
+    let first = station::Antenna::satrak("First", "127.0.0.1:9");
+    let second = station::Antenna { name: "Second".to_owned(), ..first.clone() };
+    let antennas = vec![first, second];
+    station::save(&station::Station { antennas, ..Default::default() }, &path).unwrap();
+
+    let mut window = open(&path, clock_from(utc));
+    window.run_steps(3);
+    assert!(!kept.exists(), "nothing was chosen yet");
+    window.key_press(Key::F2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::L);
+    window.key_press(Key::Plus);
+    window.run_steps(3);
+    drop(window);
+
+    let mut window = open(&path, clock_from(utc));
+    window.run_steps(3);
+    assert_eq!(window.state().model().selected_antenna, 1);
+    assert_eq!(theme::name(&window.ctx), ThemeName::Light);
+    window.get_by_role_and_label(Role::ListBox, "Next 8 hours");
+}
+
+#[test]
+fn the_demo_station_leaves_no_file_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(demo(&folder));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

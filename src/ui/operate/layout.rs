@@ -3,6 +3,7 @@
 use egui::{Rect, pos2, vec2};
 
 use super::{antenna_card, pass_header};
+use crate::ui::{banner, top_bar};
 
 const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
@@ -25,6 +26,8 @@ pub(super) struct Areas {
     pub(super) header: Rect,
     pub(super) sky: Rect,
     pub(super) card: Rect,
+    /// The strip of the demo station, where it stands beside the card.
+    pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
     pub(super) timeline: Option<Rect>,
     pub(super) profile: Option<Rect>,
@@ -33,12 +36,15 @@ pub(super) struct Areas {
 }
 
 impl Areas {
-    pub(super) fn of(window: Rect, rect: Rect, drawer_open: bool) -> Self {
+    pub(super) fn of(window: Rect, rect: Rect, drawer_open: bool, demo: bool) -> Self {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
         let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
         let card = rect.with_min_x(rect.right() - card_width);
         let left = rect.with_max_x(card.left());
+        let banner = (demo && window.height() < top_bar::SMALL_BELOW)
+            .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
+        let left = banner.map_or(left, |banner| left.with_min_y(banner.bottom()));
 
         let thumbnails = window.width() >= THUMBNAILS_FROM;
         let list_width = if thumbnails { LIST } else { NARROW_LIST };
@@ -67,7 +73,8 @@ impl Areas {
             Some(profile) => strip.with_max_x(profile.left()),
             None => strip,
         };
-        Self { header, sky, card, list, timeline: Some(timeline), profile, thumbnails, small }
+        let timeline = Some(timeline);
+        Self { header, sky, card, banner, list, timeline, profile, thumbnails, small }
     }
 
     /// The lines between the parts, 1 px wide.
@@ -100,7 +107,7 @@ mod tests {
         let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
         let (bar, rail) =
             (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
-        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false)
+        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false)
     }
 
     #[test]

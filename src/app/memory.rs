@@ -1,0 +1,219 @@
+//! What the window keeps from one start to the next, in a small file beside the
+//! station's. It is a convenience: whatever is wrong with the file costs no
+//! more than what stands in it, and it is written only after the operator has
+//! changed something.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use serde::Serialize;
+
+use super::job::Job;
+use crate::{
+    driver::Wake,
+    station,
+    ui::{Kept, tokens::ThemeName},
+};
+
+/// The end of the program waits so long for the last change.
+const FAREWELL: Duration = Duration::from_millis(500);
+
+/// What is kept.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Memory {
+    /// The colours.
+    pub(super) theme: ThemeName,
+    /// Name of the antenna that the operator selected last.
+    pub(super) antenna: Option<String>,
+    /// What the views keep.
+    pub(super) views: Kept,
+}
+
+impl Memory {
+    /// What was kept at `path`. A missing or wrong part has its default.
+    fn read(path: &Path) -> Self {
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) => {
+                if error.kind() != io::ErrorKind::NotFound {
+                    tracing::warn!(%error, path = %path.display(), "not read");
+                }
+                return Self::default();
+            }
+        };
+        let table: toml::Table = toml::from_str(&text).unwrap_or_else(|error| {
+            tracing::warn!(%error, path = %path.display(), "not used");
+            toml::Table::new()
+        });
+        let is_set = |key: &str| table.get(key).and_then(toml::Value::as_bool).unwrap_or_default();
+        let hours = table.get("strip_hours").and_then(toml::Value::as_integer);
+        Self {
+            theme: table
+                .get("theme")
+                .and_then(|value| value.clone().try_into().ok())
+                .unwrap_or_default(),
+            antenna: table.get("antenna").and_then(toml::Value::as_str).map(str::to_owned),
+            views: Kept {
+                travel_open: is_set("travel_open"),
+                faults_open: is_set("faults_open"),
+                strip_hours: hours.and_then(|hours| u32::try_from(hours).ok()),
+            },
+        }
+    }
+
+    fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        #[derive(Serialize)]
+        struct Lines<'a> {
+            theme: ThemeName,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            antenna: Option<&'a str>,
+            travel_open: bool,
+            faults_open: bool,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            strip_hours: Option<u32>,
+        }
+        toml::to_string(&Lines {
+            theme: self.theme,
+            antenna: self.antenna.as_deref(),
+            travel_open: self.views.travel_open,
+            faults_open: self.views.faults_open,
+            strip_hours: self.views.strip_hours,
+        })
+    }
+}
+
+/// The memory, its file and the writing under way.
+pub(super) struct Keeper {
+    /// What is kept.
+    pub(super) memory: Memory,
+    written: Memory,
+    path: Option<PathBuf>,
+    job: Option<Job<()>>,
+}
+
+impl Keeper {
+    /// The memory that belongs to the station file; nothing is kept without one.
+    pub(super) fn beside(station: Option<&Path>) -> Self {
+        let path = station.map(|station| station.with_file_name("window.toml"));
+        let memory = path.as_deref().map(Memory::read).unwrap_or_default();
+        Self { written: memory.clone(), memory, path, job: None }
+    }
+
+    /// Writes what has changed, on a thread of its own and one change at a time.
+    pub(super) fn keep(&mut self, wake: &Wake) {
+        self.job.take_if(|job| job.poll().is_some());
+        let Some(path) = self.path.clone().filter(|_| self.job.is_none()) else { return };
+        if self.memory == self.written {
+            return;
+        }
+        // Not tried again before the next change.
+        self.written = self.memory.clone();
+        let memory = self.memory.clone();
+        let work = move |_: &dyn Fn() -> bool| write(&memory, &path);
+        match Job::start("azel-window-file", Wake::clone(wake), work) {
+            Ok(job) => self.job = Some(job),
+            Err(error) => tracing::warn!(%error, "no thread to keep the window"),
+        }
+    }
+
+    /// Before the end: the last change, within reason.
+    pub(super) fn finish(&mut self, wake: &Wake) {
+        for _ in 0..2 {
+            if let Some(job) = self.job.take() {
+                job.wait(FAREWELL);
+            }
+            self.keep(wake);
+        }
+    }
+}
+
+fn write(memory: &Memory, path: &Path) {
+    let written = memory
+        .to_toml()
+        .map_err(io::Error::other)
+        .and_then(|text| station::replace_file(path, text.as_bytes()));
+    if let Err(error) = written {
+        tracing::warn!(%error, path = %path.display(), "the window is not kept");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn other() -> Memory {
+        Memory {
+            theme: ThemeName::Night,
+            antenna: Some("Şile \"2\"".to_owned()),
+            views: Kept { travel_open: true, faults_open: false, strip_hours: Some(24) },
+        }
+    }
+
+    fn keeper(folder: &tempfile::TempDir) -> Keeper {
+        Keeper::beside(Some(&folder.path().join("deep/station.toml")))
+    }
+
+    fn silent() -> Wake {
+        std::sync::Arc::new(|| {})
+    }
+
+    #[test]
+    fn what_was_changed_comes_back_and_what_was_not_writes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut first = keeper(&folder);
+        assert_eq!(first.memory, Memory::default());
+        first.keep(&silent());
+        first.finish(&silent());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        first.memory = other();
+        first.keep(&silent());
+        first.finish(&silent());
+        assert_eq!(keeper(&folder).memory, other());
+    }
+
+    #[test]
+    fn of_two_changes_the_later_is_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut first = keeper(&folder);
+        for theme in [ThemeName::Light, ThemeName::Dark, ThemeName::Night] {
+            first.memory.theme = theme;
+            first.keep(&silent());
+        }
+        first.finish(&silent());
+        assert_eq!(keeper(&folder).memory.theme, ThemeName::Night);
+    }
+
+    #[test]
+    fn a_wrong_part_costs_only_itself() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("window.toml");
+        for (text, wanted) in [
+            ("theme = 'night'\nstrip_hours = -3\nfaults_open = 'yes'\nnew = 1", {
+                Memory { theme: ThemeName::Night, ..Memory::default() }
+            }),
+            ("theme = 7\nantenna = 'Mast'", {
+                Memory { antenna: Some("Mast".to_owned()), ..Memory::default() }
+            }),
+            ("theme = \"", Memory::default()),
+        ] {
+            fs::write(&path, text).unwrap();
+            assert_eq!(Memory::read(&path), wanted, "{text}");
+        }
+        fs::write(&path, [0xFF, 0xFE]).unwrap();
+        assert_eq!(Memory::read(&path), Memory::default());
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_harms_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("deep"), "a file").unwrap();
+        let mut keeper = keeper(&folder);
+        keeper.memory = other();
+        keeper.keep(&silent());
+        keeper.finish(&silent());
+        assert_eq!(fs::read_to_string(folder.path().join("deep")).unwrap(), "a file");
+    }
+}
