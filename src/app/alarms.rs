@@ -64,6 +64,8 @@ pub enum AlarmKind {
     ClockOff(f64),
     /// The unit's clock was never set.
     ClockNotSet,
+    /// Its state cannot be read; the unit seems to write decimal commas.
+    DecimalCommas,
     /// A setting of the station file that was not taken over.
     Setting(Note),
     /// The settings could not be read or written; in words.
@@ -99,6 +101,7 @@ impl Alarm {
             | AlarmKind::SessionBroke
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
+            | AlarmKind::DecimalCommas
             | AlarmKind::JogPositionOld => Priority::Warning,
             AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
@@ -182,6 +185,7 @@ impl AlarmKind {
                 | Self::Fault(_)
                 | Self::ClockOff(_)
                 | Self::ClockNotSet
+                | Self::DecimalCommas
                 | Self::Setting(_)
                 | Self::Settings(_)
                 | Self::Elements(_)

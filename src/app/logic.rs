@@ -141,6 +141,11 @@ impl App {
         {
             alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
         }
+        if snapshot.state.satrak.decimal_commas {
+            alarms.raise(of, AlarmKind::DecimalCommas, now);
+        } else {
+            alarms.clear(of, |kind| *kind == AlarmKind::DecimalCommas);
+        }
         if let Some((faults, _)) = &snapshot.state.satrak.faults {
             for kind in faults.active() {
                 alarms.raise(of, AlarmKind::Fault(kind), now);

@@ -117,4 +117,6 @@ pub struct Traffic {
     pub odd: u64,
     /// When the last good reply came in.
     pub last_reply: Option<Instant>,
+    /// When the last good frame came in whose content made no sense.
+    pub last_unreadable: Option<Instant>,
 }

@@ -128,8 +128,10 @@ pub enum LinkLoss {
     Closed,
     /// It broke; in the words of the operating system.
     Broken(String),
-    /// Open, but no good reply.
+    /// Open, but no reply.
     Silent,
+    /// Open, but no reply that can be read.
+    Unreadable,
 }
 
 /// The stop button of one antenna.

@@ -11,6 +11,9 @@ pub use refusals::{link_loss, prepare_error, refusal};
 
 use crate::{controller::Motion, driver::Intent};
 
+/// The likely cause of numbers that cannot be read, and what to do.
+pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
+
 /// What a motion is called.
 pub fn motion(motion: Motion) -> &'static str {
     match motion {

@@ -140,7 +140,10 @@ async fn decimal_commas_never_become_a_position() {
         assert_eq!(rig.shown().state.program, None);
     }
     assert!(rig.shown().state.traffic.unreadable > 5, "{:?}", rig.shown().state.traffic);
-    rig.events();
+    assert!(rig.shown().state.satrak.decimal_commas, "the likely cause is told");
+    let lost = rig.events();
+    let why = Event::LinkLost(LinkLoss::Unreadable);
+    assert!(!lost.is_empty() && lost.iter().all(|event| *event == why), "{lost:?}");
     rig.send(Command::Park);
     rig.seconds(0.1).await;
     let events = rig.events();
@@ -149,6 +152,15 @@ async fn decimal_commas_never_become_a_position() {
     rig.seconds(0.7).await;
     assert!(!rig.sent("STOP=").is_empty(), "STOP goes out all the same");
     assert!(rig.sent("GOTO=").is_empty());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_is_set_to_points_is_read_and_the_cause_forgotten() {
+    let mut rig = Rig::start(&odd(&[Quirk::DecimalComma], &[]), &antenna());
+    rig.until("the cause", 20, |shown| shown.state.satrak.decimal_commas).await;
+    rig.control.set_quirk(Quirk::DecimalComma, false);
+    rig.until("a position", 30, |shown| shown.state.measured.is_some()).await;
+    assert!(!rig.shown().state.satrak.decimal_commas);
 }
 
 #[tokio::test(start_paused = true)]

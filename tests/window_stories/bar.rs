@@ -43,6 +43,14 @@ fn alarms_are_told_in_words_with_their_antenna() {
         (AlarmKind::JogLeaseOver, "Satrak: the jog was stopped, the window did not hold it"),
         (AlarmKind::Refused(Motion::StartProgram, "7".to_owned()), "Track: Satrak answered ERR,7"),
         (AlarmKind::Fault(FaultKind::XMotor), "Satrak: X motor. Do not move X"),
+        (
+            AlarmKind::DecimalCommas,
+            "The position of Satrak cannot be read. The unit seems to write decimal commas. Set it to points.",
+        ),
+        (
+            AlarmKind::LinkLost(LinkLoss::Unreadable),
+            "Satrak answers, but what it says cannot be read.",
+        ),
         (AlarmKind::ClockOff(-2.0), "The clock of Satrak is 2.0 s behind."),
         (note(NoteReason::Unknown), "Setting antenna.park is not known."),
         (AlarmKind::Elements("the file is empty".to_owned()), "The file is empty"),

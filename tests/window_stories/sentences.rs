@@ -235,3 +235,35 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
         assert_eq!(told(states::holding(), just(event)), wanted);
     }
 }
+
+#[test]
+fn numbers_that_cannot_be_read_are_told_with_the_likely_cause() {
+    let commas = |snapshot: &mut Snapshot| snapshot.state.satrak.decimal_commas = true;
+    let cause = "The unit seems to write decimal commas. Set it to points.";
+    let unread = format!("Not known: the position of Satrak cannot be read. {cause}");
+    assert_eq!(told(rig::quiet(), |_, snapshot| commas(snapshot)), unread);
+    let lost = |model: &mut Model, snapshot: &mut Snapshot| {
+        lost(model, snapshot);
+        commas(snapshot);
+    };
+    assert_eq!(told(rig::quiet(), lost), format!("{unread} Next try in 3.0 s."));
+    let tracked = told(states::tracking(0.0), lost);
+    assert!(tracked.contains("It was tracking NOAA 20 and probably still moves."), "{tracked}");
+    let stopping = told(rig::quiet(), |model, snapshot| {
+        commas(snapshot);
+        snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
+        snapshot.state.measured = states::holding().state.measured;
+    });
+    assert!(stopping.contains("Use the local panel."), "{stopping}");
+}
+
+#[test]
+fn a_step_is_told_with_its_axis_and_amount() {
+    for (step, wanted) in [
+        ([0.5, 0.0], "Moving X by +0.50° in one step."),
+        ([0.0, -2.0], "Moving Y by −2.00° in one step."),
+    ] {
+        let snapshot = Snapshot { intent: Intent::Manual, step: Some(step), ..states::moving() };
+        assert_eq!(told(snapshot, unchanged), wanted);
+    }
+}

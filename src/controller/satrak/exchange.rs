@@ -128,6 +128,12 @@ impl Satrak {
             Ok(parsed) => parsed,
             Err(error) => {
                 self.state.traffic.unreadable += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
+                if let ReplyError::Count { word: Word::Status, looks_like_decimal_commas, .. } =
+                    error
+                {
+                    self.state.satrak.decimal_commas = looks_like_decimal_commas;
+                }
                 tracing::debug!(%error, "unreadable reply");
                 return self.give_up(outstanding.purpose, now);
             }

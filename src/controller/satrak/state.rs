@@ -16,6 +16,9 @@ use crate::{
 pub struct SatrakState {
     /// Control unit and drive unit, as they name themselves.
     pub version: Option<Version>,
+    /// The last state could not be read, and the unit seems to write decimal
+    /// commas.
+    pub decimal_commas: bool,
     /// A fault or warning exists.
     pub fault_flag: bool,
     /// The faults, and when they were read.
@@ -77,6 +80,7 @@ impl AntennaState {
 
     fn take_status(&mut self, status: &Status, at: Timestamp, asked: Moment, now: Moment) {
         let limits = status.limits;
+        self.satrak.decimal_commas = false;
         self.measured = Some(Measured {
             at,
             asked: asked.steady,

@@ -32,7 +32,8 @@ impl Session {
         let last = self.gate.state().traffic.last_reply.map_or(start, |reply| reply.max(start));
         let age = now.steady.saturating_duration_since(last);
         if age >= self.gate.device().patience() {
-            return Some(LinkLoss::Silent);
+            let heard = self.gate.state().traffic.last_unreadable.is_some_and(|heard| heard > last);
+            return Some(if heard { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
         let late = age > self.gate.device().poll_period() * 2;
         match (&self.link, late) {

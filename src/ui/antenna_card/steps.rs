@@ -22,6 +22,8 @@ const LABEL: f32 = 36.0;
 const FIELD: f32 = 64.0;
 const KEY: f32 = 36.0;
 const GAP: f32 = 4.0;
+const ORDER: [JogDirection; 4] =
+    [JogDirection::XMinus, JogDirection::XPlus, JogDirection::YMinus, JogDirection::YPlus];
 
 /// What the operator typed.
 #[derive(Debug, Clone)]
@@ -64,9 +66,11 @@ pub(super) fn show(
         &mut state.typed,
     );
 
+    let unit = pos2(field.right() + GAP, row.center().y);
+    paint::text(ui, unit, Align2::LEFT_CENTER, "°", text::small(), t.t2);
     let mut focused = jog.has_focus();
     let mut asked = None;
-    let names = JogDirection::ALL.into_iter().filter_map(|direction| {
+    let names = ORDER.into_iter().filter_map(|direction| {
         let (word, name) = model.keys.label(direction)?;
         Some((direction, word, name.replacen("Jog", "Step", 1)))
     });

@@ -1,6 +1,6 @@
 //! The list of keys, drawn from the table.
 
-use egui::{Align2, Key, Modal, Modifiers, Sense, Ui, vec2};
+use egui::{Align2, Frame, Key, Modal, Modifiers, Sense, Ui, vec2};
 
 use super::{ALL, Binding};
 use crate::ui::{
@@ -19,7 +19,8 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
     let again =
         |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Questionmark));
-    let modal = Modal::new(egui::Id::unique("keys")).show(ui.ctx(), |ui| {
+    let frame = Frame::popup(ui.style()).inner_margin(16);
+    let modal = Modal::new(egui::Id::unique("keys")).frame(frame).show(ui.ctx(), |ui| {
         let t = theme::tokens(ui);
         ui.spacing_mut().item_spacing.y = 0.0;
         let (head, _) = ui.allocate_exact_size(vec2(WIDTH, 36.0), Sense::hover());

@@ -3,15 +3,20 @@
 use super::{Spoken, short};
 use crate::{
     app::{Model, antenna::AntennaModel},
-    driver::LinkState,
+    driver::{LinkState, StopState},
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let name = &antenna.config.name;
     let address = antenna.config.connection.address();
+    let state = &antenna.snapshot.state;
+    let unreadable = state.satrak.decimal_commas.then(|| unreadable(model, antenna)).flatten();
+    if unreadable.is_some() {
+        return unreadable;
+    }
     match &antenna.snapshot.link {
-        LinkState::Up { .. } if antenna.snapshot.state.measured.is_none() => Some(
+        LinkState::Up { .. } if state.measured.is_none() => Some(
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("Not known: {name} is connected and being read.")),
         ),
@@ -38,6 +43,28 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             )
         }
     }
+}
+
+/// The unit answers with numbers that cannot be read, and the likely cause.
+fn unreadable(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let again = match antenna.snapshot.link {
+        LinkState::Off | LinkState::Connecting { .. } => return None,
+        LinkState::Lost { retry_at, .. } => {
+            let retry_s = retry_at.saturating_duration_since(model.steady).as_secs_f64();
+            format!(" Next try in {}.", format::age(retry_s.ceil()))
+        }
+        // A stop that is not proved is the graver matter.
+        LinkState::Up { .. } | LinkState::Stale { .. } => {
+            let stopping = antenna.snapshot.stop;
+            if matches!(stopping, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
+                return None;
+            }
+            String::new()
+        }
+    };
+    let spoken = Spoken::new(SentenceKind::Fault)
+        .plain(format!("Not known: the position of {} cannot be read. ", antenna.config.name));
+    Some(what_it_did(spoken, antenna).plain(format!("{}{again}", words::DECIMAL_COMMAS)))
 }
 
 /// What it did when it was heard last, and so perhaps still does.

@@ -1,10 +1,13 @@
 //! The alarm list.
 
-use crate::{app::alarms::AlarmKind, station::NoteReason, ui::format};
+use crate::{app::alarms::AlarmKind, driver::LinkLoss, station::NoteReason, ui::format};
 
 /// An alarm in words. `antenna` is its name, where it is about one.
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
     match kind {
+        AlarmKind::LinkLost(LinkLoss::Unreadable) => {
+            format!("{antenna} answers, but what it says cannot be read.")
+        }
         AlarmKind::LinkLost(loss) => {
             format!("{antenna} does not reply: {}.", super::link_loss(loss))
         }
@@ -51,6 +54,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::ClockOff(ahead_s) => {
             let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
             format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))
+        }
+        AlarmKind::DecimalCommas => {
+            format!("The position of {antenna} cannot be read. {}", super::DECIMAL_COMMAS)
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => match &note.reason {

@@ -66,6 +66,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
         LinkLoss::ConnectTimeout => "nobody answers at the address".to_owned(),
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
         LinkLoss::Broken(why) => format!("the connection broke ({why})"),
+        LinkLoss::Unreadable => "what the unit answers cannot be read".to_owned(),
         LinkLoss::Silent => "the connection is open, but the unit is silent".to_owned(),
     }
 }
