@@ -1,20 +1,29 @@
 //! The station's settings: site, satellites and antennas, in a plain form.
 
 mod draft;
+mod form;
 
-use egui::{Frame, Margin, Rect, RichText, ScrollArea, Stroke, TextEdit, Ui, UiBuilder};
+use egui::{Align2, Color32, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use jiff::Timestamp;
 
-use super::{format, text, theme};
+use super::{
+    format, text, theme,
+    widgets::{
+        button::{Button, HEIGHT},
+        paint,
+    },
+};
 use crate::{
     app::{Model, UiCommand},
     station::Station,
 };
-use draft::{Draft, Field, Kind};
+use draft::Draft;
 
-const LABEL: f32 = 200.0;
-const FIELD: f32 = 240.0;
-const COLUMN: f32 = 560.0;
+/// Below this width of the form there is one column.
+const TWO_COLUMNS_FROM: f32 = 1100.0;
+/// Height of the bar below the form.
+const FOOTER: f32 = 56.0;
+const PADDING: f32 = 16.0;
 
 /// What was typed, and what came of the last saving.
 #[derive(Default)]
@@ -45,113 +54,65 @@ pub fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let (station, mut draft) =
         state.draft.take().unwrap_or_else(|| (model.station.clone(), Draft::of(&model.station)));
-    let mut revert = false;
-    let builder = UiBuilder::new().id_salt("preferences").max_rect(rect.shrink(16.0));
+    let before = Draft::of(&station);
+    let (body, footer) = rect.split_top_bottom_at_y(rect.bottom() - FOOTER);
+    let inner = body.shrink2(vec2(PADDING, 0.0)).with_min_y(body.top() + PADDING);
+    let builder = UiBuilder::new().id_salt("preferences").max_rect(inner);
     ui.scope_builder(builder, |ui| {
-        ui.set_clip_rect(rect);
+        ui.set_clip_rect(body);
         ui.label(RichText::new("Station settings").font(text::title()));
-        let footer = 48.0;
-        let height = ui.available_height() - footer;
-        ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
-            card(ui, "Site and satellites", |ui| fields(ui, "station", &mut draft.station));
-            let mut removed = None;
-            for (index, antenna) in draft.antennas.iter_mut().enumerate() {
-                card(ui, &format!("Antenna {}", index + 1), |ui| {
-                    fields(ui, &format!("antenna {index}"), antenna);
-                    if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
-                        removed = Some(index);
-                    }
-                });
-            }
-            if let Some(index) = removed {
-                draft.antennas.remove(index);
-            }
-            if ui.button("Add a Satrak").clicked() {
-                draft.add_antenna();
-            }
-        });
-        ui.add_space(8.0);
-        let read = draft.read();
-        let edited = draft != Draft::of(&station);
-        ui.horizontal(|ui| {
-            let can_save = read.is_some() && (edited || model.demo);
-            let save = ui.add_enabled(can_save, egui::Button::new("Save and use"));
-            if save.clicked()
-                && let Some(station) = &read
-            {
-                commands.push(UiCommand::SaveStation(Box::new(station.clone())));
-            }
-            revert = ui.add_enabled(edited, egui::Button::new("Revert")).clicked();
-            let (words, colour) = match (&read, &state.outcome, edited) {
-                (None, ..) => ("Some fields cannot be used yet.".to_owned(), t.warn),
-                (_, Some(Err(why)), _) => (format!("Not saved: {why}."), t.bad),
-                (_, _, true) => ("Not saved yet.".to_owned(), t.sat),
-                (_, Some(Ok(at)), _) => (format!("Saved {}.", format::time_z(*at)), t.ok),
-                _ if model.demo => {
-                    ("Saving ends the demonstration and uses these antennas.".to_owned(), t.t2)
-                }
-                _ => ("Nothing to save.".to_owned(), t.t3),
-            };
-            ui.label(RichText::new(words).font(text::body()).color(colour));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            form::show(ui, &mut draft, &before, rect.width() >= TWO_COLUMNS_FROM);
         });
     });
-    if revert {
+
+    ui.painter().rect_filled(footer, 0.0, t.bg1);
+    ui.painter().hline(footer.x_range(), footer.top() + 0.5, (1.0, t.line));
+    let read = draft.read();
+    let edited = draft != before;
+    let can_save = read.is_some() && (edited || model.demo);
+    let save = Button::primary("Save and use").locked(!can_save);
+    let revert = Button::normal("Revert").locked(!edited);
+    let place = |right: f32, width: f32| {
+        let min = pos2(right - width, footer.center().y - HEIGHT / 2.0);
+        Rect::from_min_size(min, vec2(width, HEIGHT))
+    };
+    let saving = place(footer.right() - PADDING, save.width(ui));
+    let reverting = place(saving.left() - 8.0, revert.width(ui));
+    let room = footer.with_min_x(footer.left() + PADDING).with_max_x(reverting.left() - PADDING);
+    let (words, colour) = outcome(ui, model, read.is_some(), edited, state);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), colour);
+    paint::name_text(ui, "outcome", room, &words).on_hover_text(&words);
+    let reverted = revert.show(ui, "revert", reverting).clicked();
+    if save.show(ui, "save", saving).clicked()
+        && let Some(station) = read
+    {
+        commands.push(UiCommand::SaveStation(Box::new(station)));
+    }
+    if reverted {
         state.outcome = None;
     } else {
         state.draft = Some((station, draft));
     }
 }
 
-fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
+/// What stands beside the buttons.
+fn outcome(
+    ui: &Ui,
+    model: &Model,
+    usable: bool,
+    edited: bool,
+    state: &PreferencesState,
+) -> (String, Color32) {
     let t = theme::tokens(ui);
-    Frame::new()
-        .fill(t.bg1)
-        .stroke(Stroke::new(1.0, t.line))
-        .corner_radius(6)
-        .inner_margin(Margin::same(16))
-        .outer_margin(Margin::symmetric(0, 8))
-        .show(ui, |ui| {
-            ui.set_width(COLUMN.min(ui.available_width()));
-            ui.label(RichText::new(title).font(text::value()));
-            content(ui);
-        });
-}
-
-fn fields(ui: &mut Ui, group: &str, fields: &mut [Field]) {
-    let t = theme::tokens(ui);
-    for field in fields {
-        ui.horizontal(|ui| {
-            let words = RichText::new(field.label).font(text::body()).color(t.t2);
-            let left = egui::Layout::left_to_right(egui::Align::Center);
-            let label = ui
-                .allocate_ui_with_layout(egui::vec2(LABEL, 24.0), left, |ui| {
-                    ui.set_min_width(LABEL);
-                    ui.label(words).id
-                })
-                .inner;
-            let problem = field.problem();
-            ui.scope(|ui| {
-                if problem.is_some() {
-                    let widgets = &mut ui.visuals_mut().widgets;
-                    for widget in [&mut widgets.inactive, &mut widgets.hovered] {
-                        widget.bg_stroke = Stroke::new(2.0, t.bad);
-                    }
-                }
-                let edit = TextEdit::singleline(&mut field.text)
-                    .id_salt((group, field.label))
-                    .desired_width(FIELD);
-                ui.add(edit).labelled_by(label);
-            });
-            if let Kind::Range { unit, .. } = field.kind {
-                ui.label(RichText::new(unit).font(text::body()).color(t.t3));
-            }
-        });
-        if let Some(problem) = field.problem() {
-            ui.horizontal(|ui| {
-                ui.add_space(LABEL + 8.0);
-                let words = format!("{} {problem}.", field.label);
-                ui.label(RichText::new(words).font(text::small()).color(t.bad));
-            });
+    match (&state.outcome, edited) {
+        _ if !usable => ("Some fields cannot be used yet.".to_owned(), t.warn),
+        (Some(Err(why)), _) => (format!("Not saved: {why}."), t.bad),
+        (_, true) => ("Not saved yet.".to_owned(), t.sat),
+        (Some(Ok(at)), _) => (format!("Saved {}.", format::time_z(*at)), t.ok),
+        _ if model.demo => {
+            ("Saving ends the demonstration and uses these antennas.".to_owned(), t.t2)
         }
+        _ => ("Nothing to save.".to_owned(), t.t3),
     }
 }

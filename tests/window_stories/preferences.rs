@@ -12,7 +12,7 @@ use crate::{
     states,
 };
 
-const WRONG: &str = "Latitude must be a number from -90 to 90 °.";
+const WRONG: &str = "Latitude must be a number from −90 to 90°.";
 
 fn form(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
@@ -22,7 +22,11 @@ fn form(size: [f32; 2]) -> Window {
 
 /// Writes `words` over what stands in the field of the station.
 fn write(window: &mut Window, field: &str, words: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).focus();
+    // The label beside the field has the same words.
+    let is_field = |role| matches!(role, Role::TextInput | Role::MultilineTextInput);
+    let fields = window.get_all_by_label(field);
+    let first = fields.into_iter().find(|node| is_field(node.accesskit_node().role()));
+    first.expect("such a field").focus();
     settle(window);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
     window.event(Event::Text(words.to_owned()));
@@ -166,5 +170,23 @@ fn a_letter_that_is_typed_is_no_command() {
             window.key_press(key);
         }
         assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn every_field_and_the_bar_below_are_whole_in_every_window() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        (model.demo, model.view) = (true, View::Preferences);
+        model.station.favourites = Station::default().favourites;
+        let window = rig::window(size, model);
+        let bar = window.get_by_role_and_label(Role::Button, "Save and use").rect();
+        assert!(bar.right() <= size[0] && bar.bottom() <= size[1], "{bar:?}");
+        let all = window.get_by_role(Role::MultilineTextInput).rect();
+        let card = window.get_by_role_and_label(Role::TextInput, "Latitude").rect();
+        assert!(all.right() < size[0] && all.height() > card.height(), "{all:?}");
+        let parks: Vec<_> = window.query_all_by_role(Role::TextInput).collect();
+        let right = parks.iter().filter(|node| node.rect().left() > 700.0).count();
+        assert_eq!(right > 0, size == rig::LARGE, "two columns where there is room");
     }
 }

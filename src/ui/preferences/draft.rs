@@ -24,6 +24,16 @@ pub(super) enum Kind {
     },
 }
 
+impl Kind {
+    /// The unit that stands behind the field.
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::Range { unit, .. } => unit,
+            _ => "",
+        }
+    }
+}
+
 /// One line of the form.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {
@@ -47,7 +57,8 @@ impl Field {
                 "must be catalogue numbers with commas between, such as 43013, 25544".to_owned()
             }),
             Kind::Range { low, high, unit } => self.number().is_none().then(|| {
-                format!("must be a number from {low} to {high} {unit}").trim_end().to_owned()
+                let gap = if unit == "°" { "" } else { " " };
+                format!("must be a number from {low} to {high}{gap}{unit}").replace('-', "−")
             }),
         }
     }
