@@ -1,7 +1,7 @@
 //! Azel: the console of a satellite ground station.
 //!
 //! The folders are layers; a lower one never names a higher one. From the
-//! bottom: [`astro`], [`orbit`], [`protocol`], [`controller`], [`station`],
+//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`controller`], [`station`],
 //! [`plan`], [`driver`], [`sim`], [`app`], [`ui`]. The README's architecture
 //! section holds the picture and the invariants.
 
@@ -10,6 +10,7 @@ pub mod astro;
 pub mod cli;
 pub mod controller;
 pub mod driver;
+pub mod library;
 pub mod orbit;
 pub mod plan;
 pub mod protocol;

@@ -79,7 +79,8 @@ fn a_number_that_no_tle_carries_is_handed_back() {
     };
     let last = changed("339999");
     assert!(tle_lines(&last).unwrap()[1].starts_with("2 Z9999 "));
-    assert_eq!(read_elements(&tle(std::slice::from_ref(&last))).elements, [last.clone()]);
+    let only = std::slice::from_ref(&last);
+    assert_eq!(read_elements(&tle(only)).elements, only);
     let beyond = [changed("340000"), last, changed("999999999")];
     let mut out = Vec::new();
     let refused = write_tle(&beyond, &mut out).unwrap();

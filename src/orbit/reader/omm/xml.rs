@@ -152,8 +152,8 @@ mod tests {
             message("ENTITY", 4, "&no-such;"),
         ];
         let good = message("GOOD", 9, "");
-        let text: String = bad.iter().map(|bad| format!("{bad}\n{good}")).collect();
-        let report = read(&format!("<ndm>\n{text}"));
+        let text = format!("<ndm>\n{}\n{good}", bad.join(&format!("\n{good}")));
+        let report = read(&text);
         assert_eq!(numbers(&report), [9; 4]);
         let named: Vec<_> =
             report.refused.iter().map(|refused| refused.object.as_deref().unwrap()).collect();

@@ -1,0 +1,179 @@
+//! The library: elements of all sources on this computer, and the one place
+//! that asks servers for new ones.
+//!
+//! What a server sent is kept as it came, one file a source, beside an index.
+//! Being offline is a normal state: what was held stays and tells its age. All
+//! calls wait for disks and servers: they belong on a worker thread.
+
+mod disk;
+mod fetch;
+mod index;
+
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+
+pub use self::{fetch::Limits, index::IndexError};
+use self::{
+    fetch::{Answer, fetch, host},
+    index::{Index, Record},
+};
+use crate::orbit::{
+    Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Place, Source,
+    SourceReport, may_fetch, read_element_bytes,
+};
+
+/// How the files in a folder end that hold elements.
+const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
+
+/// The elements on disk.
+#[derive(Debug)]
+pub struct Library {
+    folder: PathBuf,
+    index: Index,
+    limits: Limits,
+}
+
+/// Where the elements of this user are kept; `None` on a machine without a home.
+pub fn library_folder() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("elements"))
+}
+
+impl Library {
+    /// Opens the library in `folder`, which need not exist yet.
+    pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
+        Ok(Self { folder: folder.to_owned(), index: Index::load(folder)?, limits })
+    }
+
+    /// Reads all `sources` from disk. Asks no server.
+    pub fn load(&self, sources: &[Source]) -> (Catalog, Vec<SourceReport>) {
+        let mut catalog = Catalog::default();
+        let reports = sources.iter().map(|source| self.load_one(source, &mut catalog)).collect();
+        (catalog, reports)
+    }
+
+    fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
+        let mut report = SourceReport {
+            source: source.name.clone(),
+            files: Vec::new(),
+            as_of: None,
+            newest_epoch: None,
+            fetch_problem: None,
+            next_fetch: None,
+        };
+        let paths = match &source.place {
+            Place::File(path) => vec![path.clone()],
+            Place::Folder(path) => match disk::files(path, &ENDINGS) {
+                Ok(paths) => paths,
+                Err(error) => {
+                    report.files.push(unread(path, &error));
+                    return report;
+                }
+            },
+            Place::Web(url) => {
+                let Some(record) = self.index.get(url) else { return report };
+                report.fetch_problem.clone_from(&record.problem);
+                report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
+                report.as_of = record.confirmed_at;
+                // Nothing was kept of a source that never answered.
+                record.confirmed_at.map(|_| self.folder.join(&record.file)).into_iter().collect()
+            }
+        };
+        for path in paths {
+            match disk::read(&path, self.limits.bytes) {
+                Ok(file) => {
+                    let read = read_element_bytes(&file.bytes);
+                    drop(file.bytes);
+                    let newest = read.elements.iter().map(Elements::epoch).max();
+                    report.newest_epoch = report.newest_epoch.max(newest);
+                    if !matches!(source.place, Place::Web(_)) {
+                        report.as_of = report.as_of.max(file.modified);
+                    }
+                    let objects = read.elements.len();
+                    let merge = catalog.merge(read, &source.name);
+                    report.files.push(FileReport { path, objects, merge, problem: None });
+                }
+                Err(error) => report.files.push(unread(&path, &error)),
+            }
+        }
+        report
+    }
+
+    /// Asks the servers of `sources` for what is new at `now`: every server
+    /// that may be asked again, or all when the operator wants it (`forced`).
+    /// Hands back how many sources have new elements. [`Library::load`] then
+    /// tells what came of each.
+    ///
+    /// A server that gives another answer than 200 or 304, or none, is not
+    /// asked for its other sources either.
+    pub fn refresh(
+        &mut self,
+        sources: &[Source],
+        now: Timestamp,
+        forced: bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<usize, IndexError> {
+        let mut renewed = 0;
+        let mut silent_hosts: Vec<String> = Vec::new();
+        for source in sources {
+            let Place::Web(url) = &source.place else { continue };
+            let last = self.index.get(url).map(|record| record.attempted_at);
+            if cancelled() {
+                break;
+            }
+            let host = host(url);
+            if silent_hosts.contains(&host) || !may_fetch(last, now, forced) {
+                continue;
+            }
+            let problem = match self.refresh_one(&source.name, url, now) {
+                Ok(is_new) => {
+                    renewed += usize::from(is_new);
+                    None
+                }
+                Err(problem) => Some(problem),
+            };
+            if matches!(problem, Some(FetchProblem::Answer(_) | FetchProblem::Unreachable(_))) {
+                silent_hosts.push(host);
+            }
+            self.index.entry(url, &source.name, now).problem = problem;
+            self.index.save(&self.folder)?;
+        }
+        Ok(renewed)
+    }
+
+    /// Asks for one source; whether something new came.
+    fn refresh_one(&mut self, name: &str, url: &str, now: Timestamp) -> Result<bool, FetchProblem> {
+        let record = self.index.entry(url, name, now);
+        record.attempted_at = now;
+        let record = record.clone();
+        let path = self.folder.join(&record.file);
+        let held = disk::read(&path, self.limits.bytes).ok();
+        let known = held.as_ref().map(|_| &record);
+        match fetch(url, known, self.limits)? {
+            Answer::NotModified => {
+                self.index.entry(url, name, now).confirmed_at = Some(now);
+                Ok(false)
+            }
+            Answer::New { body, etag, last_modified } => {
+                let newest = newest_epoch(&body).ok_or(FetchProblem::NoElements)?;
+                if held.is_some_and(|held| newest_epoch(&held.bytes) > Some(newest)) {
+                    return Err(FetchProblem::Older);
+                }
+                disk::replace(&path, &body)
+                    .map_err(|error| FetchProblem::Disk(error.to_string()))?;
+                *self.index.entry(url, name, now) =
+                    Record { etag, last_modified, confirmed_at: Some(now), ..record };
+                Ok(true)
+            }
+        }
+    }
+}
+
+fn newest_epoch(bytes: &[u8]) -> Option<Timestamp> {
+    read_element_bytes(bytes).elements.iter().map(Elements::epoch).max()
+}
+
+fn unread(path: &Path, error: &std::io::Error) -> FileReport {
+    let problem = Some(error.to_string());
+    FileReport { path: path.to_owned(), objects: 0, merge: MergeSummary::default(), problem }
+}

@@ -1,0 +1,74 @@
+//! Files of elements: read whole with a limit, replaced whole.
+
+use std::{
+    ffi::OsStr,
+    fs, io,
+    io::{Read as _, Write as _},
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+
+/// A file that was read.
+pub(super) struct File {
+    pub(super) bytes: Vec<u8>,
+    /// When it was last changed, as far as the disk tells.
+    pub(super) modified: Option<Timestamp>,
+}
+
+/// Reads the file at `path`, if it has `limit` bytes at most.
+pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
+    let file = fs::File::open(path)?;
+    let modified = file.metadata()?.modified().ok();
+    let modified = modified.and_then(|modified| Timestamp::try_from(modified).ok());
+    Ok(File { bytes: read_limited(file, limit)?, modified })
+}
+
+/// Reads to the end; an error of kind `FileTooLarge` beyond `limit` bytes.
+pub(super) fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    from.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        return Err(io::Error::new(
+            io::ErrorKind::FileTooLarge,
+            format!("more than {limit} bytes"),
+        ));
+    }
+    Ok(bytes)
+}
+
+/// The files in `folder` with one of `endings`, in any case, by name.
+pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>> {
+    let is_wanted = |path: &PathBuf| {
+        let ending = path.extension().and_then(OsStr::to_str);
+        ending.is_some_and(|ending| endings.iter().any(|known| known.eq_ignore_ascii_case(ending)))
+            && path.is_file()
+    };
+    let entries: Result<Vec<_>, _> = fs::read_dir(folder)?.collect();
+    let mut paths: Vec<PathBuf> =
+        entries?.into_iter().map(|entry| entry.path()).filter(is_wanted).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+/// Puts `bytes` at `path`: a new file beside it first, then one rename, so that
+/// a failure at any moment leaves the old file whole. What stood there before is
+/// kept beside it with the ending `.old`.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    match fs::copy(path, old(path)) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// Where [`replace`] keeps what stood at `path` before.
+pub(super) fn old(path: &Path) -> PathBuf {
+    path.with_added_extension("old")
+}

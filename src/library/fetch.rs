@@ -1,0 +1,127 @@
+//! One polite request to a server.
+
+use std::{io, net::IpAddr, time::Duration};
+
+use ureq::{
+    Agent,
+    http::{Response, Uri, header},
+};
+
+use super::{disk::read_limited, index::Record};
+use crate::orbit::FetchProblem;
+
+/// How much of a server or a file is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// For the whole of a request.
+    pub timeout: Duration,
+    /// For one body, unpacked, or one file.
+    pub bytes: u64,
+}
+
+impl Default for Limits {
+    /// A minute and 64 MB: the whole catalogue as XML has 30.
+    fn default() -> Self {
+        Self { timeout: Duration::from_mins(1), bytes: 64 << 20 }
+    }
+}
+
+/// What a server sent.
+pub(super) enum Answer {
+    /// It has nothing newer.
+    NotModified,
+    /// What it has now, with its marks for the next request.
+    New { body: Vec<u8>, etag: Option<String>, last_modified: Option<String> },
+}
+
+/// The host of `url`; empty when it has none.
+pub(super) fn host(url: &str) -> String {
+    let uri: Option<Uri> = url.parse().ok();
+    uri.and_then(|uri| uri.host().map(str::to_lowercase)).unwrap_or_default()
+}
+
+/// Asks for `url` once, for what is newer than `known` when that is given.
+/// Follows no redirection: an address that has moved is for the operator to
+/// look at.
+pub(super) fn fetch(
+    url: &str,
+    known: Option<&Record>,
+    limits: Limits,
+) -> Result<Answer, FetchProblem> {
+    let is_local = check(url)?;
+    let mut config = Agent::config_builder()
+        .https_only(!is_local)
+        .http_status_as_error(false)
+        .max_redirects(0)
+        .max_redirects_will_error(false)
+        .timeout_global(Some(limits.timeout))
+        .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
+    if is_local {
+        config = config.proxy(None);
+    }
+    let mut request = Agent::from(config.build()).get(url);
+    for (name, value) in [
+        (header::IF_NONE_MATCH, known.and_then(|known| known.etag.as_deref())),
+        (header::IF_MODIFIED_SINCE, known.and_then(|known| known.last_modified.as_deref())),
+    ] {
+        if let Some(value) = value {
+            request = request.header(name, value);
+        }
+    }
+    let response = request.call().map_err(|error| FetchProblem::Unreachable(error.to_string()))?;
+    match response.status().as_u16() {
+        200 => {}
+        304 if known.is_some() => return Ok(Answer::NotModified),
+        status => return Err(FetchProblem::Answer(status)),
+    }
+    let mark = |name| {
+        let value = Response::headers(&response).get(name)?.to_str().ok()?;
+        Some(value.to_owned())
+    };
+    let (etag, last_modified) = (mark(header::ETAG), mark(header::LAST_MODIFIED));
+    // Unpacked bytes are counted here: a small answer may unpack to anything.
+    let body =
+        read_limited(response.into_body().into_reader(), limits.bytes).map_err(
+            |error| match error.kind() {
+                io::ErrorKind::FileTooLarge => FetchProblem::TooLarge(limits.bytes),
+                _ => FetchProblem::Unreachable(error.to_string()),
+            },
+        )?;
+    Ok(Answer::New { body, etag, last_modified })
+}
+
+/// Whether `url` is on this very computer. Only there may it be plain `http`,
+/// and nowhere may it carry a password: addresses are kept on disk and shown.
+fn check(url: &str) -> Result<bool, FetchProblem> {
+    let uri: Uri = url.parse().map_err(|_| FetchProblem::Address)?;
+    let host = uri.host().ok_or(FetchProblem::Address)?;
+    let address: Option<IpAddr> = host.trim_matches(['[', ']']).parse().ok();
+    let is_local = host == "localhost" || address.is_some_and(|address| address.is_loopback());
+    let is_plain = uri.authority().is_some_and(|authority| !authority.as_str().contains('@'));
+    let is_safe =
+        uri.scheme_str() == Some("https") || (uri.scheme_str() == Some("http") && is_local);
+    if is_plain && is_safe { Ok(is_local) } else { Err(FetchProblem::Address) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_safe_addresses_are_asked() {
+        for (url, expected) in [
+            ("https://celestrak.org/NORAD/elements/gp.php?GROUP=active&FORMAT=json", Ok(false)),
+            ("http://127.0.0.1:80/x", Ok(true)),
+            ("http://[::1]/x", Ok(true)),
+            ("https://localhost/x", Ok(true)),
+            ("http://celestrak.org/x", Err(FetchProblem::Address)),
+            ("https://user:word@celestrak.org/x", Err(FetchProblem::Address)),
+            ("ftp://127.0.0.1/x", Err(FetchProblem::Address)),
+            ("file:///etc/passwd", Err(FetchProblem::Address)),
+            ("celestrak.org", Err(FetchProblem::Address)),
+            ("", Err(FetchProblem::Address)),
+        ] {
+            assert_eq!(check(url), expected, "{url}");
+        }
+    }
+}

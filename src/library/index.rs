@@ -1,0 +1,193 @@
+//! What is known of every address that was asked, in one small TOML file.
+
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::disk;
+use crate::orbit::FetchProblem;
+
+/// The version that this program writes. A file of a later one is left alone.
+const VERSION: u32 = 1;
+/// Characters of a source's name that its file is named with.
+const MAX_FILE_CHARS: usize = 40;
+
+/// All addresses that were ever asked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Index {
+    version: u32,
+    /// By address: when a source gets another one, nothing of the old is mixed up.
+    #[serde(default)]
+    address: BTreeMap<String, Record>,
+}
+
+/// What is known of one address.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Record {
+    /// The file in the library that holds what it sent.
+    pub(super) file: String,
+    /// When it was last asked.
+    pub(super) attempted_at: Timestamp,
+    /// When it last sent what the file holds, or said that it is still current.
+    pub(super) confirmed_at: Option<Timestamp>,
+    /// The mark of what it sent.
+    pub(super) etag: Option<String>,
+    /// The time of what it sent, as the server wrote it.
+    pub(super) last_modified: Option<String>,
+    /// Why the last request brought nothing.
+    pub(super) problem: Option<FetchProblem>,
+}
+
+/// Why the index of a library cannot be used. It stays as it is on disk.
+#[derive(Debug, thiserror::Error)]
+pub enum IndexError {
+    /// The operating system refused.
+    #[error("the index of the elements cannot be used: {source}: {}", path.display())]
+    Disk {
+        /// Why.
+        source: io::Error,
+        /// Where.
+        path: PathBuf,
+    },
+    /// Not the TOML it should be, and neither is the one before it.
+    #[error("the index of the elements cannot be read: {source}: {}", path.display())]
+    Syntax {
+        /// Where in the text.
+        source: Box<toml::de::Error>,
+        /// Where.
+        path: PathBuf,
+    },
+    /// It cannot be put into TOML.
+    #[error("the index of the elements cannot be put into TOML: {0}")]
+    Form(#[from] toml::ser::Error),
+    /// A later program wrote it.
+    #[error("the index of the elements has version {found}, this program knows {VERSION}: {}", path.display())]
+    Newer {
+        /// Its version.
+        found: u32,
+        /// Where.
+        path: PathBuf,
+    },
+}
+
+impl Default for Index {
+    fn default() -> Self {
+        Self { version: VERSION, address: BTreeMap::new() }
+    }
+}
+
+impl Index {
+    /// Reads the index in `folder`, or the one before it when it is damaged.
+    pub(super) fn load(folder: &Path) -> Result<Self, IndexError> {
+        let path = folder.join("index.toml");
+        match Self::read(&path) {
+            Err(damaged @ IndexError::Syntax { .. }) => {
+                Self::read(&disk::old(&path)).map_err(|_| damaged)
+            }
+            Err(IndexError::Disk { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+                Ok(Self::default())
+            }
+            other => other,
+        }
+    }
+
+    fn read(path: &Path) -> Result<Self, IndexError> {
+        let text = fs::read_to_string(path)
+            .map_err(|source| IndexError::Disk { source, path: path.to_owned() })?;
+        let index: Self = toml::from_str(&text).map_err(|source| IndexError::Syntax {
+            source: source.into(),
+            path: path.to_owned(),
+        })?;
+        if index.version > VERSION {
+            return Err(IndexError::Newer { found: index.version, path: path.to_owned() });
+        }
+        Ok(index)
+    }
+
+    /// Writes the index into `folder`.
+    pub(super) fn save(&self, folder: &Path) -> Result<(), IndexError> {
+        let path = folder.join("index.toml");
+        let text = toml::to_string_pretty(self)?;
+        disk::replace(&path, text.as_bytes()).map_err(|source| IndexError::Disk { source, path })
+    }
+
+    /// What is known of `url`.
+    pub(super) fn get(&self, url: &str) -> Option<&Record> {
+        self.address.get(url)
+    }
+
+    /// What is known of `url`, which is asked at `now` for the source `name`.
+    pub(super) fn entry(&mut self, url: &str, name: &str, now: Timestamp) -> &mut Record {
+        let file = self.unused_file(name);
+        self.address.entry(url.to_owned()).or_insert(Record {
+            file,
+            attempted_at: now,
+            confirmed_at: None,
+            etag: None,
+            last_modified: None,
+            problem: None,
+        })
+    }
+
+    /// A file name like `name` that no address has yet.
+    fn unused_file(&self, name: &str) -> String {
+        let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+        let stem: String = name.to_lowercase().chars().map(plain).take(MAX_FILE_CHARS).collect();
+        let is_used = |file: &str| self.address.values().any(|record| record.file == file);
+        let mut file = format!("{stem}.elements");
+        let mut count = 2;
+        while is_used(&file) {
+            file = format!("{stem}-{count}.elements");
+            count += 1;
+        }
+        file
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn now() -> Timestamp {
+        "2026-08-12T12:00:00Z".parse().unwrap()
+    }
+
+    #[test]
+    fn an_index_comes_back_as_it_was_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut index = Index::load(folder.path()).unwrap();
+        assert_eq!(index, Index::default());
+        index.entry("https://a.example/x?y=z", "Weather, Şile", now()).problem =
+            Some(FetchProblem::Unreachable("timeout".to_owned()));
+        index.entry("https://b.example", "weather- -ile", now()).etag = Some("\"7\"".to_owned());
+        index.entry("https://c.example", "../../..", now()).confirmed_at = Some(now());
+        index.save(folder.path()).unwrap();
+        assert_eq!(Index::load(folder.path()).unwrap(), index);
+        let files: Vec<_> = index.address.values().map(|record| record.file.as_str()).collect();
+        assert_eq!(
+            files,
+            ["weather---ile.elements", "weather---ile-2.elements", "--------.elements"]
+        );
+    }
+
+    #[test]
+    fn a_damaged_index_gives_way_to_the_one_before_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("index.toml");
+        let mut index = Index::default();
+        index.entry("https://a.example", "a", now());
+        index.save(folder.path()).unwrap();
+        index.save(folder.path()).unwrap();
+        fs::write(&path, "version = ").unwrap();
+        assert_eq!(Index::load(folder.path()).unwrap(), index);
+        fs::write(disk::old(&path), "version = ").unwrap();
+        assert!(matches!(Index::load(folder.path()), Err(IndexError::Syntax { .. })));
+        fs::write(&path, "version = 9").unwrap();
+        assert!(matches!(Index::load(folder.path()), Err(IndexError::Newer { found: 9, .. })));
+    }
+}
