@@ -3,6 +3,7 @@
 mod angle;
 mod azel;
 pub mod frames;
+mod horizon_mask;
 mod site;
 pub mod sun_moon;
 pub mod time;
@@ -10,4 +11,5 @@ pub mod xy_mount;
 
 pub use angle::Angle;
 pub use azel::AzEl;
+pub use horizon_mask::{HorizonMask, MOST_MASK_POINTS, MaskError, MaskTextError};
 pub use site::{Site, SiteError};
