@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use azel::{
     astro::{Angle, Site, time},
-    orbit::{Pass, PassPoint, Propagator, passes, read_elements},
+    orbit::{Pass, PassPoint, PassSearch, Propagator, passes, read_elements},
 };
 use glam::DVec3;
 use jiff::Timestamp;
@@ -140,8 +140,10 @@ fn passes_agree_with_skyfield() {
     let (mut worst_s, mut worst_tca_s, mut worst_deg) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (number, propagator) in propagators(&reference.satellites) {
         for horizon_deg in [0.0, 10.0] {
-            let horizon = Angle::from_degrees(horizon_deg);
-            let found = passes(&propagator, site, window_start, window_end, horizon, &|| false);
+            let aos_elevation = Angle::from_degrees(horizon_deg);
+            let search =
+                PassSearch { aos_elevation, ..PassSearch::new(site, window_start, window_end) };
+            let found = passes(&propagator, &search, &|| false);
             let expected: Vec<&Expected> = reference
                 .expected
                 .iter()

@@ -4,7 +4,7 @@
 
 use azel::{
     astro::{Angle, Site, time},
-    orbit::{Elements, Propagator, bundled, passes},
+    orbit::{Elements, PassSearch, Propagator, bundled, passes},
 };
 
 const WINDOW_S: f64 = 86_400.0;
@@ -32,8 +32,9 @@ fn a_satellite_is_up_exactly_within_its_passes() {
     ] {
         for elements in chosen(&catalog) {
             let propagator = Propagator::new(elements).unwrap();
-            let horizon = Angle::from_degrees(horizon_deg);
-            let found = passes(&propagator, site, from, to, horizon, &|| false);
+            let aos_elevation = Angle::from_degrees(horizon_deg);
+            let search = PassSearch { aos_elevation, ..PassSearch::new(site, from, to) };
+            let found = passes(&propagator, &search, &|| false);
             let mut at_s = 0.0;
             while at_s < WINDOW_S {
                 let at = time::add_seconds(from, at_s);

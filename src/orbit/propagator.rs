@@ -1,16 +1,24 @@
 //! SGP4 and SDP4: where a satellite is at a time.
 
+mod secular;
+
 use glam::DVec3;
 use jiff::Timestamp;
 
+pub(super) use self::secular::{Secular, expand};
 use super::Elements;
 use crate::astro::time;
 
 /// Equatorial radius in WGS72, the constants SGP4 is defined with, in km.
-const WGS72_RADIUS_KM: f64 = 6_378.135;
+pub(super) const WGS72_RADIUS_KM: f64 = 6_378.135;
 /// Further from its epoch a set says nothing, and the resonance integrator,
 /// which walks there in half days, would take seconds for a far century.
 const FARTHEST_DAYS: f64 = 36_525.0;
+/// SGP4's velocity is not quite the change of its position: higher powers of the
+/// flattening are left out, the more the more eccentric the orbit is, and the
+/// drag. Measured over the bundled catalog, in km/s.
+const DRIFT_KM_S: f64 = 3e-5;
+const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 
 /// Position and velocity of a satellite in TEME.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +48,14 @@ pub enum PropagationError {
 pub struct Propagator {
     constants: sgp4::Constants,
     epoch: Timestamp,
+    secular: Option<Secular>,
+    drift_km_s: f64,
 }
+
+/// Where the integration of a resonant orbit has come to, so that the next state
+/// need not start from the epoch. Other orbits leave it untouched.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Resumable(Option<sgp4::ResonanceState>);
 
 impl Propagator {
     /// Prepares the propagation of `elements` (WGS72, AFSPC sidereal time: what
@@ -48,22 +63,62 @@ impl Propagator {
     pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
         let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&elements.sgp4())
             .map_err(|_| PropagationError::Elements)?;
-        Ok(Self { constants, epoch: elements.epoch() })
+        let secular = Secular::new(elements.sgp4());
+        let drag = secular.as_ref().map_or(0.0, Secular::drag_drift_km_s);
+        let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * elements.eccentricity() + drag;
+        Ok(Self { constants, epoch: elements.epoch(), secular, drift_km_s })
     }
 
     /// The state at `at`, in TEME.
     pub fn state_at(&self, at: Timestamp) -> Result<State, PropagationError> {
-        let since_epoch_s = time::seconds_between(self.epoch, at);
+        self.state_after(time::seconds_between(self.epoch, at), &mut Resumable::default())
+    }
+
+    /// The instant that [`Self::state_after`] counts from.
+    pub(super) fn epoch(&self) -> Timestamp {
+        self.epoch
+    }
+
+    /// How the orbit moves in the long run; `None` for deep space.
+    pub(super) fn secular(&self) -> Option<&Secular> {
+        self.secular.as_ref()
+    }
+
+    /// How far the velocities may be from the change of the positions.
+    pub(super) fn drift_km_s(&self) -> f64 {
+        self.drift_km_s
+    }
+
+    /// The state `since_epoch_s` seconds after the epoch, in TEME. A series of
+    /// calls with one `resumable` is fast where it leads away from the epoch,
+    /// and right in any order.
+    pub(super) fn state_after(
+        &self,
+        since_epoch_s: f64,
+        resumable: &mut Resumable,
+    ) -> Result<State, PropagationError> {
         if since_epoch_s.abs() > FARTHEST_DAYS * time::DAY_S {
             return Err(PropagationError::TooFarFromEpoch);
         }
+        let since_epoch_min = since_epoch_s / 60.0;
+        // The library ends the program when the time goes back towards or over
+        // the epoch.
+        let resumed = resumable.0.take().filter(|state| {
+            let reached_min = state.t();
+            reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
+        });
+        resumable.0 = resumed.or_else(|| self.constants.initial_state());
         let prediction = self
             .constants
-            .propagate(sgp4::MinutesSinceEpoch(since_epoch_s / 60.0))
+            .propagate_from_state(
+                sgp4::MinutesSinceEpoch(since_epoch_min),
+                resumable.0.as_mut(),
+                false,
+            )
             .map_err(|_| PropagationError::Decayed)?;
         let position_km = DVec3::from_array(prediction.position);
         let velocity_km_s = DVec3::from_array(prediction.velocity);
-        let above_ground = position_km.length() >= WGS72_RADIUS_KM;
+        let above_ground = position_km.length_squared() >= WGS72_RADIUS_KM * WGS72_RADIUS_KM;
         if above_ground && position_km.is_finite() && velocity_km_s.is_finite() {
             Ok(State { position_km, velocity_km_s })
         } else {

@@ -12,7 +12,7 @@ use azel::{
     astro::{Angle, Site, time},
     controller::{TrackTarget, satrak::Satrak},
     driver::{AntennaHandle, Clock, Dial, Session},
-    orbit::{Elements, Pass, Propagator, passes, read_elements},
+    orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
     sim::satrak::Options,
     station::Antenna,
 };
@@ -47,7 +47,9 @@ pub(super) fn pass() -> Pass {
     let propagator = Propagator::new(iss).unwrap();
     let from = iss.epoch();
     let to = time::add_seconds(from, 3.0 * time::DAY_S);
-    passes(&propagator, site(), from, to, Angle::from_degrees(10.0), &|| false)
+    let aos_elevation = Angle::from_degrees(10.0);
+    let search = PassSearch { aos_elevation, ..PassSearch::new(site(), from, to) };
+    passes(&propagator, &search, &|| false)
         .into_iter()
         .find(|pass| pass.max_elevation().degrees() > 40.0)
         .unwrap()

@@ -16,7 +16,7 @@ use azel::{
     },
     astro::{Site, time::add_seconds},
     driver::{AntennaHandle, LinkState, Snapshot},
-    orbit::{Catalog, Propagator, bundled, passes},
+    orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     plan::{Sample, trackability},
     station::{Antenna, Station},
     ui::{Views, theme, tokens::ThemeName},
@@ -82,10 +82,14 @@ fn forecasts(satellite: &Arc<Followed>) -> Vec<Forecast> {
     let antenna = &station.antennas[0];
     let horizon = antenna.limits.minimum_elevation_deg;
     let (from, to) = (add_seconds(now(), -3600.0), add_seconds(now(), 12.0 * 3600.0));
-    let horizon = azel::astro::Angle::from_degrees(horizon);
-    passes(&satellite.propagator, station.site, from, to, horizon, &|| false)
+    let search = PassSearch {
+        aos_elevation: azel::astro::Angle::from_degrees(horizon),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, from, to)
+    };
+    passes(&satellite.propagator, &search, &|| false)
         .into_iter()
-        .filter(|pass| pass.los.time > now() && pass.max_elevation() >= station.elevation_floor())
+        .filter(|pass| pass.los.time > now())
         .map(|pass| {
             let steps = (pass.duration_s() / 10.0) as usize;
             let track: Vec<Sample> = (0..=steps.min(600))

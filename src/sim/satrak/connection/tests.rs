@@ -11,7 +11,7 @@ use tokio::io::DuplexStream;
 
 use super::*;
 use crate::astro::{Angle, AzEl, Site, time};
-use crate::orbit::{Elements, Pass, Propagator, passes, read_elements};
+use crate::orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements};
 use crate::protocol::satrak::{
     Clock, FaultKind, Frame, FrameError, GpsData, Oddity, Reply as Said, ReplyError, Status,
     TrackState,

@@ -7,7 +7,9 @@ fn iss_pass() -> Pass {
     let propagator = Propagator::new(&iss()).unwrap();
     let from = iss().epoch();
     let to = time::add_seconds(from, 3.0 * time::DAY_S);
-    passes(&propagator, site(), from, to, Angle::from_degrees(10.0), &|| false)
+    let aos_elevation = Angle::from_degrees(10.0);
+    let search = PassSearch { aos_elevation, ..PassSearch::new(site(), from, to) };
+    passes(&propagator, &search, &|| false)
         .into_iter()
         .find(|pass| pass.max_elevation().degrees() > 40.0)
         .unwrap()

@@ -1,0 +1,100 @@
+//! When the turning Earth brings a site near the plane of an orbit.
+//!
+//! Let beta be the angle, along the equator, from the ascending node of the
+//! orbit to the site; it grows by one turn in about a sidereal day. With the
+//! geocentric latitude phi of the site and the inclination i, the sine of the
+//! angle d from the orbit plane to the site is
+//!
+//! sin d = sin phi cos i - cos phi sin i sin beta
+//!
+//! Whatever flies in the plane can be seen only while |d| is at most the reach
+//! rho: the angle, at the centre of the Earth, between the site and a satellite
+//! that just comes up. That holds on no arc of beta, on one, on two, or always.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Arcs longer than this are given in pieces, so that what moves slowly can be
+/// taken as linear in each: six hours.
+const LONGEST_RAD: f64 = FRAC_PI_2;
+
+/// Start and end of each arc of beta within a turn, in radians, in order. The
+/// starts lie from -pi/2 to 3 pi/2; pieces of one arc touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Arcs {
+    arcs: [(f64, f64); 2],
+    count: usize,
+}
+
+impl Arcs {
+    /// Where `|middle - width sin(beta)| <= sin(reach)`: `middle` is sin phi
+    /// cos i and `width`, which is not negative, cos phi sin i; `reach` lies
+    /// between 0 and a right angle.
+    pub(super) fn new(middle: f64, width: f64, reach: f64) -> Self {
+        let half = reach.sin();
+        // Not divided by the width, which is 0 at the poles and for an orbit
+        // along the equator.
+        let (low, high) = (middle - half, middle + half);
+        let angle = |sine: f64| (sine / width).asin();
+        let (arcs, count) = match (low <= -width, high >= width) {
+            _ if low > width || high < -width => ([(0.0, 0.0); 2], 0),
+            (true, true) => ([(-FRAC_PI_2, 3.0 * FRAC_PI_2), (0.0, 0.0)], 1),
+            (true, false) => ([(PI - angle(high), TAU + angle(high)), (0.0, 0.0)], 1),
+            (false, true) => ([(angle(low), PI - angle(low)), (0.0, 0.0)], 1),
+            (false, false) => ([(angle(low), angle(high)), (PI - angle(high), PI - angle(low))], 2),
+        };
+        Self { arcs, count }
+    }
+
+    /// All pieces from `from` on, without end: turn after turn.
+    pub(super) fn from(self, from: f64) -> impl Iterator<Item = (f64, f64)> {
+        let first_turn = ((from - FRAC_PI_2) / TAU).floor() - 1.0;
+        let turns = (0..).map(move |turn: u32| TAU * (first_turn + f64::from(turn)));
+        let none = self.count == 0;
+        turns
+            .take_while(move |_| !none)
+            .flat_map(move |turn| {
+                self.arcs.into_iter().take(self.count).map(move |(a, b)| (a + turn, b + turn))
+            })
+            .flat_map(pieces)
+            .skip_while(move |(_, end)| *end < from)
+    }
+}
+
+fn pieces((start, end): (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
+    let count = ((end - start) / LONGEST_RAD).ceil().max(1.0);
+    let length = (end - start) / count;
+    (0..count as u32).map(move |index| {
+        let start = start + f64::from(index) * length;
+        (start, start + length)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn the_arcs_hold_every_place_in_reach_and_no_other(
+            latitude in -FRAC_PI_2..=FRAC_PI_2,
+            inclination in 0.0..=PI,
+            reach in 0.01..1.5,
+            from in -50.0..50.0,
+        ) {
+            let (middle, width) =
+                (latitude.sin() * inclination.cos(), latitude.cos() * inclination.sin());
+            let arcs: Vec<_> =
+                Arcs::new(middle, width, reach).from(from).take_while(|(a, _)| *a < from + TAU).collect();
+            prop_assert!(arcs.iter().all(|(a, b)| b >= a && b - a <= LONGEST_RAD + 1e-9));
+            prop_assert!(arcs.windows(2).all(|pair| pair[0].1 <= pair[1].0 + 1e-9));
+            for step in 0..720 {
+                let beta = from + TAU * f64::from(step) / 720.0;
+                let off = (middle - width * beta.sin()).abs() - reach.sin();
+                let held = arcs.iter().any(|(a, b)| (*a..=*b).contains(&beta));
+                prop_assert!(held == (off <= 0.0) || off.abs() < 1e-6, "{beta} {off}");
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Satellites that keep their place over the ground: most of them a site either
+//! always sees or never.
+
+use std::f64::consts::PI;
+
+use super::track::Track;
+use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::propagator::WGS72_RADIUS_KM};
+
+use super::local_series::GRAVITY_KM3_S2;
+
+/// How much faster or slower than the Earth the satellite may turn, as a share.
+const MOST_DRIFT: f64 = 0.05;
+const MOST_ECCENTRICITY: f64 = 0.2;
+/// Longer windows are searched: the pull of Sun, Moon and the equator's bulge
+/// changes the orbit too much.
+const LONGEST_WINDOW_S: f64 = 14.0 * 86_400.0;
+/// What those do in the longest window, in radians.
+const MARGIN: f64 = 0.02;
+
+/// Whether the satellite stays below the horizon for the whole window.
+///
+/// With the inclination i, the eccentricity e and the mean motion n of the state
+/// in the middle of the window of length T, the point below the satellite goes
+/// no further from where it is then than 2 i + 4.2 e + |n - earth rate| T / 2:
+/// twice the figure of eight, twice the equation of centre, and the drift.
+pub(super) fn never_rises(track: &Track<'_>) -> bool {
+    let window = track.window;
+    if track.propagator.secular().is_some() || window.length_s > LONGEST_WINDOW_S {
+        return false;
+    }
+    let Some(middle) = track.series(0.5 * window.length_s) else { return false };
+    let (r, v) = (middle.state.position_km, middle.state.velocity_km_s);
+    let radius_km = r.length();
+    let axis_km = 1.0 / (2.0 / radius_km - v.length_squared() / GRAVITY_KM3_S2);
+    let momentum = r.cross(v);
+    let eccentricity = (v.cross(momentum) / GRAVITY_KM3_S2 - r / radius_km).length();
+    let drift = (GRAVITY_KM3_S2 / axis_km.powi(3)).sqrt() - EARTH_RATE_RAD_S;
+    // Written so that NaN falls out as well.
+    if !(drift.abs() < MOST_DRIFT * EARTH_RATE_RAD_S && eccentricity < MOST_ECCENTRICITY) {
+        return false;
+    }
+    let inclination = momentum.x.hypot(momentum.y).atan2(momentum.z);
+    let excursion =
+        2.0 * inclination + 4.2 * eccentricity + drift.abs() * 0.5 * window.length_s + MARGIN;
+    let highest_km = axis_km * (1.0 + eccentricity) + 0.01 * WGS72_RADIUS_KM;
+    let reach = (window.radius_km * window.floor.cos() / highest_km).acos() - window.floor;
+    let away = r.angle_between(window.site_ecef_km);
+    (away - excursion).min(PI) > reach
+}

@@ -1,0 +1,308 @@
+//! Passes of every other orbit: far, eccentric or about to decay.
+//!
+//! Exact states are taken along the orbit, closer where it runs faster. Between
+//! two of them each coordinate of the satellite, seen from the turning site, is
+//! the polynomial of fifth degree that has their positions, velocities and
+//! accelerations. Looked at six times a step, it shows where the height (the
+//! sine of the elevation) turns. Extremes that matter are put right by exact
+//! states, and between two neighbouring extremes the height passes the horizon
+//! once or not at all.
+
+use glam::DVec3;
+
+use super::{
+    Pass,
+    local_series::{Bend, GRAVITY_KM3_S2, Height, LocalSeries, Place},
+    track::Track,
+};
+use crate::astro::frames::EARTH_RATE_RAD_S;
+
+/// Step in units of sqrt(r³/mu), the time a circular orbit needs for a radian.
+const STEP: f64 = 1.1;
+/// Looks per step.
+const LOOKS: u32 = 6;
+/// Heights of the polynomial are nearer to the truth than this.
+const HEIGHT_MARGIN: f64 = 0.02;
+/// Where a satellite has no state, the next is tried so much later, in seconds.
+const GAP_STEP_S: f64 = 60.0;
+/// The last state of an orbit is found as exactly as this, in seconds.
+const END_TOLERANCE_S: f64 = 1e-3;
+
+/// All passes of the window, in order.
+pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool) -> Vec<Pass> {
+    let mut finder = Finder { track, last: None, guess_s: None, open: None, found: Vec::new() };
+    let end_s = track.window.length_s;
+    let mut from_s = 0.0;
+    while from_s <= end_s && !cancelled() {
+        if let Some(first) = track.series(from_s) {
+            let last_s = finder.stretch(&first, cancelled);
+            if last_s >= end_s || track.has_decayed_at(last_s + END_TOLERANCE_S) {
+                break;
+            }
+            from_s = last_s;
+        } else if track.has_decayed_at(from_s) {
+            break;
+        }
+        from_s += GAP_STEP_S;
+    }
+    finder.found
+}
+
+/// Puts passes together from the extremes of the height, in the order of time.
+struct Finder<'a> {
+    track: &'a Track<'a>,
+    /// The last extreme, or the start.
+    last: Option<Extreme>,
+    /// Where the polynomial has passed the horizon since.
+    guess_s: Option<f64>,
+    open: Option<Open>,
+    found: Vec<Pass>,
+}
+
+#[derive(Clone, Copy)]
+struct Extreme {
+    at_s: f64,
+    is_up: bool,
+}
+
+/// A pass whose end is not found yet.
+struct Open {
+    aos: Place,
+    highest: Place,
+    starts_before: bool,
+}
+
+impl Finder<'_> {
+    /// Follows the satellite from `first` to the end of the window or of its
+    /// states, and says when that is.
+    fn stretch(&mut self, first: &LocalSeries, cancelled: &dyn Fn() -> bool) -> f64 {
+        let end_s = self.track.window.length_s;
+        self.begin(first.place(0.0));
+        let mut here = *first;
+        while here.at_s < end_s && !cancelled() {
+            let next_s = (here.at_s + step_s(&here)).min(end_s);
+            if let Some(next) = self.track.series(next_s) {
+                self.span(&here, &next);
+                here = next;
+            } else {
+                let last = self.last_state(here, next_s);
+                self.span(&here, &last);
+                here = last;
+                break;
+            }
+        }
+        self.end(here.place(0.0));
+        here.at_s
+    }
+
+    /// The last state between a good one and a time without.
+    fn last_state(&self, good: LocalSeries, bad_s: f64) -> LocalSeries {
+        let (mut good, mut bad_s) = (good, bad_s);
+        while bad_s - good.at_s > END_TOLERANCE_S {
+            let middle_s = f64::midpoint(good.at_s, bad_s);
+            match self.track.series(middle_s) {
+                Some(series) => good = series,
+                None => bad_s = middle_s,
+            }
+        }
+        good
+    }
+
+    fn is_up(&self, sine: f64) -> bool {
+        sine >= self.track.window.sin_horizon
+    }
+
+    fn begin(&mut self, first: Place) {
+        let is_up = self.is_up(first.height.sine);
+        self.last = Some(Extreme { at_s: first.at_s, is_up });
+        self.guess_s = None;
+        self.open = is_up.then_some(Open { aos: first, highest: first, starts_before: true });
+    }
+
+    /// Looks for extremes between two states.
+    fn span(&mut self, from: &LocalSeries, to: &LocalSeries) {
+        let curve = Quintic::new(from, to);
+        let mut a = curve.look(0.0);
+        for index in 1..=LOOKS {
+            let b = curve.look(f64::from(index) / f64::from(LOOKS));
+            // Two extremes close together show where the rate is least.
+            let hidden = (a.height.rate > 0.0) == (b.height.rate > 0.0)
+                && a.height.rate * a.height.curve < 0.0
+                && b.height.rate * b.height.curve > 0.0;
+            if hidden {
+                let share = a.height.curve / (a.height.curve - b.height.curve);
+                let middle = curve.look(a.share + share * (b.share - a.share));
+                self.advance(&curve, a, middle);
+                a = middle;
+            }
+            self.advance(&curve, a, b);
+            a = b;
+        }
+    }
+
+    fn advance(&mut self, curve: &Quintic, a: Look, b: Look) {
+        if (a.height.rate > 0.0) == (b.height.rate > 0.0) {
+            self.note_crossing(a, b);
+        } else {
+            let extreme = curve.extreme(a, b);
+            self.note_crossing(a, extreme);
+            self.turn(extreme, if a.height.rate > 0.0 { Bend::Crest } else { Bend::Trough });
+            self.note_crossing(extreme, b);
+        }
+    }
+
+    fn note_crossing(&mut self, a: Look, b: Look) {
+        let spare = |look: &Look| look.height.sine - self.track.window.sin_horizon;
+        let (before, after) = (spare(&a), spare(&b));
+        if (before >= 0.0) != (after >= 0.0) {
+            self.guess_s = Some(a.at_s + (b.at_s - a.at_s) * before / (before - after));
+        }
+    }
+
+    /// Takes in an extreme of the polynomial.
+    fn turn(&mut self, look: Look, bend: Bend) {
+        let spare = look.height.sine - self.track.window.sin_horizon;
+        let is_far = spare.abs() > HEIGHT_MARGIN;
+        if is_far && (spare < 0.0 || bend == Bend::Trough) {
+            self.reach(Extreme { at_s: look.at_s, is_up: spare > 0.0 });
+            return;
+        }
+        let exact = self.track.extreme(look.at_s, look.spacing_s, bend).map(|(_, place)| place);
+        if let Some(place) = exact.or_else(|| self.track.place(look.at_s)) {
+            self.reach(Extreme { at_s: place.at_s, is_up: self.is_up(place.height.sine) });
+            self.raise(place);
+        }
+    }
+
+    /// Keeps the highest point of the pass.
+    fn raise(&mut self, place: Place) {
+        let end_s = self.track.window.length_s;
+        if let Some(open) = &mut self.open
+            && place.height.sine > open.highest.height.sine
+            && (0.0..=end_s).contains(&place.at_s)
+        {
+            open.highest = place;
+        }
+    }
+
+    /// Goes on to the next extreme, over the horizon if it lies in between.
+    fn reach(&mut self, next: Extreme) {
+        let guess_s = self.guess_s.take();
+        let Some(last) = self.last.replace(next).filter(|last| last.is_up != next.is_up) else {
+            return;
+        };
+        let guess_s = guess_s.unwrap_or(f64::midpoint(last.at_s, next.at_s));
+        let (below, above) = if next.is_up { (last, next) } else { (next, last) };
+        let Some(crossing) = self.track.crossing(below.at_s, guess_s, above.at_s) else {
+            return;
+        };
+        if next.is_up {
+            self.open = Some(Open { aos: crossing, highest: crossing, starts_before: false });
+        } else if let Some(open) = self.open.take() {
+            self.close(&open, &crossing, false);
+        }
+    }
+
+    fn end(&mut self, last: Place) {
+        self.reach(Extreme { at_s: last.at_s, is_up: self.is_up(last.height.sine) });
+        self.raise(last);
+        if let Some(open) = self.open.take() {
+            self.close(&open, &last, true);
+        }
+    }
+
+    fn close(&mut self, open: &Open, los: &Place, ends_after: bool) {
+        let Open { aos, highest, starts_before } = open;
+        if highest.height.sine >= self.track.window.sin_floor {
+            self.found.push(self.track.pass([aos, highest, los], [*starts_before, ends_after]));
+        }
+    }
+}
+
+/// Time to the next state.
+fn step_s(series: &LocalSeries) -> f64 {
+    let (r, v) = (series.state.position_km, series.state.velocity_km_s);
+    let radius_km = r.length();
+    let at_radius = |radius_km: f64| STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt();
+    let level = at_radius(radius_km);
+    // On the way down the orbit gets faster within the step: its time is that
+    // of the lower place half a step on.
+    let lower_km = radius_km + (0.5 * level * r.dot(v) / radius_km).min(0.0);
+    let inverse_axis = 2.0 / radius_km - v.length_squared() / GRAVITY_KM3_S2;
+    let parameter_km = r.cross(v).length_squared() / GRAVITY_KM3_S2;
+    let eccentricity = (1.0 - parameter_km * inverse_axis).max(0.0).sqrt();
+    let perigee_km = parameter_km / (1.0 + eccentricity);
+    level.min(at_radius(lower_km.max(perigee_km))).min(STEP / EARTH_RATE_RAD_S)
+}
+
+/// Polynomials of fifth degree between two states.
+struct Quintic {
+    from_s: f64,
+    span_s: f64,
+    coefficients: [DVec3; 6],
+}
+
+/// The height the polynomial has at one instant.
+#[derive(Clone, Copy)]
+struct Look {
+    share: f64,
+    at_s: f64,
+    height: Height,
+    /// The time between two looks.
+    spacing_s: f64,
+}
+
+impl Quintic {
+    fn new(from: &LocalSeries, to: &LocalSeries) -> Self {
+        let span_s = to.at_s - from.at_s;
+        let (v0, v1) = (from.velocity * span_s, to.velocity * span_s);
+        let half_square = 0.5 * span_s * span_s;
+        let (a0, a1) = (from.acceleration * half_square, to.acceleration * half_square);
+        // What the end has beyond the parabola of the start.
+        let position = to.position - (from.position + v0 + a0);
+        let velocity = v1 - (v0 + 2.0 * a0);
+        let acceleration = a1 - a0;
+        let coefficients = [
+            from.position,
+            v0,
+            a0,
+            10.0 * position - 4.0 * velocity + acceleration,
+            -15.0 * position + 7.0 * velocity - 2.0 * acceleration,
+            6.0 * position - 3.0 * velocity + acceleration,
+        ];
+        Self { from_s: from.at_s, span_s, coefficients }
+    }
+
+    /// At a `share` of the step, 0 to 1.
+    fn look(&self, share: f64) -> Look {
+        let zero = [DVec3::ZERO; 3];
+        let [q, v, a] = self.coefficients.iter().rev().fold(zero, |[q, v, a], coefficient| {
+            [q * share + *coefficient, v * share + q, a * share + v]
+        });
+        let inverse_s = 1.0 / self.span_s;
+        Look {
+            share,
+            at_s: self.from_s + share * self.span_s,
+            height: Height::new(q, v * inverse_s, a * (2.0 * inverse_s * inverse_s)),
+            spacing_s: self.span_s / f64::from(LOOKS),
+        }
+    }
+
+    /// The extreme between two looks whose rates differ in sign.
+    fn extreme(&self, a: Look, b: Look) -> Look {
+        let (mut a, mut b) = (a, b);
+        let mut middle = a;
+        for round in 0..8 {
+            let secant = a.height.rate / (a.height.rate - b.height.rate);
+            // Halving at times, so that neither end stays where it is.
+            let part = if round % 3 == 2 { 0.5 } else { secant };
+            middle = self.look(a.share + part * (b.share - a.share));
+            if (middle.height.rate > 0.0) == (a.height.rate > 0.0) {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        middle
+    }
+}

@@ -1,0 +1,193 @@
+//! One satellite over one site: exact states turned into what the site sees.
+
+use std::cell::Cell;
+
+use super::{
+    Pass,
+    local_series::{Bend, LocalSeries, Place},
+    window::Window,
+};
+use crate::{
+    astro::time,
+    orbit::{PropagationError, Propagator, propagator::Resumable},
+};
+
+/// A series made from one state is used this far from it, in seconds.
+const LONGEST_STEP_S: f64 = 30.0;
+/// AOS and LOS are found as exactly as this, in seconds.
+const TIME_TOLERANCE_S: f64 = 5e-4;
+/// The greatest elevation is found as exactly as this, in radians, and its time
+/// as this, in seconds.
+const CREST_TOLERANCE: f64 = 3e-7;
+const CREST_TIME_TOLERANCE_S: f64 = 6e-3;
+/// Distance of the second state where one does not show the speed well enough.
+const MENDING_STEP_S: f64 = 15.0;
+
+/// A satellite as the site of a window sees it.
+pub(super) struct Track<'a> {
+    pub(super) window: &'a Window,
+    pub(super) propagator: &'a Propagator,
+    /// From the epoch of the elements to the start of the window.
+    pub(super) start_since_epoch_s: f64,
+    /// SGP4's velocity is the change of its position only within this.
+    drift_km_s: f64,
+    resumable: Cell<Resumable>,
+    propagations: Cell<u64>,
+}
+
+impl<'a> Track<'a> {
+    pub(super) fn new(window: &'a Window, propagator: &'a Propagator) -> Self {
+        let start_since_epoch_s = time::seconds_between(propagator.epoch(), window.from);
+        Self {
+            window,
+            propagator,
+            start_since_epoch_s,
+            drift_km_s: propagator.drift_km_s(),
+            resumable: Cell::default(),
+            propagations: Cell::new(0),
+        }
+    }
+
+    /// How many states were computed.
+    pub(super) fn propagations(&self) -> u64 {
+        self.propagations.get()
+    }
+
+    /// The series around an exact state; `None` where there is none.
+    pub(super) fn series(&self, at_s: f64) -> Option<LocalSeries> {
+        self.propagations.set(self.propagations.get() + 1);
+        let mut resumable = self.resumable.take();
+        let state = self.propagator.state_after(self.start_since_epoch_s + at_s, &mut resumable);
+        self.resumable.set(resumable);
+        Some(LocalSeries::new(self.window, at_s, &state.ok()?))
+    }
+
+    /// Whether the object has come down by `at_s`, later than its epoch: SGP4
+    /// goes on below the ground and may bring it up again.
+    pub(super) fn has_decayed_at(&self, at_s: f64) -> bool {
+        let since_epoch_s = self.start_since_epoch_s + at_s;
+        let state = self.propagator.state_after(since_epoch_s, &mut Resumable::default());
+        since_epoch_s > 0.0 && state == Err(PropagationError::Decayed)
+    }
+
+    /// Where the satellite is at `at_s`.
+    pub(super) fn place(&self, at_s: f64) -> Option<Place> {
+        Some(self.series(at_s)?.place(0.0))
+    }
+
+    /// The greatest or least height near `guess_s`, and the series it was taken
+    /// from. Newton's method goes as far as it has to, with a new state where
+    /// the last one is too far; `None` when it does not settle within `most_s`
+    /// of the guess.
+    pub(super) fn extreme(
+        &self,
+        guess_s: f64,
+        most_s: f64,
+        bend: Bend,
+    ) -> Option<(LocalSeries, Place)> {
+        let mut at_s = guess_s;
+        for _ in 0..8 {
+            let series = self.series(at_s)?;
+            let place = series.extreme(bend, most_s)?;
+            if (place.at_s - guess_s).abs() > most_s {
+                return None;
+            }
+            let tau = place.at_s - at_s;
+            if tau.abs() <= LONGEST_STEP_S {
+                let turn = self.drift_km_s / place.enu_km.length();
+                let is_exact = turn * tau.abs() < CREST_TOLERANCE
+                    && turn < CREST_TIME_TOLERANCE_S * place.height.curve.abs();
+                return if is_exact { Some((series, place)) } else { self.mended(&series, bend) };
+            }
+            at_s = place.at_s;
+        }
+        None
+    }
+
+    /// The extreme near a series, with the speed that a second state shows.
+    fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, Place)> {
+        let second = self.series(series.at_s + MENDING_STEP_S)?;
+        let series = series.mended(&second);
+        let place = series.extreme(bend, 2.0 * LONGEST_STEP_S)?;
+        Some((series, place))
+    }
+
+    /// Where the height passes the horizon on the series, `tau` seconds from its
+    /// state or near; `None` when that is too far for it.
+    pub(super) fn crossing_on(&self, series: &LocalSeries, tau: f64) -> Option<Place> {
+        let place = series.crossing(self.window.sin_horizon, tau, LONGEST_STEP_S)?;
+        self.is_timed(series, &place).then_some(place)
+    }
+
+    fn is_timed(&self, series: &LocalSeries, place: &Place) -> bool {
+        let tau = (place.at_s - series.at_s).abs();
+        let rise_km_s = place.height.rate.abs() * place.enu_km.length();
+        tau <= LONGEST_STEP_S
+            && (tau * self.drift_km_s <= TIME_TOLERANCE_S * rise_km_s || tau < TIME_TOLERANCE_S)
+    }
+
+    /// Where the height passes the horizon between `below_s`, where it is less,
+    /// and `above_s`, where it is more; from `guess_s` in between. `None` only
+    /// where there are no states.
+    pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<Place> {
+        let sine = self.window.sin_horizon;
+        let (mut below_s, mut above_s) = (below_s, above_s);
+        let mut at_s = guess_s;
+        for round in 0.. {
+            let width_s = (above_s - below_s).abs();
+            let inside = |at_s: f64| (at_s - below_s) * (at_s - above_s) < 0.0;
+            // Where the method does not settle, halving does.
+            if round > 6 || !inside(at_s) {
+                at_s = f64::midpoint(below_s, above_s);
+            }
+            let series = self.series(at_s)?;
+            let near = series.crossing(sine, 0.0, width_s).filter(|place| inside(place.at_s));
+            if let Some(place) = near
+                && self.is_timed(&series, &place)
+            {
+                return Some(place);
+            }
+            let here = series.place(0.0);
+            if width_s < 1e-4 {
+                return Some(here);
+            }
+            if here.height.sine < sine {
+                below_s = at_s;
+            } else {
+                above_s = at_s;
+            }
+            at_s = near.map_or(below_s, |place| place.at_s);
+        }
+        None
+    }
+
+    /// The part within the window of a pass that rises, culminates and sets at
+    /// these places; `None` when that is nothing or stays below the floor.
+    pub(super) fn cut(&self, aos: &Place, crest: &Place, los: &Place) -> Option<Pass> {
+        let length_s = self.window.length_s;
+        if los.at_s <= 0.0 || aos.at_s >= length_s {
+            return None;
+        }
+        let cuts = [aos.at_s < 0.0, los.at_s > length_s];
+        if cuts == [false, false] {
+            return Some(self.pass([aos, crest, los], cuts));
+        }
+        let aos = if cuts[0] { &self.place(0.0)? } else { aos };
+        let los = if cuts[1] { &self.place(length_s)? } else { los };
+        let crest = match crest.at_s {
+            at_s if at_s < 0.0 => aos,
+            at_s if at_s > length_s => los,
+            _ => crest,
+        };
+        (crest.height.sine >= self.window.sin_floor).then(|| self.pass([aos, crest, los], cuts))
+    }
+
+    pub(super) fn pass(
+        &self,
+        [aos, tca, los]: [&Place; 3],
+        [starts_before, ends_after]: [bool; 2],
+    ) -> Pass {
+        let point = |place: &Place| self.window.point(place);
+        Pass { aos: point(aos), tca: point(tca), los: point(los), starts_before, ends_after }
+    }
+}

@@ -1,0 +1,98 @@
+//! What all satellites of one search share: the site, the span of time and the
+//! elevations asked for.
+//!
+//! Inside the search a time is a number of seconds from the start of the span:
+//! calendar arithmetic is left to the two ends.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use glam::{DMat3, DVec3};
+use jiff::Timestamp;
+
+use super::{PassPoint, PassSearch, local_series::Place};
+use crate::astro::{Angle, AzEl, frames, time};
+
+/// A site and a span of time, made ready for computing.
+#[derive(Debug, Clone)]
+pub(super) struct Window {
+    pub(super) from: Timestamp,
+    pub(super) length_s: f64,
+    /// Greenwich sidereal time at the start, radians.
+    sidereal: f64,
+    /// The site, geocentric: longitude, sine and cosine of the latitude, and
+    /// the distance from the centre of the Earth.
+    pub(super) longitude: f64,
+    pub(super) sin_latitude: f64,
+    pub(super) cos_latitude: f64,
+    pub(super) radius_km: f64,
+    /// The site in Earth-fixed axes.
+    pub(super) site_ecef_km: DVec3,
+    /// The way up, in Earth-fixed axes.
+    pub(super) up: DVec3,
+    pub(super) to_enu: DMat3,
+    /// The site from the centre of the Earth in its own axes.
+    site_enu_km: DVec3,
+    /// Elevation of AOS and LOS, and its sine.
+    pub(super) horizon: f64,
+    pub(super) sin_horizon: f64,
+    /// A pass has to reach this elevation; never below the horizon's.
+    pub(super) floor: f64,
+    pub(super) sin_floor: f64,
+}
+
+impl Window {
+    /// `None` when the span is empty or no elevation can be reached.
+    pub(super) fn new(search: &PassSearch) -> Option<Self> {
+        let length_s = time::seconds_between(search.from, search.to);
+        let horizon = search.aos_elevation.radians();
+        let floor = search.floor.radians().max(horizon);
+        // Written so that NaN falls out as well.
+        if !(length_s > 0.0 && horizon >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
+            return None;
+        }
+        let site_ecef_km = frames::site_ecef_km(search.site);
+        let to_enu = frames::ecef_to_enu(search.site);
+        let radius_km = site_ecef_km.length();
+        Some(Self {
+            from: search.from,
+            length_s,
+            sidereal: time::gmst(search.from).radians(),
+            longitude: site_ecef_km.y.atan2(site_ecef_km.x),
+            sin_latitude: site_ecef_km.z / radius_km,
+            cos_latitude: site_ecef_km.x.hypot(site_ecef_km.y) / radius_km,
+            radius_km,
+            site_ecef_km,
+            up: to_enu.transpose() * DVec3::Z,
+            to_enu,
+            site_enu_km: to_enu * site_ecef_km,
+            horizon,
+            sin_horizon: horizon.sin(),
+            floor,
+            sin_floor: floor.sin(),
+        })
+    }
+
+    /// Greenwich sidereal time in radians, not wrapped.
+    pub(super) fn sidereal_at(&self, at_s: f64) -> f64 {
+        self.sidereal + frames::EARTH_RATE_RAD_S * at_s
+    }
+
+    /// The vector from the site to an Earth-fixed position, east, north, up.
+    pub(super) fn seen_from_site(&self, ecef_km: DVec3) -> DVec3 {
+        self.to_enu * ecef_km - self.site_enu_km
+    }
+
+    /// Time and direction of a place.
+    pub(super) fn point(&self, place: &Place) -> PassPoint {
+        let azimuth = place.enu_km.x.atan2(place.enu_km.y);
+        let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
+        let elevation = place.height.sine.clamp(-1.0, 1.0).asin();
+        PassPoint {
+            time: time::add_seconds(self.from, place.at_s),
+            direction: AzEl {
+                azimuth: Angle::from_radians(azimuth),
+                elevation: Angle::from_radians(elevation),
+            },
+        }
+    }
+}

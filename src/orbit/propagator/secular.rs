@@ -1,0 +1,195 @@
+//! The slow motion of a near-earth orbit, as SGP4 has it.
+//!
+//! SGP4 first moves the mean elements by polynomials in the time since the
+//! epoch (the Earth's flattening turns node and perigee, the drag shrinks the
+//! orbit) and then adds short waves. The polynomials alone tell where in the
+//! sky to search, at a hundredth of the cost of a state.
+//!
+//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, from which
+//! the letters of the coefficients are taken; WGS72. Time in minutes and length
+//! in Earth radii, as there.
+
+use std::f64::consts::TAU;
+
+use sgp4::WGS72;
+
+/// Orbits with this period in minutes or a longer one follow other rules.
+const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
+/// Perigees below this height, in Earth radii, get the shorter polynomials.
+const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
+
+/// Polynomials of the minutes since the epoch, constant term first.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::orbit) struct Secular {
+    /// Radians.
+    pub(in crate::orbit) inclination: f64,
+    /// Right ascension of the ascending node, radians.
+    pub(in crate::orbit) node: [f64; 3],
+    /// Argument of perigee plus mean anomaly, radians.
+    pub(in crate::orbit) argument: [f64; 6],
+    /// Argument of perigee, radians.
+    pub(in crate::orbit) perigee: [f64; 2],
+    pub(in crate::orbit) eccentricity: [f64; 2],
+    /// The eccentricity swings around its polynomial by this much, once a
+    /// revolution.
+    pub(in crate::orbit) eccentricity_wave: f64,
+    /// Square root of the semi-major axis, in square roots of Earth radii.
+    pub(in crate::orbit) root_axis: [f64; 5],
+}
+
+impl Secular {
+    /// The slow motion of `elements`; `None` for deep space.
+    pub(super) fn new(elements: &sgp4::Elements) -> Option<Self> {
+        let orbit = sgp4::Orbit::from_kozai_elements(
+            &WGS72,
+            elements.inclination.to_radians(),
+            elements.right_ascension.to_radians(),
+            elements.eccentricity,
+            elements.argument_of_perigee.to_radians(),
+            elements.mean_anomaly.to_radians(),
+            elements.mean_motion * (TAU / 1440.0),
+        )
+        .ok()?;
+        (orbit.mean_motion > TAU / DEEP_SPACE_PERIOD_MIN)
+            .then(|| Self::of_near_earth(&orbit, elements.drag_term))
+    }
+
+    /// Semi-major axis in Earth radii, and eccentricity, so many minutes after
+    /// the epoch.
+    pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
+        let [root_axis, ..] = expand(&self.root_axis, minutes);
+        let [eccentricity, ..] = expand(&self.eccentricity, minutes);
+        (root_axis * root_axis, eccentricity)
+    }
+
+    /// How fast, in km/s, the drag carries the satellite off the way that
+    /// SGP4's velocities point: they are those of an orbit that keeps its size
+    /// and shape.
+    pub(in crate::orbit) fn drag_drift_km_s(&self) -> f64 {
+        let [root_axis, shrinking, ..] = self.root_axis;
+        4.0 * (root_axis * shrinking).abs() * WGS72.ae / 60.0
+    }
+
+    fn of_near_earth(orbit: &sgp4::Orbit, bstar: f64) -> Self {
+        let (n, e) = (orbit.mean_motion, orbit.eccentricity);
+        let axis = (WGS72.ke / n).powf(2.0 / 3.0);
+        let round = 1.0 - e * e;
+        let theta2 = orbit.inclination.cos().powi(2);
+        let precession = Precession::new(orbit, axis);
+
+        // The density function: its parameters depend on the perigee height.
+        let perigee_km = WGS72.ae * (axis * (1.0 - e) - 1.0);
+        let s_km = if perigee_km < 98.0 { 20.0 } else { (perigee_km - 78.0).min(78.0) };
+        let s = 1.0 + s_km / WGS72.ae;
+        let xi = 1.0 / (axis - s);
+        let eta = axis * e * xi;
+        let psi2 = (1.0 - eta * eta).abs();
+        let density = ((120.0 - s_km) / WGS72.ae * xi).powi(4) / psi2.powf(3.5);
+
+        let c1 = bstar
+            * density
+            * n
+            * (axis * (1.0 + 1.5 * eta * eta + e * eta * (4.0 + eta * eta))
+                + 0.375 * WGS72.j2 * xi / psi2
+                    * (3.0 * theta2 - 1.0)
+                    * (8.0 + 3.0 * eta * eta * (8.0 + eta * eta)));
+        // Without the terms in J2, which only matter to e and are a thousandth.
+        let c4 = 2.0
+            * bstar
+            * n
+            * density
+            * axis
+            * round
+            * (eta * (2.0 + 0.5 * eta * eta) + e * (0.5 + 2.0 * eta * eta));
+        let c5 = 2.0
+            * bstar
+            * density
+            * axis
+            * round
+            * (1.0 + 2.75 * (eta * eta + eta * e) + e * eta.powi(3));
+
+        let low = axis * (1.0 - e) < 1.0 + LOW_PERIGEE;
+        let [d2, d3, d4] = if low { [0.0; 3] } else { shrinking(c1, axis, xi, s) };
+        let root = axis.sqrt();
+        let longer = if low { 0.0 } else { n };
+        Self {
+            inclination: orbit.inclination,
+            node: [
+                orbit.right_ascension,
+                precession.node,
+                -3.5 * round * precession.first * orbit.inclination.cos() * c1,
+            ],
+            argument: [
+                orbit.argument_of_perigee + orbit.mean_anomaly,
+                precession.perigee + precession.anomaly,
+                n * 1.5 * c1,
+                longer * (d2 + 2.0 * c1 * c1),
+                longer * 0.25 * (3.0 * d3 + c1 * (12.0 * d2 + 10.0 * c1 * c1)),
+                longer
+                    * 0.2
+                    * (3.0 * d4
+                        + 12.0 * c1 * d3
+                        + 6.0 * d2 * d2
+                        + 15.0 * c1 * c1 * (2.0 * d2 + c1 * c1)),
+            ],
+            perigee: [orbit.argument_of_perigee, precession.perigee],
+            eccentricity: [e, -c4],
+            eccentricity_wave: if low { 0.0 } else { c5.abs() },
+            root_axis: [root, -c1 * root, -d2 * root, -d3 * root, -d4 * root],
+        }
+    }
+}
+
+/// D2, D3 and D4: the higher powers of the shrinking.
+fn shrinking(c1: f64, axis: f64, xi: f64, s: f64) -> [f64; 3] {
+    let d2 = 4.0 * axis * xi * c1 * c1;
+    let third = d2 * xi * c1 / 3.0;
+    let d3 = (17.0 * axis + s) * third;
+    let d4 = 0.5 * third * axis * xi * (221.0 * axis + 31.0 * s) * c1;
+    [d2, d3, d4]
+}
+
+/// What the flattening does to the angles, in radians per minute.
+struct Precession {
+    /// Three halves of J2 n / p², which the rest is made of.
+    first: f64,
+    node: f64,
+    perigee: f64,
+    /// With the mean motion itself.
+    anomaly: f64,
+}
+
+impl Precession {
+    fn new(orbit: &sgp4::Orbit, axis: f64) -> Self {
+        let n = orbit.mean_motion;
+        let round = 1.0 - orbit.eccentricity * orbit.eccentricity;
+        let theta = orbit.inclination.cos();
+        let theta2 = theta * theta;
+        let theta4 = theta2 * theta2;
+        let inverse_parameter2 = (axis * round).powi(-2);
+        let first = 1.5 * WGS72.j2 * inverse_parameter2 * n;
+        let second = 0.5 * first * WGS72.j2 * inverse_parameter2;
+        let fourth = -0.468_75 * WGS72.j4 * inverse_parameter2 * inverse_parameter2 * n;
+        Self {
+            first,
+            node: theta
+                * (-first
+                    + 0.5 * second * (4.0 - 19.0 * theta2)
+                    + 2.0 * fourth * (3.0 - 7.0 * theta2)),
+            perigee: -0.5 * first * (1.0 - 5.0 * theta2)
+                + 0.0625 * second * (7.0 - 114.0 * theta2 + 395.0 * theta4)
+                + fourth * (3.0 - 36.0 * theta2 + 49.0 * theta4),
+            anomaly: n + round.sqrt()
+                * (0.5 * first * (3.0 * theta2 - 1.0)
+                    + 0.0625 * second * (13.0 - 78.0 * theta2 + 137.0 * theta4)),
+        }
+    }
+}
+
+/// A polynomial's value and its first and half its second derivative at `t`.
+pub(in crate::orbit) fn expand<const N: usize>(polynomial: &[f64; N], t: f64) -> [f64; 3] {
+    let start = [0.0; 3];
+    polynomial.iter().rev().fold(start, |[value, slope, half_curve], coefficient| {
+        [value * t + coefficient, slope * t + value, half_curve * t + slope]
+    })
+}
