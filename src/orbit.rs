@@ -15,7 +15,9 @@ pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError};
 pub use look::{LookAngles, look_angles};
-pub use passes::{Pass, PassPoint, PassSearch, passes, passes_and_effort, passes_of_all};
+pub use passes::{
+    Pass, PassPoint, PassSearch, clear_stretches, passes, passes_and_effort, passes_of_all,
+};
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{
     Note, NoteKind, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,

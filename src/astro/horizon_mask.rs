@@ -116,6 +116,12 @@ impl HorizonMask {
         &self.points
     }
 
+    /// The least elevation of all azimuths.
+    pub fn lowest(&self) -> Angle {
+        let lowest_deg = self.points.iter().map(|(_, el)| *el).fold(90.0, f64::min);
+        Angle::from_degrees(lowest_deg)
+    }
+
     /// The greatest elevation of all azimuths.
     pub fn highest(&self) -> Angle {
         let highest_deg = self.points.iter().map(|(_, el)| *el).fold(-90.0, f64::max);

@@ -4,6 +4,7 @@ mod arcs;
 mod circular;
 mod geosynchronous;
 mod local_series;
+mod mask;
 mod sampled;
 mod track;
 mod two_body;
@@ -17,6 +18,7 @@ use std::{
 use jiff::Timestamp;
 use rayon::prelude::*;
 
+pub use self::mask::clear_stretches;
 use self::{circular::Circular, track::Track, window::Window};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};

@@ -61,9 +61,10 @@ impl Propagator {
     /// Prepares the propagation of `elements` (WGS72, AFSPC sidereal time: what
     /// the elements were fitted with).
     pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
-        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&elements.sgp4())
+        let numbers = elements.sgp4();
+        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&numbers)
             .map_err(|_| PropagationError::Elements)?;
-        let secular = Secular::new(elements.sgp4());
+        let secular = Secular::new(&numbers);
         let drag = secular.as_ref().map_or(0.0, Secular::drag_drift_km_s);
         let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * elements.eccentricity() + drag;
         Ok(Self { constants, epoch: elements.epoch(), secular, drift_km_s })

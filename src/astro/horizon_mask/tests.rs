@@ -24,6 +24,7 @@ fn the_line_runs_straight_between_points_and_around_north() {
         assert!((found - expected).abs() < 1e-9, "{azimuth_deg}: {found}");
     }
     assert!((mask.highest().degrees() - 8.0).abs() < 1e-12);
+    assert!((mask.lowest().degrees() + 2.0).abs() < 1e-12);
 }
 
 #[test]

@@ -81,6 +81,11 @@ pub(super) struct Place {
 }
 
 impl Place {
+    /// How fast the satellite moves across the sky, in radians per second.
+    pub(super) fn angular_rate(&self) -> f64 {
+        self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
+    }
+
     /// A little later: less than [`LAST_STEP_S`], or as little of the way to an
     /// extreme.
     fn moved(self, step_s: f64) -> Self {

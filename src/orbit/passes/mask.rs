@@ -1,0 +1,282 @@
+//! The parts of a pass that clear the horizon mask of the site.
+//!
+//! The clearance, elevation less mask, is followed along the pass. High above
+//! the whole mask, or far below it, it cannot change its sign before the
+//! satellite has moved on by as much; near it the steps are small. The mask is
+//! straight between its points, so every point that the azimuth passes is looked
+//! at as well: no wall is too narrow to be seen.
+
+use super::{
+    Pass, PassSearch,
+    local_series::{Bend, Place},
+    track::Track,
+    window::Window,
+};
+use crate::{
+    astro::{Angle, AzEl, HorizonMask, Site},
+    orbit::Propagator,
+};
+
+/// Steps near the mask and at most, in radians across the sky.
+const FINE_STEP: f64 = 0.002_5;
+const COARSE_STEP: f64 = 0.09;
+/// Azimuth between two looks, in radians: few enough for its sense to be clear.
+const MOST_TURN: f64 = 0.09;
+/// No step is longer than this, in seconds.
+const LONGEST_STEP_S: f64 = 300.0;
+/// Crossings, and the times at which the azimuth passes a point, are found as
+/// exactly as this, in seconds.
+const TOLERANCE_S: f64 = 2e-4;
+/// Level with the mask counts as clear: AOS over a level mask, with its rounding,
+/// in radians.
+const LEVEL: f64 = 1e-7;
+
+/// The stretches of `pass` in which the satellite stands above `mask`, in order.
+///
+/// AOS and LOS are where the mask is crossed, exact to a millisecond, or those of
+/// the pass; only there are the marks of the pass kept.
+pub fn clear_stretches(
+    propagator: &Propagator,
+    site: Site,
+    mask: &HorizonMask,
+    pass: &Pass,
+) -> Vec<Pass> {
+    let search = PassSearch::new(site, pass.aos.time, pass.los.time);
+    let Some(window) = Window::new(&search) else { return Vec::new() };
+    let track = Track::new(&window, propagator);
+    let points = mask.points_deg().iter().map(|(azimuth, _)| azimuth.to_radians());
+    let follower = Follower {
+        track: &track,
+        mask,
+        points: points.collect(),
+        lowest: mask.lowest().radians(),
+        highest: mask.highest().radians(),
+    };
+    let mut stretches = Stretches { pass, track: &track, open: None, found: Vec::new() };
+    follower.follow(&mut stretches);
+    stretches.found
+}
+
+/// One look at the sky.
+#[derive(Clone, Copy)]
+struct Look {
+    place: Place,
+    azimuth: f64,
+    elevation: f64,
+    clearance: f64,
+}
+
+impl Look {
+    fn is_clear(&self) -> bool {
+        self.clearance >= -LEVEL
+    }
+
+    /// Azimuth from here to `azimuth`, the shorter way around.
+    fn turn_to(&self, azimuth: f64) -> f64 {
+        Angle::from_radians(azimuth - self.azimuth).wrapped_180().radians()
+    }
+}
+
+struct Follower<'a> {
+    track: &'a Track<'a>,
+    mask: &'a HorizonMask,
+    /// Azimuths of the points of the mask, rising.
+    points: Vec<f64>,
+    lowest: f64,
+    highest: f64,
+}
+
+impl Follower<'_> {
+    fn look(&self, at_s: f64) -> Option<Look> {
+        let place = self.track.place(at_s)?;
+        let AzEl { azimuth, elevation } = AzEl::from_enu(place.enu_km);
+        let clearance = (elevation - self.mask.elevation_at(azimuth)).radians();
+        Some(Look { place, azimuth: azimuth.radians(), elevation: elevation.radians(), clearance })
+    }
+
+    fn follow(&self, stretches: &mut Stretches<'_>) {
+        let end_s = self.track.window.length_s;
+        let Some(mut here) = self.look(0.0) else { return };
+        if here.is_clear() {
+            stretches.open(here.place, stretches.pass.starts_before);
+        }
+        while here.place.at_s < end_s {
+            let next_s = (here.place.at_s + self.step_s(&here)).min(end_s);
+            let Some(next) = self.look(next_s) else { break };
+            self.step(here, next, stretches);
+            here = next;
+        }
+        if here.is_clear() {
+            stretches.close(here.place, stretches.pass.ends_after);
+        }
+    }
+
+    fn step_s(&self, here: &Look) -> f64 {
+        let spare = (here.elevation - self.highest).max(self.lowest - here.elevation);
+        let step = (0.5 * spare).clamp(FINE_STEP, COARSE_STEP);
+        (step / here.place.angular_rate()).min(LONGEST_STEP_S)
+    }
+
+    /// From one look to the next, by way of every point of the mask between.
+    fn step(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
+        let beyond = |look: &Look| {
+            if look.elevation > self.highest + LEVEL {
+                1
+            } else {
+                -i32::from(look.elevation < self.lowest - LEVEL)
+            }
+        };
+        // Wholly above or wholly below the mask it does not matter which way.
+        if beyond(&from) * beyond(&to) == 1 {
+            stretches.pass_by(from.place, to.place);
+            return;
+        }
+        let turn = from.turn_to(to.azimuth);
+        let span_s = to.place.at_s - from.place.at_s;
+        if turn.abs() > MOST_TURN && span_s > TOLERANCE_S {
+            if let Some(middle) = self.look(from.place.at_s + 0.5 * span_s) {
+                self.step(from, middle, stretches);
+                self.step(middle, to, stretches);
+            }
+            return;
+        }
+        let mut last = from;
+        for azimuth in self.points_between(from.azimuth, turn) {
+            if let Some(look) = self.look_at_azimuth(last, to, azimuth) {
+                self.cross(last, look, stretches);
+                last = look;
+            }
+        }
+        self.cross(last, to, stretches);
+    }
+
+    /// Azimuths of the points from `start` on for `turn`, in that order.
+    fn points_between(&self, start: f64, turn: f64) -> impl Iterator<Item = f64> {
+        let (low, length) = (start + turn.min(0.0), turn.abs());
+        let first = Angle::from_radians(low).wrapped_360().radians();
+        let split = self.points.partition_point(|point| *point <= first);
+        let (before, after) = self.points.split_at(split);
+        let mut between: Vec<f64> = after
+            .iter()
+            .chain(before)
+            .copied()
+            .take_while(|point| {
+                let ahead = Angle::from_radians(point - first).wrapped_360().radians();
+                ahead > 0.0 && ahead < length
+            })
+            .collect();
+        if turn < 0.0 {
+            between.reverse();
+        }
+        between.into_iter()
+    }
+
+    /// The look at which the azimuth is `azimuth`, between two others.
+    fn look_at_azimuth(&self, from: Look, to: Look, azimuth: f64) -> Option<Look> {
+        self.settle(from, to, |look| look.turn_to(azimuth)).map(|(_, look)| look)
+    }
+
+    /// Notes where the clearance changes its sign between two looks.
+    fn cross(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
+        if from.is_clear() == to.is_clear() {
+            stretches.pass_by(from.place, to.place);
+        } else if let Some((_, at)) = self.settle(from, to, |look| look.clearance + LEVEL) {
+            if to.is_clear() {
+                stretches.open(at.place, false);
+                stretches.pass_by(at.place, to.place);
+            } else {
+                stretches.pass_by(from.place, at.place);
+                stretches.close(at.place, false);
+            }
+        }
+    }
+
+    /// The last look before and the first after `value` changes its sign, as
+    /// close together as the tolerance; by Illinois' false position.
+    fn settle(&self, from: Look, to: Look, value: impl Fn(&Look) -> f64) -> Option<(Look, Look)> {
+        let (mut a, mut b) = ((from, value(&from)), (to, value(&to)));
+        if (a.1 > 0.0) == (b.1 > 0.0) {
+            return None;
+        }
+        for round in 0..60 {
+            let (a_s, b_s) = (a.0.place.at_s, b.0.place.at_s);
+            if b_s - a_s <= TOLERANCE_S {
+                break;
+            }
+            // A halving now and then bounds the effort whatever the curve.
+            let share = if round % 4 == 3 { 0.5 } else { a.1 / (a.1 - b.1) };
+            // Never on an end, so that both ends close in.
+            let margin_s = (0.4 * TOLERANCE_S).min(0.25 * (b_s - a_s));
+            let at_s = (a_s + share * (b_s - a_s)).clamp(a_s + margin_s, b_s - margin_s);
+            let middle = self.look(at_s)?;
+            let found = value(&middle);
+            if (found > 0.0) == (a.1 > 0.0) {
+                a = (middle, found);
+            } else {
+                b = (middle, found);
+            }
+        }
+        Some((a.0, b.0))
+    }
+}
+
+/// Puts the stretches together.
+struct Stretches<'a> {
+    pass: &'a Pass,
+    track: &'a Track<'a>,
+    open: Option<Open>,
+    found: Vec<Pass>,
+}
+
+/// A stretch whose end is not found yet.
+struct Open {
+    aos: Place,
+    highest: Place,
+    /// The step to the highest look took this long, in seconds.
+    around_s: f64,
+    starts_before: bool,
+}
+
+impl Stretches<'_> {
+    fn open(&mut self, aos: Place, starts_before: bool) {
+        self.open = Some(Open { aos, highest: aos, around_s: 0.0, starts_before });
+    }
+
+    fn pass_by(&mut self, from: Place, to: Place) {
+        if let Some(open) = &mut self.open
+            && to.height.sine > open.highest.height.sine
+        {
+            open.highest = to;
+            open.around_s = to.at_s - from.at_s;
+        }
+    }
+
+    fn close(&mut self, los: Place, ends_after: bool) {
+        let Some(open) = self.open.take().filter(|open| los.at_s > open.aos.at_s) else { return };
+        let ends = [&open.aos, &los];
+        let highest = if los.height.sine > open.highest.height.sine { los } else { open.highest };
+        // The top lies within a step of the highest look, or at an end.
+        let reach_s = 2.0 * open.around_s;
+        let crest = self
+            .track
+            .extreme(highest.at_s, reach_s, Bend::Crest)
+            .map(|(_, place)| place)
+            .filter(|top| (open.aos.at_s..=los.at_s).contains(&top.at_s))
+            .filter(|top| top.height.sine >= highest.height.sine);
+        let tca = crest.unwrap_or(highest);
+        let [aos, los] = ends;
+        let mut stretch = self.track.pass([aos, &tca, los], [open.starts_before, ends_after]);
+        // What is the pass's own stays as it is, to the last digit.
+        let (from_s, end_s) = (aos.at_s, self.track.window.length_s);
+        if from_s <= 0.0 {
+            stretch.aos = self.pass.aos;
+        }
+        if los.at_s >= end_s {
+            stretch.los = self.pass.los;
+        }
+        if (stretch.aos.time..=stretch.los.time).contains(&self.pass.tca.time) {
+            stretch.tca = self.pass.tca;
+        }
+        self.found.push(stretch);
+    }
+}
