@@ -7,6 +7,9 @@ use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
+/// Bytes that are looked at to find the name of a tag and its prefix.
+const MAX_NAME: usize = 40;
+
 /// Whether `line` opens a message or an NDM, with a prefix or without.
 pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     line.starts_with('<') && [*b"omm", *b"ndm"].iter().any(|tag| is_start(line, 0, *tag))
@@ -45,48 +48,43 @@ fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
 
 /// Whether the tag at `at` is a start tag called `called`, with a prefix or without.
 fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
-    // No prefix is longer, and a tag that never ends must not be searched through.
-    let mut name = text.bytes().skip(at + 1).take(40);
-    let mut local = *b"   ";
-    let mut length = 0_usize;
-    loop {
-        match name.next() {
-            Some(b':') => length = 0,
-            Some(b'/' | b'<') | None => return false,
-            Some(b'>' | b' ' | b'\t' | b'\r' | b'\n') => {
-                return length == 3 && local.eq_ignore_ascii_case(&called);
-            }
-            Some(byte) => {
-                if let Some(place) = local.get_mut(length) {
-                    *place = byte;
-                }
-                length += 1;
-            }
-        }
-    }
+    // A tag that never ends must not be searched through again for every `<` in it.
+    let bytes = text.as_bytes().get(at + 1..).unwrap_or_default();
+    let bytes = bytes.get(..MAX_NAME).unwrap_or(bytes);
+    let end = bytes
+        .iter()
+        .position(|byte| matches!(byte, b'>' | b'/' | b'<' | b' ' | b'\t' | b'\r' | b'\n'));
+    let Some((name, [b'>' | b' ' | b'\t' | b'\r' | b'\n', ..])) =
+        end.and_then(|end| bytes.split_at_checked(end))
+    else {
+        return false;
+    };
+    name.rsplit(|byte| *byte == b':').next().is_some_and(|name| name.eq_ignore_ascii_case(&called))
 }
 
 /// Takes the fields of one message; `None` when it is no sound XML to its end.
-fn fill(message: &mut Message<'_>, text: &str) -> Option<()> {
+fn fill<'a>(message: &mut Message<'a>, text: &'a str) -> Option<()> {
     let mut reader = Reader::from_str(text);
     reader.config_mut().allow_dangling_amp = true;
     let mut field = None;
-    let mut value = String::new();
+    let mut value = Cow::Borrowed("");
     loop {
         match reader.read_event().ok()? {
             Event::Start(tag) => {
                 field = str::from_utf8(tag.local_name().into_inner()).ok().and_then(Field::named);
-                value.clear();
+                value = Cow::Borrowed("");
             }
-            Event::Text(text) => value.push_str(&text.decode().ok()?),
-            Event::CData(text) => value.push_str(&text.decode().ok()?),
+            // Most fields are one piece of text, which need not be copied.
+            Event::Text(text) if value.is_empty() => value = text.decode().ok()?,
+            Event::Text(text) => value.to_mut().push_str(&text.decode().ok()?),
+            Event::CData(text) => value.to_mut().push_str(&text.decode().ok()?),
             Event::GeneralRef(entity) => match entity.resolve_char_ref().ok()? {
-                Some(letter) => value.push(letter),
-                None => value.push_str(resolve_predefined_entity(&entity.decode().ok()?)?),
+                Some(letter) => value.to_mut().push(letter),
+                None => value.to_mut().push_str(resolve_predefined_entity(&entity.decode().ok()?)?),
             },
             Event::End(tag) => {
                 if let Some(field) = field.take() {
-                    message.set(field, Value::Text(Cow::Owned(value.clone())));
+                    message.set(field, Value::Text(std::mem::take(&mut value)));
                 }
                 if tag.local_name().into_inner().eq_ignore_ascii_case(b"omm") {
                     return Some(());
