@@ -45,7 +45,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
         (AlarmKind::Fault(FaultKind::XMotor), "Satrak: X motor. Do not move X"),
         (
             AlarmKind::DecimalCommas,
-            "The position of Satrak cannot be read. The unit seems to write decimal commas. Set it to points.",
+            "Satrak seems to write decimal commas. Its position cannot be read. Set it to points.",
         ),
         (
             AlarmKind::LinkLost(LinkLoss::Unreadable),

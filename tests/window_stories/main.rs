@@ -18,5 +18,6 @@ mod rig;
 mod running;
 mod sentences;
 mod states;
+mod step;
 mod stop;
 mod unit;

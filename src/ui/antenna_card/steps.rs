@@ -84,6 +84,7 @@ pub(super) fn show(
         let response = button.show(ui, ("step", direction), place).accessible_name(name);
         focused |= keeps_arrows(ui, &response);
         if response.clicked() {
+            response.request_focus();
             asked = Some(direction);
         }
     }

@@ -11,7 +11,7 @@ use crate::{
     astro::Angle,
     controller::{AxisMotion, Measured},
     driver::{Command, Intent},
-    protocol::satrak::FaultKind,
+    protocol::satrak::{FaultKind, Satellite},
     station::Mount,
     ui::{
         bar, format,
@@ -54,8 +54,9 @@ pub(super) fn show(
     let checked_at = unit.faults.as_ref().map(|(_, at)| format::time_z(*at)).unwrap_or_default();
     let selected = model.selected_pass();
     let selected_name = selected.map(|forecast| forecast.satellite.short_name());
-    // A fresh unit names no satellite at all.
-    let held = unit.satellite.as_ref().filter(|held| !held.name.is_empty());
+    // A fresh unit names no satellite at all, and decimal commas read as a name.
+    let names_one = |held: &&Satellite| !held.name.is_empty() && !unit.decimal_commas;
+    let held = unit.satellite.as_ref().filter(names_one);
     let tracks_selected = held.is_some_and(|held| {
         antenna.tracked_number() == Some(held.catalog_number)
             && selected.is_some_and(|forecast| {

@@ -56,7 +56,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))
         }
         AlarmKind::DecimalCommas => {
-            format!("The position of {antenna} cannot be read. {}", super::DECIMAL_COMMAS)
+            format!(
+                "{antenna} seems to write decimal commas. Its position cannot be read. \
+                 Set it to points."
+            )
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => match &note.reason {
