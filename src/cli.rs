@@ -1,9 +1,10 @@
 //! The command line.
 
+mod passes;
 mod simulate;
 mod window;
 
-use std::path::PathBuf;
+use std::{path::PathBuf, process::ExitCode};
 
 use clap::{Parser, Subcommand};
 
@@ -23,6 +24,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Predict passes from element files
+    Passes(passes::Options),
     /// Serve a simulated controller to anyone who connects
     Simulate {
         #[command(subcommand)]
@@ -31,12 +34,14 @@ enum Command {
 }
 
 impl Cli {
-    /// Does what the command line says.
-    pub fn run(self) -> anyhow::Result<()> {
+    /// Does what the command line says, and how well, as an exit code.
+    pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
-            None => window::run(self.station),
-            Some(Command::Simulate { controller }) => simulate::run(controller),
+            None => window::run(self.station)?,
+            Some(Command::Passes(options)) => return passes::run(&options),
+            Some(Command::Simulate { controller }) => simulate::run(controller)?,
         }
+        Ok(ExitCode::SUCCESS)
     }
 }
 

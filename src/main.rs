@@ -13,7 +13,7 @@ fn main() -> ExitCode {
         EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new("warn,azel=info"));
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
     match cli.run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             // The one place that speaks to the terminal of whoever started it.
             #[allow(clippy::print_stderr)]

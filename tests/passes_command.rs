@@ -1,0 +1,160 @@
+//! `azel passes` as it is called from a shell and read by another program.
+
+// A test ends loudly, in its helpers too.
+#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
+
+use std::{
+    io::Write as _,
+    process::{Command, Output, Stdio},
+};
+
+use jiff::Timestamp;
+use serde_json::Value;
+
+const SITE: [&str; 6] = ["--lat", "41.02", "--lon", "29.17", "--alt", "100"];
+const WINDOW: [&str; 4] = ["--from", "2026-08-12T00:00:00Z", "--hours", "72"];
+
+fn command(place_and_time: &[&str], arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_azel"));
+    command
+        .args(["passes", "--elements", "-"])
+        .args(place_and_time)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+/// Runs `azel passes` on elements given on standard input.
+fn passes(elements: &str, arguments: &[&str]) -> Output {
+    let mut child = command(&[&SITE[..], &WINDOW].concat(), arguments).spawn().unwrap();
+    // The program may have ended over its arguments.
+    let _ = child.stdin.take().unwrap().write_all(elements.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn reference() -> Value {
+    serde_json::from_str(include_str!("data/reference_passes.json")).unwrap()
+}
+
+/// All sets of the reference as TLE.
+fn reference_elements() -> String {
+    let sets = reference()["satellites"].clone();
+    let line = |set: &Value, key: &str| set[key].as_str().unwrap().to_owned();
+    sets.as_object()
+        .unwrap()
+        .values()
+        .flat_map(|set| [line(set, "line1"), line(set, "line2")])
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn rows(output: &Output) -> Vec<Value> {
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_json_holds_the_passes_of_the_reference() {
+    let output = passes(&reference_elements(), &["--format", "json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let rows = rows(&output);
+    let reference = reference();
+    let over_the_horizon = |pass: &&Value| pass["min_el"] == 0.0;
+    let expected = reference["passes"].as_array().unwrap().iter().filter(over_the_horizon).count();
+    assert_eq!(rows.len(), expected);
+    let aos: Vec<Timestamp> =
+        rows.iter().map(|row| row["aos"]["time"].as_str().unwrap().parse().unwrap()).collect();
+    assert!(aos.is_sorted());
+    for row in &rows {
+        let (low, high) = (&row["aos"]["elevation_deg"], &row["max_elevation_deg"]);
+        assert!(low.as_f64().unwrap() <= high.as_f64().unwrap(), "{row}");
+        assert_eq!(row["tca"]["elevation_deg"], *high);
+        assert!((0.0..360.0).contains(&row["los"]["azimuth_deg"].as_f64().unwrap()), "{row}");
+    }
+}
+
+#[test]
+fn floor_and_numbers_choose_and_threads_change_nothing() {
+    let all = rows(&passes(&reference_elements(), &["--format", "json"]));
+    let chosen = all[0]["catalog_number"].clone();
+    let number = chosen.to_string();
+    let arguments = ["--format", "json", "--floor", "20", "--catalog-number", &number];
+    let some = rows(&passes(&reference_elements(), &arguments));
+    let expected: Vec<_> = all
+        .into_iter()
+        .filter(|row| row["catalog_number"] == chosen)
+        .filter(|row| row["max_elevation_deg"].as_f64().unwrap() >= 20.0)
+        .collect();
+    assert!(!expected.is_empty());
+    assert_eq!(some, expected);
+    let threads = [&arguments[..], &["--threads", "3"]].concat();
+    assert_eq!(rows(&passes(&reference_elements(), &threads)), expected);
+}
+
+#[test]
+fn a_mask_cuts_a_pass_into_its_clear_stretches() {
+    let folder = tempfile::tempdir().unwrap();
+    let mask = folder.path().join("mask.txt");
+    std::fs::write(&mask, "# a tower to the south\n0 0\n150 0\n151 60\n209 60\n210 0\n").unwrap();
+    let open = rows(&passes(&reference_elements(), &["--format", "json"]));
+    let arguments = ["--format", "json", "--mask", mask.to_str().unwrap()];
+    let masked = rows(&passes(&reference_elements(), &arguments));
+    assert_ne!(masked.len(), open.len());
+    for row in &masked {
+        let azimuth = row["aos"]["azimuth_deg"].as_f64().unwrap();
+        let elevation = row["aos"]["elevation_deg"].as_f64().unwrap();
+        let behind_the_tower = (151.0..=209.0).contains(&azimuth);
+        assert!(!behind_the_tower || elevation > 59.99, "{row}");
+    }
+}
+
+#[test]
+fn every_refused_object_is_named_and_the_exit_code_says_so() {
+    let mut elements = reference_elements();
+    let broken = elements.lines().next().unwrap().replace(" 0 ", " 4 ");
+    elements = [&elements, broken.as_str(), "no elements at all"].join("\n");
+    let output = passes(&elements, &["--format", "csv", "--catalog-number", "900,999999999"]);
+    assert_eq!(output.status.code(), Some(3));
+    let said = text(&output.stderr);
+    assert!(said.contains("999999999: no elements of this object"), "{said}");
+    assert!(said.lines().any(|line| line.starts_with("-:")), "{said}");
+    let table = text(&output.stdout);
+    assert!(table.lines().count() > 1, "{table}");
+    assert!(table.lines().skip(1).all(|line| line.starts_with("900,")), "{table}");
+}
+
+#[test]
+fn what_cannot_be_meant_is_refused_with_the_reason() {
+    for (arguments, reason) in [
+        (&["--hours", "-1"][..], "between 0 and"),
+        (&["--hours", "NaN"], "between 0 and"),
+        (&["--floor", "91"], "between -90 and 90"),
+        (&["--from", "yesterday"], "--from"),
+        (&["--threads", "0"], "--threads"),
+        (&["--format", "pdf"], "table"),
+    ] {
+        let output = command(&SITE, arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(reason), "{}", text(&output.stderr));
+    }
+    let nothing = passes("", &[]);
+    assert_eq!(nothing.status.code(), Some(1));
+    assert_eq!(text(&nothing.stderr).trim(), "There are no elements to compute with.");
+    let missing = passes("", &["--mask", "/no/such/mask"]);
+    assert_eq!(missing.status.code(), Some(1));
+    assert!(text(&missing.stderr).contains("/no/such/mask"));
+}
+
+#[test]
+fn whoever_reads_may_stop_early() {
+    let mut child = command(&[&SITE[..], &WINDOW].concat(), &[]).spawn().unwrap();
+    drop(child.stdout.take());
+    child.stdin.take().unwrap().write_all(reference_elements().as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+}
