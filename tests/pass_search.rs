@@ -1,22 +1,52 @@
-//! The pass search against plain sampling, over satellites of every kind.
+//! The pass search against plain sampling, over orbits and sites of any kind.
 
 #![allow(clippy::unwrap_used, reason = "the data is part of the test")]
 
 use azel::{
     astro::{Angle, Site, time},
-    orbit::{Elements, PassSearch, Propagator, bundled, passes},
+    orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes, read_elements},
 };
+use jiff::Timestamp;
+use proptest::prelude::*;
 
-const WINDOW_S: f64 = 86_400.0;
-const SAMPLE_S: f64 = 20.0;
-const STRIDE: usize = 600;
+/// Closer to the horizon than this, in degrees, either side is right.
+const LEVEL_DEG: f64 = 1e-4;
+
+/// Whether the passes are those of samples taken every `step_s`: the times at
+/// which they differ.
+fn differences(
+    propagator: &Propagator,
+    elements: &Elements,
+    search: &PassSearch,
+    found: &[Pass],
+    step_s: f64,
+) -> Vec<String> {
+    let length_s = time::seconds_between(search.from, search.to);
+    let mut differences = Vec::new();
+    for index in 0..=(length_s / step_s) as usize {
+        let at = time::add_seconds(search.from, index as f64 * step_s);
+        let Ok(look) = propagator.look_from(search.site, at) else {
+            // After its epoch, what has come down stays down.
+            if at > elements.epoch() {
+                break;
+            }
+            continue;
+        };
+        let height_deg = (look.direction.elevation - search.aos_elevation).degrees();
+        let is_within = found.iter().any(|pass| (pass.aos.time..=pass.los.time).contains(&at));
+        if is_within != (height_deg >= 0.0) && height_deg.abs() > LEVEL_DEG {
+            differences.push(format!("{height_deg} degrees above the horizon at {at}"));
+        }
+    }
+    differences
+}
 
 /// Every round orbit is like many others; the eccentric ones are all taken.
 fn chosen(catalog: &azel::orbit::Catalog) -> Vec<&Elements> {
     catalog
         .iter()
         .enumerate()
-        .filter(|(index, elements)| index % STRIDE == 0 || elements.eccentricity() > 0.3)
+        .filter(|(index, elements)| index % 600 == 0 || elements.eccentricity() > 0.3)
         .map(|(_, elements)| elements)
         .collect()
 }
@@ -25,30 +55,129 @@ fn chosen(catalog: &azel::orbit::Catalog) -> Vec<&Elements> {
 fn a_satellite_is_up_exactly_within_its_passes() {
     let catalog = bundled().unwrap();
     let from = catalog.newest_epoch().unwrap();
-    let to = time::add_seconds(from, WINDOW_S);
+    let to = time::add_seconds(from, time::DAY_S);
     for (site, horizon_deg) in [
         (Site::new(41.02, 29.17, 100.0).unwrap(), 5.0),
         (Site::new(-78.0, 167.0, 0.0).unwrap(), 0.0),
     ] {
+        let aos_elevation = Angle::from_degrees(horizon_deg);
+        let search = PassSearch { aos_elevation, ..PassSearch::new(site, from, to) };
         for elements in chosen(&catalog) {
             let propagator = Propagator::new(elements).unwrap();
-            let aos_elevation = Angle::from_degrees(horizon_deg);
-            let search = PassSearch { aos_elevation, ..PassSearch::new(site, from, to) };
             let found = passes(&propagator, &search, &|| false);
-            let mut at_s = 0.0;
-            while at_s < WINDOW_S {
-                let at = time::add_seconds(from, at_s);
-                let Ok(look) = propagator.look_from(site, at) else { break };
-                let height_deg = look.direction.elevation_deg() - horizon_deg;
-                let within = found.iter().any(|pass| (pass.aos.time..=pass.los.time).contains(&at));
-                assert!(
-                    within == (height_deg >= 0.0) || height_deg.abs() < 1e-4,
-                    "{} {} is {height_deg} degrees above the horizon at {at}",
-                    elements.catalog_number(),
-                    elements.name(),
-                );
-                at_s += SAMPLE_S;
-            }
+            let wrong = differences(&propagator, elements, &search, &found, 20.0);
+            assert!(wrong.is_empty(), "{} {wrong:#?}", elements.catalog_number());
         }
+    }
+}
+
+/// Any orbit whose perigee clears the ground, or nearly.
+fn any_elements() -> impl Strategy<Value = Elements> {
+    let round = prop_oneof![Just(0.0), 0.0..0.002_f64, 0.0..0.06_f64];
+    let low = (11.0..16.5_f64, round.clone());
+    let middle = (0.5..12.0_f64, prop_oneof![round, 0.0..0.9_f64]);
+    let still = (0.99..1.015_f64, 0.0..0.02_f64);
+    let size = prop_oneof![low, middle, still];
+    let inclination = prop_oneof![0.0..180.0_f64, 0.0..0.1_f64, 89.0..99.0_f64, Just(180.0)];
+    let angles = [0.0..360.0_f64, 0.0..360.0, 0.0..360.0];
+    let bstar = prop_oneof![-1e-4..1e-3_f64, -0.01..0.05_f64, Just(0.0)];
+    (size, inclination, angles, bstar).prop_filter_map("decayed", |(size, i, angles, bstar)| {
+        let (motion, eccentricity) = size;
+        let message = serde_json::json!({
+            "NORAD_CAT_ID": 5, "EPOCH": "2026-08-11T01:21:00", "MEAN_MOTION": motion,
+            "ECCENTRICITY": eccentricity, "INCLINATION": i, "RA_OF_ASC_NODE": angles[0],
+            "ARG_OF_PERICENTER": angles[1], "MEAN_ANOMALY": angles[2], "BSTAR": bstar
+        });
+        let elements = read_elements(&message.to_string()).elements.pop()?;
+        let axis_km = (398_600.8 / (motion * std::f64::consts::TAU / 86_400.0).powi(2)).cbrt();
+        (axis_km * (1.0 - eccentricity) > 6_440.0).then_some(elements)
+    })
+}
+
+fn any_search() -> impl Strategy<Value = PassSearch> {
+    let latitude = prop_oneof![-90.0..=90.0_f64, Just(90.0), Just(-90.0), Just(0.0)];
+    let site = (latitude, -180.0..180.0_f64, -100.0..5000.0_f64);
+    let aos_deg = prop_oneof![Just(0.0), -5.0..35.0_f64, -60.0..80.0_f64];
+    let start_days = prop_oneof![-2.0..5.0_f64, -400.0..400.0_f64];
+    let hours = prop_oneof![12.0..30.0_f64, 0.01..3.0_f64];
+    (site, aos_deg, 0.0..89.0_f64, start_days, hours).prop_map(
+        |(site, aos_deg, floor_deg, start_days, hours)| {
+            let epoch: Timestamp = "2026-08-11T01:21:00Z".parse().unwrap();
+            let from = time::add_seconds(epoch, start_days * time::DAY_S);
+            let (latitude, longitude, altitude) = site;
+            PassSearch {
+                site: Site::new(latitude, longitude, altitude).unwrap(),
+                from,
+                to: time::add_seconds(from, hours * 3600.0),
+                aos_elevation: Angle::from_degrees(aos_deg),
+                floor: Angle::from_degrees(floor_deg),
+            }
+        },
+    )
+}
+
+/// As many cases as `PROPTEST_CASES` says, or few enough for a slow build.
+fn cases() -> ProptestConfig {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
+    ProptestConfig {
+        cases: asked.unwrap_or(120),
+        max_shrink_iters: 300,
+        ..ProptestConfig::default()
+    }
+}
+
+/// Far from its epoch, or with a drag that ends the orbit in days, SGP4's
+/// velocities have nothing to do with the change of its positions any more.
+fn is_an_orbit(propagator: &Propagator, search: &PassSearch) -> bool {
+    let length_s = time::seconds_between(search.from, search.to);
+    (0..=200).all(|index| {
+        let state = |offset_s| {
+            let at_s = length_s * f64::from(index) / 200.0 + offset_s;
+            propagator.state_at(time::add_seconds(search.from, at_s))
+        };
+        let (Ok(before), Ok(now), Ok(after)) = (state(-1.0), state(0.0), state(1.0)) else {
+            return true;
+        };
+        let moved_km = after.position_km - before.position_km;
+        (0.5 * moved_km - now.velocity_km_s).length() < 0.02
+    })
+}
+
+proptest! {
+    #![proptest_config(cases())]
+
+    #[test]
+    fn any_orbit_over_any_site_is_up_exactly_within_its_passes(
+        elements in any_elements(),
+        search in any_search(),
+    ) {
+        let propagator = Propagator::new(&elements).unwrap();
+        prop_assume!(is_an_orbit(&propagator, &search));
+        let all = PassSearch { floor: search.aos_elevation, ..search };
+        let found = passes(&propagator, &all, &|| false);
+        let wrong = differences(&propagator, &elements, &all, &found, 30.0);
+        prop_assert!(wrong.is_empty(), "{wrong:#?} of {found:#?}");
+        for pass in &found {
+            let Pass { aos, tca, los, starts_before, ends_after } = *pass;
+            prop_assert!(aos.time <= tca.time && tca.time <= los.time);
+            prop_assert!(starts_before == (aos.time == search.from) || starts_before);
+            prop_assert!(!ends_after || los.time <= search.to);
+        }
+        prop_assert!(found.windows(2).all(|pair| pair[0].los.time < pair[1].aos.time));
+
+        // A floor takes passes away and changes none.
+        let floored = passes(&propagator, &search, &|| false);
+        let high = |pass: &&Pass| (pass.max_elevation() - search.floor).degrees() > LEVEL_DEG;
+        let expected: Vec<&Pass> = found.iter().filter(high).collect();
+        let kept: Vec<&Pass> = floored.iter().filter(high).collect();
+        prop_assert_eq!(kept.len(), expected.len());
+        for (kept, expected) in kept.into_iter().zip(expected) {
+            prop_assert!(time::seconds_between(kept.aos.time, expected.aos.time).abs() < 0.01);
+            let off = kept.max_elevation() - expected.max_elevation();
+            prop_assert!(off.abs().degrees() < LEVEL_DEG);
+        }
+        let lowest = search.floor.radians().max(search.aos_elevation.radians());
+        let grazes = |pass: &Pass| pass.max_elevation().radians() >= lowest - LEVEL_DEG.to_radians();
+        prop_assert!(floored.iter().all(grazes));
     }
 }
