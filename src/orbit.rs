@@ -3,6 +3,7 @@
 mod bundled;
 mod catalog;
 mod elements;
+mod lanes;
 mod look;
 mod passes;
 mod propagator;

@@ -9,6 +9,8 @@ use super::Angle;
 const UNIX_EPOCH_JD: f64 = 2_440_587.5;
 /// Julian date of 2000-01-01T12:00Z.
 const J2000_JD: f64 = 2_451_545.0;
+/// More seconds than the calendar has.
+const FARTHEST_S: f64 = 1e12;
 /// Seconds of a day.
 pub const DAY_S: f64 = 86_400.0;
 
@@ -20,10 +22,14 @@ pub fn seconds_between(from: Timestamp, to: Timestamp) -> f64 {
 
 /// `time` moved by `seconds`; stays where it is when that leaves the calendar.
 pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
-    jiff::SignedDuration::try_from_secs_f64(seconds)
-        .ok()
-        .and_then(|span| time.checked_add(span).ok())
-        .unwrap_or(time)
+    let moved = seconds + f64::from(time.subsec_nanosecond()) * 1e-9;
+    if moved.is_nan() || moved.abs() > FARTHEST_S {
+        return time;
+    }
+    let whole = moved as i64 - i64::from(moved < 0.0);
+    let nanoseconds = ((moved - whole as f64) * 1e9 + 0.5) as i32;
+    let (carry, nanoseconds) = (nanoseconds / 1_000_000_000, nanoseconds % 1_000_000_000);
+    Timestamp::new(time.as_second() + whole + i64::from(carry), nanoseconds).unwrap_or(time)
 }
 
 /// Days since 2000-01-01T12:00Z, exact to about a microsecond.
@@ -63,7 +69,18 @@ mod tests {
     fn seconds_come_back() {
         let time: Timestamp = "2026-08-12T00:00:00.25Z".parse().unwrap();
         assert!((seconds_between(time, add_seconds(time, -1234.5)) + 1234.5).abs() < 1e-9);
+        for (seconds, sum) in [
+            (-0.25, "2026-08-12T00:00:00Z"),
+            (-0.5, "2026-08-11T23:59:59.75Z"),
+            (0.749_999_999_9, "2026-08-12T00:00:01Z"),
+            (86_400.000_000_1, "2026-08-13T00:00:00.250000100Z"),
+            (-3_600.0, "2026-08-11T23:00:00.25Z"),
+        ] {
+            assert_eq!(add_seconds(time, seconds), sum.parse().unwrap(), "{seconds}");
+        }
         assert_eq!(add_seconds(time, f64::NAN), time);
         assert_eq!(add_seconds(time, 1e30), time);
+        assert_eq!(add_seconds(time, -1e30), time);
+        assert_eq!(add_seconds(time, 1e12), time);
     }
 }

@@ -2,10 +2,12 @@
 
 mod arcs;
 mod circular;
+mod fly_bys;
 mod geosynchronous;
 mod local_series;
 mod mask;
 mod sampled;
+mod side_by_side;
 mod track;
 mod two_body;
 mod window;

@@ -1,5 +1,6 @@
 //! SGP4 and SDP4: where a satellite is at a time.
 
+mod round;
 mod secular;
 
 use glam::DVec3;

@@ -4,7 +4,10 @@
 use std::f64::consts::PI;
 
 use super::track::Track;
-use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::propagator::WGS72_RADIUS_KM};
+use crate::{
+    astro::frames::EARTH_RATE_RAD_S,
+    orbit::{lanes::Vector, propagator::WGS72_RADIUS_KM},
+};
 
 use super::local_series::GRAVITY_KM3_S2;
 
@@ -33,7 +36,8 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let radius_km = r.length();
     let axis_km = 1.0 / (2.0 / radius_km - v.length_squared() / GRAVITY_KM3_S2);
     let momentum = r.cross(v);
-    let eccentricity = (v.cross(momentum) / GRAVITY_KM3_S2 - r / radius_km).length();
+    let eccentricity =
+        (v.cross(momentum) * (1.0 / GRAVITY_KM3_S2) - r * (1.0 / radius_km)).length();
     let drift = (GRAVITY_KM3_S2 / axis_km.powi(3)).sqrt() - EARTH_RATE_RAD_S;
     // Written so that NaN falls out as well.
     if !(drift.abs() < MOST_DRIFT * EARTH_RATE_RAD_S && eccentricity < MOST_ECCENTRICITY) {
@@ -44,6 +48,7 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
         2.0 * inclination + 4.2 * eccentricity + drift.abs() * 0.5 * window.length_s + MARGIN;
     let highest_km = axis_km * (1.0 + eccentricity) + 0.01 * WGS72_RADIUS_KM;
     let reach = (window.radius_km * window.floor.cos() / highest_km).acos() - window.floor;
-    let away = r.angle_between(window.site_ecef_km);
+    let site_km = Vector::from(window.site_ecef_km);
+    let away = r.cross(site_km).length().atan2(r.dot(site_km));
     (away - excursion).min(PI) > reach
 }

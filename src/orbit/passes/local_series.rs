@@ -13,12 +13,13 @@
 //! Height here always means the sine of the elevation. It is smooth even where
 //! a satellite passes the zenith and its azimuth jumps.
 
-use glam::DVec3;
-
 use super::window::Window;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{State, propagator::WGS72_RADIUS_KM},
+    orbit::{
+        lanes::{Lanes, Number, Vector},
+        propagator::WGS72_RADIUS_KM,
+    },
 };
 
 /// Gravity of the Earth in WGS72, km³/s².
@@ -29,27 +30,39 @@ const J2: f64 = 0.001_082_616;
 /// Newton's method for an extreme squares its error: after a step this small,
 /// in seconds, the next one would be below a tenth of a millisecond.
 const LAST_STEP_S: f64 = 0.1;
+/// Halley's method for a crossing cubes the share of the rate that a step
+/// changes: after a share this small nothing is left.
+const LAST_SHARE: f64 = 2e-3;
+/// More steps than this are needed where there is nothing to be found.
+const MOST_STEPS: usize = 8;
 
 /// Vectors east, north, up from the site, in km and seconds.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LocalSeries {
+pub(super) struct LocalSeries<N = f64> {
     /// The instant the series is made for.
-    pub(super) at_s: f64,
-    /// The state it is made from, in Earth-fixed axes of that instant; the
-    /// velocity is the inertial one.
-    pub(super) state: State,
-    pub(super) position: DVec3,
-    pub(super) velocity: DVec3,
-    pub(super) acceleration: DVec3,
-    jerk: DVec3,
+    pub(super) at_s: N,
+    /// What it is made from.
+    pub(super) state: EarthFixed<N>,
+    pub(super) position: Vector<N>,
+    pub(super) velocity: Vector<N>,
+    pub(super) acceleration: Vector<N>,
+    jerk: Vector<N>,
+}
+
+/// A state in Earth-fixed axes of its instant.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EarthFixed<N = f64> {
+    pub(super) position_km: Vector<N>,
+    /// The inertial one.
+    pub(super) velocity_km_s: Vector<N>,
 }
 
 /// Sine of the elevation with its first and second derivative by time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Height {
-    pub(super) sine: f64,
-    pub(super) rate: f64,
-    pub(super) curve: f64,
+pub(super) struct Height<N = f64> {
+    pub(super) sine: N,
+    pub(super) rate: N,
+    pub(super) curve: N,
 }
 
 /// Which way the height turns.
@@ -72,67 +85,62 @@ impl Bend {
 
 /// Where the satellite is at one instant, seen from the site.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) at_s: f64,
+pub(super) struct Place<N = f64> {
+    pub(super) at_s: N,
     /// East, north, up in km.
-    pub(super) enu_km: DVec3,
-    velocity: DVec3,
-    pub(super) height: Height,
+    pub(super) enu_km: Vector<N>,
+    velocity: Vector<N>,
+    pub(super) height: Height<N>,
 }
 
-impl Place {
+impl<N: Number> Place<N> {
     /// How fast the satellite moves across the sky, in radians per second.
-    pub(super) fn angular_rate(&self) -> f64 {
+    pub(super) fn angular_rate(&self) -> N {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
     }
 
     /// A little later: less than [`LAST_STEP_S`], or as little of the way to an
     /// extreme.
-    fn moved(self, step_s: f64) -> Self {
+    fn moved(self, step_s: N) -> Self {
         let Height { sine, rate, curve } = self.height;
         let height = Height {
-            sine: sine + step_s * (rate + 0.5 * step_s * curve),
+            sine: sine + step_s * (rate + step_s * curve * 0.5),
             rate: rate + step_s * curve,
             curve,
         };
-        let enu_km = self.enu_km + step_s * self.velocity;
+        let enu_km = self.enu_km + self.velocity * step_s;
         Self { at_s: self.at_s + step_s, enu_km, height, ..self }
     }
 }
 
-impl Height {
+impl<N: Number> Height<N> {
     /// Of a satellite at `q` with velocity `v` and acceleration `a`.
-    pub(super) fn new(q: DVec3, v: DVec3, a: DVec3) -> Self {
-        let inverse_range = q.length_recip();
+    pub(super) fn new(q: Vector<N>, v: Vector<N>, a: Vector<N>) -> Self {
+        let inverse_range = N::of(1.0) / q.length();
         let range_rate = q.dot(v) * inverse_range;
         let range_curve = (v.length_squared() + q.dot(a) - range_rate * range_rate) * inverse_range;
         let sine = q.z * inverse_range;
         let rate = (v.z - sine * range_rate) * inverse_range;
-        let curve = (a.z - 2.0 * rate * range_rate - sine * range_curve) * inverse_range;
+        let curve = (a.z - rate * range_rate * 2.0 - sine * range_curve) * inverse_range;
         Self { sine, rate, curve }
     }
 }
 
-impl LocalSeries {
-    /// The series around `at_s` from the state in TEME there.
-    pub(super) fn new(window: &Window, at_s: f64, teme: &State) -> Self {
-        let (sin_turn, cos_turn) = window.sidereal_at(at_s).sin_cos();
-        let to_ecef = |v: DVec3| {
-            DVec3::new(cos_turn * v.x + sin_turn * v.y, cos_turn * v.y - sin_turn * v.x, v.z)
-        };
-        let position_km = to_ecef(teme.position_km);
-        let velocity_km_s = to_ecef(teme.velocity_km_s);
+impl<N: Number> LocalSeries<N> {
+    /// The series around `at_s` from the state there.
+    pub(super) fn new(window: &Window, at_s: N, state: EarthFixed<N>) -> Self {
+        let EarthFixed { position_km, velocity_km_s } = state;
         let over_ground = velocity_km_s + turned(position_km);
         let (pull, pull_change) = gravity(position_km, over_ground);
-        let acceleration = pull + turned(2.0 * over_ground - turned(position_km));
-        let jerk = pull_change + turned(2.0 * acceleration - turned(over_ground));
+        let acceleration = pull + turned(over_ground + over_ground - turned(position_km));
+        let jerk = pull_change + turned(acceleration + acceleration - turned(over_ground));
         Self {
             at_s,
-            state: State { position_km, velocity_km_s },
+            state,
             position: window.seen_from_site(position_km),
-            velocity: window.to_enu * over_ground,
-            acceleration: window.to_enu * acceleration,
-            jerk: window.to_enu * jerk,
+            velocity: window.to_enu(over_ground),
+            acceleration: window.to_enu(acceleration),
+            jerk: window.to_enu(jerk),
         }
     }
 
@@ -140,77 +148,123 @@ impl LocalSeries {
     pub(super) fn mended(&self, second: &Self) -> Self {
         let span_s = second.at_s - self.at_s;
         let missed_km = second.position - self.place(span_s).enu_km;
-        Self { velocity: self.velocity + missed_km / span_s, ..*self }
+        let per_second = N::of(1.0) / span_s;
+        Self { velocity: self.velocity + missed_km * per_second, ..*self }
     }
 
     /// The place `tau` seconds after the series' instant.
-    pub(super) fn place(&self, tau: f64) -> Place {
-        let acceleration = self.acceleration + tau * self.jerk;
-        let velocity = self.velocity + (0.5 * tau) * (self.acceleration + acceleration);
-        let change =
-            self.velocity + tau * (0.5 * self.acceleration + (tau * (1.0 / 6.0)) * self.jerk);
-        let enu_km = self.position + tau * change;
+    pub(super) fn place(&self, tau: N) -> Place<N> {
+        let half = tau * 0.5;
+        let acceleration = self.acceleration + self.jerk * tau;
+        let velocity = self.velocity + (self.acceleration + acceleration) * half;
+        let change = self.velocity + (self.acceleration + self.jerk * (tau * (1.0 / 3.0))) * half;
+        let enu_km = self.position + change * tau;
         let height = Height::new(enu_km, velocity, acceleration);
         Place { at_s: self.at_s + tau, enu_km, velocity, height }
     }
 
-    /// Where the height is greatest or least, by Newton's method; `None` when
-    /// that leads more than `most_s` away or the height bends the other way.
-    pub(super) fn extreme(&self, bend: Bend, most_s: f64) -> Option<Place> {
-        let mut tau = 0.0;
-        for _ in 0..8 {
-            let place = self.place(tau);
-            let Height { rate, curve, .. } = place.height;
-            let step_s = -rate / curve;
-            // Written so that NaN falls out as well.
-            if !(bend.fits(curve) && (tau + step_s).abs() <= most_s) {
-                return None;
+    /// Where the height is greatest or least, by Newton's method from the
+    /// series' instant. Where that does not settle, the place is not one of
+    /// [`Place::turns`].
+    pub(super) fn turning(&self) -> Place<N> {
+        let mut place = self.place(N::of(0.0));
+        for _ in 0..MOST_STEPS {
+            let step_s = -place.height.rate / place.height.curve;
+            if !step_s.abs().any_reaches(LAST_STEP_S) {
+                return place.moved(step_s);
             }
-            if step_s.abs() < LAST_STEP_S {
-                return Some(place.moved(step_s));
-            }
-            tau += step_s;
+            place = self.place(place.at_s - self.at_s + step_s);
         }
-        None
+        place
     }
 
-    /// Where the height is `sine`, by Halley's method from `tau`; `None` when
-    /// that leads more than `most_s` away.
-    pub(super) fn crossing(&self, sine: f64, tau: f64, most_s: f64) -> Option<Place> {
-        let mut tau = tau;
-        for _ in 0..8 {
-            let place = self.place(tau);
+    /// Where the height is `sine`, by Halley's method from `tau`. Where that does
+    /// not settle, the place is not one of [`Place::crosses`].
+    pub(super) fn crossing(&self, sine: f64, tau: N) -> Place<N> {
+        let mut place = self.place(tau);
+        for _ in 0..MOST_STEPS {
             let Height { sine: height, rate, curve } = place.height;
-            let newton_s = (sine - height) / rate;
-            let step_s = newton_s / (1.0 + 0.5 * newton_s * curve / rate);
-            if (tau + step_s).abs() > most_s || step_s.is_nan() {
-                return None;
+            let newton_s = (-height + sine) / rate;
+            let share = newton_s * curve / rate;
+            let step_s = newton_s / (share * 0.5 + 1.0);
+            if !share.abs().any_reaches(LAST_SHARE) {
+                return place.moved(step_s);
             }
-            // The method cubes the share of the rate that a step changes.
-            if (newton_s * curve).abs() < 2e-3 * rate.abs() {
-                return Some(place.moved(step_s));
-            }
-            tau += step_s;
+            place = self.place(place.at_s - self.at_s + step_s);
         }
-        None
+        place
+    }
+}
+
+impl LocalSeries {
+    /// Where the height is greatest or least; `None` when that is more than
+    /// `most_s` away or the height bends the other way.
+    pub(super) fn extreme(&self, bend: Bend, most_s: f64) -> Option<Place> {
+        let place = self.turning();
+        let is_near = (place.at_s - self.at_s).abs() <= most_s;
+        (is_near && place.turns(bend)).then_some(place)
+    }
+}
+
+impl Place {
+    /// Whether the height turns here, this way.
+    pub(super) fn turns(&self, bend: Bend) -> bool {
+        let Height { rate, curve, .. } = self.height;
+        bend.fits(curve) && rate.abs() < LAST_STEP_S * curve.abs()
+    }
+
+    /// Whether the height is `sine` here, within a millisecond.
+    pub(super) fn crosses(&self, sine: f64) -> bool {
+        (self.height.sine - sine).abs() < 1e-3 * self.height.rate.abs()
+    }
+}
+
+impl LocalSeries<Lanes> {
+    /// The series of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Option<LocalSeries> {
+        Some(LocalSeries {
+            at_s: *self.at_s.as_array().get(lane)?,
+            state: EarthFixed {
+                position_km: self.state.position_km.lane(lane)?,
+                velocity_km_s: self.state.velocity_km_s.lane(lane)?,
+            },
+            position: self.position.lane(lane)?,
+            velocity: self.velocity.lane(lane)?,
+            acceleration: self.acceleration.lane(lane)?,
+            jerk: self.jerk.lane(lane)?,
+        })
+    }
+}
+
+impl Place<Lanes> {
+    /// The place of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Option<Place> {
+        let of = |number: &Lanes| number.as_array().get(lane).copied();
+        let Height { sine, rate, curve } = &self.height;
+        Some(Place {
+            at_s: of(&self.at_s)?,
+            enu_km: self.enu_km.lane(lane)?,
+            velocity: self.velocity.lane(lane)?,
+            height: Height { sine: of(sine)?, rate: of(rate)?, curve: of(curve)? },
+        })
     }
 }
 
 /// The cross product of the vector with the Earth's rotation: `v × omega`.
-fn turned(v: DVec3) -> DVec3 {
-    DVec3::new(v.y * EARTH_RATE_RAD_S, -v.x * EARTH_RATE_RAD_S, 0.0)
+fn turned<N: Number>(v: Vector<N>) -> Vector<N> {
+    Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::of(0.0))
 }
 
 /// The acceleration by the Earth's mass and flattening at `r`, and its change
 /// for a body that moves with `v`; the change is that of the mass alone, which
 /// is a thousand times more.
-fn gravity(r: DVec3, v: DVec3) -> (DVec3, DVec3) {
-    let inverse2 = 1.0 / r.length_squared();
-    let mass = -GRAVITY_KM3_S2 * inverse2 * inverse2.sqrt();
-    let bulge = 1.5 * J2 * WGS72_RADIUS_KM * WGS72_RADIUS_KM * inverse2;
-    let rise2 = 5.0 * r.z * r.z * inverse2;
-    let across = mass * (1.0 + bulge * (1.0 - rise2));
-    let along = mass * (1.0 + bulge * (3.0 - rise2));
-    let pull = DVec3::new(across * r.x, across * r.y, along * r.z);
-    (pull, mass * (v - (3.0 * r.dot(v) * inverse2) * r))
+fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
+    let inverse2 = N::of(1.0) / r.length_squared();
+    let mass = inverse2 * inverse2.sqrt() * -GRAVITY_KM3_S2;
+    let bulge = inverse2 * (1.5 * J2 * WGS72_RADIUS_KM * WGS72_RADIUS_KM);
+    let rise2 = r.z * r.z * inverse2 * 5.0;
+    let across = mass * (bulge * (-rise2 + 1.0) + 1.0);
+    let along = mass * (bulge * (-rise2 + 3.0) + 1.0);
+    let pull = Vector::new(across * r.x, across * r.y, along * r.z);
+    (pull, (v - r * (r.dot(v) * inverse2 * 3.0)) * mass)
 }

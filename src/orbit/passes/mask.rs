@@ -10,7 +10,7 @@ use super::{
     Pass, PassSearch,
     local_series::{Bend, Place},
     track::Track,
-    window::Window,
+    window::{Sighting, Window},
 };
 use crate::{
     astro::{Angle, AzEl, HorizonMask, Site},
@@ -89,7 +89,7 @@ struct Follower<'a> {
 impl Follower<'_> {
     fn look(&self, at_s: f64) -> Option<Look> {
         let place = self.track.place(at_s)?;
-        let AzEl { azimuth, elevation } = AzEl::from_enu(place.enu_km);
+        let AzEl { azimuth, elevation } = self.track.window.point(&place).direction;
         let clearance = (elevation - self.mask.elevation_at(azimuth)).radians();
         Some(Look { place, azimuth: azimuth.radians(), elevation: elevation.radians(), clearance })
     }
@@ -265,7 +265,8 @@ impl Stretches<'_> {
             .filter(|top| top.height.sine >= highest.height.sine);
         let tca = crest.unwrap_or(highest);
         let [aos, los] = ends;
-        let mut stretch = self.track.pass([aos, &tca, los], [open.starts_before, ends_after]);
+        let sightings = [aos, &tca, los].map(Sighting::new);
+        let mut stretch = self.track.pass(sightings.each_ref(), [open.starts_before, ends_after]);
         // What is the pass's own stays as it is, to the last digit.
         let (from_s, end_s) = (aos.at_s, self.track.window.length_s);
         if from_s <= 0.0 {

@@ -8,14 +8,13 @@
 //! states, and between two neighbouring extremes the height passes the horizon
 //! once or not at all.
 
-use glam::DVec3;
-
 use super::{
     Pass,
     local_series::{Bend, GRAVITY_KM3_S2, Height, LocalSeries, Place},
     track::Track,
+    window::Sighting,
 };
-use crate::astro::frames::EARTH_RATE_RAD_S;
+use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::lanes::Vector};
 
 /// Step in units of sqrt(r³/mu), the time a circular orbit needs for a radian.
 const STEP: f64 = 1.1;
@@ -214,7 +213,8 @@ impl Finder<'_> {
     fn close(&mut self, open: &Open, los: &Place, ends_after: bool) {
         let Open { aos, highest, starts_before } = open;
         if highest.height.sine >= self.track.window.sin_floor {
-            self.found.push(self.track.pass([aos, highest, los], [*starts_before, ends_after]));
+            let sightings = [aos, highest, los].map(Sighting::new);
+            self.found.push(self.track.pass(sightings.each_ref(), [*starts_before, ends_after]));
         }
     }
 }
@@ -239,7 +239,7 @@ fn step_s(series: &LocalSeries) -> f64 {
 struct Quintic {
     from_s: f64,
     span_s: f64,
-    coefficients: [DVec3; 6],
+    coefficients: [Vector<f64>; 6],
 }
 
 /// The height the polynomial has at one instant.
@@ -260,22 +260,22 @@ impl Quintic {
         let (a0, a1) = (from.acceleration * half_square, to.acceleration * half_square);
         // What the end has beyond the parabola of the start.
         let position = to.position - (from.position + v0 + a0);
-        let velocity = v1 - (v0 + 2.0 * a0);
+        let velocity = v1 - (v0 + a0 * 2.0);
         let acceleration = a1 - a0;
         let coefficients = [
             from.position,
             v0,
             a0,
-            10.0 * position - 4.0 * velocity + acceleration,
-            -15.0 * position + 7.0 * velocity - 2.0 * acceleration,
-            6.0 * position - 3.0 * velocity + acceleration,
+            position * 10.0 - velocity * 4.0 + acceleration,
+            velocity * 7.0 - position * 15.0 - acceleration * 2.0,
+            position * 6.0 - velocity * 3.0 + acceleration,
         ];
         Self { from_s: from.at_s, span_s, coefficients }
     }
 
     /// At a `share` of the step, 0 to 1.
     fn look(&self, share: f64) -> Look {
-        let zero = [DVec3::ZERO; 3];
+        let zero = [Vector::new(0.0, 0.0, 0.0); 3];
         let [q, v, a] = self.coefficients.iter().rev().fold(zero, |[q, v, a], coefficient| {
             [q * share + *coefficient, v * share + q, a * share + v]
         });

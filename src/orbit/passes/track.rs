@@ -2,18 +2,24 @@
 
 use std::cell::Cell;
 
+use glam::DVec3;
+
 use super::{
     Pass,
-    local_series::{Bend, LocalSeries, Place},
-    window::Window,
+    local_series::{Bend, EarthFixed, LocalSeries, Place},
+    window::{Sighting, Window},
 };
 use crate::{
     astro::time,
-    orbit::{PropagationError, Propagator, propagator::Resumable},
+    orbit::{
+        PropagationError, Propagator, State,
+        lanes::{Lanes, Vector},
+        propagator::{Resumable, Secular},
+    },
 };
 
 /// A series made from one state is used this far from it, in seconds.
-const LONGEST_STEP_S: f64 = 30.0;
+pub(super) const LONGEST_STEP_S: f64 = 30.0;
 /// AOS and LOS are found as exactly as this, in seconds.
 const TIME_TOLERANCE_S: f64 = 5e-4;
 /// The greatest elevation is found as exactly as this, in radians, and its time
@@ -53,13 +59,37 @@ impl<'a> Track<'a> {
         self.propagations.get()
     }
 
+    /// Adds to the states that were computed.
+    pub(super) fn count(&self, states: usize) {
+        self.propagations.set(self.propagations.get() + states as u64);
+    }
+
     /// The series around an exact state; `None` where there is none.
     pub(super) fn series(&self, at_s: f64) -> Option<LocalSeries> {
-        self.propagations.set(self.propagations.get() + 1);
+        self.count(1);
         let mut resumable = self.resumable.take();
         let state = self.propagator.state_after(self.start_since_epoch_s + at_s, &mut resumable);
         self.resumable.set(resumable);
-        Some(LocalSeries::new(self.window, at_s, &state.ok()?))
+        Some(LocalSeries::new(self.window, at_s, self.earth_fixed(at_s, &state.ok()?)))
+    }
+
+    /// The series around four exact states of an orbit that is round. Whoever
+    /// uses them [counts](Self::count) them.
+    pub(super) fn four_series(&self, secular: &Secular, at_s: Lanes) -> LocalSeries<Lanes> {
+        let minutes = (at_s + self.start_since_epoch_s) / 60.0;
+        let (position_km, velocity_km_s) = secular.motion(minutes, self.window.sidereal_at(at_s));
+        LocalSeries::new(self.window, at_s, EarthFixed { position_km, velocity_km_s })
+    }
+
+    fn earth_fixed(&self, at_s: f64, teme: &State) -> EarthFixed {
+        let (sin_turn, cos_turn) = self.window.sidereal_at(at_s).sin_cos();
+        let fixed = |v: DVec3| {
+            Vector::new(cos_turn * v.x + sin_turn * v.y, cos_turn * v.y - sin_turn * v.x, v.z)
+        };
+        EarthFixed {
+            position_km: fixed(teme.position_km),
+            velocity_km_s: fixed(teme.velocity_km_s),
+        }
     }
 
     /// Whether the object has come down by `at_s`, later than its epoch: SGP4
@@ -85,23 +115,42 @@ impl<'a> Track<'a> {
         most_s: f64,
         bend: Bend,
     ) -> Option<(LocalSeries, Place)> {
-        let mut at_s = guess_s;
+        self.extreme_from(self.series(guess_s)?, most_s, bend)
+    }
+
+    /// The same from a series that is there already.
+    pub(super) fn extreme_from(
+        &self,
+        series: LocalSeries,
+        most_s: f64,
+        bend: Bend,
+    ) -> Option<(LocalSeries, Place)> {
+        let guess_s = series.at_s;
+        let mut series = series;
         for _ in 0..8 {
-            let series = self.series(at_s)?;
             let place = series.extreme(bend, most_s)?;
             if (place.at_s - guess_s).abs() > most_s {
                 return None;
             }
-            let tau = place.at_s - at_s;
-            if tau.abs() <= LONGEST_STEP_S {
-                let turn = self.drift_km_s / place.enu_km.length();
-                let is_exact = turn * tau.abs() < CREST_TOLERANCE
-                    && turn < CREST_TIME_TOLERANCE_S * place.height.curve.abs();
-                return if is_exact { Some((series, place)) } else { self.mended(&series, bend) };
+            let tau = place.at_s - series.at_s;
+            if self.is_exact_crest(tau, &place) {
+                return Some((series, place));
             }
-            at_s = place.at_s;
+            if tau.abs() <= LONGEST_STEP_S {
+                return self.mended(&series, bend);
+            }
+            series = self.series(place.at_s)?;
         }
         None
+    }
+
+    /// Whether an extreme `tau` seconds from the state it follows from is as
+    /// exact as is asked for.
+    pub(super) fn is_exact_crest(&self, tau: f64, place: &Place) -> bool {
+        let turn = self.drift_km_s / place.enu_km.length();
+        tau.abs() <= LONGEST_STEP_S
+            && turn * tau.abs() < CREST_TOLERANCE
+            && turn < CREST_TIME_TOLERANCE_S * place.height.curve.abs()
     }
 
     /// The extreme near a series, with the speed that a second state shows.
@@ -112,17 +161,13 @@ impl<'a> Track<'a> {
         Some((series, place))
     }
 
-    /// Where the height passes the horizon on the series, `tau` seconds from its
-    /// state or near; `None` when that is too far for it.
-    pub(super) fn crossing_on(&self, series: &LocalSeries, tau: f64) -> Option<Place> {
-        let place = series.crossing(self.window.sin_horizon, tau, LONGEST_STEP_S)?;
-        self.is_timed(series, &place).then_some(place)
-    }
-
-    fn is_timed(&self, series: &LocalSeries, place: &Place) -> bool {
-        let tau = (place.at_s - series.at_s).abs();
+    /// Whether a place `tau` seconds from the state it follows from is where the
+    /// height passes the horizon, as exactly as is asked for.
+    pub(super) fn is_timed(&self, tau: f64, place: &Place) -> bool {
+        let tau = tau.abs();
         let rise_km_s = place.height.rate.abs() * place.enu_km.length();
         tau <= LONGEST_STEP_S
+            && place.crosses(self.window.sin_horizon)
             && (tau * self.drift_km_s <= TIME_TOLERANCE_S * rise_km_s || tau < TIME_TOLERANCE_S)
     }
 
@@ -141,9 +186,9 @@ impl<'a> Track<'a> {
                 at_s = f64::midpoint(below_s, above_s);
             }
             let series = self.series(at_s)?;
-            let near = series.crossing(sine, 0.0, width_s).filter(|place| inside(place.at_s));
+            let near = Some(series.crossing(sine, 0.0)).filter(|place| inside(place.at_s));
             if let Some(place) = near
-                && self.is_timed(&series, &place)
+                && self.is_timed(place.at_s - at_s, &place)
             {
                 return Some(place);
             }
@@ -169,9 +214,6 @@ impl<'a> Track<'a> {
             return None;
         }
         let cuts = [aos.at_s < 0.0, los.at_s > length_s];
-        if cuts == [false, false] {
-            return Some(self.pass([aos, crest, los], cuts));
-        }
         let aos = if cuts[0] { &self.place(0.0)? } else { aos };
         let los = if cuts[1] { &self.place(length_s)? } else { los };
         let crest = match crest.at_s {
@@ -179,15 +221,16 @@ impl<'a> Track<'a> {
             at_s if at_s > length_s => los,
             _ => crest,
         };
-        (crest.height.sine >= self.window.sin_floor).then(|| self.pass([aos, crest, los], cuts))
+        (crest.height.sine >= self.window.sin_floor)
+            .then(|| self.pass([aos, crest, los].map(Sighting::new).each_ref(), cuts))
     }
 
     pub(super) fn pass(
         &self,
-        [aos, tca, los]: [&Place; 3],
+        [aos, tca, los]: [&Sighting; 3],
         [starts_before, ends_after]: [bool; 2],
     ) -> Pass {
-        let point = |place: &Place| self.window.point(place);
+        let point = |sighting: &Sighting| self.window.point_of(sighting);
         Pass { aos: point(aos), tca: point(tca), los: point(los), starts_before, ends_after }
     }
 }

@@ -6,11 +6,14 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use jiff::Timestamp;
 
 use super::{PassPoint, PassSearch, local_series::Place};
-use crate::astro::{Angle, AzEl, frames, time};
+use crate::{
+    astro::{Angle, AzEl, frames, time},
+    orbit::lanes::{Lanes, Number, Vector},
+};
 
 /// A site and a span of time, made ready for computing.
 #[derive(Debug, Clone)]
@@ -29,8 +32,9 @@ pub(super) struct Window {
     pub(super) site_ecef_km: DVec3,
     /// The way up, in Earth-fixed axes.
     pub(super) up: DVec3,
-    pub(super) to_enu: DMat3,
-    /// The site from the centre of the Earth in its own axes.
+    /// The directions east, north and up, and where the site itself lies along
+    /// them from the centre of the Earth.
+    axes: [DVec3; 3],
     site_enu_km: DVec3,
     /// Elevation of AOS and LOS, and its sine.
     pub(super) horizon: f64,
@@ -63,7 +67,7 @@ impl Window {
             radius_km,
             site_ecef_km,
             up: to_enu.transpose() * DVec3::Z,
-            to_enu,
+            axes: [0, 1, 2].map(|axis| to_enu.row(axis)),
             site_enu_km: to_enu * site_ecef_km,
             horizon,
             sin_horizon: horizon.sin(),
@@ -73,26 +77,65 @@ impl Window {
     }
 
     /// Greenwich sidereal time in radians, not wrapped.
-    pub(super) fn sidereal_at(&self, at_s: f64) -> f64 {
-        self.sidereal + frames::EARTH_RATE_RAD_S * at_s
+    pub(super) fn sidereal_at<N: Number>(&self, at_s: N) -> N {
+        at_s * frames::EARTH_RATE_RAD_S + self.sidereal
+    }
+
+    /// Earth-fixed axes turned to east, north, up.
+    pub(super) fn to_enu<N: Number>(&self, ecef: Vector<N>) -> Vector<N> {
+        let [east, north, up] = self.axes.map(|axis| ecef.dot(axis.into()));
+        Vector::new(east, north, up)
     }
 
     /// The vector from the site to an Earth-fixed position, east, north, up.
-    pub(super) fn seen_from_site(&self, ecef_km: DVec3) -> DVec3 {
-        self.to_enu * ecef_km - self.site_enu_km
+    pub(super) fn seen_from_site<N: Number>(&self, ecef_km: Vector<N>) -> Vector<N> {
+        self.to_enu(ecef_km) - self.site_enu_km.into()
     }
 
     /// Time and direction of a place.
     pub(super) fn point(&self, place: &Place) -> PassPoint {
-        let azimuth = place.enu_km.x.atan2(place.enu_km.y);
+        self.point_of(&Sighting::new(place))
+    }
+
+    /// A sighting in the calendar.
+    pub(super) fn point_of(&self, sighting: &Sighting) -> PassPoint {
+        let Sighting { at_s, azimuth, elevation } = *sighting;
         let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
-        let elevation = place.height.sine.clamp(-1.0, 1.0).asin();
         PassPoint {
-            time: time::add_seconds(self.from, place.at_s),
+            time: time::add_seconds(self.from, at_s),
             direction: AzEl {
                 azimuth: Angle::from_radians(azimuth),
                 elevation: Angle::from_radians(elevation),
             },
         }
+    }
+}
+
+/// When and in which direction a satellite stands.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sighting<N = f64> {
+    pub(super) at_s: N,
+    /// Radians, -pi to pi.
+    azimuth: N,
+    elevation: N,
+}
+
+impl<N: Number> Sighting<N> {
+    pub(super) fn new(place: &Place<N>) -> Self {
+        let Vector { x, y, .. } = place.enu_km;
+        let elevation = place.height.sine.within(-1.0, 1.0).asin();
+        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation }
+    }
+}
+
+impl Sighting<Lanes> {
+    /// The sighting of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Option<Sighting> {
+        let of = |number: &Lanes| number.as_array().get(lane).copied();
+        Some(Sighting {
+            at_s: of(&self.at_s)?,
+            azimuth: of(&self.azimuth)?,
+            elevation: of(&self.elevation)?,
+        })
     }
 }

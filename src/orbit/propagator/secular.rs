@@ -13,8 +13,17 @@ use std::f64::consts::TAU;
 
 use sgp4::WGS72;
 
+use super::round::{self, DragWave, MOST_ECCENTRICITY, Motion, Waves};
+use crate::orbit::lanes::Number;
+
 /// Orbits with this period in minutes or a longer one follow other rules.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
+/// Orbits that come lower than this, in Earth radii, are about to decay.
+const LOWEST_PERIGEE: f64 = 1.012;
+/// Stronger waves of the eccentricity are those of an orbit about to decay.
+const MOST_WAVE: f64 = 0.005;
+/// The waves of perigee and anomaly need an orbit that is not rounder than this.
+const LEAST_ECCENTRICITY: f64 = 1e-4;
 /// Perigees below this height, in Earth radii, get the shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
@@ -30,11 +39,10 @@ pub(in crate::orbit) struct Secular {
     /// Argument of perigee, radians.
     pub(in crate::orbit) perigee: [f64; 2],
     pub(in crate::orbit) eccentricity: [f64; 2],
-    /// The eccentricity swings around its polynomial by this much, once a
-    /// revolution.
-    pub(in crate::orbit) eccentricity_wave: f64,
     /// Square root of the semi-major axis, in square roots of Earth radii.
     pub(in crate::orbit) root_axis: [f64; 5],
+    pub(super) drag_wave: DragWave,
+    pub(super) waves: Waves,
 }
 
 impl Secular {
@@ -60,6 +68,30 @@ impl Secular {
         let [root_axis, ..] = expand(&self.root_axis, minutes);
         let [eccentricity, ..] = expand(&self.eccentricity, minutes);
         (root_axis * root_axis, eccentricity)
+    }
+
+    /// The eccentricity swings around its polynomial by this much, once a
+    /// revolution.
+    pub(in crate::orbit) fn eccentricity_wave(&self) -> f64 {
+        self.drag_wave.eccentricity[0].abs()
+    }
+
+    /// Whether [`Self::motion`] holds so many minutes after the epoch.
+    pub(in crate::orbit) fn is_round_at(&self, minutes: f64) -> bool {
+        let (axis, eccentricity) = self.size(minutes);
+        let wave = self.eccentricity_wave();
+        // Written so that NaN falls out as well.
+        eccentricity < MOST_ECCENTRICITY
+            && eccentricity - wave > 0.0
+            && wave < MOST_WAVE
+            && axis * (1.0 - eccentricity - wave) > LOWEST_PERIGEE
+    }
+
+    /// The states so many `minutes` after the epoch, in axes that stand at the
+    /// angle `turn`, in radians, from those of TEME about the pole; for times at
+    /// which the orbit [is round](Self::is_round_at).
+    pub(in crate::orbit) fn motion<N: Number>(&self, minutes: N, turn: N) -> Motion<N> {
+        round::motion(self, minutes, turn)
     }
 
     /// How fast, in km/s, the drag carries the satellite off the way that
@@ -93,20 +125,34 @@ impl Secular {
                 + 0.375 * WGS72.j2 * xi / psi2
                     * (3.0 * theta2 - 1.0)
                     * (8.0 + 3.0 * eta * eta * (8.0 + eta * eta)));
-        // Without the terms in J2, which only matter to e and are a thousandth.
+        let flattening =
+            -3.0 * (3.0 * theta2 - 1.0) * (1.0 - 2.0 * e * eta + eta * eta * (1.5 - 0.5 * e * eta))
+                + 0.75
+                    * (1.0 - theta2)
+                    * (2.0 * eta * eta - e * eta * (1.0 + eta * eta))
+                    * (2.0 * orbit.argument_of_perigee).cos();
         let c4 = 2.0
             * bstar
             * n
             * density
             * axis
             * round
-            * (eta * (2.0 + 0.5 * eta * eta) + e * (0.5 + 2.0 * eta * eta));
+            * (eta * (2.0 + 0.5 * eta * eta) + e * (0.5 + 2.0 * eta * eta)
+                - WGS72.j2 * xi / (axis * psi2) * flattening);
         let c5 = 2.0
             * bstar
             * density
             * axis
             * round
             * (1.0 + 2.75 * (eta * eta + eta * e) + e * eta.powi(3));
+
+        let thickness = ((120.0 - s_km) / WGS72.ae * xi).powi(4) * bstar;
+        let odd = -2.0 * xi * (WGS72.j3 / WGS72.j2) * n * orbit.inclination.sin();
+        let angle_wave = [
+            -2.0 / 3.0 * thickness / (e * eta),
+            (1.0 + eta * orbit.mean_anomaly.cos()).powi(3),
+            thickness * odd / e * orbit.argument_of_perigee.cos(),
+        ];
 
         let low = axis * (1.0 - e) < 1.0 + LOW_PERIGEE;
         let [d2, d3, d4] = if low { [0.0; 3] } else { shrinking(c1, axis, xi, s) };
@@ -134,8 +180,14 @@ impl Secular {
             ],
             perigee: [orbit.argument_of_perigee, precession.perigee],
             eccentricity: [e, -c4],
-            eccentricity_wave: if low { 0.0 } else { c5.abs() },
             root_axis: [root, -c1 * root, -d2 * root, -d3 * root, -d4 * root],
+            drag_wave: DragWave {
+                anomaly: [orbit.mean_anomaly, precession.anomaly],
+                eta,
+                angle: if low || e <= LEAST_ECCENTRICITY { [0.0; 3] } else { angle_wave },
+                eccentricity: [if low { 0.0 } else { c5 }, orbit.mean_anomaly.sin()],
+            },
+            waves: Waves::new(orbit.inclination),
         }
     }
 }

@@ -1,0 +1,227 @@
+//! States of nearly round near-earth orbits, several at once.
+//!
+//! The same theory as the library's, written so that one sine and cosine does
+//! for each angle: what the short waves add to an angle is small, and turning a
+//! sine and cosine by a small angle takes a few multiplications. Over the
+//! whole bundled catalog the positions agree within 1e-8 km.
+//!
+//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, and
+//! Vallado et al., "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths
+//! in Earth radii and times in minutes, as there.
+
+use sgp4::WGS72;
+
+use super::secular::Secular;
+use crate::orbit::lanes::{Number, Vector, series};
+
+/// Rounder orbits than this can be worked here.
+pub(in crate::orbit) const MOST_ECCENTRICITY: f64 = 0.05;
+/// The theory does without rounder orbits than this.
+const LEAST_ECCENTRICITY: f64 = 1e-6;
+
+/// What the periodic terms depend on.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Waves {
+    sin_inclination: f64,
+    cos_inclination: f64,
+    /// 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
+    square: f64,
+    seven: f64,
+    three: f64,
+    /// The odd part of the gravity field: what it adds to the eccentricity
+    /// vector, and to the mean angle.
+    odd_vector: f64,
+    odd_angle: f64,
+}
+
+impl Waves {
+    pub(super) fn new(inclination: f64) -> Self {
+        let (sin_inclination, cos_inclination) = inclination.sin_cos();
+        let square = cos_inclination * cos_inclination;
+        let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
+        // An orbit against the Earth's turn in the equator would divide by nothing.
+        let with_turn =
+            if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
+        Self {
+            sin_inclination,
+            cos_inclination,
+            square: 1.0 - square,
+            seven: 7.0 * square - 1.0,
+            three: 3.0 * square - 1.0,
+            odd_vector: odd,
+            odd_angle: 0.5 * odd * (3.0 + 5.0 * cos_inclination) / with_turn,
+        }
+    }
+}
+
+/// What the drag does once a revolution.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DragWave {
+    /// Mean anomaly: at the epoch, and its change per minute without drag.
+    pub(super) anomaly: [f64; 2],
+    pub(super) eta: f64,
+    /// Perigee against mean anomaly: the factor, its share of the epoch, and
+    /// its growth per minute.
+    pub(super) angle: [f64; 3],
+    /// Eccentricity: the factor, and the sine at the epoch.
+    pub(super) eccentricity: [f64; 2],
+}
+
+/// Position in km and inertial velocity in km/s.
+pub(in crate::orbit) type Motion<N> = (Vector<N>, Vector<N>);
+
+/// The states so many `minutes` after the epoch, in axes that stand at the angle
+/// `turn`, in radians, from those of TEME about the pole.
+///
+/// Only for orbits that are nearly round and well above the ground at those
+/// times.
+pub(super) fn motion<N: Number>(secular: &Secular, minutes: N, turn: N) -> Motion<N> {
+    let Secular { waves, drag_wave, .. } = secular;
+
+    let [anomaly, anomaly_rate] = drag_wave.anomaly;
+    let anomaly = minutes * anomaly_rate + anomaly;
+    let (_, cos_anomaly) = anomaly.sin_cos();
+    let [factor, at_epoch, per_minute] = drag_wave.angle;
+    let swing = cos_anomaly * drag_wave.eta + 1.0;
+    let shift = (swing * swing * swing - at_epoch) * factor + minutes * per_minute;
+    let (sin_shifted, _) = (anomaly + shift).sin_cos();
+
+    let root_axis = series(&secular.root_axis, minutes);
+    let axis = root_axis * root_axis;
+    let [wave, wave_at_epoch] = drag_wave.eccentricity;
+    let eccentricity = (series(&secular.eccentricity, minutes)
+        - (sin_shifted - wave_at_epoch) * wave)
+        .within(LEAST_ECCENTRICITY, 1.0);
+
+    // The eccentricity vector, toward the node and across, with the long waves.
+    let (sin_perigee, cos_perigee) = (series(&secular.perigee, minutes) - shift).sin_cos();
+    let by_parameter = N::of(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
+    let along = eccentricity * cos_perigee;
+    let across = eccentricity * sin_perigee + by_parameter * waves.odd_vector;
+    let mean = series(&secular.argument, minutes) + by_parameter * along * waves.odd_angle;
+
+    let (sine, cosine) = eccentric_angle(mean, along, across);
+    let toward = along * cosine + across * sine;
+    let crossing = along * sine - across * cosine;
+    let round = -(along * along + across * across) + 1.0;
+    let parameter = axis * round;
+    let radius = axis * (-toward + 1.0);
+    let by_radius = N::of(1.0) / radius;
+    let flatness = round.sqrt();
+    let middle = crossing / (flatness + 1.0);
+    let ratio = axis * by_radius;
+    let sin_true = ratio * (sine - across - along * middle);
+    let cos_true = ratio * (cosine - along + across * middle);
+
+    // The short waves, twice a revolution.
+    let sin_double = sin_true * cos_true * 2.0;
+    let cos_double = -(sin_true * sin_true * 2.0) + 1.0;
+    let by_parameter = N::of(1.0) / parameter;
+    let first = by_parameter * (0.5 * WGS72.j2);
+    let second = first * by_parameter;
+    let distance = radius * (-(second * flatness * (1.5 * waves.three)) + 1.0)
+        + first * cos_double * (0.5 * waves.square);
+    let (sin_place, cos_place) =
+        turned(sin_true, cos_true, second * sin_double * (-0.25 * waves.seven));
+    let tilt = second * cos_double * (1.5 * waves.cos_inclination * waves.sin_inclination);
+    let (sin_tilt, cos_tilt) =
+        turned(N::of(waves.sin_inclination), N::of(waves.cos_inclination), tilt);
+    let node =
+        series(&secular.node, minutes) - turn + second * sin_double * (1.5 * waves.cos_inclination);
+    let (sin_node, cos_node) = node.sin_cos();
+
+    // Radians per time unit of the theory, in which gravity is 1.
+    let rate = N::of(1.0) / (axis * root_axis);
+    let outward = root_axis * crossing * by_radius - rate * first * sin_double * waves.square;
+    let around = parameter.sqrt() * by_radius
+        + rate * first * (cos_double * waves.square + 1.5 * waves.three);
+
+    let up = Vector::new(
+        cos_node * cos_place - sin_node * cos_tilt * sin_place,
+        sin_node * cos_place + cos_node * cos_tilt * sin_place,
+        sin_tilt * sin_place,
+    );
+    let ahead = Vector::new(
+        -(sin_node * cos_tilt * cos_place) - cos_node * sin_place,
+        cos_node * cos_tilt * cos_place - sin_node * sin_place,
+        sin_tilt * cos_place,
+    );
+    let velocity = (up * outward + ahead * around) * N::of(WGS72.ae * WGS72.ke / 60.0);
+    (up * (distance * WGS72.ae), velocity)
+}
+
+/// Sine and cosine of the eccentric anomaly counted from the node: the solution
+/// of E = mean + along sin E - across cos E.
+///
+/// From E = mean, a step of Halley's method and one of Newton's leave less than
+/// 1e-12 for the eccentricities in question.
+fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
+    let (sine, cosine) = mean.sin_cos();
+    let missing = along * sine - across * cosine;
+    let slope = -(along * cosine + across * sine) + 1.0;
+    let step = missing * slope / (slope * slope + missing * missing * 0.5);
+    let (sine, cosine) = turned(sine, cosine, step);
+    let missing = along * sine - across * cosine - step;
+    let rest = missing / (-(along * cosine + across * sine) + 1.0);
+    let half = rest * rest * 0.5;
+    (sine - sine * half + cosine * rest, cosine - cosine * half - sine * rest)
+}
+
+/// Sine and cosine of an angle that is larger by `turn`, at most 0.06 radians.
+fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
+    let square = turn * turn;
+    let sin_turn = turn
+        * (-(square
+            * (-(square * (-(square * (1.0 / 42.0)) + 1.0) * (1.0 / 20.0)) + 1.0)
+            * (1.0 / 6.0))
+            + 1.0);
+    let less = square * (-(square * (-(square * (1.0 / 30.0)) + 1.0) * (1.0 / 12.0)) + 1.0) * 0.5;
+    (sine - sine * less + cosine * sin_turn, cosine - cosine * less - sine * sin_turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{Propagator, bundled, lanes::Lanes, propagator::Resumable};
+
+    #[test]
+    fn states_agree_with_the_library_over_the_whole_catalog() {
+        let catalog = bundled().unwrap();
+        let mut compared = 0;
+        let mut worst = (0.0_f64, 0.0_f64);
+        for elements in catalog.iter() {
+            let propagator = Propagator::new(elements).unwrap();
+            let Some(secular) = propagator.secular() else { continue };
+            for days in [-3.0, 0.0, 0.5, 4.0, 9.0] {
+                let times = [0.0, 23.0, 47.0, 71.0].map(|minute| days * 1440.0 + minute);
+                if times.iter().any(|minutes| !secular.is_round_at(*minutes)) {
+                    continue;
+                }
+                let (positions, velocities) = motion(secular, Lanes::from(times), Lanes::of(0.0));
+                for (lane, minutes) in times.iter().enumerate() {
+                    let state = propagator.state_after(minutes * 60.0, &mut Resumable::default());
+                    let state = state.unwrap();
+                    let position = positions.lane(lane).unwrap() - state.position_km.into();
+                    let velocity = velocities.lane(lane).unwrap() - state.velocity_km_s.into();
+                    worst = (worst.0.max(position.length()), worst.1.max(velocity.length()));
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 290_000, "{compared}");
+        assert!(worst.0 < 1e-8 && worst.1 < 2e-11, "{worst:?}");
+    }
+
+    #[test]
+    fn axes_may_turn() {
+        let catalog = bundled().unwrap();
+        let propagator = Propagator::new(catalog.get(25_544).unwrap()).unwrap();
+        let secular = propagator.secular().unwrap();
+        let turn: f64 = 1.2;
+        let (still, _) = motion(secular, 100.0, 0.0);
+        let (seen, _) = motion(secular, 100.0, turn);
+        let x = still.x * turn.cos() + still.y * turn.sin();
+        let y = still.y * turn.cos() - still.x * turn.sin();
+        assert!((seen - Vector::new(x, y, still.z)).length() < 1e-8);
+    }
+}
