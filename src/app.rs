@@ -8,6 +8,7 @@
 pub mod alarms;
 pub mod antenna;
 mod carry_out;
+pub mod clearance;
 pub mod command;
 pub mod daylight;
 mod demo;

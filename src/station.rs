@@ -11,9 +11,9 @@ pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub(crate) use read::check_address;
 pub use read::{Note, NoteReason, from_toml};
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use crate::astro::{Angle, Site};
+use crate::astro::{Angle, HorizonMask, Site};
 
 /// The element file that the simulated Satrak holds.
 pub const DEMO_ELEMENT_FILE: &str = "active.txt";
@@ -25,6 +25,10 @@ pub struct Station {
     pub name: String,
     /// Where it stands.
     pub site: Site,
+    /// What blocks the sky of the site; `None` where nothing does. In the file
+    /// it is a text that [`HorizonMask::parse`] reads: one point a line.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "mask_as_text")]
+    pub horizon_mask: Option<HorizonMask>,
     /// The elevation floor of the pass list, degrees 0 to 89.
     pub elevation_floor_deg: f64,
     /// Catalogue numbers of the satellites in the pass list.
@@ -32,6 +36,12 @@ pub struct Station {
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
+}
+
+// The signature is serde's.
+#[allow(clippy::ref_option)]
+fn mask_as_text<S: Serializer>(mask: &Option<HorizonMask>, out: S) -> Result<S::Ok, S::Error> {
+    mask.as_ref().map(HorizonMask::to_string).serialize(out)
 }
 
 impl Station {
@@ -64,6 +74,7 @@ impl Default for Station {
         Self {
             name: "Station".to_owned(),
             site: read::default_site(),
+            horizon_mask: None,
             elevation_floor_deg: 10.0,
             favourites: vec![
                 43013, // NOAA 20

@@ -8,6 +8,7 @@ use jiff::Timestamp;
 use super::{
     alarms::Alarms,
     antenna::AntennaModel,
+    clearance::Clearance,
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, PassKey, ahead},
 };
@@ -76,6 +77,8 @@ pub struct Sky {
     pub satellites: Vec<Seen>,
     /// The satellite of the selected pass, up or not.
     pub selected: Option<Selected>,
+    /// What the horizon mask leaves of the selected pass.
+    pub clearance: Clearance,
     /// The Sun.
     pub sun: Option<AzEl>,
     /// The Moon.
@@ -134,6 +137,8 @@ impl Model {
     /// Puts everything at its place for `now`.
     pub fn refresh_sky(&mut self) {
         let (site, now) = (self.station.site, self.now);
+        let pass = self.selected.and_then(|key| self.forecasts.find(key));
+        self.sky.clearance.refresh(pass, site, self.station.horizon_mask.as_ref());
         let selected = self.selected_pass().map(|forecast| Arc::clone(&forecast.satellite));
         self.sky.refresh(&self.forecasts.satellites, selected.as_deref(), site, now);
     }

@@ -136,7 +136,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::{super::NoteReason, *};
-    use crate::station::Antenna;
+    use crate::{astro::HorizonMask, station::Antenna};
 
     fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
@@ -152,6 +152,7 @@ mod tests {
         let mut station = Station::demo("192.168.10.21:4001");
         station.name = "Şile \"1\"".to_owned();
         station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+        station.horizon_mask = HorizonMask::parse("350 2.5\n10, -0.1\n123.25 12").ok();
         save(&station, &path).unwrap();
         let loaded = load(&path).unwrap();
         assert_eq!(loaded.notes, []);
@@ -164,6 +165,7 @@ mod tests {
     fn a_bad_field_costs_only_itself() {
         let (_folder, path) = written(
             "name = 'Here'\nelevation_floor_deg = 'ten'\nelevtion = 3\n\
+             horizon_mask = '''\n0 5\n90 x'''\n\
              [site]\nlatitude_deg = 95.0\nlongitude_deg = 1.0\naltitude_m = 0.0\n\
              [[antenna]]\nname = 'A'\nbeam_width_deg = -1\n\
              [antenna.connection]\ncontroller = 'satrak'\naddress = 'h:4001'\n\
@@ -178,13 +180,16 @@ mod tests {
             places,
             [
                 "site",
+                "horizon_mask",
                 "elevation_floor_deg",
                 "antenna[0].beam_width_deg",
                 "antenna[1].connection.address",
                 "elevtion"
             ]
         );
-        assert_eq!(notes[4].reason, NoteReason::Unknown);
+        let NoteReason::Invalid(why) = &notes[1].reason else { panic!("{:?}", notes[1]) };
+        assert_eq!(why, "line 2 does not hold an azimuth and an elevation");
+        assert_eq!(notes[5].reason, NoteReason::Unknown);
     }
 
     #[test]

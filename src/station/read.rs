@@ -7,7 +7,7 @@ use super::{
     Station,
     antenna::{Antenna, Connection, Direction, Mount},
 };
-use crate::astro::Site;
+use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,6 +36,7 @@ pub fn from_toml(mut table: Table) -> (Station, Vec<Note>) {
     let station = Station {
         name: fields.text("name", &default.name),
         site: fields.site(),
+        horizon_mask: fields.horizon_mask(),
         elevation_floor_deg: fields.number("elevation_floor_deg", 0.0, 89.0, 10.0),
         favourites: fields.favourites(default.favourites),
         antennas: fields.antennas(),
@@ -99,6 +100,14 @@ impl Fields<'_> {
             self.invalid("site", error.message());
             default_site()
         })
+    }
+
+    fn horizon_mask(&mut self) -> Option<HorizonMask> {
+        let read = match self.table.remove("horizon_mask")? {
+            Value::String(text) => HorizonMask::parse(&text).map_err(|error| error.to_string()),
+            _ => Err("must be a text with an azimuth and an elevation a line".to_owned()),
+        };
+        read.map_err(|why| self.invalid("horizon_mask", why)).ok()
     }
 
     fn favourites(&mut self, default: Vec<u32>) -> Vec<u32> {

@@ -94,7 +94,9 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
         names(ui, line(rect.top() + 20.0), model.name, model.detail, text::title());
         second_line(ui, line(rect.top() + 40.0), model);
     }
-    paint::name_text(ui, "pass", texts, &said(&[model.name, model.detail, model.second_line]));
+    // What had no room is in the tool-tip.
+    paint::name_text(ui, "pass", texts, &said(&[model.name, model.detail, model.second_line]))
+        .on_hover_text(model.second_line);
     clicked
 }
 

@@ -11,7 +11,7 @@ use egui::{Align2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2}
 use jiff::Timestamp;
 
 use super::{text, theme, widgets::paint};
-use crate::plan::Sample;
+use crate::{astro::HorizonMask, plan::Sample};
 use scale::TimeAxis;
 
 /// Space at the left and the right of everything.
@@ -44,6 +44,8 @@ pub struct ProfileModel<'a> {
     pub tca: Sample,
     /// The pass goes on beyond the first or the last sample.
     pub cut: bool,
+    /// What blocks the sky of the site.
+    pub mask: Option<&'a HorizonMask>,
     /// When and how far the satellite was off the beam axis, in degrees. A
     /// value that is not finite breaks the line.
     pub errors: &'a [(Timestamp, f32)],

@@ -10,6 +10,7 @@ mod grid;
 mod labels;
 mod legend;
 mod marks;
+mod mask;
 mod nodes;
 mod placement;
 mod scene;
@@ -42,7 +43,7 @@ pub struct SkyPlotState {
 
 /// Which layers are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-// Four independent check boxes.
+// Independent check boxes.
 #[allow(clippy::struct_excessive_bools)]
 pub struct Layers {
     /// Satellites that are not selected.
@@ -53,11 +54,13 @@ pub struct Layers {
     pub sun_and_moon: bool,
     /// Where the mount cannot point.
     pub keyholes: bool,
+    /// What the horizon mask blocks.
+    pub mask: bool,
 }
 
 impl Default for Layers {
     fn default() -> Self {
-        Self { others: true, names: true, sun_and_moon: true, keyholes: true }
+        Self { others: true, names: true, sun_and_moon: true, keyholes: true, mask: true }
     }
 }
 
@@ -87,7 +90,7 @@ pub fn show(
     nodes::events_and_antenna(ui, canvas.id, dome, &events, scene);
     corners::readout(ui, rect, scene, t);
     corners::upper_right(ui, rect, &mut state.layers, t);
-    corners::lower_left(ui, rect, t);
+    corners::lower_left(ui, rect, scene, t);
     if canvas.has_focus() {
         let stroke = egui::Stroke::new(2.0, t.sat);
         ui.painter().rect_stroke(rect.shrink(2.0), 0.0, stroke, egui::StrokeKind::Inside);
@@ -111,6 +114,10 @@ fn paint_sky(
     let mut labels = Labels::new(painter, t, dome, rect.shrink(4.0), before);
 
     grid::disc(painter, dome, t);
+    if let Some(mask) = scene.mask.filter(|_| layers.mask) {
+        mask::paint(painter, dome, mask, t);
+    }
+    grid::rings(painter, dome, t);
     for name in grid::rim(painter, dome, scene.minimum_elevation, t) {
         labels.reserve(name);
     }

@@ -12,6 +12,7 @@ mod bar;
 mod drive;
 mod extremes;
 mod keys;
+mod mask;
 mod passes;
 mod preferences;
 mod rig;

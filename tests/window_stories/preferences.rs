@@ -14,14 +14,14 @@ use crate::{
 
 const WRONG: &str = "Latitude must be a number from −90 to 90°.";
 
-fn form(size: [f32; 2]) -> Window {
+pub(crate) fn form(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
     rig::window(size, model)
 }
 
 /// Writes `words` over what stands in the field of the station.
-fn write(window: &mut Window, field: &str, words: &str) {
+pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
     // The label beside the field has the same words.
     let is_field = |role| matches!(role, Role::TextInput | Role::MultilineTextInput);
     let fields = window.get_all_by_label(field);
@@ -37,7 +37,7 @@ fn is_disabled(window: &Window, button: &str) -> bool {
     window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
 }
 
-fn saved(commands: Vec<UiCommand>) -> Station {
+pub(crate) fn saved(commands: Vec<UiCommand>) -> Station {
     match <[UiCommand; 1]>::try_from(commands) {
         Ok([UiCommand::SaveStation(station)]) => *station,
         other => panic!("{other:?}"),
@@ -182,7 +182,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
         let window = rig::window(size, model);
         let bar = window.get_by_role_and_label(Role::Button, "Save and use").rect();
         assert!(bar.right() <= size[0] && bar.bottom() <= size[1], "{bar:?}");
-        let all = window.get_by_role(Role::MultilineTextInput).rect();
+        let all = window.get_by_role_and_label(Role::MultilineTextInput, "Satellites").rect();
         let card = window.get_by_role_and_label(Role::TextInput, "Latitude").rect();
         assert!(all.right() < size[0] && all.height() > card.height(), "{all:?}");
         let parks: Vec<_> = window.query_all_by_role(Role::TextInput).collect();

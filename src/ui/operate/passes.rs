@@ -10,6 +10,7 @@ use crate::{
         model::CatalogState,
     },
     astro::time::{add_seconds, seconds_between},
+    orbit::Pass,
     plan::{Sample, Trackability},
     ui::{
         format,
@@ -136,7 +137,8 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
             name,
             detail: detail.trim(),
             second_line: &second_line(model, forecast, age_s),
-            second_line_warns: age_s > 7.0 * 86_400.0,
+            second_line_warns: age_s > 7.0 * 86_400.0
+                || model.sky.clearance.cut().is_some_and(<[Pass]>::is_empty),
             tca_countdown: &tca,
             event,
             countdown: &countdown,
@@ -147,7 +149,9 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 }
 
 fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
-    let mut parts = vec![format!("Elements {} old", format::age(age_s))];
+    let mut parts: Vec<String> = model.sky.clearance.cut().map(clear_of_mask).into_iter().collect();
+    let elements = if parts.is_empty() { "Elements" } else { "elements" };
+    parts.push(format!("{elements} {} old", format::age(age_s)));
     let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {
         let same = held.catalog_number == forecast.satellite.elements.catalog_number();
@@ -158,6 +162,17 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
         parts.push(if selected.sunlit { "sunlit" } else { "in eclipse" }.to_owned());
     }
     parts.join(" · ")
+}
+
+/// When a pass that the horizon mask cuts is clear of it.
+fn clear_of_mask(stretches: &[Pass]) -> String {
+    let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else {
+        return "Never clear of the mask".to_owned();
+    };
+    let parts =
+        if stretches.len() > 1 { format!(" in {} parts", stretches.len()) } else { String::new() };
+    let (from, to) = (format::time_z(first.aos.time), format::time_z(last.los.time));
+    format!("Clear of the mask{parts} {from} to {to}")
 }
 
 /// Shows the strip of the next hours.
@@ -222,6 +237,7 @@ pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
             track: &forecast.track,
             tca: Sample { time: pass.tca.time, direction: pass.tca.direction },
             cut: pass.starts_before || pass.ends_after,
+            mask: model.station.horizon_mask.as_ref(),
             errors: &errors,
             half_beam_deg: beam_width_deg / 2.0,
         }),

@@ -69,6 +69,7 @@ pub(super) fn show(
         minimum_elevation: Angle::from_degrees(
             antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
         ),
+        mask: model.station.horizon_mask.as_ref(),
         keyholes: antenna.map(keyholes),
         track,
         others: &others,

@@ -2,7 +2,7 @@
 //! used before all of it is right.
 
 use crate::{
-    astro::Site,
+    astro::{HorizonMask, MaskTextError, Site},
     station::{
         Antenna, Connection, Direction, MotionLimits, Mount, PollRates, Station, check_address,
     },
@@ -17,6 +17,8 @@ pub(super) enum Kind {
     Address,
     /// Catalogue numbers, with commas between.
     Numbers,
+    /// Azimuth and elevation of a horizon mask, one point a line. May stay empty.
+    Mask,
     Range {
         low: f64,
         high: f64,
@@ -56,6 +58,7 @@ impl Field {
             Kind::Numbers => self.numbers().is_none().then(|| {
                 "must be catalogue numbers with commas between, such as 43013, 25544".to_owned()
             }),
+            Kind::Mask => self.mask().err().map(|error| mask_problem(&error)),
             Kind::Range { low, high, unit } => self.number().is_none().then(|| {
                 let gap = if unit == "°" { "" } else { " " };
                 format!("must be a number from {low} to {high}{gap}{unit}").replace('-', "−")
@@ -69,16 +72,35 @@ impl Field {
         (low..=high).contains(&number).then_some(number)
     }
 
+    /// The horizon mask, and none for an empty text.
+    fn mask(&self) -> Result<Option<HorizonMask>, MaskTextError> {
+        if self.text.trim().is_empty() {
+            return Ok(None);
+        }
+        HorizonMask::parse(&self.text).map(Some)
+    }
+
     fn numbers(&self) -> Option<Vec<u32>> {
         let parts = self.text.split(',').map(str::trim).filter(|part| !part.is_empty());
         parts.map(|part| part.parse().ok().filter(|number| *number <= 999_999_999)).collect()
     }
 }
 
+/// Why a text is no mask, to stand behind the name of its field.
+fn mask_problem(error: &MaskTextError) -> String {
+    match error {
+        MaskTextError::Format { line } => {
+            format!("line {line} must be an azimuth and an elevation, such as 120 8.5")
+        }
+        MaskTextError::Point { .. } => error.to_string().replace('-', "−"),
+        MaskTextError::Mask(_) => "must hold points, such as 120 8.5, or nothing".to_owned(),
+    }
+}
+
 /// The whole form.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Draft {
-    pub(super) station: [Field; 6],
+    pub(super) station: [Field; 7],
     pub(super) antennas: Vec<[Field; 14]>,
 }
 
@@ -87,6 +109,7 @@ impl Draft {
         let range = |low, high, unit| Kind::Range { low, high, unit };
         let favourites: Vec<String> = station.favourites.iter().map(u32::to_string).collect();
         let site = station.site;
+        let mask = station.horizon_mask.as_ref().map(HorizonMask::to_string);
         Self {
             station: [
                 Field::new("Name", Kind::Text, &station.name),
@@ -99,6 +122,7 @@ impl Draft {
                 Field::new("Altitude", range(-1000.0, 10_000.0, "m"), site.altitude_m()),
                 Field::new("Elevation floor", range(0.0, 89.0, "°"), station.elevation_floor_deg),
                 Field::new("Satellites", Kind::Numbers, favourites.join(", ")),
+                Field::new("Horizon mask", Kind::Mask, mask.unwrap_or_default()),
             ],
             antennas: station.antennas.iter().map(fields_of).collect(),
         }
@@ -111,10 +135,11 @@ impl Draft {
 
     /// The station, when every field is right.
     pub(super) fn read(&self) -> Option<Station> {
-        let [name, latitude, longitude, altitude, floor, favourites] = &self.station;
+        let [name, latitude, longitude, altitude, floor, favourites, mask] = &self.station;
         Some(Station {
             name: text(name)?,
             site: Site::new(latitude.number()?, longitude.number()?, altitude.number()?).ok()?,
+            horizon_mask: mask.mask().ok()?,
             elevation_floor_deg: floor.number()?,
             favourites: favourites.numbers()?,
             antennas: self.antennas.iter().map(read_antenna).collect::<Option<_>>()?,
@@ -206,14 +231,15 @@ mod tests {
 
     #[test]
     fn what_was_not_touched_comes_back_as_it_was() {
-        let station = Station::demo("127.0.0.1:4001");
+        let horizon_mask = HorizonMask::parse("0 2.5\n120 -0.3\n240.25 11").ok();
+        let station = Station { horizon_mask, ..Station::demo("127.0.0.1:4001") };
         assert_eq!(Draft::of(&station).read(), Some(station));
     }
 
     #[test]
     fn a_wrong_field_says_why_and_keeps_the_typing() {
         let mut draft = Draft::of(&Station::demo("127.0.0.1:4001"));
-        for (index, typed) in [(1, "91"), (1, "x"), (3, ""), (5, "25544, NOAA")] {
+        for (index, typed) in [(1, "91"), (1, "x"), (3, ""), (5, "25544, NOAA"), (6, "0 2\n90")] {
             let before = draft.clone();
             draft.station[index].text = typed.to_owned();
             assert!(draft.station[index].problem().is_some(), "{typed}");

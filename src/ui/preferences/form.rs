@@ -1,6 +1,9 @@
 //! The cards of the form and their fields.
 
-use egui::{Align, Color32, Frame, Layout, Margin, Response, RichText, Stroke, TextEdit, Ui, vec2};
+use egui::{
+    Align, Color32, Frame, Layout, Margin, Response, RichText, ScrollArea, Stroke, TextEdit, Ui,
+    vec2,
+};
 
 use super::draft::{Draft, Field, Kind};
 use crate::ui::{text, theme};
@@ -11,6 +14,8 @@ const ROW: f32 = 24.0;
 const NUMBER: f32 = 112.0;
 /// For a name or an address.
 const WORDS: f32 = 240.0;
+/// A long horizon mask is scrolled beyond this height.
+const MASK: f32 = 140.0;
 /// Between the two columns.
 const GAP: f32 = 16.0;
 /// A column is not wider than its fields need.
@@ -130,6 +135,14 @@ fn edit(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) ->
             .return_key(None)
             .desired_rows(1)
             .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
+        Kind::Mask => {
+            let edit = TextEdit::multiline(&mut field.text)
+                .hint_text("azimuth elevation, one point a line")
+                .desired_rows(3)
+                .desired_width(WORDS);
+            let area = ScrollArea::vertical().id_salt(field.label).max_height(MASK);
+            return area.show(ui, |ui| ui.add(edit.id_salt(id))).inner;
+        }
         Kind::Range { .. } => TextEdit::singleline(&mut field.text).desired_width(NUMBER),
         _ => TextEdit::singleline(&mut field.text).desired_width(WORDS),
     };

@@ -1,12 +1,16 @@
 //! Elevation and azimuth along the pass.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 use super::{
     ProfileModel, dashes,
     scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG, TimeAxis},
 };
-use crate::ui::{format, text, theme, widgets::paint};
+use crate::{
+    astro::HorizonMask,
+    plan::Sample,
+    ui::{format, text, theme, widgets::paint},
+};
 
 /// Dash and gap of the planned part.
 const DASH: (f32, f32) = (6.0, 4.5);
@@ -21,9 +25,14 @@ const SCALE_GAP: f32 = 6.0;
 pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
+    let painter = ui.painter_at(rect);
+    if let Some(mask) = model.mask {
+        let skyline = skyline(rect, axis, model.track, mask);
+        painter.add(ground(rect, &skyline, t.mask));
+        painter.line(skyline, Stroke::new(1.0, t.hatch));
+    }
     grid(ui, rect);
 
-    let painter = ui.painter_at(rect);
     let azimuths = model.track.iter().map(|s| (axis.x(s.time), s.direction.azimuth_deg()));
     let broken = scale::broken_at_north(azimuths);
     for piece in scale::pieces(broken.into_iter(), rect, AZIMUTH_TOP_DEG) {
@@ -43,6 +52,30 @@ pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_
         flown.line(piece, stroke);
     }
     highest(ui, rect, axis, model);
+}
+
+/// The height of the mask along the path.
+fn skyline(rect: Rect, axis: &TimeAxis, track: &[Sample], mask: &HorizonMask) -> Vec<Pos2> {
+    let finite = track.iter().filter(|sample| sample.direction.azimuth.is_finite());
+    let height = |sample: &Sample| {
+        let elevation_deg = mask.elevation_at(sample.direction.azimuth).degrees();
+        pos2(axis.x(sample.time), scale::y(rect, elevation_deg, ELEVATION_TOP_DEG))
+    };
+    finite.map(height).collect()
+}
+
+/// From the bottom of the plot up to the skyline.
+fn ground(rect: Rect, skyline: &[Pos2], colour: Color32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (index, at) in (0_u32..).zip(skyline) {
+        mesh.colored_vertex(pos2(at.x, rect.bottom()), colour);
+        mesh.colored_vertex(*at, colour);
+        if let Some(before) = (2 * index).checked_sub(2) {
+            mesh.add_triangle(before, before + 1, before + 2);
+            mesh.add_triangle(before + 1, before + 2, before + 3);
+        }
+    }
+    mesh
 }
 
 fn grid(ui: &Ui, rect: Rect) {
@@ -107,11 +140,30 @@ fn label_place(rect: Rect, centre: Pos2, size: Vec2, now_x: f32) -> Rect {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::astro::AzEl;
 
     const PLOT: Rect = Rect { min: pos2(40.0, 40.0), max: pos2(340.0, 140.0) };
 
     fn place(x: f32, y: f32, now_x: f32) -> Rect {
         label_place(PLOT, pos2(x, y), vec2(30.0, 14.0), now_x)
+    }
+
+    #[test]
+    fn the_mask_fills_what_lies_below_it_along_the_path() {
+        let at = |time: &str, azimuth_deg| Sample {
+            time: time.parse().unwrap(),
+            direction: AzEl::from_degrees(azimuth_deg, 20.0),
+        };
+        let track = [
+            at("2026-11-14T11:00:00Z", 0.0),
+            at("2026-11-14T11:05:00Z", f64::NAN),
+            at("2026-11-14T11:10:00Z", 90.0),
+        ];
+        let axis = TimeAxis::new(&track, PLOT).unwrap();
+        let mask = HorizonMask::from_degrees([(0.0, -2.0), (90.0, 45.0), (180.0, 0.0)]).unwrap();
+        let skyline = skyline(PLOT, &axis, &track, &mask);
+        assert_eq!(skyline, [pos2(40.0, 140.0), pos2(340.0, 90.0)]);
+        assert_eq!(ground(PLOT, &skyline, Color32::PLACEHOLDER).indices.len(), 6);
     }
 
     #[test]

@@ -31,6 +31,7 @@ fn model<'a>(track: &'a [Sample], errors: &'a [(Timestamp, f32)]) -> ProfileMode
         track,
         tca: Sample { time: at(300.0), direction: AzEl::from_degrees(0.0, 65.0) },
         cut: false,
+        mask: None,
         errors,
         half_beam_deg: 0.44,
     }

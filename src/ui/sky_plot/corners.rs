@@ -49,6 +49,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
                 (&mut layers.names, "Names"),
                 (&mut layers.sun_and_moon, "Sun and Moon"),
                 (&mut layers.keyholes, "Keyholes"),
+                (&mut layers.mask, "Horizon mask"),
             ] {
                 ui.checkbox(on, name);
             }
@@ -59,10 +60,10 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
 }
 
 /// The legend in the lower left corner; a button in a low plot.
-pub(super) fn lower_left(ui: &Ui, rect: Rect, t: &Tokens) {
+pub(super) fn lower_left(ui: &Ui, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) {
     if rect.height() >= LEGEND_HEIGHT {
-        let top = rect.bottom() - 12.0 - legend::HEIGHT;
-        legend::paint(ui.painter(), pos2(rect.left() + EDGE, top), t);
+        let top = rect.bottom() - 12.0 - legend::height(scene);
+        legend::paint(ui.painter(), pos2(rect.left() + EDGE, top), scene, t);
         return;
     }
     let button =
@@ -76,9 +77,9 @@ pub(super) fn lower_left(ui: &Ui, rect: Rect, t: &Tokens) {
         .accessible_name("Legend of the sky plot")
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {
-            let size = vec2(legend::WIDTH, legend::HEIGHT);
+            let size = vec2(legend::WIDTH, legend::height(scene));
             let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-            legend::paint(ui.painter(), place.min, t);
+            legend::paint(ui.painter(), place.min, scene, t);
         });
 }
 
@@ -97,7 +98,7 @@ pub(super) fn reserved(rect: Rect, scene: &SkyScene<'_>) -> Vec<Rect> {
     let right =
         Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));
     let low = rect.height() < LEGEND_HEIGHT;
-    let height = if low { 40.0 } else { legend::HEIGHT + 12.0 };
+    let height = if low { 40.0 } else { legend::height(scene) + 12.0 };
     let legend = Rect::from_min_max(
         rect.left_bottom() - vec2(0.0, height),
         rect.left_bottom() + vec2(EDGE + legend::WIDTH, 0.0),

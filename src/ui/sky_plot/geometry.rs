@@ -136,7 +136,7 @@ pub(super) fn dashed(path: &[Pos2], dash: f32, gap: f32, stroke: impl Into<Strok
 }
 
 /// Parallel lines that fall to the right by 45 degrees, or rise when `rising`,
-/// clipped to a convex polygon. `spacing` is in points, across the lines.
+/// clipped to a polygon of any form. `spacing` is in points, across the lines.
 pub(super) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
     let side = if rising { 1.0 } else { -1.0 };
     // Constant along each line of the hatch.
@@ -149,13 +149,13 @@ pub(super) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 
     let mut wanted = (low / step).ceil() * step;
     while wanted < high {
         let edges = polygon.iter().zip(polygon.iter().cycle().skip(1));
-        let mut crossings = edges.filter_map(|(from, to)| {
+        let crossings = edges.filter_map(|(from, to)| {
             let (a, b) = (level(*from) - wanted, level(*to) - wanted);
             ((a < 0.0) != (b < 0.0)).then(|| from.lerp(*to, a / (a - b)))
         });
-        if let (Some(from), Some(to)) = (crossings.next(), crossings.next()) {
-            lines.push([from, to]);
-        }
+        let mut crossings: Vec<Pos2> = crossings.collect();
+        crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
+        lines.extend(crossings.as_chunks::<2>().0);
         wanted += step;
     }
     lines
@@ -256,6 +256,7 @@ mod tests {
     fn hatches_stay_inside_their_polygon() {
         let square = [pos2(0.0, 0.0), pos2(40.0, 0.0), pos2(40.0, 40.0), pos2(0.0, 40.0)];
         let around = Rect::from_min_max(pos2(0.0, 0.0), pos2(40.0, 40.0)).expand(0.01);
+        assert!(hatch(&[], 5.0, true).is_empty());
         for rising in [false, true] {
             let lines = hatch(&square, 5.0, rising);
             // The diagonal is 56.6 long.

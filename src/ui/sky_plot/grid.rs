@@ -21,9 +21,13 @@ const NAMES: f32 = 15.0;
 /// Spacing of the hatch of a keyhole, points.
 const HATCH: f32 = 5.0;
 
-/// Paints the disc, its rings and its spokes.
+/// Paints the ground of the disc.
 pub(super) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
     painter.circle_filled(dome.centre, dome.radius, t.sky);
+}
+
+/// Paints the rings and the spokes.
+pub(super) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     let thin = Stroke::new(1.0, t.grid);
     for elevation in [30.0, 60.0] {
         painter.circle_stroke(dome.centre, dome.ring(elevation), thin);

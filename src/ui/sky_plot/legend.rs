@@ -1,17 +1,16 @@
 //! What the marks of the plot mean.
 
-use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 use super::{
     geometry::{dashed, hatch},
     marks,
+    scene::SkyScene,
 };
 use crate::ui::{text, tokens::Tokens};
 
 /// Width of the legend, points.
 pub(super) const WIDTH: f32 = 120.0;
-/// Height of the legend, points.
-pub(super) const HEIGHT: f32 = ROW * 6.0;
 /// Height of a line, points.
 const ROW: f32 = 18.0;
 /// Half the width of a sample, points.
@@ -20,9 +19,23 @@ const HALF: f32 = 10.0;
 /// Paints the sample of a row around its middle.
 type Sample = fn(&Painter, Pos2, &Tokens);
 
+/// Height of the legend, points. What is not in the plot is not in the legend.
+pub(super) fn height(scene: &SkyScene<'_>) -> f32 {
+    rows(scene).count() as f32 * ROW
+}
+
 /// Paints the legend from its upper left corner.
-pub(super) fn paint(painter: &Painter, at: Pos2, t: &Tokens) {
-    let rows: [(&str, Sample); 6] = [
+pub(super) fn paint(painter: &Painter, at: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
+    for (index, (name, sample)) in rows(scene).enumerate() {
+        let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
+        sample(painter, middle, t);
+        let beside = middle + vec2(HALF + 10.0, 0.0);
+        painter.text(beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+    }
+}
+
+fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
+    let always: [(&str, Sample); 5] = [
         ("Satellite", marks::selected),
         ("Commanded", |painter, at, t| {
             painter.circle_stroke(at, 6.5, Stroke::new(2.0, t.cmd));
@@ -39,22 +52,25 @@ pub(super) fn paint(painter: &Painter, at: Pos2, t: &Tokens) {
         ("Other satellite", |painter, at, t| {
             marks::other(painter, at, false, t);
         }),
-        ("Keyhole", keyhole),
     ];
-    for (index, (name, sample)) in rows.into_iter().enumerate() {
-        let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
-        sample(painter, middle, t);
-        let beside = middle + vec2(HALF + 10.0, 0.0);
-        painter.text(beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
-    }
+    let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
+    always.into_iter().chain(mask).chain([("Keyhole", keyhole as Sample)])
+}
+
+fn mask(painter: &Painter, at: Pos2, t: &Tokens) {
+    hatched(painter, at, (t.mask, t.hatch), true);
 }
 
 fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
+    hatched(painter, at, (t.warnbg, t.warn), false);
+}
+
+/// A sample of an area, with its fill and the colour of its lines.
+fn hatched(painter: &Painter, at: Pos2, (fill, ink): (Color32, Color32), rising: bool) {
     let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
     let outline = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
-    let lines = hatch(&outline, 4.0, false);
-    painter.rect_filled(area, 0.0, t.warnbg);
-    painter
-        .extend(lines.into_iter().map(|line| Shape::line_segment(line, Stroke::new(1.5, t.warn))));
-    painter.add(Shape::closed_line(outline, Stroke::new(1.25, t.warn)));
+    let lines = hatch(&outline, 4.0, rising);
+    painter.rect_filled(area, 0.0, fill);
+    painter.extend(lines.into_iter().map(|line| Shape::line_segment(line, Stroke::new(1.5, ink))));
+    painter.add(Shape::closed_line(outline, Stroke::new(1.25, ink)));
 }

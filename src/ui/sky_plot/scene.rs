@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
-    astro::{Angle, AzEl},
+    astro::{Angle, AzEl, HorizonMask},
     plan::Sample,
 };
 
@@ -15,6 +15,8 @@ pub struct SkyScene<'a> {
     pub now: Timestamp,
     /// Lowest elevation at which passes are planned.
     pub minimum_elevation: Angle,
+    /// What blocks the sky of the site.
+    pub mask: Option<&'a HorizonMask>,
     /// Where the mount cannot point.
     pub keyholes: Option<Keyholes>,
     /// The selected pass.

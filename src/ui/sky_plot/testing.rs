@@ -56,6 +56,7 @@ pub(super) fn empty() -> SkyScene<'static> {
     SkyScene {
         now: now(),
         minimum_elevation: Angle::from_degrees(5.0),
+        mask: None,
         keyholes: None,
         track: None,
         others: &[],

@@ -64,7 +64,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => match &note.reason {
             NoteReason::Invalid(why) => {
-                format!("Setting {} is not used: it {why}.", note.place)
+                format!("Setting {} is not used: {why}.", note.place)
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
         },

@@ -1,0 +1,84 @@
+//! Hills around the station: typed in the form, seen in the plot, said of the
+//! selected pass.
+
+use azel::{app::View, astro::HorizonMask};
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    preferences::{form, saved, write},
+    rig::{self, LARGE, SIZES, Window, asked, says},
+    states,
+};
+
+const HILLS: &str = "0 2\n90 14\n180 6\n270 9";
+
+fn with_mask(size: [f32; 2], text: &str) -> Window {
+    let mut model = rig::model(states::holding());
+    model.station.horizon_mask = Some(HorizonMask::parse(text).unwrap());
+    model.refresh_sky();
+    rig::window(size, model)
+}
+
+#[test]
+fn a_mask_is_typed_and_saved() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Horizon mask", HILLS);
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        let station = saved(asked(&mut window));
+        assert_eq!(station.horizon_mask, HorizonMask::parse(HILLS).ok());
+    }
+}
+
+#[test]
+fn a_wrong_line_is_named_and_nothing_typed_is_lost() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Horizon mask", "0 2\n\n90;fourteen");
+        assert!(says(
+            &window,
+            "Horizon mask line 3 must be an azimuth and an elevation, such as 120 8.5."
+        ));
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        assert_eq!(asked(&mut window), []);
+        write(&mut window, "Horizon mask", "0 2\n400 3");
+        assert!(says(
+            &window,
+            "Horizon mask line 2: azimuth 400 is not between 0 and 360 degrees."
+        ));
+        write(&mut window, "Horizon mask", " ");
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        assert_eq!(saved(asked(&mut window)).horizon_mask, None);
+    }
+}
+
+#[test]
+fn a_mask_that_is_not_touched_stays_when_the_form_is_saved() {
+    let mut model = rig::model(states::holding());
+    model.station.horizon_mask = HorizonMask::parse(HILLS).ok();
+    model.view = View::Preferences;
+    let mut window = rig::window(LARGE, model);
+    write(&mut window, "Latitude", "40");
+    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    assert_eq!(saved(asked(&mut window)).horizon_mask, HorizonMask::parse(HILLS).ok());
+}
+
+#[test]
+fn the_header_says_when_a_cut_pass_is_clear() {
+    for size in SIZES {
+        let window = with_mask(size, "0 20");
+        let clear = "Clear of the mask 11:11:12Z to 11:18:46Z · elements";
+        window.get_by_label_contains(clear);
+        let window = with_mask(size, "0 1");
+        window.get_by_label_contains(", Elements");
+        let window = with_mask(size, "0 89");
+        window.get_by_label_contains("Never clear of the mask · elements");
+    }
+}
+
+#[test]
+fn a_wall_on_the_way_parts_the_pass() {
+    let window = with_mask(LARGE, "0 1\n290 1\n300 80\n310 1");
+    window.get_by_label_contains("Clear of the mask in 2 parts");
+}
