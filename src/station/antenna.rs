@@ -129,6 +129,20 @@ impl Antenna {
         }
     }
 
+    /// Whether two names are too alike for the operator to tell two antennas
+    /// apart.
+    pub fn same_name(a: &str, b: &str) -> bool {
+        a.trim().to_lowercase() == b.trim().to_lowercase()
+    }
+
+    /// `name`, with the first number behind it that tells it from all others
+    /// where another antenna has it.
+    pub fn free_name(name: &str, others: &[&str]) -> String {
+        let is_free = |name: &String| others.iter().all(|other| !Self::same_name(name, other));
+        let numbered = (2_u32..).map(|number| format!("{name} {number}"));
+        std::iter::once(name.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
+    }
+
     /// The width of the beam.
     pub fn beam_width(&self) -> Angle {
         Angle::from_degrees(self.beam_width_deg)

@@ -193,6 +193,20 @@ mod tests {
     }
 
     #[test]
+    fn a_second_antenna_of_the_same_name_gets_a_name_of_its_own() {
+        let one = "[[antenna]]\nname = 'Mast'\n[antenna.connection]\n\
+                   controller = 'satrak'\naddress = 'h:4001'\n";
+        let (_folder, path) = written(&format!("{one}{}{one}", one.replace("'Mast'", "' MAST 2'")));
+        let Loaded { station, notes } = load(&path).unwrap();
+        let names: Vec<&str> = station.antennas.iter().map(|antenna| &*antenna.name).collect();
+        assert_eq!(names, ["Mast", " MAST 2", "Mast 3"]);
+        assert_eq!(notes.len(), 1);
+        assert_eq!(notes[0].place, "antenna[2].name");
+        let NoteReason::Invalid(why) = &notes[0].reason else { panic!("{:?}", notes[0]) };
+        assert_eq!(why, "another antenna has it too, this one is called Mast 3");
+    }
+
+    #[test]
     fn what_cannot_be_read_is_left_alone() {
         let (_folder, path) = written("name = \"open");
         assert!(matches!(load(&path), Err(LoadError::Syntax { .. })));

@@ -127,7 +127,7 @@ impl Fields<'_> {
                 return Vec::new();
             }
         };
-        let mut antennas = Vec::new();
+        let mut antennas: Vec<Antenna> = Vec::new();
         for (index, value) in tables.into_iter().enumerate() {
             let path = format!("antenna[{index}].");
             let Value::Table(mut table) = value else {
@@ -135,7 +135,14 @@ impl Fields<'_> {
                 continue;
             };
             let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-            if let Some(antenna) = fields.antenna() {
+            if let Some(mut antenna) = fields.antenna() {
+                let others: Vec<&str> = antennas.iter().map(|other| &*other.name).collect();
+                let name = Antenna::free_name(&antenna.name, &others);
+                if name != antenna.name {
+                    let why = format!("another antenna has it too, this one is called {name}");
+                    fields.invalid("name", why);
+                    antenna.name = name;
+                }
                 antennas.push(antenna);
                 fields.name_the_unknown();
             }

@@ -190,3 +190,26 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
         assert_eq!(right > 0, size == rig::LARGE, "two columns where there is room");
     }
 }
+
+#[test]
+fn two_antennas_of_one_name_are_not_saved() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.get_by_role_and_label(Role::Button, "Add a Satrak").scroll_to_me();
+        settle(&mut window);
+        window.get_by_role_and_label(Role::Button, "Add a Satrak").click();
+        settle(&mut window);
+        let names = |window: &Window| {
+            let fields = window.get_all_by_role_and_label(Role::TextInput, "Name");
+            fields.map(|field| field.value().unwrap()).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&window), ["Şile 1", "Satrak", "Satrak 2"]);
+        window.get_all_by_role_and_label(Role::TextInput, "Name").nth(2).unwrap().focus();
+        settle(&mut window);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.event(Event::Text("satrak ".to_owned()));
+        settle(&mut window);
+        assert!(says(&window, "Name must differ from that of antenna 1."));
+        assert!(is_disabled(&window, "Save and use"));
+    }
+}

@@ -130,11 +130,35 @@ impl Draft {
 
     /// One more antenna, to be filled in.
     pub(super) fn add_antenna(&mut self) {
-        self.antennas.push(fields_of(&Antenna::satrak("Satrak", "192.168.10.21:4001")));
+        let names: Vec<&str> = self.antennas.iter().map(|[name, ..]| &*name.text).collect();
+        let name = Antenna::free_name("Satrak", &names);
+        self.antennas.push(fields_of(&Antenna::satrak(&name, "192.168.10.21:4001")));
+    }
+
+    /// Why each field of an antenna cannot be used.
+    pub(super) fn antenna_problems(&self, index: usize) -> Vec<Option<String>> {
+        let Some(fields) = self.antennas.get(index) else { return Vec::new() };
+        let mut problems: Vec<Option<String>> = fields.iter().map(Field::problem).collect();
+        if let (Some(None), Some(twin)) = (problems.first(), self.twin(index)) {
+            let clash = format!("must differ from that of antenna {}", twin + 1);
+            problems.splice(..1, [Some(clash)]);
+        }
+        problems
+    }
+
+    /// Another antenna with the name of this one.
+    fn twin(&self, index: usize) -> Option<usize> {
+        let [name, ..] = self.antennas.get(index)?;
+        self.antennas.iter().enumerate().position(|(other, [other_name, ..])| {
+            other != index && Antenna::same_name(&other_name.text, &name.text)
+        })
     }
 
     /// The station, when every field is right.
     pub(super) fn read(&self) -> Option<Station> {
+        if (0..self.antennas.len()).any(|index| self.twin(index).is_some()) {
+            return None;
+        }
         let [name, latitude, longitude, altitude, floor, favourites, mask] = &self.station;
         Some(Station {
             name: text(name)?,

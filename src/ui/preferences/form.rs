@@ -46,16 +46,19 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, before: &Draft, two_columns: 
 
 fn site(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
     card(ui, "Site and satellites", |ui| {
-        fields(ui, "station", &mut draft.station, Some(&before.station));
+        let problems: Vec<Option<String>> = draft.station.iter().map(Field::problem).collect();
+        fields(ui, "station", &mut draft.station, &problems, Some(&before.station));
     });
 }
 
 fn antennas(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
     let mut removed = None;
-    for (index, antenna) in draft.antennas.iter_mut().enumerate() {
+    for index in 0..draft.antennas.len() {
+        let problems = draft.antenna_problems(index);
+        let Some(antenna) = draft.antennas.get_mut(index) else { continue };
         card(ui, &format!("Antenna {}", index + 1), |ui| {
             let before = before.antennas.get(index).map(<[Field; 14]>::as_slice);
-            fields(ui, &format!("antenna {index}"), antenna, before);
+            fields(ui, &format!("antenna {index}"), antenna, &problems, before);
             if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
                 removed = Some(index);
             }
@@ -85,12 +88,17 @@ fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
         });
 }
 
-fn fields(ui: &mut Ui, group: &str, fields: &mut [Field], before: Option<&[Field]>) {
+fn fields(
+    ui: &mut Ui,
+    group: &str,
+    fields: &mut [Field],
+    problems: &[Option<String>],
+    before: Option<&[Field]>,
+) {
     let t = theme::tokens(ui);
-    for (index, field) in fields.iter_mut().enumerate() {
-        let problem = field.problem();
+    for (index, (field, problem)) in fields.iter_mut().zip(problems).enumerate() {
         let same = before.and_then(|before| before.get(index)).is_some_and(|old| old == field);
-        let border = match (&problem, same) {
+        let border = match (problem, same) {
             (Some(_), _) => Some(t.bad),
             (None, false) => Some(t.sat),
             (None, true) => None,
