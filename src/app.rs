@@ -9,6 +9,7 @@ pub mod alarms;
 pub mod antenna;
 mod carry_out;
 pub mod clearance;
+mod clock_watch;
 pub mod command;
 pub mod daylight;
 mod demo;
@@ -23,7 +24,10 @@ use std::{path::PathBuf, sync::Arc, time::Instant};
 pub use command::UiCommand;
 pub use model::{Model, View};
 
-use self::{antenna::AntennaModel, demo::Demo, job::Job, memory::Keeper, model::CatalogState};
+use self::{
+    antenna::AntennaModel, clock_watch::ClockWatch, demo::Demo, job::Job, memory::Keeper,
+    model::CatalogState,
+};
 use crate::{
     driver::{self, Clock, Driver, Wake},
     orbit::{BundledError, Catalog},
@@ -46,6 +50,7 @@ pub struct App {
     driver: Driver,
     demo: Option<Demo>,
     clock: Clock,
+    clock_watch: ClockWatch,
     wake: Wake,
     settings_path: Option<PathBuf>,
     catalog_job: Option<Job<Result<Catalog, BundledError>>>,
@@ -64,6 +69,7 @@ impl App {
         let model = Model {
             now: clock.utc(),
             steady: Instant::now(),
+            time_sync: driver::TimeSync::NotKnown,
             station: Station::default(),
             demo: false,
             catalog: CatalogState::Loading,
@@ -84,6 +90,7 @@ impl App {
             driver,
             demo: None,
             clock,
+            clock_watch: ClockWatch::default(),
             wake,
             settings_path,
             catalog_job: Some(catalog_job),

@@ -8,6 +8,7 @@ mod intent;
 mod link;
 mod session;
 mod snapshot;
+mod time_sync;
 
 use std::{io, sync::Arc, thread, time::Duration};
 
@@ -19,6 +20,7 @@ pub use intent::Intent;
 pub use link::{Dial, Stream, dial_tcp};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{Event, Found, LinkLoss, LinkState, Snapshot, StopState};
+pub use time_sync::{TimeSync, time_sync};
 
 use crate::{
     controller::{Moves, satrak::Satrak},

@@ -25,6 +25,8 @@ impl App {
     pub(super) fn think(&mut self) {
         self.model.now = self.clock.utc();
         self.model.steady = Instant::now();
+        let time_sync = self.clock_watch.poll(self.model.steady, &self.wake);
+        self.model.time_sync = time_sync.unwrap_or(self.model.time_sync);
         self.take_catalog();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);

@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     astro::{AzEl, Site, sun_moon},
+    driver::TimeSync,
     orbit::{Catalog, LookAngles, is_sunlit},
     station::Station,
 };
@@ -48,6 +49,8 @@ pub struct Model {
     pub now: Timestamp,
     /// The steady clock of this frame, for ages.
     pub steady: Instant,
+    /// How the clock behind [`now`](Self::now) is kept.
+    pub time_sync: TimeSync,
     /// The station as saved.
     pub station: Station,
     /// The station is the demo station with simulated antennas.

@@ -5,7 +5,7 @@ use jiff::tz::TimeZone;
 
 use super::{
     format, state_sentence, top_bar,
-    top_bar::{ClockModel, TopBarAction, TopBarModel},
+    top_bar::{ClockHealth, ClockModel, ClockMood, TopBarAction, TopBarModel},
     widgets::{
         alarm_list::{AlarmAction, AlarmModel, AlarmPriority, AlarmRow, AlarmState},
         link_chip::{ChipModel, LinkGlyph},
@@ -16,7 +16,7 @@ use super::{
 use crate::{
     app::{Model, UiCommand, View, alarms::Priority, antenna::AntennaModel},
     controller::Phase,
-    driver::{LinkState, StopState},
+    driver::{LinkState, StopState, TimeSync},
 };
 
 /// Shows the bar in `rect`.
@@ -80,7 +80,13 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let bar = TopBarModel {
         station: &model.station.name,
         coordinates: &coordinates,
-        clock: ClockModel { utc: &utc, date: &date, local: &local, zone: &zone },
+        clock: ClockModel {
+            utc: &utc,
+            date: &date,
+            local: &local,
+            zone: &zone,
+            health: clock_health(model.time_sync),
+        },
         chips: &chips,
         alarms: AlarmModel { rows: &rows, unopened: model.alarms.unopened },
         stop: stop_look(model, unproved.as_deref()),
@@ -94,6 +100,28 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             TopBarAction::OpenStationSettings => UiCommand::Show(View::Preferences),
             TopBarAction::SetTheme(name) => UiCommand::SetTheme(name),
         });
+    }
+}
+
+fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
+    match sync {
+        TimeSync::Synchronised => ClockHealth {
+            mood: ClockMood::Good,
+            words: "synchronised",
+            sentence: "A time service keeps the clock of this computer.",
+        },
+        TimeSync::NotSynchronised => ClockHealth {
+            mood: ClockMood::Bad,
+            words: "not synchronised",
+            sentence: "No time service keeps the clock of this computer. Overhead a low \
+                       satellite moves by about 1° in a second, so the predictions are wrong by \
+                       as much for each second that the clock is off.",
+        },
+        TimeSync::NotKnown => ClockHealth {
+            mood: ClockMood::Unknown,
+            words: "sync not known",
+            sentence: "Whether a time service keeps the clock of this computer is not known.",
+        },
     }
 }
 

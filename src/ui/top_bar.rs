@@ -16,7 +16,7 @@ use super::{
         stop_button::{self, StopState},
     },
 };
-pub use clock::ClockModel;
+pub use clock::{ClockHealth, ClockModel, ClockMood};
 
 /// Height of the bar.
 pub const HEIGHT: f32 = 56.0;
@@ -115,7 +115,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let chips_left = chips::show(
         ui,
         Rect::from_min_max(
-            pos2(clock.utc + 12.0, alarms.top()),
+            pos2(clock.utc.right() + 12.0, alarms.top()),
             pos2(alarms.left() - 8.0, alarms.bottom()),
         ),
         model.chips,
@@ -124,9 +124,14 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     );
     let free = rect.with_max_x(chips_left - 8.0);
     if let StopState::NotConfirmed { text } = model.stop {
-        clock::not_confirmed(ui, free.with_min_x(clock.utc + 10.0), text);
-    } else if rect.width() >= DATE_FROM {
-        clock::date(ui, free.with_min_x(clock.time + 10.0), &model.clock);
+        clock::not_confirmed(ui, free.with_min_x(clock.utc.right() + 10.0), text);
+    }
+    let has_date =
+        rect.width() >= DATE_FROM && !matches!(model.stop, StopState::NotConfirmed { .. });
+    let date = free.with_min_x(clock.time + 10.0);
+    let told = has_date && clock::date(ui, date, &model.clock);
+    if !told && model.clock.health.mood == ClockMood::Bad {
+        clock::warn(ui, clock.utc, &model.clock.health);
     }
 
     let mut done = Vec::new();

@@ -9,6 +9,7 @@
 )]
 
 mod bar;
+mod clock;
 mod drive;
 mod extremes;
 mod keys;

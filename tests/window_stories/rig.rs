@@ -15,7 +15,7 @@ use azel::{
         model::{CatalogState, Sky},
     },
     astro::{Site, time::add_seconds},
-    driver::{AntennaHandle, LinkState, Snapshot},
+    driver::{AntennaHandle, LinkState, Snapshot, TimeSync},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     plan::{Sample, trackability},
     station::{Antenna, Station},
@@ -138,6 +138,7 @@ pub(crate) fn model(snapshot: Snapshot) -> Model {
     let mut model = Model {
         now: now(),
         steady: Instant::now(),
+        time_sync: TimeSync::Synchronised,
         station,
         demo: false,
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),

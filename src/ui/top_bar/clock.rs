@@ -3,6 +3,7 @@
 use egui::{Align2, Rect, Ui, accesskit::Live, pos2, vec2};
 
 use crate::ui::{
+    icons::{self, Icon},
     text::{self, Weight},
     theme,
     widgets::paint,
@@ -10,6 +11,10 @@ use crate::ui::{
 
 /// The letters UTC and the space behind them.
 const UTC_WIDTH: f32 = 34.0;
+/// Between the local time and the health of the clock.
+const HEALTH_GAP: f32 = 10.0;
+/// From the middle of the bar to the middle of each of two lines.
+const LINE: f32 = 8.0;
 /// A sentence in less room than this takes three lines.
 const TWO_LINES: f32 = 180.0;
 
@@ -24,12 +29,37 @@ pub struct ClockModel<'a> {
     pub local: &'a str,
     /// Name or offset of the local zone.
     pub zone: &'a str,
+    /// Whether the clock can be trusted.
+    pub health: ClockHealth<'a>,
 }
 
-/// Where the clock ends, and where the letters UTC beside it end.
+/// Whether the clock can be trusted.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ClockHealth<'a> {
+    /// How it is shown.
+    pub mood: ClockMood,
+    /// In a few words.
+    pub words: &'a str,
+    /// What it means.
+    pub sentence: &'a str,
+}
+
+/// How the health of the clock is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ClockMood {
+    /// As it should be.
+    Good,
+    /// It needs somebody to look after it: shown also where words have no room.
+    Bad,
+    /// Nothing is known.
+    #[default]
+    Unknown,
+}
+
+/// Where the clock ends, and where the letters UTC beside it stand.
 pub(super) struct ClockEnds {
     pub(super) time: f32,
-    pub(super) utc: f32,
+    pub(super) utc: Rect,
 }
 
 /// Shows the UTC clock at the left end of `rect`.
@@ -38,28 +68,59 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
     let font = if wide { text::clock() } else { text::sized(24.0, Weight::SemiBold) };
     let time = paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, model.utc, font, t.t1);
     let named = paint::name_text(ui, "utc", time, &format!("{} UTC", model.utc));
-    named.on_hover_text(format!("{} UTC\n{} {}", model.date, model.local, model.zone));
+    named.on_hover_text(format!(
+        "{} UTC\n{} {}\n{}",
+        model.date, model.local, model.zone, model.health.sentence
+    ));
     let strong = text::sized(12.0, Weight::SemiBold);
-    let below = if wide { -8.0 } else { 0.0 };
-    let at = pos2(time.right() + 10.0, rect.center().y + below);
+    let two_lines = wide || model.health.mood == ClockMood::Bad;
+    let at = pos2(time.right() + 10.0, rect.center().y - if two_lines { LINE } else { 0.0 });
     let utc = paint::text(ui, at, Align2::LEFT_CENTER, "UTC", strong, t.t1);
-    ClockEnds { time: time.right(), utc: utc.right() }
+    ClockEnds { time: time.right(), utc }
 }
 
-/// Shows date and local time in `rect`, beside and below the letters UTC,
-/// unless a part of it would be cut off; it is in the tool-tip as well.
-pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) {
+/// Shows date, local time and health in `rect`, beside and below the letters
+/// UTC. What would be cut off is left out; it is in the tool-tip as well.
+/// Returns whether it had room.
+pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     let t = theme::tokens(ui);
-    let wanted = UTC_WIDTH + paint::text_width(ui, model.date, text::small());
-    if wanted > rect.width() {
-        return;
-    }
-    let after_utc = rect.with_min_x(rect.left() + UTC_WIDTH).translate(vec2(0.0, -8.0));
-    paint::text_in(ui, after_utc, Align2::LEFT_CENTER, model.date, text::small(), t.t2);
     let local = format!("{} {}", model.local, model.zone);
-    let below = rect.translate(vec2(0.0, 8.0));
+    let width = |words: &str| paint::text_width(ui, words, text::small());
+    let bad = model.health.mood == ClockMood::Bad;
+    let room_for_health = width(&local) + HEALTH_GAP + width(model.health.words) <= rect.width();
+    if UTC_WIDTH + width(model.date) > rect.width() || (bad && !room_for_health) {
+        return false;
+    }
+    let after_utc = rect.with_min_x(rect.left() + UTC_WIDTH).translate(vec2(0.0, -LINE));
+    paint::text_in(ui, after_utc, Align2::LEFT_CENTER, model.date, text::small(), t.t2);
+    let below = rect.translate(vec2(0.0, LINE));
     let place = paint::text_in(ui, below, Align2::LEFT_CENTER, &local, text::small(), t.t2);
     paint::name_text(ui, "local", place, &format!("{}, local time {local}", model.date));
+    if room_for_health {
+        let colour = match model.health.mood {
+            ClockMood::Good => t.ok,
+            ClockMood::Bad => t.warn,
+            ClockMood::Unknown => t.t3,
+        };
+        let rest = below.with_min_x(place.right() + HEALTH_GAP);
+        let words = model.health.words;
+        let place = paint::text_in(ui, rest, Align2::LEFT_CENTER, words, text::small(), colour);
+        name_health(ui, place, &model.health);
+    }
+    true
+}
+
+/// A triangle below the letters UTC, where the health has no room for words.
+pub(super) fn warn(ui: &Ui, utc: Rect, health: &ClockHealth<'_>) {
+    let t = theme::tokens(ui);
+    let place = paint::square(utc.center() + vec2(0.0, 2.0 * LINE), 14.0);
+    icons::paint(ui.painter(), place, Icon::Warning, t.warn);
+    name_health(ui, place, health);
+}
+
+fn name_health(ui: &Ui, place: Rect, health: &ClockHealth<'_>) {
+    let name = format!("Clock: {}", health.words);
+    paint::name_text(ui, "clock health", place, &name).on_hover_text(health.sentence);
 }
 
 /// Says in `rect` what STOP did not prove.

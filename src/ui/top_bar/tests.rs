@@ -53,6 +53,7 @@ fn show_bar(ui: &mut Ui, stop: StopState<'_>) -> Vec<TopBarAction> {
             date: "Sat 2026-11-14",
             local: "14:06:12",
             zone: "local",
+            health: ClockHealth::default(),
         },
         chips: &chips,
         alarms: AlarmModel { rows: &[ALARM], unopened: false },
