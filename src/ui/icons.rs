@@ -46,11 +46,13 @@ pub enum Icon {
     Layers,
     /// A note or a legend.
     Info,
+    /// The list of keys.
+    Question,
 }
 
 impl Icon {
     /// All icons.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Octagon,
         Self::Bell,
         Self::Warning,
@@ -69,6 +71,7 @@ impl Icon {
         Self::OpenRing,
         Self::Layers,
         Self::Info,
+        Self::Question,
     ];
 }
 

@@ -1,6 +1,6 @@
-//! The views, at the left edge of the window.
+//! The views and the list of keys, at the left edge of the window.
 
-use egui::{Align2, Rect, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{Align2, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::{
     icons::{self, Icon},
@@ -14,6 +14,11 @@ pub const WIDTH: f32 = 72.0;
 pub const SMALL_WIDTH: f32 = 48.0;
 /// Below this width of the window the words go.
 pub const SMALL_BELOW: f32 = 1200.0;
+
+/// Above the first entry and below the last.
+const EDGE: f32 = 8.0;
+/// Between two entries.
+const GAP: f32 = 4.0;
 
 /// One view.
 #[derive(Debug, Clone, Copy)]
@@ -40,42 +45,65 @@ pub fn show(ui: &mut Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize>
 
 fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     let t = theme::tokens(ui);
-    let small = rect.width() < WIDTH;
     ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
-    let (height, gap) = if small { (40.0, 4.0) } else { (60.0, 4.0) };
     let mut clicked = None;
     for (index, entry) in entries.iter().enumerate() {
-        let top = rect.top() + 8.0 + index as f32 * (height + gap);
-        let cell =
-            Rect::from_min_size(pos2(rect.left() + 4.0, top), vec2(rect.width() - 8.0, height));
-        let id = ui.make_persistent_id(("view", entry.word));
-        let mut response = ui.interact(cell, id, Sense::click());
-        response.widget_info(|| WidgetInfo::selected(Role::Tab, true, entry.active, entry.word));
-        let colour = if entry.active { t.sat } else { t.t2 };
-        if entry.active {
-            ui.painter().rect_filled(cell, 6.0, t.bgsel);
-            if !small {
-                let bar = Rect::from_min_size(pos2(rect.left(), top), vec2(3.0, height));
-                ui.painter().rect_filled(bar, 0.0, t.sat);
-            }
-        } else if response.hovered() {
-            ui.painter().rect_filled(cell, 6.0, t.bg3);
-        }
-        if small {
-            icons::paint(ui.painter(), paint::square(cell.center(), 20.0), entry.icon, colour);
-            response = response.on_hover_text(entry.word);
-        } else {
-            let at = cell.center() - vec2(0.0, 9.0);
-            icons::paint(ui.painter(), paint::square(at, 20.0), entry.icon, colour);
-            let word = cell.with_min_y(cell.bottom() - 27.0).expand2(vec2(3.0, 0.0));
-            paint::text_in(ui, word, Align2::CENTER_CENTER, entry.word, text::caption(), colour);
-        }
-        paint::focus_ring(ui, &response, 6);
-        if response.clicked() {
+        let top = rect.top() + EDGE + index as f32 * (cell_height(rect) + GAP);
+        if cell(ui, rect, top, entry, Role::Tab).clicked() {
             clicked = Some(index);
         }
     }
     clicked
+}
+
+/// Shows, at the foot of the rail in `rect`, what opens the list of keys.
+/// True when it was clicked.
+pub fn show_keys(ui: &mut Ui, rect: Rect) -> bool {
+    let entry = RailEntry { icon: Icon::Question, word: "Keys", active: false };
+    let top = rect.bottom() - EDGE - cell_height(rect);
+    let builder = UiBuilder::new().id_salt("rail foot").max_rect(rect);
+    ui.scope_builder(builder, |ui| cell(ui, rect, top, &entry, Role::Button).clicked()).inner
+}
+
+fn is_small(rect: Rect) -> bool {
+    rect.width() < WIDTH
+}
+
+fn cell_height(rect: Rect) -> f32 {
+    if is_small(rect) { 40.0 } else { 60.0 }
+}
+
+fn cell(ui: &Ui, rect: Rect, top: f32, entry: &RailEntry<'_>, role: Role) -> Response {
+    let t = theme::tokens(ui);
+    let size = vec2(rect.width() - 8.0, cell_height(rect));
+    let cell = Rect::from_min_size(pos2(rect.left() + 4.0, top), size);
+    let id = ui.make_persistent_id(("view", entry.word));
+    let mut response = ui.interact(cell, id, Sense::click());
+    response.widget_info(|| match role {
+        Role::Tab => WidgetInfo::selected(role, true, entry.active, entry.word),
+        _ => WidgetInfo::labeled(role, true, entry.word),
+    });
+    let colour = if entry.active { t.sat } else { t.t2 };
+    if entry.active {
+        ui.painter().rect_filled(cell, 6.0, t.bgsel);
+        if !is_small(rect) {
+            let bar = Rect::from_min_size(pos2(rect.left(), top), vec2(3.0, cell.height()));
+            ui.painter().rect_filled(bar, 0.0, t.sat);
+        }
+    } else if response.hovered() {
+        ui.painter().rect_filled(cell, 6.0, t.bg3);
+    }
+    if is_small(rect) {
+        icons::paint(ui.painter(), paint::square(cell.center(), 20.0), entry.icon, colour);
+        response = response.on_hover_text(entry.word);
+    } else {
+        let at = cell.center() - vec2(0.0, 9.0);
+        icons::paint(ui.painter(), paint::square(at, 20.0), entry.icon, colour);
+        let word = cell.with_min_y(cell.bottom() - 27.0).expand2(vec2(3.0, 0.0));
+        paint::text_in(ui, word, Align2::CENTER_CENTER, entry.word, text::caption(), colour);
+    }
+    paint::focus_ring(ui, &response, 6);
+    response
 }
 
 #[cfg(test)]

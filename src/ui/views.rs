@@ -77,6 +77,7 @@ impl Views {
         }
         let side = body.with_max_x(body.left() + rail::width(window.width()));
         show_rail(ui, side, model, commands);
+        self.keys_open |= rail::show_keys(ui, side);
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
         match model.view {
             View::Operate => {

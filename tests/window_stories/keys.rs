@@ -1,7 +1,7 @@
 //! The keys and their list.
 
 use azel::{
-    app::{UiCommand, alarms::AlarmKind, forecast::Forecast},
+    app::{UiCommand, View, alarms::AlarmKind, forecast::Forecast},
     ui::keys::{ALL, Binding, Place, list::in_words},
 };
 use egui::{Key, Modifiers, Role};
@@ -74,11 +74,14 @@ fn no_two_lines_of_the_list_take_the_same_key() {
     }
 }
 
+fn is_open(window: &Window) -> bool {
+    window.query_by_role_and_label(Role::Button, "Close").is_some()
+}
+
 #[test]
 fn the_question_mark_opens_the_whole_list_and_it_closes_in_every_way() {
     for size in SIZES {
         let mut window = desk(size);
-        let is_open = |window: &Window| window.query_by_label("Keys").is_some();
         for close in ["Esc", "?", "Close", "outside"] {
             assert!(!is_open(&window), "{close}");
             window.key_press(Key::Questionmark);
@@ -128,7 +131,7 @@ fn a_question_mark_that_is_typed_opens_nothing() {
         settle(&mut window);
         window.key_press(Key::Questionmark);
         settle(&mut window);
-        assert!(window.query_by_label("Keys").is_none());
+        assert!(!is_open(&window));
     }
 }
 
@@ -221,4 +224,23 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
     settle(&mut window);
     let row = list(&window, last).expect("its row is partly there");
     assert!(row.bottom() > BOTTOM, "{row:?}");
+}
+
+#[test]
+fn the_list_opens_with_the_mouse() {
+    for size in SIZES {
+        for view in [View::Operate, View::Preferences] {
+            let mut model = rig::model(states::holding());
+            model.view = view;
+            let mut window = rig::window(size, model);
+            let button = window.get_by_role_and_label(Role::Button, "Keys");
+            assert!(button.rect().bottom() <= size[1], "{:?}", button.rect());
+            button.click();
+            settle(&mut window);
+            window.get_by_label_contains("Ctrl L: next theme");
+            window.get_by_role_and_label(Role::Button, "Close").click();
+            settle(&mut window);
+            assert!(!is_open(&window));
+        }
+    }
 }
