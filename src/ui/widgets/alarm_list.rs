@@ -1,10 +1,10 @@
 //! The alarm button of the top bar and the list that it opens.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use egui::{
-    Align2, Color32, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke, StrokeKind,
-    Ui, ViewportId, WidgetInfo, pos2, vec2,
+    Align2, Color32, Galley, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, Ui, ViewportId, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -20,7 +20,16 @@ use crate::ui::{
 
 const RADIUS: u8 = 6;
 const LIST_WIDTH: f32 = 360.0;
+/// A row whose text has one line; a longer text makes it higher.
 const ROW_HEIGHT: f32 = 52.0;
+/// Between the text and its time.
+const TIME_GAP: f32 = 1.0;
+/// Height of the line with the time.
+const TIME_HEIGHT: f32 = 16.0;
+/// Left of the text, for the mark.
+const TEXT_LEFT: f32 = 32.0;
+/// Above the text and below the time.
+const ROW_PADDING: f32 = 9.0;
 /// The bell goes on and off once a second until the list was opened.
 const HALF_BLINK_S: f64 = 0.5;
 
@@ -176,35 +185,54 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, actions: &mut Vec<AlarmAction>) {
     }
     egui::ScrollArea::vertical().max_height(8.0 * ROW_HEIGHT).show(ui, |ui| {
         for (index, row) in model.rows.iter().enumerate() {
-            let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, ROW_HEIGHT), Sense::hover());
+            let words = words_of(ui, row);
+            let wanted = words.size().y + TIME_GAP + TIME_HEIGHT + 2.0 * ROW_PADDING;
+            let size = vec2(LIST_WIDTH, wanted.max(ROW_HEIGHT));
+            let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
             if index > 0 {
                 ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
             }
-            if list_row(ui, rect, row) {
+            if list_row(ui, rect, row, words) {
                 actions.push(AlarmAction::Acknowledge(row.id));
             }
         }
     });
 }
 
+/// The text of a row, in as many lines as it needs.
+fn words_of(ui: &Ui, row: &AlarmRow<'_>) -> Arc<Galley> {
+    let t = theme::tokens(ui);
+    let (weight, ink) = match row.state {
+        AlarmState::New => (Weight::SemiBold, t.t1),
+        _ => (Weight::Regular, t.t2),
+    };
+    let width = LIST_WIDTH - TEXT_LEFT - right_of_text(row.state);
+    ui.painter().layout(row.text.to_owned(), text::sized(13.0, weight), ink, width)
+}
+
+/// Room at the right for the button or the state.
+fn right_of_text(state: AlarmState<'_>) -> f32 {
+    match state {
+        AlarmState::New => 104.0,
+        AlarmState::Shelved { .. } => 116.0,
+        AlarmState::Seen | AlarmState::Cleared => 60.0,
+    }
+}
+
 /// Returns whether the row was acknowledged.
-fn list_row(ui: &Ui, rect: Rect, row: &AlarmRow<'_>) -> bool {
+fn list_row(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, galley: Arc<Galley>) -> bool {
     let t = theme::tokens(ui);
     let (icon, colour) = mark(row, t);
     let glyph = paint::square(pos2(rect.left() + 12.0, rect.center().y), 18.0);
     icons::paint(ui.painter(), glyph, icon, colour);
     let new = row.state == AlarmState::New;
-    let right = match row.state {
-        AlarmState::New => 104.0,
-        AlarmState::Shelved { .. } => 116.0,
-        AlarmState::Seen | AlarmState::Cleared => 60.0,
-    };
-    let room = rect.with_min_x(rect.left() + 32.0).with_max_x(rect.right() - right);
-    let (weight, ink) = if new { (Weight::SemiBold, t.t1) } else { (Weight::Regular, t.t2) };
-    let up = room.translate(vec2(0.0, -8.0));
-    paint::text_in(ui, up, Align2::LEFT_CENTER, row.text, text::sized(13.0, weight), ink);
-    let down = room.translate(vec2(0.0, 9.0));
-    paint::text_in(ui, down, Align2::LEFT_CENTER, row.time, text::small(), t.t3);
+    let right = right_of_text(row.state);
+    let room = rect.with_min_x(rect.left() + TEXT_LEFT).with_max_x(rect.right() - right);
+    let height = galley.size().y + TIME_GAP + TIME_HEIGHT;
+    let top = pos2(room.left(), room.center().y - height / 2.0);
+    let time = pos2(top.x, top.y + galley.size().y + TIME_GAP);
+    ui.painter().galley(top, galley, t.t1);
+    paint::text(ui, time, Align2::LEFT_TOP, row.time, text::small(), t.t3);
     let words = match row.state {
         AlarmState::New => "new".to_owned(),
         AlarmState::Seen => "seen".to_owned(),
@@ -255,6 +283,28 @@ mod tests {
             time: "10:41:10Z",
         },
     ];
+
+    /// The height of the row of one alarm with this text.
+    fn row_height(text: &str) -> f32 {
+        let row = AlarmRow { text, ..ROWS[0] };
+        let mut window = testing::window([500.0, 300.0], (), move |ui, ()| {
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(104.0, 40.0));
+            let model = AlarmModel { rows: &[row], unopened: false };
+            show(ui, rect, &model, false, &mut Vec::new());
+        });
+        window.get_by_label("1 alarm, 1 new").click();
+        window.run();
+        window.get_by_label(&format!("{text}, 11:05:58Z, new")).rect().height()
+    }
+
+    #[test]
+    fn a_long_text_gets_the_lines_that_it_needs() {
+        let long = "Satrak seems to write decimal commas. Its position cannot be read. Set it \
+                    to points, in its own settings.";
+        let (one, more) = (row_height(ROWS[0].text), row_height(long));
+        assert!((one - ROW_HEIGHT).abs() < 0.5, "{one}");
+        assert!(more > one + 2.0 * 15.0, "{more}");
+    }
 
     #[test]
     fn an_alarm_is_acknowledged_from_the_list() {
