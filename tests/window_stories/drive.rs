@@ -231,3 +231,17 @@ fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
         assert_eq!(asked(&mut window), [UiCommand::Stop]);
     }
 }
+
+#[test]
+fn nothing_moves_when_a_direction_is_refused_in_manual() {
+    for (size, below) in SIZES.into_iter().zip(["Details", "Travel"]) {
+        let mut window = rig::window(size, rig::model(states::manual()));
+        let place = |window: &Window| window.get_by_label_contains(below).rect();
+        let before = place(&window);
+        type_into(&mut window, "Go to azimuth, degrees", "361");
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        assert!(says(&window, "Azimuth 361 is outside 0° to 360°."), "{size:?}");
+        assert_eq!(place(&window), before);
+    }
+}

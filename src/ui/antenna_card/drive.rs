@@ -10,6 +10,7 @@ use crate::ui::{
     icons::{self, Icon},
     text, theme,
     widgets::{
+        button::SMALL_HEIGHT,
         go_to::{self, GoToAction, GoToModel, GoToState},
         jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
         paint, rate_slider,
@@ -18,7 +19,12 @@ use crate::ui::{
 
 /// Rate of the first jog, in degrees per second.
 const FIRST_RATE_DEG_S: f64 = 0.5;
-const TWO_LINES: f32 = 32.0;
+/// Below the row of steps.
+const STEPS_GAP: f32 = 4.0;
+/// Kept free below the pad: for the row of steps and one line, or two lines.
+const MESSAGES: f32 = SMALL_HEIGHT + STEPS_GAP + MESSAGE;
+/// A sentence of one line.
+const MESSAGE: f32 = 17.0;
 
 /// What moving by hand needs to know.
 #[derive(Debug, Clone, Copy)]
@@ -123,11 +129,11 @@ pub(super) fn show(
         GoToAction::Send(target) => CardAction::GoTo(target),
     }));
     at.skip(6.0);
-    // Two lines are kept free, so that nothing moves when a sentence comes.
-    let end = at.y + TWO_LINES;
+    // So that nothing moves when a sentence comes.
+    let end = at.y + MESSAGES;
     if model.jog_locked.is_none() {
         steps::show(ui, at, model, &mut state.steps, state.jog, actions);
-        at.skip(4.0);
+        at.skip(STEPS_GAP);
     }
     messages(ui, at, model, state);
     at.y = at.y.max(end);
