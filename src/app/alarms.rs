@@ -124,14 +124,20 @@ impl Alarms {
         &self.list
     }
 
-    /// Adds one, unless the same is standing already.
+    /// Adds one, unless the same is standing already or one that explains it. It
+    /// takes the place of what it explains.
     pub fn raise(&mut self, antenna: Option<usize>, kind: AlarmKind, time: Timestamp) {
         let standing = self.list.iter().any(|alarm| {
-            !alarm.cleared && alarm.antenna == antenna && same_matter(&alarm.kind, &kind)
+            !alarm.cleared
+                && alarm.antenna == antenna
+                && (same_matter(&alarm.kind, &kind) || explains(&alarm.kind, &kind))
         });
         if standing {
             return;
         }
+        self.list.retain(|alarm| {
+            alarm.cleared || alarm.antenna != antenna || !explains(&kind, &alarm.kind)
+        });
         if self.list.len() >= MOST {
             let oldest = self.list.iter().position(|alarm| alarm.seen).unwrap_or(0);
             self.list.remove(oldest);
@@ -202,6 +208,11 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     }
 }
 
+/// Whether `cause` says all that `effect` says, and why.
+fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
+    matches!((cause, effect), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(LinkLoss::Unreadable)))
+}
+
 /// The alarm that an event calls for, if any.
 pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
     Some(match event.clone() {
@@ -261,6 +272,25 @@ mod tests {
         alarms.raise(None, AlarmKind::AutoTrackStillOn, time());
         alarms.acknowledge(alarms.newest_unseen().unwrap());
         assert_eq!(alarms.list(), [], "a moment is over when seen");
+    }
+
+    #[test]
+    fn a_unit_that_writes_decimal_commas_raises_one_alarm() {
+        let unreadable = AlarmKind::LinkLost(LinkLoss::Unreadable);
+        let orders = [
+            [unreadable.clone(), AlarmKind::DecimalCommas],
+            [AlarmKind::DecimalCommas, unreadable.clone()],
+        ];
+        for order in orders {
+            let mut alarms = Alarms::default();
+            for kind in order {
+                alarms.raise(Some(0), kind, time());
+            }
+            let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
+            assert_eq!(kinds, [&AlarmKind::DecimalCommas]);
+            alarms.raise(Some(1), unreadable.clone(), time());
+            assert_eq!(alarms.list().len(), 2, "another antenna");
+        }
     }
 
     #[test]
