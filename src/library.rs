@@ -18,9 +18,12 @@ use self::{
     fetch::{Answer, fetch, host},
     index::{Index, Record},
 };
-use crate::orbit::{
-    Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Place, Source,
-    SourceReport, may_fetch, read_element_bytes,
+use crate::{
+    orbit::{
+        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Place, Source,
+        SourceReport, may_fetch, read_element_bytes,
+    },
+    whole_file,
 };
 
 /// How the files in a folder end that hold elements.
@@ -159,7 +162,7 @@ impl Library {
                 if held.is_some_and(|held| newest_epoch(&held.bytes) > Some(newest)) {
                     return Err(FetchProblem::Older);
                 }
-                disk::replace(&path, &body)
+                whole_file::replace_and_keep_old(&path, &body)
                     .map_err(|error| FetchProblem::Disk(error.to_string()))?;
                 *self.index.entry(url, name, now) =
                     Record { etag, last_modified, confirmed_at: Some(now), ..record };

@@ -6,7 +6,6 @@ mod file;
 mod read;
 
 pub use antenna::{Antenna, Connection, Direction, MotionLimits, Mount, PollRates};
-pub(crate) use file::replace_file;
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub(crate) use read::check_address;
 pub use read::{Note, NoteReason, from_toml};

@@ -14,8 +14,8 @@ use serde::Serialize;
 use super::job::Job;
 use crate::{
     driver::Wake,
-    station,
     ui::{Kept, tokens::ThemeName},
+    whole_file,
 };
 
 /// The end of the program waits so long for the last change.
@@ -134,7 +134,7 @@ fn write(memory: &Memory, path: &Path) {
     let written = memory
         .to_toml()
         .map_err(io::Error::other)
-        .and_then(|text| station::replace_file(path, text.as_bytes()));
+        .and_then(|text| whole_file::replace(path, text.as_bytes()));
     if let Err(error) = written {
         tracing::warn!(%error, path = %path.display(), "the window is not kept");
     }

@@ -1,9 +1,9 @@
-//! Files of elements: read whole with a limit, replaced whole.
+//! Files of elements: read whole with a limit.
 
 use std::{
     ffi::OsStr,
     fs, io,
-    io::{Read as _, Write as _},
+    io::Read as _,
     path::{Path, PathBuf},
 };
 
@@ -49,26 +49,4 @@ pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>>
         entries?.into_iter().map(|entry| entry.path()).filter(is_wanted).collect();
     paths.sort();
     Ok(paths)
-}
-
-/// Puts `bytes` at `path`: a new file beside it first, then one rename, so that
-/// a failure at any moment leaves the old file whole. What stood there before is
-/// kept beside it with the ending `.old`.
-pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    match fs::copy(path, old(path)) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
-
-/// Where [`replace`] keeps what stood at `path` before.
-pub(super) fn old(path: &Path) -> PathBuf {
-    path.with_added_extension("old")
 }

@@ -9,8 +9,7 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::disk;
-use crate::orbit::FetchProblem;
+use crate::{orbit::FetchProblem, whole_file};
 
 /// The version that this program writes. A file of a later one is left alone.
 const VERSION: u32 = 1;
@@ -87,7 +86,7 @@ impl Index {
         let path = folder.join("index.toml");
         match Self::read(&path) {
             Err(damaged @ IndexError::Syntax { .. }) => {
-                Self::read(&disk::old(&path)).map_err(|_| damaged)
+                Self::read(&whole_file::old(&path)).map_err(|_| damaged)
             }
             Err(IndexError::Disk { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
                 Ok(Self::default())
@@ -113,7 +112,8 @@ impl Index {
     pub(super) fn save(&self, folder: &Path) -> Result<(), IndexError> {
         let path = folder.join("index.toml");
         let text = toml::to_string_pretty(self)?;
-        disk::replace(&path, text.as_bytes()).map_err(|source| IndexError::Disk { source, path })
+        whole_file::replace_and_keep_old(&path, text.as_bytes())
+            .map_err(|source| IndexError::Disk { source, path })
     }
 
     /// What is known of `url`.
@@ -185,7 +185,7 @@ mod tests {
         index.save(folder.path()).unwrap();
         fs::write(&path, "version = ").unwrap();
         assert_eq!(Index::load(folder.path()).unwrap(), index);
-        fs::write(disk::old(&path), "version = ").unwrap();
+        fs::write(whole_file::old(&path), "version = ").unwrap();
         assert!(matches!(Index::load(folder.path()), Err(IndexError::Syntax { .. })));
         fs::write(&path, "version = 9").unwrap();
         assert!(matches!(Index::load(folder.path()), Err(IndexError::Newer { found: 9, .. })));

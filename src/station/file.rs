@@ -2,13 +2,13 @@
 
 use std::{
     fs, io,
-    io::Write as _,
     path::{Path, PathBuf},
 };
 
 use serde::Serialize;
 
 use super::{Note, Station, from_toml};
+use crate::whole_file;
 
 /// The version that this program writes. A file of a later one is left alone.
 const VERSION: i64 = 1;
@@ -92,10 +92,9 @@ pub fn load(path: &Path) -> Result<Loaded, LoadError> {
     Ok(Loaded { station, notes })
 }
 
-/// Puts the station at `path`: a new file beside it first, then one rename, so
-/// that a failure at any moment leaves the old settings whole. What stood there
-/// before is kept beside it with the ending `.old`, because reading forgives
-/// more than it can carry over.
+/// Puts the station at `path`; a failure at any moment leaves the old settings
+/// whole. What stood there before is kept beside it with the ending `.old`,
+/// because reading forgives more than it can carry over.
 pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
     #[derive(Serialize)]
     struct Versioned<'a> {
@@ -104,33 +103,8 @@ pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
         station: &'a Station,
     }
     let text = toml::to_string_pretty(&Versioned { version: VERSION, station })?;
-    write_whole(path, text.as_bytes())
+    whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SaveError::Write { source, path: path.to_owned() })
-}
-
-/// Puts `bytes` at `path` as a whole, in place of what stood there.
-pub(crate) fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    written_beside(path, bytes)?.persist(path).map_err(|error| error.error)?;
-    Ok(())
-}
-
-fn written_beside(path: &Path, bytes: &[u8]) -> io::Result<tempfile::NamedTempFile> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    Ok(file)
-}
-
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let file = written_beside(path, bytes)?;
-    match fs::copy(path, path.with_extension("toml.old")) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }
 
 #[cfg(test)]
