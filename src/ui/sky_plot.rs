@@ -13,6 +13,7 @@ mod marks;
 mod mask;
 mod nodes;
 mod placement;
+mod readout;
 mod scene;
 #[cfg(test)]
 mod stories;
@@ -88,9 +89,9 @@ pub fn show(
     let chosen = nodes::satellites(ui, canvas.id, dome, scene, state.layers.others, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
     nodes::events_and_antenna(ui, canvas.id, dome, &events, scene);
-    corners::readout(ui, rect, scene, t);
+    readout::paint(ui.painter(), rect, dome, scene, t);
     corners::upper_right(ui, rect, &mut state.layers, t);
-    corners::lower_left(ui, rect, scene, t);
+    corners::lower_left(ui, rect, dome, scene, t);
     if canvas.has_focus() {
         let stroke = egui::Stroke::new(2.0, t.sat);
         ui.painter().rect_stroke(rect.shrink(2.0), 0.0, stroke, egui::StrokeKind::Inside);
@@ -127,7 +128,8 @@ fn paint_sky(
             labels.reserve(Rect::from_points(&outline));
         }
     }
-    for corner in corners::reserved(rect, scene) {
+    let numbers = readout::reserved(painter, rect, dome, scene, t);
+    for corner in corners::reserved(rect, dome, scene).into_iter().chain(numbers) {
         labels.reserve(corner);
     }
     if layers.sun_and_moon {

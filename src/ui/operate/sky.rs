@@ -92,7 +92,7 @@ pub(super) fn show(
     commands.extend(clicked.map(UiCommand::SelectSatellite));
 }
 
-/// The numbers in the corner; a low plot has room for the direction only.
+/// The numbers in the corners; a low plot has room for the direction only.
 fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
     let Some(selected) = model.sky.selected else { return Vec::new() };
     let look = selected.look;
@@ -105,7 +105,7 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
         ("Rate", format!("{} km/s", format::signed(look.range_rate_km_s, 2))),
         (
             "Doppler",
-            format!("{} kHz at 437 MHz", format::signed(look.doppler_hz(CARRIER_HZ) / 1e3, 2)),
+            format!("{} kHz\nat 437 MHz", format::signed(look.doppler_hz(CARRIER_HZ) / 1e3, 2)),
         ),
     ];
     direction.into_iter().chain(motion.into_iter().filter(|_| full)).collect()

@@ -1,10 +1,8 @@
-//! The corners of the plot: numbers, layers and legend.
+//! The corners of the plot: layers and legend.
 
-use egui::{
-    Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2,
-};
+use egui::{Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui, vec2};
 
-use super::{Layers, beam_view, legend, scene::SkyScene};
+use super::{Layers, beam_view, geometry::Dome, legend, scene::SkyScene};
 use crate::ui::{
     icons::{self, Icon},
     text,
@@ -12,26 +10,10 @@ use crate::ui::{
     widgets::paint,
 };
 
-/// Distance of the texts from the edges of the plot, points.
-const EDGE: f32 = 16.0;
 /// Below this height of the plot the legend is a button, points.
 const LEGEND_HEIGHT: f32 = 520.0;
-/// Width of the labels of the readout, points.
-const LABELS: f32 = 54.0;
-
-/// The readout in the upper left corner: the first two lines large.
-pub(super) fn readout(ui: &Ui, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) {
-    let mut top = rect.top() + 12.0;
-    for (index, (label, value)) in scene.readout.iter().enumerate() {
-        let (height, font) = if index < 2 { (22.0, text::value()) } else { (20.0, text::small()) };
-        let middle = top + height / 2.0;
-        let left = pos2(rect.left() + EDGE, middle);
-        paint::text(ui, left, Align2::LEFT_CENTER, label, text::small(), t.t2);
-        let right = left + vec2(LABELS, 0.0);
-        paint::text(ui, right, Align2::LEFT_CENTER, value, font, t.t1);
-        top += height;
-    }
-}
+/// Distance of the texts from the edges of the plot, points.
+pub(super) const EDGE: f32 = 16.0;
 
 /// The orientation, the button of the layers and, in a low plot, the button of
 /// the legend, in the upper right corner.
@@ -59,15 +41,23 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
     paint::text(ui, beside, Align2::RIGHT_CENTER, "N up, E right", text::small(), t.t2);
 }
 
-/// The legend in the lower left corner; a button in a low plot.
-pub(super) fn lower_left(ui: &Ui, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) {
-    if rect.height() >= LEGEND_HEIGHT {
-        let top = rect.bottom() - 12.0 - legend::height(scene);
-        legend::paint(ui.painter(), pos2(rect.left() + EDGE, top), scene, t);
+/// The place of the legend, if the plot is high and it does not meet the disc.
+fn legend_place(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Option<Rect> {
+    let size = vec2(legend::WIDTH, legend::height(scene));
+    let corner = rect.left_bottom() + vec2(EDGE, -12.0);
+    let place = Rect::from_min_size(corner - vec2(0.0, size.y), size);
+    let nearest = place.clamp(dome.centre);
+    let is_free = nearest.distance(dome.centre) >= dome.radius;
+    (is_free && rect.height() >= LEGEND_HEIGHT).then_some(place)
+}
+
+/// The legend in the lower left corner, or the button that opens it.
+pub(super) fn lower_left(ui: &Ui, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    if let Some(place) = legend_place(rect, dome, scene) {
+        legend::paint(ui.painter(), place.min, scene, t);
         return;
     }
-    let button =
-        Rect::from_min_size(rect.left_bottom() + vec2(EDGE, -12.0 - 24.0), vec2(80.0, 24.0));
+    let button = legend_button(rect);
     let response = icon_button(ui, "legend", button, "Legend", t);
     let icon = paint::square(button.left_center() + vec2(16.0, 0.0), 14.0);
     icons::paint(ui.painter(), icon, Icon::Info, t.t2);
@@ -83,6 +73,10 @@ pub(super) fn lower_left(ui: &Ui, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) 
         });
 }
 
+fn legend_button(rect: Rect) -> Rect {
+    Rect::from_min_size(rect.left_bottom() + vec2(EDGE, -12.0 - 24.0), vec2(80.0, 24.0))
+}
+
 fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Response {
     let response = paint::control(ui, ("sky plot", salt), rect, Role::Button, true, name);
     let border = if response.hovered() { t.t2 } else { t.edge };
@@ -92,18 +86,11 @@ fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Respo
 }
 
 /// The boxes of the corners, for labels to keep clear of.
-pub(super) fn reserved(rect: Rect, scene: &SkyScene<'_>) -> Vec<Rect> {
-    let lines = scene.readout.len() as f32;
-    let readout = Rect::from_min_size(rect.left_top(), vec2(150.0, 12.0 + 22.0 * lines));
+pub(super) fn reserved(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Vec<Rect> {
     let right =
         Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));
-    let low = rect.height() < LEGEND_HEIGHT;
-    let height = if low { 40.0 } else { legend::height(scene) + 12.0 };
-    let legend = Rect::from_min_max(
-        rect.left_bottom() - vec2(0.0, height),
-        rect.left_bottom() + vec2(EDGE + legend::WIDTH, 0.0),
-    );
-    let mut boxes = vec![readout, right, legend];
+    let legend = legend_place(rect, dome, scene).unwrap_or_else(|| legend_button(rect));
+    let mut boxes = vec![right, legend];
     boxes.extend(scene.predicted.map(|_| beam_view::place(rect).expand(4.0)));
     boxes
 }

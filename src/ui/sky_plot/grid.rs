@@ -1,6 +1,6 @@
 //! The disc with its rings, spokes and rim, and what the mount cannot reach.
 
-use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, vec2};
+use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::{
     geometry::{Dome, dashed, hatch, outward},
@@ -18,6 +18,8 @@ use crate::{
 const SPOKE_TOP_DEG: f32 = 87.0;
 /// Distance of the names of the azimuths from the rim, points.
 const NAMES: f32 = 15.0;
+/// A name of three digits.
+const NAME_SIZE: Vec2 = vec2(22.0, 14.0);
 /// Spacing of the hatch of a keyhole, points.
 const HATCH: f32 = 5.0;
 
@@ -78,6 +80,17 @@ pub(super) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Tokens) -> 
         painter.text(foot + towards * NAMES, Align2::CENTER_CENTER, name, font, colour)
     };
     (0..360).step_by(30).map(name_at).collect()
+}
+
+/// Where the names of the azimuths stand, as far as their size is known
+/// without painting them.
+pub(super) fn name_boxes(dome: Dome) -> Vec<Rect> {
+    let box_at = |azimuth_deg: u16| {
+        let towards = outward(f32::from(azimuth_deg).to_radians());
+        let centre = dome.centre + towards * (dome.radius + NAMES);
+        Rect::from_center_size(centre, NAME_SIZE)
+    };
+    (0..360).step_by(30).map(box_at).collect()
 }
 
 /// Paints the caps at both ends of the lower axis. Returns their outlines.

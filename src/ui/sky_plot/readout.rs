@@ -1,0 +1,155 @@
+//! The numbers of the selected satellite, in the upper corners of the plot.
+
+use std::sync::Arc;
+
+use egui::{Galley, Painter, Pos2, Rect, pos2, vec2};
+
+use super::{corners::EDGE, geometry::Dome, grid, scene::SkyScene};
+use crate::ui::{text, tokens::Tokens};
+
+/// Width of the labels in the left corner, points.
+const LABELS: f32 = 54.0;
+/// Between a label and its value in the right corner, points.
+const LABEL_GAP: f32 = 8.0;
+/// Above the first line in the left corner, points.
+const LEFT_TOP: f32 = 12.0;
+/// Above the first line in the right corner, below the orientation, points.
+const RIGHT_TOP: f32 = 44.0;
+/// Between two lines, points.
+const LINE_GAP: f32 = 3.0;
+/// Between a line and the disc with the names around it, points.
+const CLEARANCE: f32 = 4.0;
+/// This many lines are large.
+const LARGE: usize = 2;
+
+/// One line with its place.
+struct Line {
+    rect: Rect,
+    label: (Pos2, Arc<Galley>),
+    value: (Pos2, Arc<Galley>),
+}
+
+/// Paints what has room.
+pub(super) fn paint(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for line in lines(painter, rect, dome, scene, t) {
+        painter.galley(line.label.0, line.label.1, t.t2);
+        painter.galley(line.value.0, line.value.1, t.t1);
+    }
+}
+
+/// The boxes of the lines, for labels to keep clear of.
+pub(super) fn reserved(
+    painter: &Painter,
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    t: &Tokens,
+) -> Vec<Rect> {
+    lines(painter, rect, dome, scene, t).iter().map(|line| line.rect.expand(4.0)).collect()
+}
+
+/// From the left corner downwards as long as nothing meets the disc, then in
+/// the right corner. What has no room there either is left out.
+fn lines(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) -> Vec<Line> {
+    let names = grid::name_boxes(dome);
+    let is_free = |line: &Line| {
+        let nearest = line.rect.clamp(dome.centre);
+        nearest.distance(dome.centre) >= dome.radius + CLEARANCE
+            && names.iter().all(|name| !name.expand(CLEARANCE / 2.0).intersects(line.rect))
+    };
+    let mut placed: Vec<Line> = Vec::new();
+    let (mut y, mut on_left) = (rect.top() + LEFT_TOP, true);
+    for (index, (label, value)) in scene.readout.iter().enumerate() {
+        let font = if index < LARGE { text::value() } else { text::small() };
+        let label = painter.layout_no_wrap((*label).to_owned(), text::small(), t.t2);
+        let value = painter.layout_no_wrap(value.clone(), font, t.t1);
+        let mut line = line(rect, y, on_left, &label, &value);
+        if on_left && !is_free(&line) {
+            on_left = false;
+            line = self::line(rect, rect.top() + RIGHT_TOP, on_left, &label, &value);
+        }
+        if !is_free(&line) {
+            continue;
+        }
+        y = line.rect.bottom() + LINE_GAP;
+        placed.push(line);
+    }
+    placed
+}
+
+/// A line in the left corner, where the values stand below each other, or in
+/// the right one, where each stands at the edge with its label before it.
+fn line(rect: Rect, top: f32, on_left: bool, label: &Arc<Galley>, value: &Arc<Galley>) -> Line {
+    let label_width = if on_left { LABELS } else { label.size().x + LABEL_GAP };
+    let size = vec2(label_width + value.size().x, value.size().y);
+    let left = if on_left { rect.left() + EDGE } else { rect.right() - EDGE - size.x };
+    // The label stands on the first line of its value.
+    let first = value.rows.first().map_or(0.0, |row| row.height());
+    let label_at = pos2(left, top + (first - label.size().y) / 2.0);
+    Line {
+        rect: Rect::from_min_size(pos2(left, top), size),
+        label: (label_at, Arc::clone(label)),
+        value: (pos2(left + label_width, top), Arc::clone(value)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::{sky_plot::testing, theme, widgets::testing::window};
+
+    fn readout() -> [(&'static str, String); 5] {
+        [
+            ("Az", "327.59°".to_owned()),
+            ("El", "−36.49°".to_owned()),
+            ("Range", "41 586 km".to_owned()),
+            ("Rate", "−7.61 km/s".to_owned()),
+            ("Doppler", "+10.92 kHz\nat 437 MHz".to_owned()),
+        ]
+    }
+
+    /// The places of the lines in a plot of this size.
+    fn places(width: f32, height: f32) -> Vec<Rect> {
+        let size = vec2(width, height);
+        let mut harness = window(size, Vec::new(), move |ui, places: &mut Vec<Rect>| {
+            let scene_readout = readout();
+            let scene = SkyScene { readout: &scene_readout, ..testing::empty() };
+            let rect = Rect::from_min_size(Pos2::ZERO, size);
+            let t = theme::tokens(ui);
+            let lines = lines(ui.painter(), rect, Dome::fitted(rect), &scene, t);
+            *places = lines.iter().map(|line| line.rect).collect();
+        });
+        harness.run();
+        harness.state().clone()
+    }
+
+    #[test]
+    fn the_numbers_meet_neither_disc_nor_edge() {
+        for (width, height, count) in [
+            (704.0, 580.0, 5),
+            (624.0, 580.0, 5),
+            (520.0, 580.0, 4),
+            (672.0, 468.0, 5),
+            (1200.0, 900.0, 5),
+        ] {
+            let places = places(width, height);
+            assert_eq!(places.len(), count, "{width} x {height} {places:?}");
+            let dome = Dome::fitted(Rect::from_min_size(Pos2::ZERO, vec2(width, height)));
+            for place in &places {
+                assert!(place.clamp(dome.centre).distance(dome.centre) > dome.radius);
+                let beyond = place.right() > width || place.left() < 0.0;
+                assert!(!beyond, "{place} in {width} x {height}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plot_of_the_usual_width_keeps_them_together() {
+        assert!(places(704.0, 580.0).iter().all(|place| place.left() < 20.0));
+    }
+
+    #[test]
+    fn what_has_no_room_is_left_out() {
+        assert!(places(300.0, 300.0).len() < 5);
+    }
+}
