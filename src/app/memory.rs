@@ -14,7 +14,7 @@ use serde::Serialize;
 use super::job::Job;
 use crate::{
     driver::Wake,
-    ui::{Kept, tokens::ThemeName},
+    ui::{Kept, sky_plot::Layers, tokens::ThemeName},
     whole_file,
 };
 
@@ -48,8 +48,11 @@ impl Memory {
             tracing::warn!(%error, path = %path.display(), "not used");
             toml::Table::new()
         });
-        let is_set = |key: &str| table.get(key).and_then(toml::Value::as_bool).unwrap_or_default();
-        let hours = table.get("strip_hours").and_then(toml::Value::as_integer);
+        let is_set = |key: &str| flag(&table, key).unwrap_or_default();
+        let number = |key: &str| {
+            let number = table.get(key).and_then(toml::Value::as_integer);
+            number.and_then(|number| u32::try_from(number).ok())
+        };
         Self {
             theme: table
                 .get("theme")
@@ -59,7 +62,9 @@ impl Memory {
             views: Kept {
                 travel_open: is_set("travel_open"),
                 faults_open: is_set("faults_open"),
-                strip_hours: hours.and_then(|hours| u32::try_from(hours).ok()),
+                strip_hours: number("strip_hours"),
+                list_width: number("list_width"),
+                layers: layers(table.get("layers").and_then(toml::Value::as_table)),
             },
         }
     }
@@ -74,6 +79,9 @@ impl Memory {
             faults_open: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
             strip_hours: Option<u32>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            list_width: Option<u32>,
+            layers: Layers,
         }
         toml::to_string(&Lines {
             theme: self.theme,
@@ -81,7 +89,26 @@ impl Memory {
             travel_open: self.views.travel_open,
             faults_open: self.views.faults_open,
             strip_hours: self.views.strip_hours,
+            list_width: self.views.list_width,
+            layers: self.views.layers,
         })
+    }
+}
+
+fn flag(table: &toml::Table, key: &str) -> Option<bool> {
+    table.get(key).and_then(toml::Value::as_bool)
+}
+
+fn layers(table: Option<&toml::Table>) -> Layers {
+    let usual = Layers::default();
+    let Some(table) = table else { return usual };
+    let shown = |key: &str, usual| flag(table, key).unwrap_or(usual);
+    Layers {
+        others: shown("others", usual.others),
+        names: shown("names", usual.names),
+        sun_and_moon: shown("sun_and_moon", usual.sun_and_moon),
+        keyholes: shown("keyholes", usual.keyholes),
+        mask: shown("mask", usual.mask),
     }
 }
 
@@ -148,7 +175,13 @@ mod tests {
         Memory {
             theme: ThemeName::Night,
             antenna: Some("Şile \"2\"".to_owned()),
-            views: Kept { travel_open: true, faults_open: false, strip_hours: Some(24) },
+            views: Kept {
+                travel_open: true,
+                faults_open: false,
+                strip_hours: Some(24),
+                list_width: Some(411),
+                layers: Layers { names: false, mask: false, ..Layers::default() },
+            },
         }
     }
 
@@ -193,6 +226,10 @@ mod tests {
         for (text, wanted) in [
             ("theme = 'night'\nstrip_hours = -3\nfaults_open = 'yes'\nnew = 1", {
                 Memory { theme: ThemeName::Night, ..Memory::default() }
+            }),
+            ("list_width = -4\n[layers]\nnames = false\nmask = 3\nnew = true", {
+                let layers = Layers { names: false, ..Layers::default() };
+                Memory { views: Kept { layers, ..Kept::default() }, ..Memory::default() }
             }),
             ("theme = 7\nantenna = 'Mast'", {
                 Memory { antenna: Some("Mast".to_owned()), ..Memory::default() }

@@ -1,6 +1,7 @@
 //! The Operate view: is it safe, what does it do, why, what comes next.
 
 mod card;
+mod divider;
 mod layout;
 mod passes;
 mod sky;
@@ -27,10 +28,13 @@ pub struct OperateState {
     pub drawer_open: bool,
     /// How many hours the strip of passes shows.
     pub zoom: Zoom,
+    /// The width of the list as the operator has drawn it, points.
+    pub list_width: Option<u32>,
+    /// The sky plot.
+    pub sky: SkyPlotState,
     passes: PassListState,
     /// The antenna whose card was shown last.
     shown_antenna: usize,
-    sky: SkyPlotState,
 }
 
 impl OperateState {
@@ -52,7 +56,8 @@ pub fn show(
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let areas = Areas::of(window, rect, state.drawer_open, model.demo);
+    let list_width = state.list_width.map(|width| width as f32);
+    let areas = Areas::of(window, rect, state.drawer_open, model.demo, list_width);
     let t = theme::tokens(ui);
     if state.shown_antenna != model.selected_antenna {
         state.leave_card(commands);
@@ -85,5 +90,8 @@ pub fn show(
     }
     for line in areas.dividers() {
         ui.painter().rect_filled(line, 0.0, t.line);
+    }
+    if let (Some(list), Some(widths)) = (areas.list, areas.list_widths) {
+        divider::show(ui, list, widths, &mut state.list_width);
     }
 }

@@ -43,7 +43,7 @@ pub struct SkyPlotState {
 }
 
 /// Which layers are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 // Independent check boxes.
 #[allow(clippy::struct_excessive_bools)]
 pub struct Layers {

@@ -10,6 +10,7 @@ use super::{
     keys::{self, Desk},
     operate, preferences, rail,
     rail::RailEntry,
+    sky_plot::Layers,
     timeline::Zoom,
     top_bar,
 };
@@ -33,6 +34,10 @@ pub struct Kept {
     pub faults_open: bool,
     /// How many hours the strip of passes shows; `None` for the usual.
     pub strip_hours: Option<u32>,
+    /// Width of the list of passes, points; `None` for the usual.
+    pub list_width: Option<u32>,
+    /// Layers of the sky plot.
+    pub layers: Layers,
 }
 
 impl Views {
@@ -43,6 +48,8 @@ impl Views {
         operate.card.travel_open = kept.travel_open;
         operate.card.faults_open = kept.faults_open;
         operate.zoom = Zoom::of(kept.strip_hours);
+        operate.list_width = kept.list_width;
+        operate.sky.layers = kept.layers;
         views
     }
 
@@ -52,6 +59,8 @@ impl Views {
             travel_open: self.operate.card.travel_open,
             faults_open: self.operate.card.faults_open,
             strip_hours: self.operate.zoom.wanted(),
+            list_width: self.operate.list_width,
+            layers: self.operate.sky.layers,
         }
     }
 

@@ -3,8 +3,9 @@
 use azel::{
     app::{Model, UiCommand, forecast::Forecast},
     astro::time::add_seconds,
+    ui::{Kept, Views, sky_plot::Layers},
 };
-use egui::{Key, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
@@ -163,4 +164,46 @@ fn a_pass_that_is_over_leaves_nothing_selected() {
         window.get_by_label("No pass is selected. Choose one from the list.");
         assert!(window.query_by_label_contains("Track NOAA 20").is_none());
     }
+}
+
+#[test]
+fn the_list_is_drawn_wider_and_a_double_click_brings_it_back() {
+    let mut window = window(LARGE);
+    let edge = |window: &Window| window.get_by_label("Width of the pass list").rect().center();
+    let usual = edge(&window);
+    let target = usual + egui::vec2(70.0, 5.0);
+    window.drag_at(usual);
+    window.hover_at(target);
+    settle(&mut window);
+    window.drop_at(target);
+    settle(&mut window);
+    assert_eq!(window.state().views.kept().list_width, Some(390));
+    assert!((edge(&window).x - usual.x - 70.0).abs() < 1.5, "{}", edge(&window));
+    let at = edge(&window);
+    window.hover_at(at);
+    settle(&mut window);
+    // In one frame: the frames of a story are too slow for a double click.
+    let press = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.input_mut().events.extend([true, false, true, false].map(press));
+    settle(&mut window);
+    assert_eq!(window.state().views.kept().list_width, None);
+    assert_eq!(edge(&window), usual);
+    assert_eq!(asked(&mut window), []);
+}
+
+#[test]
+fn layers_and_width_are_there_again_at_the_next_start() {
+    let layers = Layers { names: false, ..Layers::default() };
+    let kept = Kept { list_width: Some(300), layers, ..Kept::default() };
+    let mut window = window(LARGE);
+    window.state_mut().views = Views::with(kept);
+    settle(&mut window);
+    assert_eq!(window.state().views.kept(), kept);
+    let edge = window.get_by_label("Width of the pass list").rect().center();
+    assert!((edge.x - (72.0 + 300.0)).abs() < 1.5, "{edge}");
 }

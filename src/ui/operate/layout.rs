@@ -1,12 +1,16 @@
 //! Where each part of the view stands in windows of every size.
 
-use egui::{Rect, pos2, vec2};
+use egui::{Rangef, Rect, pos2, vec2};
 
 use super::{antenna_card, pass_header};
 use crate::ui::{banner, top_bar};
 
 const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
+/// The operator draws the list no wider than this, and only as long as the sky
+/// plot keeps its least width.
+const MOST_LIST: f32 = 480.0;
+const LEAST_SKY: f32 = 480.0;
 const STRIP: f32 = 208.0;
 const SMALL_STRIP: f32 = 80.0;
 const PROFILE: f32 = 392.0;
@@ -29,6 +33,8 @@ pub(super) struct Areas {
     /// The strip of the demo station, where it stands beside the card.
     pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
+    /// Least and greatest width of a list beside the plot; none for a drawer.
+    pub(super) list_widths: Option<Rangef>,
     pub(super) timeline: Option<Rect>,
     pub(super) profile: Option<Rect>,
     pub(super) thumbnails: bool,
@@ -36,7 +42,14 @@ pub(super) struct Areas {
 }
 
 impl Areas {
-    pub(super) fn of(window: Rect, rect: Rect, drawer_open: bool, demo: bool) -> Self {
+    /// `list_width` is the one that the operator has drawn, if any.
+    pub(super) fn of(
+        window: Rect,
+        rect: Rect,
+        drawer_open: bool,
+        demo: bool,
+        list_width: Option<f32>,
+    ) -> Self {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
         let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
@@ -46,8 +59,11 @@ impl Areas {
             .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
         let left = banner.map_or(left, |banner| left.with_min_y(banner.bottom()));
 
-        let thumbnails = window.width() >= THUMBNAILS_FROM;
-        let list_width = if thumbnails { LIST } else { NARROW_LIST };
+        let usual = if window.width() >= THUMBNAILS_FROM { LIST } else { NARROW_LIST };
+        let most = (left.width() - LEAST_SKY).clamp(NARROW_LIST, MOST_LIST);
+        let list_widths = Rangef::new(NARROW_LIST, most);
+        let list_width = list_widths.clamp(list_width.unwrap_or(usual));
+        let thumbnails = list_width >= LIST;
         let header_height = if small { 44.0 } else { pass_header::HEIGHT };
         let wanted = if tall { STRIP } else { SMALL_STRIP };
         let room = left.height() - header_height;
@@ -74,7 +90,8 @@ impl Areas {
             None => strip,
         };
         let timeline = Some(timeline);
-        Self { header, sky, card, banner, list, timeline, profile, thumbnails, small }
+        let list_widths = (!small).then_some(list_widths);
+        Self { header, sky, card, banner, list, list_widths, timeline, profile, thumbnails, small }
     }
 
     /// The lines between the parts, 1 px wide.
@@ -104,10 +121,14 @@ mod tests {
     use super::*;
 
     fn areas(width: f32, height: f32) -> Areas {
+        with_list(width, height, None)
+    }
+
+    fn with_list(width: f32, height: f32, list: Option<f32>) -> Areas {
         let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
         let (bar, rail) =
             (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
-        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false)
+        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, list)
     }
 
     #[test]
@@ -129,6 +150,22 @@ mod tests {
         assert_eq!(areas.card.size(), vec2(304.0, 592.0));
         assert_eq!(areas.timeline.map(|strip| strip.size()), Some(vec2(672.0, 80.0)));
         assert_eq!(areas.sky.size(), vec2(672.0, 468.0));
+    }
+
+    #[test]
+    fn a_list_that_was_drawn_leaves_the_plot_its_room() {
+        for (window, drawn, wanted) in [
+            (1440.0, 400.0, 400.0),
+            (1440.0, 10.0, 264.0),
+            (1440.0, 9000.0, 480.0),
+            (1200.0, 9000.0, 304.0),
+        ] {
+            let areas = with_list(window, 900.0, Some(drawn));
+            let list = areas.list.unwrap();
+            assert!((list.width() - wanted).abs() < 1e-3, "{drawn}: {list}");
+            assert!(areas.sky.width() >= LEAST_SKY && areas.sky.left() >= list.right());
+            assert_eq!(areas.thumbnails, wanted >= LIST);
+        }
     }
 
     #[test]
