@@ -35,3 +35,10 @@ pub fn intent(intent: Intent) -> &'static str {
         Intent::Park => "Park",
     }
 }
+
+/// With a capital at the beginning.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase).into_iter().flatten();
+    first.chain(letters).collect()
+}

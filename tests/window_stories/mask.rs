@@ -1,7 +1,10 @@
 //! Hills around the station: typed in the form, seen in the plot, said of the
 //! selected pass.
 
-use azel::{app::View, astro::HorizonMask};
+use azel::{
+    app::View,
+    astro::{HorizonMask, time::add_seconds},
+};
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
@@ -81,4 +84,14 @@ fn the_header_says_when_a_cut_pass_is_clear() {
 fn a_wall_on_the_way_parts_the_pass() {
     let window = with_mask(LARGE, "0 1\n290 1\n300 80\n310 1");
     window.get_by_label_contains("Clear of the mask in 2 parts");
+}
+
+#[test]
+fn old_elements_come_before_the_mask() {
+    let mut model = rig::model(states::holding());
+    model.station.horizon_mask = HorizonMask::parse("0 20").ok();
+    model.now = add_seconds(model.now, 9.0 * 86_400.0);
+    model.refresh_sky();
+    rig::window(LARGE, model)
+        .get_by_label_contains("Elements 10 d old · clear of the mask 11:11:12Z");
 }

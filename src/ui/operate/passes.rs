@@ -18,8 +18,13 @@ use crate::{
         pass_list::{self, PassListAction, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, ProfileModel},
         timeline::{self, Bar, TimelineModel, Zoom},
+        words,
     },
 };
+
+/// After some days a low satellite is minutes away from where its elements put
+/// it.
+const OLD_S: f64 = 7.0 * 86_400.0;
 
 /// Shows the list of passes.
 pub(super) fn list(
@@ -127,8 +132,6 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     let (event, countdown) = if always { ("", "always up".to_owned()) } else { (event, until(at)) };
     let tca =
         if always || pass.tca.time < model.now { String::new() } else { until(pass.tca.time) };
-    // After some days a low satellite is minutes away from where its elements
-    // put it.
     let age_s = elements.age_s(model.now);
     pass_header::show(
         ui,
@@ -137,7 +140,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
             name,
             detail: detail.trim(),
             second_line: &second_line(model, forecast, age_s),
-            second_line_warns: age_s > 7.0 * 86_400.0
+            second_line_warns: age_s > OLD_S
                 || model.sky.clearance.cut().is_some_and(<[Pass]>::is_empty),
             tca_countdown: &tca,
             event,
@@ -148,10 +151,12 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     )
 }
 
+/// What matters most comes first: the end has no room in a small window.
 fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
-    let mut parts: Vec<String> = model.sky.clearance.cut().map(clear_of_mask).into_iter().collect();
-    let elements = if parts.is_empty() { "Elements" } else { "elements" };
-    parts.push(format!("{elements} {} old", format::age(age_s)));
+    let mask = model.sky.clearance.cut().map(clear_of_mask);
+    let elements = Some(format!("elements {} old", format::age(age_s)));
+    let order = if age_s > OLD_S { [elements, mask] } else { [mask, elements] };
+    let mut parts: Vec<String> = order.into_iter().flatten().collect();
     let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {
         let same = held.catalog_number == forecast.satellite.elements.catalog_number();
@@ -161,18 +166,18 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
     if let Some(selected) = model.sky.selected {
         parts.push(if selected.sunlit { "sunlit" } else { "in eclipse" }.to_owned());
     }
-    parts.join(" · ")
+    words::capitalised(&parts.join(" · "))
 }
 
 /// When a pass that the horizon mask cuts is clear of it.
 fn clear_of_mask(stretches: &[Pass]) -> String {
     let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else {
-        return "Never clear of the mask".to_owned();
+        return "never clear of the mask".to_owned();
     };
     let parts =
         if stretches.len() > 1 { format!(" in {} parts", stretches.len()) } else { String::new() };
     let (from, to) = (format::time_z(first.aos.time), format::time_z(last.los.time));
-    format!("Clear of the mask{parts} {from} to {to}")
+    format!("clear of the mask{parts} {from} to {to}")
 }
 
 /// Shows the strip of the next hours.

@@ -28,7 +28,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_
     let painter = ui.painter_at(rect);
     if let Some(mask) = model.mask {
         let skyline = skyline(rect, axis, model.track, mask);
-        painter.add(ground(rect, &skyline, t.mask));
+        painter.add(ground(rect, &skyline, t.hatch.gamma_multiply(0.45)));
         painter.line(skyline, Stroke::new(1.0, t.hatch));
     }
     grid(ui, rect);

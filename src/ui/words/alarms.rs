@@ -68,10 +68,6 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
         },
-        AlarmKind::Settings(text) | AlarmKind::Elements(text) => {
-            let mut letters = text.chars();
-            let first = letters.next().map(char::to_uppercase).into_iter().flatten();
-            first.chain(letters).collect()
-        }
+        AlarmKind::Settings(text) | AlarmKind::Elements(text) => super::capitalised(text),
     }
 }
