@@ -125,7 +125,7 @@ impl Alarms {
     }
 
     /// Adds one, unless the same is standing already or one that explains it. It
-    /// takes the place of what it explains.
+    /// takes the place of what it makes obsolete.
     pub fn raise(&mut self, antenna: Option<usize>, kind: AlarmKind, time: Timestamp) {
         let standing = self.list.iter().any(|alarm| {
             !alarm.cleared
@@ -136,7 +136,7 @@ impl Alarms {
             return;
         }
         self.list.retain(|alarm| {
-            alarm.cleared || alarm.antenna != antenna || !explains(&kind, &alarm.kind)
+            alarm.cleared || alarm.antenna != antenna || !replaces(&kind, &alarm.kind)
         });
         if self.list.len() >= MOST {
             let oldest = self.list.iter().position(|alarm| alarm.seen).unwrap_or(0);
@@ -213,6 +213,12 @@ fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     matches!((cause, effect), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(LinkLoss::Unreadable)))
 }
 
+/// Whether `news` says more than what stands: a unit that writes decimal commas
+/// does answer.
+fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
+    matches!((news, standing), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(_)))
+}
+
 /// The alarm that an event calls for, if any.
 pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
     Some(match event.clone() {
@@ -279,6 +285,7 @@ mod tests {
         let unreadable = AlarmKind::LinkLost(LinkLoss::Unreadable);
         let orders = [
             [unreadable.clone(), AlarmKind::DecimalCommas],
+            [AlarmKind::LinkLost(LinkLoss::Silent), AlarmKind::DecimalCommas],
             [AlarmKind::DecimalCommas, unreadable.clone()],
         ];
         for order in orders {
@@ -289,7 +296,8 @@ mod tests {
             let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
             assert_eq!(kinds, [&AlarmKind::DecimalCommas]);
             alarms.raise(Some(1), unreadable.clone(), time());
-            assert_eq!(alarms.list().len(), 2, "another antenna");
+            alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), time());
+            assert_eq!(alarms.list().len(), 3, "another antenna, another loss");
         }
     }
 
