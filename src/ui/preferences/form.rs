@@ -143,16 +143,28 @@ fn edit(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) ->
             .return_key(None)
             .desired_rows(1)
             .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
-        Kind::Mask => {
-            let edit = TextEdit::multiline(&mut field.text)
-                .hint_text("azimuth elevation, one point a line")
-                .desired_rows(3)
-                .desired_width(WORDS);
-            let area = ScrollArea::vertical().id_salt(field.label).max_height(MASK);
-            return area.show(ui, |ui| ui.add(edit.id_salt(id))).inner;
-        }
+        Kind::Mask => return mask(ui, group, field, border),
         Kind::Range { .. } => TextEdit::singleline(&mut field.text).desired_width(NUMBER),
         _ => TextEdit::singleline(&mut field.text).desired_width(WORDS),
     };
     ui.add(edit.id_salt(id))
+}
+
+/// Many lines, scrolled within one border.
+fn mask(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) -> Response {
+    let t = theme::tokens(ui);
+    let id = ui.make_persistent_id((group, field.label));
+    let border = border.or_else(|| ui.memory(|memory| memory.has_focus(id)).then_some(t.sat));
+    // A thicker border must not move what lies below.
+    let (stroke, outside) =
+        border.map_or((Stroke::new(1.0, t.edge), 1), |colour| (Stroke::new(2.0, colour), 0));
+    let frame = Frame::new().fill(t.bg0).stroke(stroke).corner_radius(4).outer_margin(outside);
+    let area = ScrollArea::vertical().min_scrolled_height(MASK).max_height(MASK);
+    let edit = TextEdit::multiline(&mut field.text)
+        .id(id)
+        .frame(Frame::new().inner_margin(Margin::symmetric(10, 4)))
+        .hint_text("azimuth elevation, one point a line")
+        .desired_rows(3)
+        .desired_width(WORDS);
+    frame.show(ui, |ui| area.id_salt(field.label).show(ui, |ui| ui.add(edit)).inner).inner
 }
