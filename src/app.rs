@@ -76,6 +76,7 @@ impl App {
             antennas: Vec::new(),
             selected_antenna: 0,
             forecasts: forecast::Forecasts::default(),
+            list: keeper.memory.list,
             selected: None,
             sky: model::Sky::default(),
             alarms: alarms::Alarms::default(),

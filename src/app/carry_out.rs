@@ -30,6 +30,16 @@ impl App {
             UiCommand::SetElevationFloor(floor_deg) => {
                 model.station.elevation_floor_deg = floor_deg;
             }
+            UiCommand::SetScope(scope) => {
+                model.list.scope = scope;
+                self.keeper.memory.list = model.list;
+            }
+            UiCommand::SetSpan(span_h) => {
+                model.list.set_span_h(span_h);
+                self.keeper.memory.list = model.list;
+            }
+            UiCommand::CancelSearch => model.forecasts.of_mut(model.list.scope).cancel(),
+            UiCommand::ResumeSearch => model.forecasts.of_mut(model.list.scope).resume(),
             UiCommand::Show(view) => model.view = view,
             UiCommand::SetTheme(name) => {
                 theme::set(ctx, name);

@@ -1,7 +1,7 @@
 //! What a view asks for. Carried out once a frame, after everything is drawn.
 
 use super::{
-    forecast::{Forecast, PassKey},
+    forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
 };
 use crate::{driver, station::Station, ui::tokens::ThemeName};
@@ -29,6 +29,14 @@ pub enum UiCommand {
     },
     /// List passes from this maximum elevation on, degrees.
     SetElevationFloor(f64),
+    /// List the passes of these satellites.
+    SetScope(Scope),
+    /// List the passes of so many hours from now on.
+    SetSpan(u32),
+    /// End the search for the passes of the list; what is listed stays.
+    CancelSearch,
+    /// Begin the cancelled search again.
+    ResumeSearch,
     /// Fill the window with this view.
     Show(View),
     /// Change the colours.

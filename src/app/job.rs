@@ -25,7 +25,7 @@ impl<T: Send + 'static> Job<T> {
     pub(super) fn start(
         name: &str,
         wake: Wake,
-        work: impl FnOnce(&dyn Fn() -> bool) -> T + Send + 'static,
+        work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static,
     ) -> io::Result<Self> {
         let (send, result) = mpsc::sync_channel(1);
         let cancelled = Arc::new(AtomicBool::new(false));

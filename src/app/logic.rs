@@ -33,6 +33,7 @@ impl App {
             let renewed = self.model.forecasts.refresh(
                 &catalog,
                 &self.model.station,
+                self.model.list,
                 self.model.now,
                 &self.wake,
             );

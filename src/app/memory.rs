@@ -9,9 +9,12 @@ use std::{
     time::Duration,
 };
 
-use serde::Serialize;
+use serde::{Serialize, de::DeserializeOwned};
 
-use super::job::Job;
+use super::{
+    forecast::{ListChoice, SPANS_H, Scope},
+    job::Job,
+};
 use crate::{
     driver::Wake,
     ui::{Kept, sky_plot::Layers, tokens::ThemeName},
@@ -28,6 +31,8 @@ pub(super) struct Memory {
     pub(super) theme: ThemeName,
     /// Name of the antenna that the operator selected last.
     pub(super) antenna: Option<String>,
+    /// Which passes the list shows.
+    pub(super) list: ListChoice,
     /// What the views keep.
     pub(super) views: Kept,
 }
@@ -53,11 +58,15 @@ impl Memory {
             let number = table.get(key).and_then(toml::Value::as_integer);
             number.and_then(|number| u32::try_from(number).ok())
         };
+        let span = |key: &str| number(key).filter(|hours| SPANS_H.contains(hours));
+        let list = ListChoice::default();
         Self {
-            theme: table
-                .get("theme")
-                .and_then(|value| value.clone().try_into().ok())
-                .unwrap_or_default(),
+            theme: word(&table, "theme"),
+            list: ListChoice {
+                scope: word(&table, "pass_scope"),
+                favourites_h: span("pass_hours").unwrap_or(list.favourites_h),
+                all_h: span("pass_hours_of_all").unwrap_or(list.all_h),
+            },
             antenna: table.get("antenna").and_then(toml::Value::as_str).map(str::to_owned),
             views: Kept {
                 travel_open: is_set("travel_open"),
@@ -75,6 +84,9 @@ impl Memory {
             theme: ThemeName,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
+            pass_scope: Scope,
+            pass_hours: u32,
+            pass_hours_of_all: u32,
             travel_open: bool,
             faults_open: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -86,6 +98,9 @@ impl Memory {
         toml::to_string(&Lines {
             theme: self.theme,
             antenna: self.antenna.as_deref(),
+            pass_scope: self.list.scope,
+            pass_hours: self.list.favourites_h,
+            pass_hours_of_all: self.list.all_h,
             travel_open: self.views.travel_open,
             faults_open: self.views.faults_open,
             strip_hours: self.views.strip_hours,
@@ -110,6 +125,11 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keyholes: shown("keyholes", usual.keyholes),
         mask: shown("mask", usual.mask),
     }
+}
+
+/// One of a few words; the usual one where there is none that is known.
+fn word<T: Default + DeserializeOwned>(table: &toml::Table, key: &str) -> T {
+    table.get(key).and_then(|value| value.clone().try_into().ok()).unwrap_or_default()
 }
 
 /// The memory, its file and the writing under way.
@@ -139,8 +159,9 @@ impl Keeper {
         // Not tried again before the next change.
         self.written = self.memory.clone();
         let memory = self.memory.clone();
-        let work = move |_: &dyn Fn() -> bool| write(&memory, &path);
-        match Job::start("azel-window-file", Wake::clone(wake), work) {
+        let work =
+            Job::start("azel-window-file", Wake::clone(wake), move |_| write(&memory, &path));
+        match work {
             Ok(job) => self.job = Some(job),
             Err(error) => tracing::warn!(%error, "no thread to keep the window"),
         }
@@ -175,6 +196,7 @@ mod tests {
         Memory {
             theme: ThemeName::Night,
             antenna: Some("Şile \"2\"".to_owned()),
+            list: ListChoice { scope: Scope::All, favourites_h: 24, all_h: 12 },
             views: Kept {
                 travel_open: true,
                 faults_open: false,
@@ -230,6 +252,10 @@ mod tests {
             ("list_width = -4\n[layers]\nnames = false\nmask = 3\nnew = true", {
                 let layers = Layers { names: false, ..Layers::default() };
                 Memory { views: Kept { layers, ..Kept::default() }, ..Memory::default() }
+            }),
+            ("pass_scope = 'none'\npass_hours = 7\npass_hours_of_all = 24", {
+                let list = ListChoice { all_h: 24, ..ListChoice::default() };
+                Memory { list, ..Memory::default() }
             }),
             ("theme = 7\nantenna = 'Mast'", {
                 Memory { antenna: Some("Mast".to_owned()), ..Memory::default() }

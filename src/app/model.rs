@@ -10,7 +10,7 @@ use super::{
     antenna::AntennaModel,
     clearance::Clearance,
     daylight::{self, SunSpan},
-    forecast::{Followed, Forecast, Forecasts, PassKey, ahead},
+    forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, ahead},
 };
 use crate::{
     astro::{AzEl, Site, sun_moon},
@@ -63,6 +63,8 @@ pub struct Model {
     pub selected_antenna: usize,
     /// The passes to come.
     pub forecasts: Forecasts,
+    /// Which of them the list shows.
+    pub list: ListChoice,
     /// The pass that is shown.
     pub selected: Option<PassKey>,
     /// The sky at `now`.
@@ -123,18 +125,22 @@ impl Model {
         self.forecasts.find(self.selected?)
     }
 
-    /// The pass of a satellite that is under way, or else its next one.
+    /// The pass of a followed satellite that is under way, or else its next one.
     pub fn pass_of(&self, catalog_number: u32) -> Option<&Forecast> {
-        self.forecasts
-            .passes
-            .iter()
-            .find(|forecast| forecast.satellite.elements.catalog_number() == catalog_number)
+        let passes = &self.forecasts.favourites.passes;
+        passes.iter().find(|forecast| forecast.number() == catalog_number)
     }
 
-    /// The pass that is under way or comes next.
+    /// The pass of a followed satellite that is under way or comes next.
     pub fn next_pass(&self) -> Option<&Forecast> {
         let moving = |forecast: &&Forecast| !forecast.satellite.elements.is_geosynchronous();
-        self.forecasts.passes.iter().find(moving).or(self.forecasts.passes.first())
+        let passes = &self.forecasts.favourites.passes;
+        passes.iter().find(moving).or(passes.first())
+    }
+
+    /// The passes that the list shows.
+    pub fn listed(&self) -> &[Forecast] {
+        self.forecasts.of(self.list.scope).within(self.now, self.list.span_h())
     }
 
     /// Puts everything at its place for `now`.
@@ -143,7 +149,7 @@ impl Model {
         let pass = self.selected.and_then(|key| self.forecasts.find(key));
         self.sky.clearance.refresh(pass, site, self.station.horizon_mask.as_ref());
         let selected = self.selected_pass().map(|forecast| Arc::clone(&forecast.satellite));
-        self.sky.refresh(&self.forecasts.satellites, selected.as_deref(), site, now);
+        self.sky.refresh(&self.forecasts.favourites.satellites, selected.as_deref(), site, now);
     }
 }
 

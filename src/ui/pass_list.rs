@@ -4,16 +4,23 @@ mod header;
 mod phase;
 mod row;
 mod rows;
+mod status;
 mod thumbnail;
 
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
+
 use egui::{Rect, Ui, vec2};
 use jiff::Timestamp;
 
-use super::{text, theme, widgets::paint};
-use crate::{astro::time::seconds_between, plan::Sample};
+use super::{format, text, theme, widgets::paint};
+use crate::{
+    app::forecast::{Scope, Work},
+    astro::time::seconds_between,
+    plan::Sample,
+};
 
 /// Width of the column with thumbnails.
 pub const WIDTH: f32 = 320.0;
@@ -53,22 +60,37 @@ pub struct PassRow<'a> {
 }
 
 /// What the mount can follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict<'a> {
     /// All of the pass.
     Trackable,
-    /// All but some of it: a sentence such as "Loses 12 s at keyhole N".
-    Loses(&'a str),
+    /// All but some of it, near an end of the lower axis.
+    Loses {
+        /// How much, seconds.
+        seconds: f64,
+        /// Where, degrees.
+        keyhole_azimuth_deg: f64,
+    },
     /// Nothing: a sentence such as "Not possible: stays below the travel".
     NotPossible(&'a str),
 }
 
 impl<'a> Verdict<'a> {
-    /// The verdict in words.
-    fn sentence(self) -> &'a str {
+    /// The verdict in words, such as "Loses 12 s at keyhole N".
+    fn sentence(self) -> Cow<'a, str> {
         match self {
-            Self::Trackable => "Trackable",
-            Self::Loses(sentence) | Self::NotPossible(sentence) => sentence,
+            Self::Trackable => "Trackable".into(),
+            Self::NotPossible(sentence) => sentence.into(),
+            Self::Loses { seconds, keyhole_azimuth_deg } => {
+                let towards = match keyhole_azimuth_deg.round() as i32 % 360 {
+                    0 => "N".into(),
+                    90 => "E".into(),
+                    180 => "S".into(),
+                    270 => "W".into(),
+                    _ => format::azimuth(keyhole_azimuth_deg),
+                };
+                format!("Loses {} at keyhole {towards}", format::age(seconds.ceil())).into()
+            }
         }
     }
 }
@@ -82,10 +104,20 @@ pub struct PassListModel<'a> {
     pub rows: usize,
     /// The pass at an index. Asked for only where a row is in view.
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
+    /// The place of a pass in the list, quickly.
+    pub place: &'a dyn Fn(PassKey) -> Option<usize>,
     /// The selected pass.
     pub selected: Option<PassKey>,
+    /// Whose passes are listed.
+    pub scope: Scope,
+    /// How far ahead, hours.
+    pub span_h: u32,
     /// The lowest maximum elevation that is listed, degrees.
     pub floor_deg: f64,
+    /// What is being done for the list.
+    pub work: Work,
+    /// How many satellites the list was made of, and when; None before the first.
+    pub made: Option<(usize, Timestamp)>,
     /// Rows have thumbnails.
     pub thumbnails: bool,
     /// The sentence shown when there are no rows.
@@ -93,10 +125,14 @@ pub struct PassListModel<'a> {
 }
 
 /// What the column remembers from frame to frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PassListState {
     /// The pass that was selected when the rows were shown last.
     shown: Option<PassKey>,
+    /// How far the rows were scrolled down, points.
+    offset: f32,
+    /// The row at the upper edge and its pass.
+    top: Option<(usize, PassKey)>,
 }
 
 impl PassListState {
@@ -112,6 +148,20 @@ impl PassListState {
             (_, None) => false,
         }
     }
+
+    /// How many rows above the one at the upper edge have gone since the last
+    /// frame; negative when some were added. What the operator reads stays
+    /// where it is when passes end; at the very top the list moves up.
+    fn rows_gone_above(&self, model: &PassListModel<'_>) -> f32 {
+        let Some((before, key)) = self.top.filter(|_| self.offset > 0.0) else { return 0.0 };
+        (model.place)(key).map_or(0.0, |place| before as f32 - place as f32)
+    }
+
+    fn remember(&mut self, offset: f32, row_height: f32, model: &PassListModel<'_>) {
+        let row = (offset / row_height) as usize;
+        self.offset = offset;
+        self.top = (model.row)(row).map(|pass| (row, pass.key));
+    }
 }
 
 /// What the operator did.
@@ -121,6 +171,14 @@ pub enum PassListAction {
     Select(PassKey),
     /// Another lowest maximum elevation was chosen, degrees.
     SetFloor(f64),
+    /// Other satellites were chosen.
+    SetScope(Scope),
+    /// Another number of hours was chosen.
+    SetSpan(u32),
+    /// The search is not to go on.
+    CancelSearch,
+    /// The cancelled search is to begin again.
+    ResumeSearch,
 }
 
 /// Shows the column in `rect`: its head and the rows, which scroll.
@@ -132,12 +190,18 @@ pub fn show(
     state: &mut PassListState,
 ) -> Vec<PassListAction> {
     let mut actions = Vec::new();
-    let (head, body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
+    let (head, mut body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
     header::show(ui, head, model, &mut actions);
+    // Those few that the operator follows are found before anyone could look.
+    if model.scope == Scope::All {
+        let (strip, rest) = body.split_top_bottom_at_y(body.top() + status::HEIGHT);
+        status::show(ui, strip, model, &mut actions);
+        body = rest;
+    }
     if model.rows == 0 {
         nothing(ui, body, model.empty);
     } else {
-        rows::show(ui, body, model, state.is_news(model.selected), &mut actions);
+        rows::show(ui, body, model, state, &mut actions);
     }
     actions
 }

@@ -1,7 +1,10 @@
 //! Choosing a pass: in the list, on the sky, on the strip, by keys.
 
 use azel::{
-    app::{Model, UiCommand, forecast::Forecast},
+    app::{
+        Model, UiCommand,
+        forecast::{Forecast, Scope},
+    },
     astro::time::add_seconds,
     ui::{Kept, Views, sky_plot::Layers},
 };
@@ -24,7 +27,14 @@ fn window(size: [f32; 2]) -> Window {
 /// The first pass of this satellite that has not begun.
 fn coming(model: &Model, number: u32) -> &Forecast {
     let of = |forecast: &&Forecast| forecast.satellite.elements.catalog_number() == number;
-    model.forecasts.passes.iter().filter(of).find(|pass| pass.pass.aos.time > model.now).unwrap()
+    model
+        .forecasts
+        .favourites
+        .passes
+        .iter()
+        .filter(of)
+        .find(|pass| pass.pass.aos.time > model.now)
+        .unwrap()
 }
 
 #[test]
@@ -68,6 +78,8 @@ fn the_drawer_of_the_small_window_opens_by_key_and_button() {
     window.key_press(Key::P);
     settle(&mut window);
     assert!(is_open(&window));
+    window.get_by_label_contains("METEOR-M2 4, AOS T−1:28:52").scroll_to_me();
+    settle(&mut window);
     window.get_by_label_contains("METEOR-M2 4, AOS T−1:28:52").click();
     assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
     window.key_press(Key::P);
@@ -140,6 +152,76 @@ fn the_lowest_elevation_is_chosen_above_the_list() {
 }
 
 #[test]
+fn satellites_and_span_are_chosen_in_list_and_drawer() {
+    for size in SIZES {
+        let mut window = window(size);
+        open_list(&mut window);
+        window.get_by_role_and_label(Role::RadioButton, "All").click();
+        assert_eq!(asked(&mut window), [UiCommand::SetScope(Scope::All)]);
+        window.get_by_role_and_label(Role::Button, "next 48 h").click();
+        settle(&mut window);
+        window.get_by_label("next 12 h").click();
+        assert_eq!(asked(&mut window), [UiCommand::SetSpan(12)]);
+    }
+}
+
+#[test]
+fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let favourites = std::mem::take(&mut model.forecasts.favourites.passes);
+        // The same passes, as if nobody followed their satellites.
+        model.forecasts.all.passes = favourites;
+        model.forecasts.all.satellites = model.forecasts.favourites.satellites.clone();
+        model.list.scope = Scope::All;
+        let is_wanted =
+            |pass: &&Forecast| pass.number() == METEOR_M2_4 && pass.pass.aos.time > model.now;
+        let wanted = model.forecasts.all.passes.iter().find(is_wanted).unwrap().key();
+        let mut window = rig::window(size, model);
+        open_list(&mut window);
+        let row = "METEOR-M2 4, AOS T−1:28:52, max 49°, Trackable";
+        window.get_by_role_and_label(Role::ListBoxOption, row).scroll_to_me();
+        settle(&mut window);
+        window.get_by_role_and_label(Role::ListBoxOption, row).click();
+        assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
+        let model = &mut window.state_mut().model;
+        model.selected = Some(wanted);
+        model.refresh_sky();
+        settle(&mut window);
+        window.get_by_label_contains("METEOR-M2 4, 59051, Elements");
+        window.get_by_role_and_label(Role::Button, "Track METEOR-M2 4").click();
+        let track = UiCommand::Track { antenna: 0, pass: wanted };
+        assert_eq!(asked(&mut window), [track]);
+        assert!(window.query_by_label_contains("12:44 to 12:56").is_none(), "not in the strip");
+        window.key_press(Key::N);
+        assert_eq!(asked(&mut window), [], "no followed satellite comes");
+        window.key_press(Key::ArrowUp);
+        assert!(matches!(asked(&mut window)[..], [UiCommand::SelectPass(_)]));
+    }
+}
+
+#[test]
+fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
+    let mut model = rig::model(states::holding());
+    model.list.favourites_h = 6;
+    let (all, listed) = (model.forecasts.favourites.passes.len(), model.listed().len());
+    assert!(0 < listed && listed < all);
+    let mut window = rig::window(LARGE, model);
+    window.get_by_label(&format!("Next passes, {listed}"));
+    window.state_mut().model.forecasts.favourites.passes.clear();
+    settle(&mut window);
+    assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));
+}
+
+/// The list is a drawer in the small window.
+fn open_list(window: &mut Window) {
+    if window.query_by_label_contains("Next passes, ").is_none() {
+        window.key_press(Key::P);
+        settle(window);
+    }
+}
+
+#[test]
 fn the_header_counts_to_los_while_the_satellite_is_up_and_to_aos_before() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
@@ -158,7 +240,7 @@ fn a_pass_that_is_over_leaves_nothing_selected() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         model.now = add_seconds(states::los(), 1.0);
-        model.forecasts.passes.retain(|forecast| forecast.pass.los.time > model.now);
+        model.forecasts.favourites.passes.retain(|forecast| forecast.pass.los.time > model.now);
         model.refresh_sky();
         let window = rig::window(size, model);
         window.get_by_label("No pass is selected. Choose one from the list.");

@@ -11,13 +11,12 @@ use azel::{
         Model, UiCommand, View,
         alarms::Alarms,
         antenna::AntennaModel,
-        forecast::{Followed, Forecast, Forecasts},
+        forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
         model::{CatalogState, Sky},
     },
-    astro::{Site, time::add_seconds},
+    astro::time::add_seconds,
     driver::{AntennaHandle, LinkState, Snapshot, TimeSync},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
-    plan::{Sample, trackability},
     station::{Antenna, Station},
     ui::{Views, theme, tokens::ThemeName},
 };
@@ -66,6 +65,10 @@ fn orbits() -> &'static Orbits {
             FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
         let mut passes: Vec<Forecast> = satellites.iter().flat_map(forecasts).collect();
         passes.sort_by_key(|forecast| forecast.pass.aos.time);
+        // Shared by all stories with what is drawn of them.
+        for forecast in &passes {
+            forecast.trackability();
+        }
         Orbits { catalog, satellites, passes }
     })
 }
@@ -79,32 +82,18 @@ fn followed(catalog: &Catalog, number: u32) -> Followed {
 /// The passes of the next 12 h, with the one that is under way.
 fn forecasts(satellite: &Arc<Followed>) -> Vec<Forecast> {
     let station = station();
-    let antenna = &station.antennas[0];
-    let horizon = antenna.limits.minimum_elevation_deg;
+    let vantage = Arc::new(Vantage::of(&station));
     let (from, to) = (add_seconds(now(), -3600.0), add_seconds(now(), 12.0 * 3600.0));
     let search = PassSearch {
-        aos_elevation: azel::astro::Angle::from_degrees(horizon),
+        aos_elevation: vantage.horizon,
         floor: station.elevation_floor(),
         ..PassSearch::new(station.site, from, to)
     };
     passes(&satellite.propagator, &search, &|| false)
         .into_iter()
         .filter(|pass| pass.los.time > now())
-        .map(|pass| {
-            let steps = (pass.duration_s() / 10.0) as usize;
-            let track: Vec<Sample> = (0..=steps.min(600))
-                .map(|step| sample(satellite, station.site, pass.aos.time, step as f64 * 10.0))
-                .collect();
-            let rate_deg_s = antenna.limits.maximum_rate_deg_s;
-            let trackability = Some(trackability(&track, antenna.mount, rate_deg_s));
-            Forecast { satellite: Arc::clone(satellite), pass, track, trackability }
-        })
+        .map(|pass| Forecast::new(Arc::clone(satellite), pass, Arc::clone(&vantage)))
         .collect()
-}
-
-fn sample(satellite: &Followed, site: Site, from: Timestamp, after_s: f64) -> Sample {
-    let time = add_seconds(from, after_s);
-    Sample { time, direction: satellite.propagator.look_from(site, time).unwrap().direction }
 }
 
 /// A station in Istanbul with one Satrak.
@@ -132,8 +121,8 @@ pub(crate) fn antenna(config: Antenna, snapshot: Snapshot) -> AntennaModel {
 pub(crate) fn model(snapshot: Snapshot) -> Model {
     let (station, orbits) = (station(), orbits());
     let mut forecasts = Forecasts::default();
-    forecasts.satellites.clone_from(&orbits.satellites);
-    forecasts.passes.clone_from(&orbits.passes);
+    forecasts.favourites.satellites.clone_from(&orbits.satellites);
+    forecasts.favourites.passes.clone_from(&orbits.passes);
     let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
     let mut model = Model {
         now: now(),
@@ -145,6 +134,7 @@ pub(crate) fn model(snapshot: Snapshot) -> Model {
         antennas,
         selected_antenna: 0,
         forecasts,
+        list: ListChoice::default(),
         selected: None,
         sky: Sky::default(),
         alarms: Alarms::default(),

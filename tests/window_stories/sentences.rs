@@ -55,7 +55,8 @@ fn tracking_says_how_far_off_and_when_it_ends() {
     }
     let by_itself = Snapshot { intent: Intent::Standby, target: None, ..states::tracking(0.04) };
     assert!(told(by_itself, unchanged).starts_with("Tracking NOAA 20 by its own program. "));
-    let unknown = told(states::tracking(0.04), |model, _| model.forecasts.satellites.clear());
+    let unknown =
+        told(states::tracking(0.04), |model, _| model.forecasts.favourites.satellites.clear());
     assert!(unknown.ends_with("We have no elements of it to compare with."), "{unknown}");
 }
 
@@ -91,7 +92,7 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
 fn standing_says_where_and_what_comes_next() {
     let coming = |model: &mut Model, _: &mut Snapshot| {
         let after = |forecast: &&Forecast| forecast.pass.aos.time > model.now;
-        model.selected = model.forecasts.passes.iter().find(after).map(Forecast::key);
+        model.selected = model.forecasts.favourites.passes.iter().find(after).map(Forecast::key);
     };
     let nothing = |model: &mut Model, _: &mut Snapshot| model.selected = None;
     assert_eq!(

@@ -88,7 +88,7 @@ impl Act {
 
 /// The pass so many places below the selected one in the list.
 fn neighbour(model: &Model, down: isize) -> Option<(u32, jiff::Timestamp)> {
-    let passes = &model.forecasts.passes;
+    let passes = model.listed();
     let selected = model.selected_pass().map(Forecast::key);
     let at = passes.iter().position(|forecast| Some(forecast.key()) == selected);
     let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;

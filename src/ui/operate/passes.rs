@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use crate::{
     app::{
         Model, UiCommand,
-        forecast::{Forecast, PassKey},
+        forecast::{Forecast, PassKey, Work},
         model::CatalogState,
     },
     astro::time::{add_seconds, seconds_between},
@@ -35,19 +35,18 @@ pub(super) fn list(
     state: &mut PassListState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let passes = &model.forecasts.passes;
-    let losses: Vec<Option<String>> = passes.iter().map(loss).collect();
+    let passes = model.listed();
+    let listing = model.forecasts.of(model.list.scope);
     let row = |index: usize| {
         let forecast = passes.get(index)?;
         let pass = &forecast.pass;
-        let verdict = match (forecast.trackability, losses.get(index)?) {
-            (Some(Trackability::Whole), _) => Some(Verdict::Trackable),
-            (Some(Trackability::Loses { .. }), Some(text)) => Some(Verdict::Loses(text)),
-            (Some(Trackability::Nothing), _) => {
-                Some(Verdict::NotPossible("Not possible: the mount cannot follow"))
+        let verdict = forecast.trackability().map(|trackability| match trackability {
+            Trackability::Whole => Verdict::Trackable,
+            Trackability::Loses { seconds, keyhole_azimuth } => {
+                Verdict::Loses { seconds, keyhole_azimuth_deg: keyhole_azimuth.degrees() }
             }
-            _ => None,
-        };
+            Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
+        });
         Some(PassRow {
             key: forecast.key(),
             name: forecast.satellite.short_name(),
@@ -59,21 +58,32 @@ pub(super) fn list(
             aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
             los_azimuth_deg: pass.los.direction.azimuth_deg(),
             verdict,
-            path: &forecast.track,
+            path: forecast.path(),
         })
     };
+    let place = |key| listing.place(key).filter(|place| *place < passes.len());
+    let work = listing.work();
+    let none = format!("No pass in the next {} h. Choose a lower elevation.", model.list.span_h());
     let empty = match &model.catalog {
         CatalogState::Loading => "The elements are being read.",
         CatalogState::Failed => "No elements: they could not be read. See the alarms.",
-        CatalogState::Ready(_) if model.forecasts.under_way() => "The passes are being computed.",
-        CatalogState::Ready(_) => "No pass in the next 48 h. Choose a lower elevation.",
+        CatalogState::Ready(_) if matches!(work, Work::UnderWay { .. }) => {
+            "The passes are being computed."
+        }
+        CatalogState::Ready(_) if work == Work::Cancelled => "The search was cancelled.",
+        CatalogState::Ready(_) => &none,
     };
     let list = PassListModel {
         now: model.now,
         rows: passes.len(),
         row: &row,
+        place: &place,
         selected: selected_key(model),
+        scope: model.list.scope,
+        span_h: model.list.span_h(),
         floor_deg: model.station.elevation_floor_deg,
+        work,
+        made: listing.made_at().map(|at| (listing.satellites.len(), at)),
         thumbnails,
         empty,
     };
@@ -81,28 +91,16 @@ pub(super) fn list(
         commands.push(match action {
             PassListAction::Select(key) => UiCommand::SelectPass(key),
             PassListAction::SetFloor(floor_deg) => UiCommand::SetElevationFloor(floor_deg),
+            PassListAction::SetScope(scope) => UiCommand::SetScope(scope),
+            PassListAction::SetSpan(span_h) => UiCommand::SetSpan(span_h),
+            PassListAction::CancelSearch => UiCommand::CancelSearch,
+            PassListAction::ResumeSearch => UiCommand::ResumeSearch,
         });
     }
 }
 
 fn selected_key(model: &Model) -> Option<PassKey> {
     model.selected_pass().map(Forecast::key)
-}
-
-/// "Loses 12 s at keyhole N", where it does.
-fn loss(forecast: &Forecast) -> Option<String> {
-    let Some(Trackability::Loses { seconds, keyhole_azimuth }) = forecast.trackability else {
-        return None;
-    };
-    let azimuth = keyhole_azimuth.degrees();
-    let towards = match azimuth.round() as i32 % 360 {
-        0 => "N".to_owned(),
-        90 => "E".to_owned(),
-        180 => "S".to_owned(),
-        270 => "W".to_owned(),
-        _ => format::azimuth(azimuth),
-    };
-    Some(format!("Loses {} at keyhole {towards}", format::age(seconds.ceil())))
 }
 
 /// Shows the header of the selected pass; `true` when its drawer button was
@@ -193,6 +191,7 @@ pub(super) fn timeline(
     let end = add_seconds(model.now, hours * 3600.0);
     let bars: Vec<Bar<'_>> = model
         .forecasts
+        .favourites
         .passes
         .iter()
         .filter(|forecast| !(forecast.pass.starts_before && forecast.pass.ends_after))
@@ -203,8 +202,8 @@ pub(super) fn timeline(
             aos: forecast.pass.aos.time,
             los: forecast.pass.los.time,
             max_elevation_deg: forecast.pass.max_elevation().degrees(),
-            loses: matches!(forecast.trackability, Some(Trackability::Loses { .. })),
-            possible: forecast.trackability != Some(Trackability::Nothing),
+            loses: matches!(forecast.trackability(), Some(Trackability::Loses { .. })),
+            possible: forecast.trackability() != Some(Trackability::Nothing),
         })
         .collect();
     let lane = model.antennas.first().map_or("Passes", |antenna| antenna.config.name.as_str());
@@ -239,7 +238,7 @@ pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
         Some(&ProfileModel {
             now: model.now,
             name: forecast.satellite.short_name(),
-            track: &forecast.track,
+            track: forecast.track(),
             tca: Sample { time: pass.tca.time, direction: pass.tca.direction },
             cut: pass.starts_before || pass.ends_after,
             mask: model.station.horizon_mask.as_ref(),

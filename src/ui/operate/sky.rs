@@ -53,7 +53,7 @@ pub(super) fn show(
     let track = forecast.map(|forecast| Track {
         catalog_number: forecast.satellite.elements.catalog_number(),
         name: forecast.satellite.short_name(),
-        samples: &forecast.track,
+        samples: forecast.track(),
         aos: sample(&forecast.pass.aos),
         tca: sample(&forecast.pass.tca),
         los: sample(&forecast.pass.los),

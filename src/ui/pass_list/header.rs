@@ -1,20 +1,30 @@
-//! Title, count and the choice of the lowest maximum elevation.
+//! Title and count, and the choice of satellites, span and lowest maximum
+//! elevation.
 
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, PassListAction, PassListModel};
-use crate::ui::{
-    format, text, theme,
-    widgets::{
-        button::{Button, SMALL_HEIGHT},
-        paint,
+use crate::{
+    app::forecast::{SPANS_H, Scope},
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+            segmented::{self, Segment},
+        },
     },
 };
 
 /// Height of the head, with its divider.
-pub(super) const HEIGHT: f32 = 40.0;
+pub(super) const HEIGHT: f32 = 72.0;
 
 const PADDING: f32 = 16.0;
+const GAP: f32 = 8.0;
+/// Centres of the two lines from the top.
+const LINES: [f32; 2] = [20.0, 52.0];
+/// Width of the choice of satellites.
+const SCOPES: f32 = 132.0;
 /// Floors closer than this are the same.
 const SAME_DEG: f64 = 0.05;
 
@@ -26,34 +36,80 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     let room = rect.shrink2(vec2(PADDING, 0.0));
-    let at = room.left_center();
+    let [first, second] = LINES.map(|down| {
+        let at = room.top() + down - SMALL_HEIGHT / 2.0;
+        Rect::from_min_size(pos2(room.left(), at), vec2(room.width(), SMALL_HEIGHT))
+    });
+    let at = first.left_center();
     let title = paint::text(ui, at, Align2::LEFT_CENTER, "Next passes", text::small_strong(), t.t1);
-    let at = title.right_center() + vec2(8.0, 0.0);
+    let floor = floors(ui, first, model, actions);
     let count = format::number(model.rows as f64, 0);
-    let count_place = paint::text(ui, at, Align2::LEFT_CENTER, &count, text::small(), t.t3);
+    let left = first.with_min_x(title.right() + GAP).with_max_x(floor.left() - GAP / 2.0);
+    let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, &count, text::small(), t.t3);
     paint::name_text(ui, "title", title | count_place, &format!("Next passes, {count}"));
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 
-    let chosen = floor(model.floor_deg);
-    let button = Button::quiet(&chosen).chevron();
-    let size = vec2(button.width(ui), SMALL_HEIGHT);
-    let place = Rect::from_min_size(
-        pos2(room.right() - size.x, (rect.center().y - size.y / 2.0).round()),
-        size,
-    );
-    let response = button.show(ui, "floor", place);
-    Popup::menu(&response).width(size.x).accessible_name("Lowest maximum elevation").show(|ui| {
-        ui.set_min_width(ui.available_width());
+    let segment = |scope| if scope == model.scope { Segment::Chosen } else { Segment::Free };
+    let scopes = [(Scope::Favourites, "Favourites"), (Scope::All, "All")];
+    let place = second.with_max_x(second.left() + SCOPES);
+    let words = scopes.map(|(scope, word)| (word, segment(scope)));
+    let chosen = segmented::show(ui, "scope", place, "Satellites of the list", &words);
+    if let Some((scope, _)) = chosen.and_then(|index| scopes.get(index))
+        && *scope != model.scope
+    {
+        actions.push(PassListAction::SetScope(*scope));
+    }
+    spans(ui, second, model, actions);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+}
+
+fn floors(
+    ui: &Ui,
+    line: Rect,
+    model: &PassListModel<'_>,
+    actions: &mut Vec<PassListAction>,
+) -> Rect {
+    let same = |floor_deg: &f64| (floor_deg - model.floor_deg).abs() < SAME_DEG;
+    let words = |floor_deg: f64| format!("max ≥ {}", format::degrees(floor_deg, 0));
+    let menu = Menu { salt: "floor", name: "Lowest maximum elevation", line };
+    menu.show(ui, &words(model.floor_deg), |ui| {
         for floor_deg in FLOORS_DEG {
-            let same = (floor_deg - model.floor_deg).abs() < SAME_DEG;
-            let choice = egui::Button::selectable(same, floor(floor_deg));
-            if ui.add(choice).clicked() && !same {
+            let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
+            if ui.add(choice).clicked() && !same(&floor_deg) {
                 actions.push(PassListAction::SetFloor(floor_deg));
+            }
+        }
+    })
+}
+
+fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, actions: &mut Vec<PassListAction>) {
+    let words = |span_h: u32| format!("next {span_h} h");
+    let menu = Menu { salt: "span", name: "How far ahead", line };
+    menu.show(ui, &words(model.span_h), |ui| {
+        for span_h in SPANS_H {
+            let choice = egui::Button::selectable(span_h == model.span_h, words(span_h));
+            if ui.add(choice).clicked() && span_h != model.span_h {
+                actions.push(PassListAction::SetSpan(span_h));
             }
         }
     });
 }
 
-fn floor(floor_deg: f64) -> String {
-    format!("max ≥ {}", format::degrees(floor_deg, 0))
+/// A button at the right end of a line that opens choices below it.
+struct Menu {
+    salt: &'static str,
+    name: &'static str,
+    line: Rect,
+}
+
+impl Menu {
+    fn show(self, ui: &Ui, chosen: &str, choices: impl FnOnce(&mut Ui)) -> Rect {
+        let button = Button::quiet(chosen).chevron();
+        let place = self.line.with_min_x(self.line.right() - button.width(ui));
+        let response = button.show(ui, self.salt, place);
+        Popup::menu(&response).width(place.width()).accessible_name(self.name).show(|ui| {
+            ui.set_min_width(ui.available_width());
+            choices(ui);
+        });
+        place
+    }
 }

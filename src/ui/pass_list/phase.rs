@@ -128,7 +128,7 @@ mod tests {
             max_elevation_deg: 51.6,
             aos_azimuth_deg: 249.0,
             los_azimuth_deg: 46.0,
-            verdict: Some(Verdict::Loses("Loses 12 s at keyhole N")),
+            verdict: Some(Verdict::Loses { seconds: 11.4, keyhole_azimuth_deg: 0.0 }),
             path: &[],
         }
     }

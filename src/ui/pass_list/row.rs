@@ -133,13 +133,13 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     let Some(verdict) = row.verdict else { return false };
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
-        Verdict::Loses(_) => (Icon::Warning, t.warn, t.warn),
+        Verdict::Loses { .. } => (Icon::Warning, t.warn, t.warn),
         Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
     };
     let glyph = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
     icons::paint(ui.painter(), glyph, icon, mark);
     let room = rect.with_min_x(glyph.right() + 5.0).with_max_x(time.left() - COLUMN_GAP);
-    elided(ui, room, verdict.sentence(), text::small(), colour)
+    elided(ui, room, &verdict.sentence(), text::small(), colour)
 }
 
 /// A text from the left that gives way. Returns whether it was cut.

@@ -6,7 +6,7 @@ use egui::{
 };
 
 use super::{
-    PassListAction, PassListModel, PassRow, Verdict,
+    PassListAction, PassListModel, PassListState, PassRow, Verdict,
     phase::{self, Phase},
     row::{self, Look},
 };
@@ -15,12 +15,12 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &PassListModel<'_>,
-    selection_is_news: bool,
+    state: &mut PassListState,
     actions: &mut Vec<PassListAction>,
 ) {
-    let selected = model.selected.filter(|_| selection_is_news).and_then(|selected| {
-        (0..model.rows).find(|index| (model.row)(*index).is_some_and(|pass| pass.key == selected))
-    });
+    let is_news = state.is_news(model.selected);
+    let selected = model.selected.filter(|_| is_news).and_then(model.place);
+    let gone = state.rows_gone_above(model);
     // Of this column and not of the scrolled part, so that a row keeps its id
     // wherever it stands.
     let list = ui.make_persistent_id("passes");
@@ -28,42 +28,42 @@ pub(super) fn show(
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.ctx().accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::ListBox));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        ScrollArea::vertical().id_salt("passes").auto_shrink(false).show_rows(
-            ui,
-            row::HEIGHT,
-            model.rows,
-            |ui, range| {
-                let top = ui.max_rect().top();
-                let place = |index: usize| {
-                    let down = row::HEIGHT * (index as f32 - range.start as f32);
-                    let min = pos2(rect.left(), top + down);
-                    Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
-                };
-                if let Some(index) = selected {
+        let mut area = ScrollArea::vertical().id_salt("passes").auto_shrink(false);
+        if gone != 0.0 {
+            area = area.vertical_scroll_offset((state.offset - gone * row::HEIGHT).max(0.0));
+        }
+        let shown = area.show_rows(ui, row::HEIGHT, model.rows, |ui, range| {
+            let top = ui.max_rect().top();
+            let place = |index: usize| {
+                let down = row::HEIGHT * (index as f32 - range.start as f32);
+                let min = pos2(rect.left(), top + down);
+                Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
+            };
+            if let Some(index) = selected {
+                into_view(ui, place(index));
+            }
+            // One row above those in view, so that the focus finds it; below, there is
+            // one already.
+            for index in range.start.saturating_sub(1)..range.end {
+                let Some(pass) = (model.row)(index) else { continue };
+                let response = one(ui, list, place(index), &pass, model);
+                if response.clicked() {
+                    response.request_focus();
+                    actions.push(PassListAction::Select(pass.key));
+                }
+                if response.gained_focus() {
                     into_view(ui, place(index));
                 }
-                // One row above those in view, so that the focus finds it; below, there is
-                // one already.
-                for index in range.start.saturating_sub(1)..range.end {
-                    let Some(pass) = (model.row)(index) else { continue };
-                    let response = one(ui, list, place(index), &pass, model);
-                    if response.clicked() {
-                        response.request_focus();
-                        actions.push(PassListAction::Select(pass.key));
-                    }
-                    if response.gained_focus() {
-                        into_view(ui, place(index));
-                    }
-                    if response.has_focus()
-                        && let Some(target) = step(ui, index, model.rows)
-                        && let Some(next) = (model.row)(target)
-                    {
-                        focus(ui, list.with(next.key), place(target));
-                        actions.push(PassListAction::Select(next.key));
-                    }
+                if response.has_focus()
+                    && let Some(target) = step(ui, index, model.rows)
+                    && let Some(next) = (model.row)(target)
+                {
+                    focus(ui, list.with(next.key), place(target));
+                    actions.push(PassListAction::Select(next.key));
                 }
-            },
-        );
+            }
+        });
+        state.remember(shown.state.clamped_offset().y, row::HEIGHT, model);
     });
 }
 
@@ -84,7 +84,7 @@ fn one(ui: &Ui, list: Id, rect: Rect, pass: &PassRow<'_>, model: &PassListModel<
             thumbnail: model.thumbnails,
         };
         if row::paint(ui, rect, pass, model.now, look) {
-            let verdict = pass.verdict.map_or("", Verdict::sentence);
+            let verdict = pass.verdict.map(Verdict::sentence).unwrap_or_default();
             return response.on_hover_text(format!("{}\n{verdict}", pass.name).trim_end());
         }
     }

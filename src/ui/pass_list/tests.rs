@@ -22,6 +22,12 @@ fn now() -> Timestamp {
 /// What the window holds from frame to frame.
 struct Desk {
     rows: usize,
+    /// So many passes are over and gone.
+    gone: usize,
+    scope: Scope,
+    span_h: u32,
+    work: Work,
+    made: Option<(usize, Timestamp)>,
     selected: Option<PassKey>,
     floor_deg: f64,
     thumbnails: bool,
@@ -35,6 +41,11 @@ impl Desk {
     fn with(rows: usize) -> Self {
         Self {
             rows,
+            gone: 0,
+            scope: Scope::Favourites,
+            span_h: 48,
+            work: Work::Nothing,
+            made: Some((16_089, now())),
             selected: None,
             floor_deg: 10.0,
             thumbnails: true,
@@ -62,7 +73,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
         los_azimuth_deg: 343.0,
         verdict: match index {
             0 => Some(Verdict::Trackable),
-            1 => Some(Verdict::Loses("Loses 12 s at keyhole N")),
+            1 => Some(Verdict::Loses { seconds: 11.4, keyhole_azimuth_deg: 0.0 }),
             2 => Some(Verdict::NotPossible("Not possible: below the travel")),
             _ => None,
         },
@@ -80,14 +91,20 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
         .collect();
     testing::window([width, 636.0], desk, move |ui, desk| {
         let highest = Rc::clone(&desk.highest);
+        let (rows, gone) = (desk.rows, desk.gone);
         let row = |index: usize| {
             highest.set(highest.get().max(index));
-            Some(pass(index, &path))
+            Some(pass(index + gone, &path))
         };
         let model = PassListModel {
             now: now(),
             rows: desk.rows,
             row: &row,
+            place: &|key| (0..rows).find(|index| key_of(index + gone) == key),
+            scope: desk.scope,
+            span_h: desk.span_h,
+            work: desk.work,
+            made: desk.made,
             selected: desk.selected,
             floor_deg: desk.floor_deg,
             thumbnails: desk.thumbnails,
@@ -98,6 +115,10 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
             match action {
                 PassListAction::Select(key) => desk.selected = Some(key),
                 PassListAction::SetFloor(floor_deg) => desk.floor_deg = floor_deg,
+                PassListAction::SetScope(scope) => desk.scope = scope,
+                PassListAction::SetSpan(span_h) => desk.span_h = span_h,
+                PassListAction::CancelSearch => desk.work = Work::Cancelled,
+                PassListAction::ResumeSearch => desk.work = Work::UnderWay { done: 0, of: 0 },
             }
             desk.actions.push(action);
         }
@@ -149,7 +170,7 @@ fn keys_move_the_selection_and_keep_it_in_view() {
 #[test]
 fn tab_walks_from_the_drop_down_to_the_rows() {
     let mut window = window(Desk::with(8));
-    for _ in 0..2 {
+    for _ in 0..5 {
         window.key_press(Key::Tab);
         window.run();
     }
@@ -165,6 +186,70 @@ fn another_floor_is_chosen_from_the_drop_down() {
     window.run();
     assert_eq!(window.state().actions, [PassListAction::SetFloor(30.0)]);
     window.get_by_role_and_label(Role::Button, "max ≥ 30°");
+}
+
+#[test]
+fn satellites_and_span_are_chosen_above_the_list() {
+    for thumbnails in [true, false] {
+        let mut window = window(Desk { thumbnails, ..Desk::with(8) });
+        window.get_by_role_and_label(Role::RadioButton, "All").click();
+        window.run();
+        window.get_by_role_and_label(Role::Button, "next 48 h").click();
+        window.run();
+        window.get_by_label("next 6 h").click();
+        window.run();
+        let wanted = [PassListAction::SetScope(Scope::All), PassListAction::SetSpan(6)];
+        assert_eq!(window.state().actions, wanted);
+        window.get_by_role_and_label(Role::RadioButton, "All").click();
+        window.run();
+        assert_eq!(window.state().actions.len(), 2, "it is chosen already");
+    }
+}
+
+#[test]
+fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
+    let work = Work::UnderWay { done: 4022, of: 16_089 };
+    let mut window = window(Desk { scope: Scope::All, work, ..Desk::with(8) });
+    window.get_by_label("Searched 4022 of 16\u{2009}089");
+    let bar = window.get_by_role(Role::ProgressIndicator);
+    assert_eq!(bar.accesskit_node().numeric_value(), Some(25.0));
+    window.get_by_role_and_label(Role::Button, "Cancel").click();
+    window.run();
+    window.get_by_label("Cancelled; list of 11:06");
+    assert!(window.query_by_label_contains("NOAA 20").is_some(), "the old list stays");
+    window.get_by_role_and_label(Role::Button, "Search").click();
+    window.run();
+    window.get_by_label("Preparing the satellites");
+    assert_eq!(
+        window.state().actions,
+        [PassListAction::CancelSearch, PassListAction::ResumeSearch]
+    );
+}
+
+#[test]
+fn of_a_list_that_is_made_it_says_of_what_and_when() {
+    let mut window = window(Desk { scope: Scope::All, ..Desk::with(8) });
+    window.get_by_label("16\u{2009}089 satellites at 11:06");
+    window.state_mut().scope = Scope::Favourites;
+    window.run();
+    assert!(window.query_by_label_contains("satellites at").is_none());
+}
+
+#[test]
+fn what_is_read_stays_where_it_is_when_passes_above_end() {
+    let mut window = window(Desk::with(1000));
+    window.state_mut().selected = Some(key_of(500));
+    window.run();
+    let place = |window: &Harness<'_, Desk>| {
+        let selected =
+            |node: &egui_kittest::Node<'_>| node.accesskit_node().is_selected() == Some(true);
+        let rows = window.get_all_by_role(Role::ListBoxOption);
+        rows.into_iter().find(selected).map(|row| row.rect())
+    };
+    let before = place(&window).expect("its row is in view");
+    (window.state_mut().rows, window.state_mut().gone) = (970, 30);
+    window.run();
+    assert_eq!(place(&window), Some(before));
 }
 
 #[test]
