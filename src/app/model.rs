@@ -10,7 +10,7 @@ use super::{
     antenna::AntennaModel,
     clearance::Clearance,
     daylight::{self, SunSpan},
-    forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, ahead},
+    forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
 };
 use crate::{
     astro::{AzEl, Site, sun_moon},
@@ -140,7 +140,10 @@ impl Model {
 
     /// The passes that the list shows.
     pub fn listed(&self) -> &[Forecast] {
-        self.forecasts.of(self.list.scope).within(self.now, self.list.span_h())
+        match self.list.scope {
+            Scope::Favourites => self.forecasts.favourites.within(self.now, self.list.span_h()),
+            Scope::All => &self.forecasts.all.passes,
+        }
     }
 
     /// Puts everything at its place for `now`.

@@ -29,7 +29,8 @@ const SAME_AOS_S: f64 = 60.0;
 pub struct Listing {
     /// The satellites, in the order of the station or by catalogue number.
     pub satellites: Vec<Arc<Followed>>,
-    /// Passes that are not over yet, by AOS, then by catalogue number.
+    /// Passes that are not over yet, by AOS, then by catalogue number. In a
+    /// list of all satellites those that are always up come last.
     pub passes: Vec<Forecast>,
     /// Another number whenever the passes are others.
     pub edition: u64,
@@ -161,15 +162,17 @@ impl Listing {
     }
 
     pub(super) fn drop_over(&mut self, now: Timestamp) {
-        let is_over = |forecast: &Forecast| forecast.pass.los.time <= now;
+        let is_over = |forecast: &&Forecast| forecast.pass.los.time <= now;
+        let (dated, always_up) = self.parts();
         // What is over has begun: the rest of a long list need not be looked at.
-        if self.passes.iter().take_while(|forecast| forecast.pass.aos.time <= now).any(is_over) {
-            self.passes.retain(|forecast| !is_over(forecast));
+        let begun = dated.iter().take_while(|forecast| forecast.pass.aos.time <= now);
+        if begun.chain(always_up).any(|forecast| is_over(&forecast)) {
+            self.passes.retain(|forecast| !is_over(&forecast));
             self.edition += 1;
         }
     }
 
-    /// The passes that begin in the next `span_h` hours.
+    /// The passes that begin in the next `span_h` hours, in a list by AOS.
     pub fn within(&self, now: Timestamp, span_h: u32) -> &[Forecast] {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
         let count = self.passes.partition_point(|forecast| forecast.pass.aos.time < end);
@@ -179,19 +182,28 @@ impl Listing {
     /// The place of the pass of `key` in the list. After a new list its AOS may
     /// differ by a little.
     pub fn place(&self, (number, aos): PassKey) -> Option<usize> {
+        let (dated, always_up) = self.parts();
         let is_its = |forecast: &Forecast| forecast.number() == number;
-        // Passes cut at the start of the window come first.
-        let cut = self.passes.iter().take_while(|forecast| forecast.pass.starts_before);
-        if let Some(place) = cut.enumerate().find_map(|(place, forecast)| {
-            (is_its(forecast) && aos < forecast.pass.los.time).then_some(place)
-        }) {
+        // A list begins with the passes that are cut at its start.
+        let cut = dated.iter().take_while(|forecast| forecast.pass.starts_before).enumerate();
+        let standing = (dated.len()..).zip(always_up);
+        let mut early = cut.chain(standing);
+        if let Some((place, _)) =
+            early.find(|(_, forecast)| is_its(forecast) && aos < forecast.pass.los.time)
+        {
             return Some(place);
         }
         let (from, to) = (add_seconds(aos, -SAME_AOS_S), add_seconds(aos, SAME_AOS_S));
-        let first = self.passes.partition_point(|forecast| forecast.pass.aos.time <= from);
-        let near = self.passes.iter().enumerate().skip(first);
+        let first = dated.partition_point(|forecast| forecast.pass.aos.time <= from);
+        let near = dated.iter().enumerate().skip(first);
         near.take_while(|(_, forecast)| forecast.pass.aos.time < to)
             .find_map(|(place, forecast)| is_its(forecast).then_some(place))
+    }
+
+    /// The passes by AOS, and those behind them that are always up.
+    fn parts(&self) -> (&[Forecast], &[Forecast]) {
+        let behind = self.passes.iter().rev().take_while(|forecast| forecast.is_always_up());
+        self.passes.split_at(self.passes.len() - behind.count())
     }
 
     /// The pass of `key`.

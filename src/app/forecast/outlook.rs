@@ -95,6 +95,11 @@ impl Forecast {
         self.satellite.elements.catalog_number()
     }
 
+    /// Whether the satellite neither rises nor sets in the time of the list.
+    pub fn is_always_up(&self) -> bool {
+        self.pass.starts_before && self.pass.ends_after
+    }
+
     /// Whether the satellite is up at `now`.
     pub fn in_progress(&self, now: Timestamp) -> bool {
         self.pass.aos.time <= now && now < self.pass.los.time

@@ -123,8 +123,12 @@ pub(super) fn search(
             Some(Forecast::new(satellite, pass, Arc::clone(vantage)))
         })
         .collect();
-    passes.par_sort_by_key(|forecast| (forecast.pass.aos.time, forecast.number()));
-    if basis.whose != Whose::All {
+    let is_all = basis.whose == Whose::All;
+    // Hundreds that never set would hide the first pass of a whole catalogue.
+    let is_late = |forecast: &Forecast| is_all && forecast.is_always_up();
+    passes
+        .par_sort_by_key(|forecast| (is_late(forecast), forecast.pass.aos.time, forecast.number()));
+    if !is_all {
         // All of them stand in the strip from the first frame on.
         passes.par_iter().for_each(|forecast| {
             forecast.trackability();

@@ -59,7 +59,7 @@ impl Desk {
             .iter()
             .any(|scope| matches!(self.forecasts.of(*scope).work(), Work::UnderWay { .. }))
         {
-            self.woken.recv_timeout(Duration::from_secs(60)).expect("a sign of life");
+            self.woken.recv_timeout(Duration::from_mins(1)).expect("a sign of life");
             self.refresh();
         }
     }
@@ -86,6 +86,15 @@ fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
     let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
     assert!(desk.forecasts.find(always).is_some());
     assert!(desk.forecasts.satellite(ISS).is_some() && desk.forecasts.satellite(7).is_none());
+}
+
+#[test]
+fn what_never_sets_stands_behind_the_passes_of_all_satellites() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let passes = &desk.all().passes;
+    assert!(passes.len() > 1 && passes[passes.len() - 1].number() == METEOSAT_12);
+    assert!(passes[..passes.len() - 1].is_sorted_by_key(|pass| pass.pass.aos.time));
 }
 
 #[test]
