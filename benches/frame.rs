@@ -15,7 +15,10 @@ const FRAMES: u32 = 500;
 
 fn main() {
     let folder = tempfile::tempdir().expect("a folder");
-    let settings = Settings { path: Some(folder.path().join("none.toml")) };
+    let settings = Settings {
+        path: Some(folder.path().join("none.toml")),
+        library: Some(folder.path().join("elements")),
+    };
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
         let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {
             App::new(&cc.egui_ctx, &settings, Clock::system()).expect("the app starts")

@@ -18,6 +18,7 @@ mod job;
 mod logic;
 mod memory;
 pub mod model;
+pub mod sources;
 
 use std::{path::PathBuf, sync::Arc, time::Instant};
 
@@ -25,12 +26,16 @@ pub use command::UiCommand;
 pub use model::{Model, View};
 
 use self::{
-    antenna::AntennaModel, clock_watch::ClockWatch, demo::Demo, job::Job, memory::Keeper,
+    antenna::AntennaModel,
+    clock_watch::ClockWatch,
+    demo::Demo,
+    job::Job,
+    memory::Keeper,
     model::CatalogState,
+    sources::{Outcome, Places, SourceWork, Sources, Task},
 };
 use crate::{
     driver::{self, Clock, Driver, Wake},
-    orbit::{BundledError, Catalog},
     station::{self, LoadError, Station},
     ui,
 };
@@ -40,6 +45,8 @@ use crate::{
 pub struct Settings {
     /// Where the station file is; `None` for the user's own.
     pub path: Option<PathBuf>,
+    /// Where elements from servers are kept; `None` for the user's own folder.
+    pub library: Option<PathBuf>,
 }
 
 /// The app behind the window.
@@ -53,8 +60,11 @@ pub struct App {
     clock_watch: ClockWatch,
     wake: Wake,
     settings_path: Option<PathBuf>,
-    catalog_job: Option<Job<Result<Catalog, BundledError>>>,
+    places: Places,
+    elements_job: Option<Job<Outcome>>,
     keeper: Keeper,
+    /// The settings on disk could not be read: only the operator may replace them.
+    settings_unread: bool,
     drawn: bool,
 }
 
@@ -73,6 +83,7 @@ impl App {
             station: Station::default(),
             demo: false,
             catalog: CatalogState::Loading,
+            sources: Sources { work: SourceWork::Reading, ..Sources::default() },
             antennas: Vec::new(),
             selected_antenna: 0,
             forecasts: forecast::Forecasts::default(),
@@ -83,8 +94,9 @@ impl App {
             view: View::Operate,
         };
         close_on_signals(&driver, ctx.clone());
-        let catalog_job =
-            Job::start("azel-catalog", Arc::clone(&wake), |_| crate::orbit::bundled())?;
+        let places = Places::new(settings_path.as_deref(), settings.library.clone());
+        let task = Task::default();
+        let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
         let mut app = Self {
             model,
             views: ui::Views::with(keeper.memory.views),
@@ -94,8 +106,10 @@ impl App {
             clock_watch: ClockWatch::default(),
             wake,
             settings_path,
-            catalog_job: Some(catalog_job),
+            places,
+            elements_job: Some(elements_job),
             keeper,
+            settings_unread: false,
             drawn: false,
         };
         app.load_station();
@@ -126,6 +140,7 @@ impl App {
                 tracing::error!("{text}");
                 self.model.alarms.raise(None, alarms::AlarmKind::Settings(text), self.model.now);
                 // Nothing is connected and nothing is overwritten by itself.
+                self.settings_unread = true;
                 self.use_station(Station::default());
             }
         }

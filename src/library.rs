@@ -8,12 +8,17 @@
 mod disk;
 mod fetch;
 mod index;
+mod list;
 
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
 
-pub use self::{fetch::Limits, index::IndexError};
+pub use self::{
+    fetch::Limits,
+    index::IndexError,
+    list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
+};
 use self::{
     fetch::{Answer, fetch, host},
     index::{Index, Record},
@@ -51,8 +56,13 @@ impl Library {
     /// Reads all `sources` from disk. Asks no server.
     pub fn load(&self, sources: &[Source]) -> (Catalog, Vec<SourceReport>) {
         let mut catalog = Catalog::default();
-        let reports = sources.iter().map(|source| self.load_one(source, &mut catalog)).collect();
+        let reports = self.load_into(sources, &mut catalog);
         (catalog, reports)
+    }
+
+    /// The same, into a catalog that holds elements already.
+    pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
+        sources.iter().map(|source| self.load_one(source, catalog)).collect()
     }
 
     fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {

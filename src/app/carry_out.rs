@@ -1,6 +1,13 @@
 //! Carries out what the views asked for.
 
-use super::{App, UiCommand, alarms::AlarmKind, forecast::PassKey};
+use std::sync::Arc;
+
+use super::{
+    App, UiCommand,
+    alarms::AlarmKind,
+    forecast::PassKey,
+    sources::{self, SourceWork, Task},
+};
 use crate::{controller::TrackTarget, driver, station, ui::theme};
 
 impl App {
@@ -40,6 +47,19 @@ impl App {
             }
             UiCommand::CancelSearch => model.forecasts.of_mut(model.list.scope).cancel(),
             UiCommand::ResumeSearch => model.forecasts.of_mut(model.list.scope).resume(),
+            UiCommand::Follow { number, is_followed } => self.follow(number, is_followed),
+            UiCommand::AddSource(source) => {
+                let ask = vec![source.name.clone()];
+                let mut list = self.model.sources.list.clone();
+                list.push(source);
+                self.begin_elements(Task { list: Some(list), ask });
+            }
+            UiCommand::RemoveSource(name) => {
+                let mut list = self.model.sources.list.clone();
+                list.retain(|source| source.name != name);
+                self.begin_elements(Task { list: Some(list), ask: Vec::new() });
+            }
+            UiCommand::RefreshSources(ask) => self.begin_elements(Task { list: None, ask }),
             UiCommand::Show(view) => model.view = view,
             UiCommand::SetTheme(name) => {
                 theme::set(ctx, name);
@@ -75,6 +95,43 @@ impl App {
         self.send(antenna, driver::Command::Track(target));
     }
 
+    /// One at a time: two would write the same files.
+    fn begin_elements(&mut self, task: Task) {
+        if self.elements_job.is_some() || self.model.sources.is_locked {
+            return;
+        }
+        let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
+        match sources::start(&self.places, task, self.model.now, Arc::clone(&self.wake)) {
+            Ok(job) => {
+                self.elements_job = Some(job);
+                self.model.sources.work = work;
+            }
+            Err(error) => tracing::error!(%error, "no thread for the elements"),
+        }
+    }
+
+    /// The demo station has no file, and one that could not be read is left
+    /// alone: there the change lasts as long as the window.
+    fn follow(&mut self, number: u32, is_followed: bool) {
+        let mut station = self.model.station.clone();
+        station.favourites.retain(|known| *known != number);
+        if is_followed {
+            station.favourites.push(number);
+        }
+        if !self.model.demo
+            && !self.settings_unread
+            && let Some(path) = &self.settings_path
+            && let Err(error) = station::save(&station, path)
+        {
+            let text = error.to_string();
+            tracing::error!("{text}");
+            self.model.alarms.raise(None, AlarmKind::Settings(text), self.model.now);
+            return;
+        }
+        self.model.station = station;
+        self.views.station_changed();
+    }
+
     /// The new settings are used once they are safe on disk.
     fn save_station(&mut self, station: station::Station) {
         let now = self.model.now;
@@ -88,6 +145,7 @@ impl App {
                     matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
                 });
                 self.model.demo = false;
+                self.settings_unread = false;
                 self.use_station(station);
                 self.demo = None;
                 self.views.saved(Ok(now));

@@ -4,7 +4,7 @@ use super::{
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
 };
-use crate::{driver, station::Station, ui::tokens::ThemeName};
+use crate::{driver, orbit::Source, station::Station, ui::tokens::ThemeName};
 
 /// What a view asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +37,20 @@ pub enum UiCommand {
     CancelSearch,
     /// Begin the cancelled search again.
     ResumeSearch,
+    /// Follow this satellite, or follow it no longer.
+    Follow {
+        /// Catalogue number.
+        number: u32,
+        /// Whether it is to be followed.
+        is_followed: bool,
+    },
+    /// Take up this source of elements.
+    AddSource(Source),
+    /// Give up the source of elements with this name.
+    RemoveSource(String),
+    /// Read all sources anew, and ask the servers of those with these names
+    /// where they may be asked.
+    RefreshSources(Vec<String>),
     /// Fill the window with this view.
     Show(View),
     /// Change the colours.

@@ -55,21 +55,22 @@ impl App {
     }
 
     fn take_catalog(&mut self) {
-        let Some(result) = self.catalog_job.as_ref().and_then(super::Job::poll) else { return };
-        self.catalog_job = None;
-        match result {
-            Ok(catalog) => {
-                self.model.catalog = CatalogState::Ready(Arc::new(catalog));
-                if self.model.demo && self.demo.is_none() {
-                    self.start_demo();
-                }
-            }
-            Err(error) => {
-                self.model.catalog = CatalogState::Failed;
-                let text = error.to_string();
-                tracing::error!("{text}");
-                self.model.alarms.raise(None, AlarmKind::Elements(text), self.model.now);
-            }
+        let Some(outcome) = self.elements_job.as_ref().and_then(super::Job::poll) else { return };
+        self.elements_job = None;
+        let (alarms, now) = (&mut self.model.alarms, self.model.now);
+        alarms.clear(None, |kind| matches!(kind, AlarmKind::Elements(_)));
+        for text in outcome.bundled_problem.iter().chain(&outcome.sources.problem) {
+            tracing::error!("{text}");
+            alarms.raise(None, AlarmKind::Elements(text.clone()), now);
+        }
+        self.model.sources = outcome.sources;
+        if outcome.catalog.is_empty() {
+            self.model.catalog = CatalogState::Failed;
+            return;
+        }
+        self.model.catalog = CatalogState::Ready(Arc::new(outcome.catalog));
+        if self.model.demo && self.demo.is_none() {
+            self.start_demo();
         }
     }
 

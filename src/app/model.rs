@@ -11,6 +11,7 @@ use super::{
     clearance::Clearance,
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
+    sources::Sources,
 };
 use crate::{
     astro::{AzEl, Site, sun_moon},
@@ -28,6 +29,8 @@ pub enum View {
     /// Watch and drive.
     #[default]
     Operate,
+    /// The catalogue and where it comes from.
+    Elements,
     /// The station's settings.
     Preferences,
 }
@@ -57,6 +60,8 @@ pub struct Model {
     pub demo: bool,
     /// The elements.
     pub catalog: CatalogState,
+    /// Where the elements come from.
+    pub sources: Sources,
     /// The antennas of the station.
     pub antennas: Vec<AntennaModel>,
     /// Which of them the card shows.

@@ -92,7 +92,7 @@ pub(super) fn fetch(
 
 /// Whether `url` is on this very computer. Only there may it be plain `http`,
 /// and nowhere may it carry a password: addresses are kept on disk and shown.
-fn check(url: &str) -> Result<bool, FetchProblem> {
+pub(super) fn check(url: &str) -> Result<bool, FetchProblem> {
     let uri: Uri = url.parse().map_err(|_| FetchProblem::Address)?;
     let host = uri.host().ok_or(FetchProblem::Address)?;
     let address: Option<IpAddr> = host.trim_matches(['[', ']']).parse().ok();

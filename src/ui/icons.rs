@@ -30,6 +30,8 @@ pub enum Icon {
     ChevronRight,
     /// View: Operate.
     CrossHair,
+    /// View: Elements.
+    Orbit,
     /// View: Preferences.
     Sliders,
     /// The sign of the program.
@@ -63,6 +65,7 @@ impl Icon {
         Self::ChevronDown,
         Self::ChevronRight,
         Self::CrossHair,
+        Self::Orbit,
         Self::Sliders,
         Self::Dish,
         Self::Disc,

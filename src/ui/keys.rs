@@ -6,7 +6,7 @@ pub mod list;
 
 use egui::{Key, Modifiers, Ui};
 
-use super::{confirm::Question, operate::OperateState};
+use super::{confirm::Question, elements::ElementsState, operate::OperateState};
 use crate::app::{Model, UiCommand, View};
 use act::Act;
 
@@ -53,14 +53,18 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 
 /// All keys, in the order of the list. STOP's key is taken by the app before
 /// anything else.
-pub const ALL: [Binding; 19] = [
+pub const ALL: [Binding; 20] = [
     row(Place::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
         row(
             Place::Everywhere,
-            &[(Key::Num1, Act::Show(View::Operate)), (Key::Num6, Act::Show(View::Preferences))],
-            "Operate, Preferences",
+            &[
+                (Key::Num1, Act::Show(View::Operate)),
+                (Key::Num3, Act::Show(View::Elements)),
+                (Key::Num6, Act::Show(View::Preferences)),
+            ],
+            "Operate, Elements, Preferences",
         ),
     ),
     row(
@@ -118,6 +122,10 @@ pub const ALL: [Binding; 19] = [
         "fewer hours, more hours in the strip of passes",
     ),
     row(Place::Operate, &[(Key::Num0, Act::UsualZoom)], "the usual hours in the strip of passes"),
+    with(
+        Modifiers::COMMAND,
+        row(Place::Everywhere, &[(Key::F, Act::Search)], "search the catalogue, in Elements"),
+    ),
     row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(
         Modifiers::COMMAND,
@@ -133,6 +141,8 @@ pub struct Desk<'a> {
     pub question: &'a mut Option<Question>,
     /// The Operate view.
     pub operate: &'a mut OperateState,
+    /// The Elements view.
+    pub elements: &'a mut ElementsState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }

@@ -33,6 +33,17 @@ pub struct PreferencesState {
 }
 
 impl PreferencesState {
+    /// Something is typed that is not saved.
+    pub fn is_edited(&self) -> bool {
+        self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::of(station))
+    }
+
+    /// The station has changed elsewhere. Whoever changes it asks first whether
+    /// something is typed.
+    pub fn forget(&mut self) {
+        self.draft = None;
+    }
+
     /// The settings were saved at this time, or not, and why.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         if result.is_ok() {

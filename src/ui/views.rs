@@ -6,6 +6,7 @@ use jiff::Timestamp;
 use super::{
     banner, bar,
     confirm::Question,
+    elements,
     icons::Icon,
     keys::{self, Desk},
     operate, preferences, rail,
@@ -20,6 +21,7 @@ use crate::app::{Model, UiCommand, View};
 #[derive(Default)]
 pub struct Views {
     operate: operate::OperateState,
+    elements: elements::ElementsState,
     preferences: preferences::PreferencesState,
     question: Option<Question>,
     keys_open: bool,
@@ -72,6 +74,7 @@ impl Views {
         let mut desk = Desk {
             question: &mut self.question,
             operate: &mut self.operate,
+            elements: &mut self.elements,
             list_open: &mut self.keys_open,
         };
         keys::take(ui, model, &mut desk, commands);
@@ -92,6 +95,12 @@ impl Views {
             View::Operate => {
                 operate::show(ui, window, rest, model, &mut self.operate, commands);
             }
+            View::Elements => {
+                self.operate.leave_card(commands);
+                let is_edited = self.preferences.is_edited();
+                let (state, question) = (&mut self.elements, &mut self.question);
+                elements::show(ui, rest, model, is_edited, state, question, commands);
+            }
             View::Preferences => {
                 self.operate.leave_card(commands);
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
@@ -99,6 +108,11 @@ impl Views {
         }
         Question::show(&mut self.question, ui, commands);
         keys::list::show(ui, &mut self.keys_open);
+    }
+
+    /// The station has changed, and not by the preferences.
+    pub fn station_changed(&mut self) {
+        self.preferences.forget();
     }
 
     /// The settings were saved at this time, or not, and why.
@@ -110,6 +124,7 @@ impl Views {
 fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let views = [
         (View::Operate, Icon::CrossHair, "Operate"),
+        (View::Elements, Icon::Orbit, "Elements"),
         (View::Preferences, Icon::Sliders, "Preferences"),
     ];
     let entries =

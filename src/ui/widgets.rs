@@ -6,6 +6,7 @@ pub mod angle_field;
 pub mod axes_table;
 pub mod beam_bar;
 pub mod button;
+pub mod card;
 pub mod fold;
 pub mod go_to;
 pub mod hold_button;

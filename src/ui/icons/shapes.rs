@@ -7,6 +7,8 @@ use super::{
 
 /// Check and cross are drawn heavier, so that a verdict reads at 12 points.
 const HEAVY: f32 = 2.0;
+/// Enough for a smooth ellipse of 20 points.
+const ELLIPSE_POINTS: usize = 32;
 
 pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
     match icon {
@@ -46,6 +48,11 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.line(&[(10.0, 12.8), (10.0, 18.2)]);
             pen.line(&[(1.8, 10.0), (7.2, 10.0)]);
             pen.line(&[(12.8, 10.0), (18.2, 10.0)]);
+        }
+        Icon::Orbit => {
+            pen.disc((10.0, 10.0), 2.5);
+            pen.outline(&ellipse((10.0, 10.0), 8.2, 3.6, -30.0));
+            pen.disc((16.0, 5.2), 1.6);
         }
         Icon::Sliders => sliders(pen),
         Icon::Dish => {
@@ -111,4 +118,20 @@ pub(super) fn bowl(pen: &Pen<'_>) {
 pub(super) fn feed(pen: &Pen<'_>) {
     pen.line(&[(10.0, 16.0), (14.2, 5.5)]);
     pen.disc((14.8, 4.0), 2.2);
+}
+
+/// Points of an ellipse with these half axes, its long axis turned by
+/// `turned_deg` from the right, clockwise.
+fn ellipse(
+    (x, y): (f32, f32),
+    long: f32,
+    short: f32,
+    turned_deg: f32,
+) -> [(f32, f32); ELLIPSE_POINTS] {
+    let (sin, cos) = turned_deg.to_radians().sin_cos();
+    std::array::from_fn(|index| {
+        let angle = std::f32::consts::TAU * index as f32 / ELLIPSE_POINTS as f32;
+        let (along, across) = (long * angle.cos(), short * angle.sin());
+        (x + along * cos - across * sin, y + along * sin + across * cos)
+    })
 }

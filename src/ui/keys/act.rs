@@ -28,6 +28,7 @@ pub(super) enum Act {
     /// So many steps closer.
     Zoom(isize),
     UsualZoom,
+    Search,
     Acknowledge,
     NextTheme,
     List,
@@ -42,6 +43,7 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
+            Self::Search => model.view == View::Elements,
             _ => true,
         }
     }
@@ -77,6 +79,7 @@ impl Act {
             }
             Self::Zoom(closer) => desk.operate.zoom.change(closer),
             Self::UsualZoom => desk.operate.zoom.reset(),
+            Self::Search => desk.elements.focus_search(),
             Self::Acknowledge => {
                 commands.extend(model.alarms.newest_unseen().map(UiCommand::AcknowledgeAlarm));
             }

@@ -6,7 +6,7 @@ use egui::{
 };
 
 use super::draft::{Draft, Field, Kind};
-use crate::ui::{text, theme};
+use crate::ui::{text, theme, widgets::card as card_frame};
 
 const LABEL: f32 = 192.0;
 const ROW: f32 = 24.0;
@@ -74,18 +74,10 @@ fn antennas(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
 }
 
 fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
-    let t = theme::tokens(ui);
-    Frame::new()
-        .fill(t.bg1)
-        .stroke(Stroke::new(1.0, t.line))
-        .corner_radius(6)
-        .inner_margin(Margin::same(16))
-        .outer_margin(Margin { bottom: 8, ..Margin::ZERO })
-        .show(ui, |ui| {
-            ui.set_width(COLUMN.min(ui.available_width()));
-            ui.label(RichText::new(title).font(text::value()));
-            content(ui);
-        });
+    card_frame::show(ui, COLUMN, |ui| {
+        ui.label(RichText::new(title).font(text::value()));
+        content(ui);
+    });
 }
 
 fn fields(

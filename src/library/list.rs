@@ -1,0 +1,191 @@
+//! The list of sources, in a small file of its own beside the station's.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::fetch;
+use crate::{
+    orbit::{BUNDLED_SOURCE, Place, Source},
+    whole_file,
+};
+
+/// The version that this program writes. A file of a later one is left alone.
+const VERSION: u32 = 1;
+
+/// Why a source cannot be added.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum SourceProblem {
+    /// It has no name.
+    #[error("it has no name")]
+    NoName,
+    /// Another source has its name, which is also the name of its group.
+    #[error("another source has this name")]
+    NameTaken,
+    /// Not a path from the root: which file it means would depend on where the
+    /// program was started.
+    #[error("the path does not start at the root")]
+    RelativePath,
+    /// Not an `https` address, or one with a user name in it.
+    #[error("the address is not a plain https address")]
+    Address,
+}
+
+/// Why the list of sources cannot be used or written. What stands on disk stays.
+#[derive(Debug, thiserror::Error)]
+pub enum SourcesError {
+    /// The operating system refused.
+    #[error("the list of element sources cannot be used: {source}: {}", path.display())]
+    Disk {
+        /// Why.
+        source: io::Error,
+        /// Where.
+        path: PathBuf,
+    },
+    /// Not the TOML it should be.
+    #[error("the list of element sources cannot be read: {source}: {}", path.display())]
+    Syntax {
+        /// Where in the text.
+        source: Box<toml::de::Error>,
+        /// Where.
+        path: PathBuf,
+    },
+    /// A later program wrote it.
+    #[error("the list of element sources has version {found}, this program knows {VERSION}: {}", path.display())]
+    Newer {
+        /// Its version.
+        found: u32,
+        /// Where.
+        path: PathBuf,
+    },
+    /// It cannot be put into TOML.
+    #[error("the list of element sources cannot be put into TOML: {0}")]
+    Form(#[from] toml::ser::Error),
+}
+
+/// Whether `source` can stand beside `others`.
+pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProblem> {
+    let name = source.name.trim();
+    if name.is_empty() {
+        return Err(SourceProblem::NoName);
+    }
+    if name == BUNDLED_SOURCE || others.iter().any(|other| other.name == name) {
+        return Err(SourceProblem::NameTaken);
+    }
+    match &source.place {
+        Place::File(path) | Place::Folder(path) if path.is_relative() => {
+            Err(SourceProblem::RelativePath)
+        }
+        Place::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
+        _ => Ok(()),
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct File {
+    #[serde(default = "this_version")]
+    version: u32,
+    #[serde(default)]
+    source: Vec<Source>,
+}
+
+fn this_version() -> u32 {
+    VERSION
+}
+
+/// Reads the sources at `path`; none where there is no file. Entries that
+/// [`check_source`] refuses are kept: a server is never asked at such an
+/// address, and the operator sees them and may remove them.
+pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(source) => return Err(SourcesError::Disk { source, path: path.to_owned() }),
+    };
+    let syntax = |source: toml::de::Error| SourcesError::Syntax {
+        source: source.into(),
+        path: path.to_owned(),
+    };
+    let table: toml::Table = toml::from_str(&text).map_err(syntax)?;
+    let version = table.get("version").and_then(toml::Value::as_integer);
+    let found = version.and_then(|version| u32::try_from(version).ok()).unwrap_or(VERSION);
+    if found > VERSION {
+        return Err(SourcesError::Newer { found, path: path.to_owned() });
+    }
+    let file: File = table.try_into().map_err(syntax)?;
+    Ok(file.source)
+}
+
+/// Puts the sources at `path` as a whole. What stood there before is kept
+/// beside it with the ending `.old`.
+pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError> {
+    let file = File { version: VERSION, source: sources.to_vec() };
+    let text = toml::to_string_pretty(&file)?;
+    whole_file::replace_and_keep_old(path, text.as_bytes())
+        .map_err(|source| SourcesError::Disk { source, path: path.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(name: &str, place: Place) -> Source {
+        Source { name: name.to_owned(), place }
+    }
+
+    #[test]
+    fn sources_come_back_as_they_were_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("deep/sources.toml");
+        assert_eq!(load_sources(&path).unwrap(), []);
+        let sources = [
+            Source::celestrak("weather"),
+            source("Şile \"own\"", Place::File("/var/elements/own.tle".into())),
+            source("All", Place::Folder("/var/elements".into())),
+        ];
+        save_sources(&sources, &path).unwrap();
+        assert_eq!(load_sources(&path).unwrap(), sources);
+        save_sources(&[], &path).unwrap();
+        assert_eq!(load_sources(&path).unwrap(), []);
+        assert_eq!(load_sources(&whole_file::old(&path)).unwrap(), sources);
+    }
+
+    #[test]
+    fn a_list_that_cannot_be_read_is_left_alone_and_says_why() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sources.toml");
+        for (text, newer) in [
+            ("source = ", false),
+            ("[[source]]\nname = 'x'", false),
+            ("version = 9\n[[source]]\nlater = 1", true),
+        ] {
+            fs::write(&path, text).unwrap();
+            let error = load_sources(&path).unwrap_err();
+            assert_eq!(matches!(error, SourcesError::Newer { found: 9, .. }), newer, "{error}");
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        assert!(matches!(load_sources(folder.path()), Err(SourcesError::Disk { .. })));
+    }
+
+    #[test]
+    fn only_what_can_be_asked_and_told_apart_is_added() {
+        let known = [Source::celestrak("weather")];
+        let web = |url: &str| Place::Web(url.to_owned());
+        for (name, place, expected) in [
+            ("own", Place::File("/a/b.tle".into()), Ok(())),
+            ("noaa", web("https://celestrak.org/x"), Ok(())),
+            (" ", web("https://celestrak.org/x"), Err(SourceProblem::NoName)),
+            ("weather", Place::File("/a".into()), Err(SourceProblem::NameTaken)),
+            (BUNDLED_SOURCE, Place::File("/a".into()), Err(SourceProblem::NameTaken)),
+            ("own", Place::Folder("b".into()), Err(SourceProblem::RelativePath)),
+            ("own", Place::File("".into()), Err(SourceProblem::RelativePath)),
+            ("own", web("http://celestrak.org/x"), Err(SourceProblem::Address)),
+            ("own", web("https://me:word@celestrak.org/x"), Err(SourceProblem::Address)),
+        ] {
+            assert_eq!(check_source(&source(name, place), &known), expected, "{name}");
+        }
+    }
+}

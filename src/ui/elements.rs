@@ -1,0 +1,110 @@
+//! The Elements view: where elements come from and how old they are, and the
+//! catalogue to search and to follow satellites from.
+
+mod add;
+mod search;
+mod sources;
+mod words;
+
+use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+
+use super::{confirm::Question, text, theme};
+use crate::app::{
+    Model, UiCommand,
+    model::CatalogState,
+    sources::{SourceWork, Sources},
+};
+
+/// Width of the catalogue.
+const CATALOGUE: f32 = 416.0;
+/// Width of the catalogue in a small window.
+const NARROW_CATALOGUE: f32 = 360.0;
+/// Below this width of the view the window is small.
+const SMALL_BELOW: f32 = 1100.0;
+const PADDING: f32 = 16.0;
+
+/// What was typed and found.
+#[derive(Default)]
+pub struct ElementsState {
+    add: add::AddState,
+    search: search::SearchState,
+}
+
+impl ElementsState {
+    /// The next text that is typed is a search.
+    pub fn focus_search(&mut self) {
+        self.search.focus();
+    }
+}
+
+/// Draws the view. `settings_are_edited`: the station's settings are typed and
+/// not saved, so that they must not change.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    settings_are_edited: bool,
+    state: &mut ElementsState,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    let wide = rect.width() >= SMALL_BELOW;
+    let catalogue = if wide { CATALOGUE } else { NARROW_CATALOGUE };
+    let (left, right) = rect.split_left_right_at_x(rect.right() - catalogue);
+    ui.painter().rect_filled(right, 0.0, t.bg1);
+    let builder = UiBuilder::new().id_salt("sources").max_rect(left.shrink2(vec2(PADDING, 0.0)));
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(left);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(PADDING);
+            head(ui, model, commands);
+            sources::show(ui, model, question, commands);
+            add::show(ui, &model.sources, &mut state.add, commands);
+            ui.add_space(PADDING);
+        });
+    });
+    let builder = UiBuilder::new().id_salt("catalogue").max_rect(right.shrink(PADDING));
+    ui.scope_builder(builder, |ui| {
+        search::show(ui, model, settings_are_edited, &mut state.search, commands);
+    });
+    ui.painter().vline(right.left() + 0.5, rect.y_range(), (1.0, t.line));
+}
+
+fn head(ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let sources = &model.sources;
+    ui.label(RichText::new("Elements").font(text::title()));
+    let catalog = match &model.catalog {
+        CatalogState::Loading => "The elements are being read.".to_owned(),
+        CatalogState::Failed => "There are no elements.".to_owned(),
+        CatalogState::Ready(catalog) => words::catalog(catalog, model.now),
+    };
+    ui.label(RichText::new(catalog).font(text::body()).color(t.t2));
+    if let Some(problem) = &sources.problem {
+        ui.label(RichText::new(words::sentence(problem)).font(text::body()).color(t.bad));
+    }
+    ui.horizontal(|ui| {
+        let all = egui::Button::new("Refresh all");
+        let can = sources.is_free() && !sources.list.is_empty();
+        if ui.add_enabled(can, all).clicked() {
+            let names = sources.list.iter().map(|source| source.name.clone()).collect();
+            commands.push(UiCommand::RefreshSources(names));
+        }
+        ui.label(RichText::new(work(sources)).font(text::body()).color(t.t2));
+    });
+    ui.add_space(8.0);
+}
+
+fn work(sources: &Sources) -> &'static str {
+    match sources.work {
+        SourceWork::Reading => "The sources are being read.",
+        SourceWork::Asking => "The servers are being asked. The elements in use stay meanwhile.",
+        SourceWork::Nothing if sources.is_locked => "The list of sources is left as it is.",
+        SourceWork::Nothing if sources.list.is_empty() => {
+            "No sources yet. The elements that come with Azel are in use."
+        }
+        SourceWork::Nothing => "Servers that were asked in the last 2 h are left alone.",
+    }
+}

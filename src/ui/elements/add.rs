@@ -1,0 +1,138 @@
+//! A new source, typed.
+
+use std::path::PathBuf;
+
+use egui::{Align, Layout, RichText, TextEdit, Ui, vec2};
+
+use super::sources::named_button;
+use crate::{
+    app::{UiCommand, sources::Sources},
+    library::check_source,
+    orbit::{Place, Source},
+    ui::{text, theme, widgets::card},
+};
+
+const MOST: f32 = 720.0;
+const LABEL: f32 = 72.0;
+const ROW: f32 = 24.0;
+const NAME: f32 = 240.0;
+/// Groups of `CelesTrak` that most stations want.
+const GROUPS: [&str; 8] =
+    ["active", "stations", "weather", "resource", "science", "amateur", "cubesat", "geo"];
+
+/// What was typed.
+#[derive(Default)]
+pub(super) struct AddState {
+    kind: Kind,
+    name: String,
+    place: String,
+    /// The name of the source that was asked for last.
+    asked: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Kind {
+    #[default]
+    Web,
+    File,
+    Folder,
+}
+
+impl AddState {
+    fn source(&self) -> Source {
+        let place = self.place.trim();
+        let place = match self.kind {
+            Kind::Web => Place::Web(place.to_owned()),
+            Kind::File => Place::File(PathBuf::from(place)),
+            Kind::Folder => Place::Folder(PathBuf::from(place)),
+        };
+        Source { name: self.name.trim().to_owned(), place }
+    }
+
+    /// What was typed is done with once it stands in the list.
+    fn forget_the_added(&mut self, sources: &Sources) {
+        let is_there = |name: &String| sources.list.iter().any(|source| source.name == *name);
+        if self.asked.as_ref().is_some_and(is_there) {
+            *self = Self { kind: self.kind, ..Self::default() };
+        }
+    }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    sources: &Sources,
+    state: &mut AddState,
+    commands: &mut Vec<UiCommand>,
+) {
+    state.forget_the_added(sources);
+    let t = theme::tokens(ui);
+    card::show(ui, MOST, |ui| {
+        ui.label(RichText::new("Add a source").font(text::value()));
+        ui.horizontal(|ui| {
+            for (kind, word) in
+                [(Kind::Web, "Server"), (Kind::File, "File"), (Kind::Folder, "Folder")]
+            {
+                ui.radio_value(&mut state.kind, kind, word);
+            }
+        });
+        if state.kind == Kind::Web {
+            suggestions(ui, sources, state);
+        }
+        let place = match state.kind {
+            Kind::Web => ("Address", "https://…"),
+            Kind::File => ("Path", "/… or C:\\…"),
+            Kind::Folder => ("Path", "/… or C:\\…, all files of elements in it"),
+        };
+        field(ui, ("Name", "also the name of the group"), NAME, &mut state.name);
+        field(ui, place, f32::INFINITY, &mut state.place);
+        let source = state.source();
+        let checked = check_source(&source, &sources.list);
+        let can = checked.is_ok() && sources.is_free();
+        ui.horizontal(|ui| {
+            if named_button(ui, can, "Add", "Add source") {
+                state.asked = Some(source.name.clone());
+                commands.push(UiCommand::AddSource(source));
+            }
+            let typed = !state.name.is_empty() || !state.place.is_empty();
+            if let (true, Err(problem)) = (typed, checked) {
+                let words = format!("Not to be added yet: {problem}.");
+                ui.label(RichText::new(words).font(text::body()).color(t.warn));
+            }
+        });
+    });
+}
+
+fn suggestions(ui: &mut Ui, sources: &Sources, state: &mut AddState) {
+    let t = theme::tokens(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("CelesTrak").font(text::body()).color(t.t2));
+        for group in GROUPS {
+            let known = sources.list.iter().any(|source| source.name == group);
+            if named_button(ui, !known, group, &format!("CelesTrak {group}")) {
+                let source = Source::celestrak(group);
+                state.name = source.name;
+                if let Place::Web(url) = source.place {
+                    state.place = url;
+                }
+            }
+        }
+    });
+}
+
+fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut String) {
+    let t = theme::tokens(ui);
+    ui.horizontal(|ui| {
+        let words = RichText::new(label).font(text::body()).color(t.t2);
+        let layout = Layout::left_to_right(Align::Center);
+        let label_id = ui
+            .allocate_ui_with_layout(vec2(LABEL, ROW), layout, |ui| {
+                ui.set_min_width(LABEL);
+                ui.label(words).id
+            })
+            .inner;
+        let hint = RichText::new(hint).color(t.t3);
+        let width = width.min(ui.available_width() - 16.0);
+        let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
+        ui.add(edit).labelled_by(label_id);
+    });
+}

@@ -1,0 +1,80 @@
+//! The sources, one card each.
+
+use egui::{Align, Button, Color32, Layout, RichText, Role, Ui, WidgetInfo};
+
+use super::words::{self, Tone};
+use crate::{
+    app::{Model, UiCommand},
+    orbit::{Place, Source, SourceReport},
+    ui::{confirm::Question, text, theme, tokens::Tokens, widgets::card},
+};
+
+/// A card is not wider than its words need.
+const MOST: f32 = 720.0;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    for (index, source) in model.sources.list.iter().enumerate() {
+        let report = model.sources.reports.get(index);
+        card::show(ui, MOST, |ui| one(ui, model, source, report, question, commands));
+    }
+}
+
+fn one(
+    ui: &mut Ui,
+    model: &Model,
+    source: &Source,
+    report: Option<&SourceReport>,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let name = &source.name;
+    let is_free = model.sources.is_free();
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if named_button(ui, is_free, "Remove", &format!("Remove {name}")) {
+            *question = Some(Question {
+                text: format!("Remove the source {name}? Its elements are used no longer."),
+                yes: "Remove",
+                command: UiCommand::RemoveSource(name.clone()),
+            });
+        }
+        let (word, spoken, can) = match source.place {
+            Place::Web(_) => ("Ask", format!("Ask {name}"), words::may_be_asked(report, model.now)),
+            Place::File(_) | Place::Folder(_) => ("Read", format!("Read {name} again"), true),
+        };
+        if named_button(ui, is_free && can, word, &spoken) {
+            commands.push(UiCommand::RefreshSources(vec![name.clone()]));
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let words = RichText::new(name).font(text::value());
+            ui.add(egui::Label::new(words).truncate());
+        });
+    });
+    ui.spacing_mut().item_spacing.y = 4.0;
+    let place = RichText::new(words::place(source)).font(text::small()).color(t.t3);
+    ui.add(egui::Label::new(place).truncate());
+    for (tone, words) in words::report(source, report, model.now) {
+        ui.label(RichText::new(words).font(text::body()).color(colour(tone, t)));
+    }
+}
+
+fn colour(tone: Tone, t: &Tokens) -> Color32 {
+    match tone {
+        Tone::Plain => t.t2,
+        Tone::Good => t.t1,
+        Tone::Caution => t.warn,
+        Tone::Bad => t.bad,
+    }
+}
+
+/// A button whose name says more than its word; whether it was clicked.
+pub(super) fn named_button(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
+    let response = ui.add_enabled(enabled, Button::new(word));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
+    response.clicked()
+}

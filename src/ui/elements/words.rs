@@ -1,0 +1,110 @@
+//! What is known of a source, in words.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::time::seconds_between,
+    orbit::{Catalog, FETCH_PAUSE, Place, Source, SourceReport},
+    ui::format,
+};
+
+/// How the words are to be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tone {
+    Plain,
+    Good,
+    Caution,
+    Bad,
+}
+
+/// All elements in one sentence.
+pub(super) fn catalog(catalog: &Catalog, now: Timestamp) -> String {
+    let count = format::number(catalog.len() as f64, 0);
+    let newest = catalog.newest_epoch().map_or_else(String::new, |epoch| {
+        format!(", the newest epoch is {}", date_and_age(epoch, now))
+    });
+    format!("{count} objects{newest}. Of each object the newest elements are used.")
+}
+
+/// "2026-08-11, 3 h old".
+fn date_and_age(epoch: Timestamp, now: Timestamp) -> String {
+    format!("{}, {} old", epoch.strftime("%Y-%m-%d"), format::age(seconds_between(epoch, now)))
+}
+
+/// A problem told by a lower layer, as a sentence.
+pub(super) fn sentence(problem: &str) -> String {
+    let mut letters = problem.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+/// Where a source is.
+pub(super) fn place(source: &Source) -> String {
+    match &source.place {
+        Place::File(path) => format!("File {}", path.display()),
+        Place::Folder(path) => format!("Folder {}", path.display()),
+        Place::Web(url) => url.clone(),
+    }
+}
+
+/// What came of a source, one sentence a line, the most important first.
+pub(super) fn report(
+    source: &Source,
+    report: Option<&SourceReport>,
+    now: Timestamp,
+) -> Vec<(Tone, String)> {
+    let Some(report) = report else {
+        return vec![(Tone::Caution, "Not read.".to_owned())];
+    };
+    let mut lines = vec![held(source, report, now)];
+    for file in &report.files {
+        if let Some(problem) = &file.problem {
+            let place = file.path.display();
+            lines.push((Tone::Bad, format!("Cannot be read: {problem}: {place}.")));
+        }
+    }
+    if report.refused() > 0 {
+        let refused = format::number(report.refused() as f64, 0);
+        lines.push((Tone::Plain, format!("{refused} refused: unreadable, or older than held.")));
+    }
+    if let Some(problem) = &report.fetch_problem {
+        let stays = if report.objects() > 0 { " What was held stays." } else { "" };
+        lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
+    }
+    lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));
+    lines
+}
+
+fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
+    let objects = report.objects();
+    if objects == 0 {
+        let words = match source.place {
+            Place::Web(_) => "Holds nothing yet.",
+            Place::File(_) | Place::Folder(_) => "Holds no elements.",
+        };
+        return (Tone::Caution, words.to_owned());
+    }
+    let count = format::number(objects as f64, 0);
+    let newest = report
+        .newest_epoch
+        .map_or_else(String::new, |epoch| format!(", newest epoch {}", date_and_age(epoch, now)));
+    (Tone::Good, format!("{count} objects{newest}."))
+}
+
+/// When the server was asked last, and when it may be asked again.
+fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
+    let next = report.next_fetch?;
+    let last = next.checked_sub(FETCH_PAUSE).ok()?;
+    let ago = format::age(seconds_between(last, now));
+    let again = if next > now {
+        format!(" It may be asked again from {}.", format::time_z(next))
+    } else {
+        String::new()
+    };
+    Some(format!("Asked {ago} ago.{again}"))
+}
+
+/// Whether the server of this source may be asked now.
+pub(super) fn may_be_asked(report: Option<&SourceReport>, now: Timestamp) -> bool {
+    report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
+}

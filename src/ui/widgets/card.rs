@@ -1,0 +1,21 @@
+//! A card on the ground of a form.
+
+use egui::{Frame, Margin, Stroke, Ui};
+
+use crate::ui::theme;
+
+/// Shows `content` in a card that is not wider than `most`.
+pub fn show<R>(ui: &mut Ui, most: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let t = theme::tokens(ui);
+    Frame::new()
+        .fill(t.bg1)
+        .stroke(Stroke::new(1.0, t.line))
+        .corner_radius(6)
+        .inner_margin(Margin::same(16))
+        .outer_margin(Margin { bottom: 8, ..Margin::ZERO })
+        .show(ui, |ui| {
+            ui.set_width(most.min(ui.available_width()));
+            content(ui)
+        })
+        .inner
+}
