@@ -52,14 +52,16 @@ impl App {
                 let ask = vec![source.name.clone()];
                 let mut list = self.model.sources.list.clone();
                 list.push(source);
-                self.begin_elements(Task { list: Some(list), ask });
+                self.begin_elements(Task { list: Some(list), ask, forced: false });
             }
             UiCommand::RemoveSource(name) => {
                 let mut list = self.model.sources.list.clone();
                 list.retain(|source| source.name != name);
-                self.begin_elements(Task { list: Some(list), ask: Vec::new() });
+                self.begin_elements(Task { list: Some(list), ..Task::default() });
             }
-            UiCommand::RefreshSources(ask) => self.begin_elements(Task { list: None, ask }),
+            UiCommand::RefreshSources { names, forced } => {
+                self.begin_elements(Task { list: None, ask: names, forced });
+            }
             UiCommand::Show(view) => model.view = view,
             UiCommand::SetTheme(name) => {
                 theme::set(ctx, name);

@@ -48,9 +48,13 @@ pub enum UiCommand {
     AddSource(Source),
     /// Give up the source of elements with this name.
     RemoveSource(String),
-    /// Read all sources anew, and ask the servers of those with these names
-    /// where they may be asked.
-    RefreshSources(Vec<String>),
+    /// Read all sources anew, and ask the servers of some.
+    RefreshSources {
+        /// The names of those whose servers are asked, where they may be.
+        names: Vec<String>,
+        /// The operator wants it although they were asked lately.
+        forced: bool,
+    },
     /// Fill the window with this view.
     Show(View),
     /// Change the colours.

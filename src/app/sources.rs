@@ -71,6 +71,8 @@ pub(super) struct Task {
     pub(super) list: Option<Vec<Source>>,
     /// The names of the sources whose servers are to be asked, where they may be.
     pub(super) ask: Vec<String>,
+    /// The operator wants it although they were asked lately.
+    pub(super) forced: bool,
 }
 
 /// What was read.
@@ -91,13 +93,18 @@ pub(super) fn start(
     wake: Wake,
 ) -> std::io::Result<Job<Outcome>> {
     let places = places.clone();
-    Job::start("azel-elements", wake, move |cancelled| carry_out(&places, task, now, cancelled))
+    Job::start("azel-elements", wake, move |cancelled| carry_out(&places, &task, now, cancelled))
 }
 
-fn carry_out(places: &Places, task: Task, now: Timestamp, cancelled: &dyn Fn() -> bool) -> Outcome {
+fn carry_out(
+    places: &Places,
+    task: &Task,
+    now: Timestamp,
+    cancelled: &dyn Fn() -> bool,
+) -> Outcome {
     let mut sources = Sources::default();
-    if let Some(list) = task.list {
-        let saved = places.list.as_deref().map(|path| save_sources(&list, path));
+    if let Some(list) = &task.list {
+        let saved = places.list.as_deref().map(|path| save_sources(list, path));
         sources.problem = match saved {
             Some(Ok(())) => None,
             Some(Err(error)) => Some(error.to_string()),
@@ -114,7 +121,7 @@ fn carry_out(places: &Places, task: Task, now: Timestamp, cancelled: &dyn Fn() -
         Err(error) => (Catalog::default(), Some(error.to_string())),
     };
     if !sources.list.is_empty() {
-        match read(places, &sources.list, &task.ask, now, &mut catalog, cancelled) {
+        match read(places, &sources.list, task, now, &mut catalog, cancelled) {
             Ok(reports) => sources.reports = reports,
             Err(problem) => sources.problem = Some(problem),
         }
@@ -125,7 +132,7 @@ fn carry_out(places: &Places, task: Task, now: Timestamp, cancelled: &dyn Fn() -
 fn read(
     places: &Places,
     list: &[Source],
-    ask: &[String],
+    task: &Task,
     now: Timestamp,
     catalog: &mut Catalog,
     cancelled: &dyn Fn() -> bool,
@@ -134,8 +141,8 @@ fn read(
     let in_words = |error: IndexError| error.to_string();
     let mut library = Library::open(folder, Limits::default()).map_err(in_words)?;
     let asked: Vec<Source> =
-        list.iter().filter(|source| ask.contains(&source.name)).cloned().collect();
-    library.refresh(&asked, now, false, cancelled).map_err(in_words)?;
+        list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
+    library.refresh(&asked, now, task.forced, cancelled).map_err(in_words)?;
     Ok(library.load_into(list, catalog))
 }
 
@@ -161,7 +168,7 @@ mod tests {
             Self { folder, places }
         }
 
-        fn run(&self, task: Task) -> Outcome {
+        fn run(&self, task: &Task) -> Outcome {
             let now = "2026-08-12T12:00:00Z".parse().unwrap();
             carry_out(&self.places, task, now, &|| false)
         }
@@ -182,7 +189,7 @@ mod tests {
     #[test]
     fn without_sources_the_bundled_elements_are_there_and_nothing_is_written() {
         let desk = Desk::new();
-        let outcome = desk.run(Task::default());
+        let outcome = desk.run(&Task::default());
         assert_eq!(outcome.catalog.source(ISS), Some(BUNDLED_SOURCE));
         assert!(outcome.bundled_problem.is_none() && outcome.sources.problem.is_none());
         assert_eq!(fs::read_dir(desk.folder.path()).unwrap().count(), 0);
@@ -192,14 +199,14 @@ mod tests {
     fn an_added_source_is_kept_and_its_newer_elements_win() {
         let desk = Desk::new();
         let list = Some(vec![desk.newer_file()]);
-        let first = desk.run(Task { list, ask: vec!["own".to_owned()] });
-        for outcome in [first, desk.run(Task::default())] {
+        let first = desk.run(&Task { list, ask: vec!["own".to_owned()], forced: false });
+        for outcome in [first, desk.run(&Task::default())] {
             assert_eq!(outcome.catalog.source(ISS), Some("own"));
             assert_eq!(outcome.catalog.len(), 16_089);
             assert_eq!(outcome.sources.reports[0].objects(), 1);
             assert!(outcome.sources.is_free());
         }
-        let gone = desk.run(Task { list: Some(Vec::new()), ask: Vec::new() });
+        let gone = desk.run(&Task { list: Some(Vec::new()), ..Task::default() });
         assert_eq!(gone.catalog.source(ISS), Some(BUNDLED_SOURCE));
         assert!(gone.sources.list.is_empty());
     }
@@ -210,7 +217,7 @@ mod tests {
         let missing =
             Source { name: "missing".to_owned(), place: Place::File("/no/such/file.tle".into()) };
         let list = Some(vec![missing, desk.newer_file()]);
-        let outcome = desk.run(Task { list, ask: Vec::new() });
+        let outcome = desk.run(&Task { list, ..Task::default() });
         assert!(outcome.sources.reports[0].files[0].problem.is_some());
         assert_eq!(outcome.sources.reports[1].objects(), 1);
         assert_eq!(outcome.catalog.len(), 16_089);
@@ -221,7 +228,7 @@ mod tests {
         let desk = Desk::new();
         fs::create_dir_all(desk.folder.path().join("config")).unwrap();
         fs::write(desk.folder.path().join("config/sources.toml"), "source = 7").unwrap();
-        let outcome = desk.run(Task::default());
+        let outcome = desk.run(&Task::default());
         assert!(outcome.sources.is_locked && outcome.sources.problem.is_some());
         assert_eq!(outcome.catalog.len(), 16_089);
     }
@@ -232,7 +239,7 @@ mod tests {
         let own = desk.newer_file();
         // A file stands where the folder should be.
         fs::write(desk.folder.path().join("config"), "").unwrap();
-        let outcome = desk.run(Task { list: Some(vec![own]), ask: Vec::new() });
+        let outcome = desk.run(&Task { list: Some(vec![own]), ..Task::default() });
         assert!(outcome.sources.problem.is_some() && outcome.sources.list.is_empty());
     }
 
@@ -240,8 +247,8 @@ mod tests {
     fn a_machine_without_a_home_has_the_bundled_elements() {
         let places = Places { list: None, library: None };
         let now = "2026-08-12T12:00:00Z".parse().unwrap();
-        let task = Task { list: Some(Vec::new()), ask: Vec::new() };
-        let outcome = carry_out(&places, task, now, &|| false);
+        let task = Task { list: Some(Vec::new()), ..Task::default() };
+        let outcome = carry_out(&places, &task, now, &|| false);
         assert_eq!(outcome.catalog.len(), 16_089);
         assert!(outcome.sources.problem.is_some());
     }

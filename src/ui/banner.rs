@@ -41,10 +41,13 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
                 format!(", {} old", format::age(seconds_between(newest, model.now)))
             });
-            format!(
-                "Demo station: the antenna is simulated, no metal moves. \
-                 Elements: {BUNDLED_SOURCE}{age}."
-            )
+            // Of several sources the newest epoch alone would promise too much.
+            let elements = if model.sources.list.is_empty() {
+                format!(" Elements: {BUNDLED_SOURCE}{age}.")
+            } else {
+                String::new()
+            };
+            format!("Demo station: the antenna is simulated, no metal moves.{elements}")
         }
     };
     let room = rect.with_min_x(rect.left() + 16.0).with_max_x(place.left() - 8.0);

@@ -90,7 +90,7 @@ fn head(ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let can = sources.is_free() && !sources.list.is_empty();
         if ui.add_enabled(can, all).clicked() {
             let names = sources.list.iter().map(|source| source.name.clone()).collect();
-            commands.push(UiCommand::RefreshSources(names));
+            commands.push(UiCommand::RefreshSources { names, forced: false });
         }
         ui.label(RichText::new(work(sources)).font(text::body()).color(t.t2));
     });

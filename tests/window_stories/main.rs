@@ -11,6 +11,7 @@
 mod bar;
 mod clock;
 mod drive;
+mod elements;
 mod extremes;
 mod keys;
 mod mask;

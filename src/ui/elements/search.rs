@@ -7,7 +7,7 @@ use egui::{
     UiBuilder, WidgetInfo, vec2,
 };
 
-use super::sources::named_button;
+use super::{sources::named_button, words};
 use crate::{
     app::{Model, UiCommand, model::CatalogState},
     astro::time::seconds_between,
@@ -23,17 +23,39 @@ const BUTTON: f32 = 80.0;
 #[derive(Default)]
 pub(super) struct SearchState {
     typed: String,
-    /// The source whose objects are searched; `None` for all.
-    group: Option<String>,
+    among: Among,
     found: Option<Found>,
     wants_focus: bool,
+}
+
+/// What is searched.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+enum Among {
+    /// All objects.
+    #[default]
+    All,
+    /// Those that the operator follows.
+    Followed,
+    /// Those of one source.
+    Group(String),
+}
+
+impl Among {
+    fn word(&self) -> &str {
+        match self {
+            Self::All => "All",
+            Self::Followed => "Followed",
+            Self::Group(name) => name,
+        }
+    }
 }
 
 /// The outcome of a search, kept until something it depends on changes.
 struct Found {
     catalog: Arc<Catalog>,
     typed: String,
-    group: Option<String>,
+    among: Among,
+    favourites: Vec<u32>,
     numbers: Vec<u32>,
 }
 
@@ -42,21 +64,26 @@ impl SearchState {
         self.wants_focus = true;
     }
 
-    fn numbers(&mut self, catalog: &Arc<Catalog>) -> &[u32] {
+    fn numbers(&mut self, catalog: &Arc<Catalog>, favourites: &[u32]) -> &[u32] {
         let is_known = |found: &Found| {
             Arc::ptr_eq(&found.catalog, catalog)
                 && found.typed == self.typed
-                && found.group == self.group
+                && found.among == self.among
+                && (self.among != Among::Followed || found.favourites == favourites)
         };
         let found = self.found.take().filter(is_known).unwrap_or_else(|| {
-            let found = match &self.group {
-                Some(group) => catalog.search_group(group, &self.typed, usize::MAX),
-                None => catalog.search(&self.typed, usize::MAX),
+            let mut found = match &self.among {
+                Among::Group(group) => catalog.search_group(group, &self.typed, usize::MAX),
+                Among::All | Among::Followed => catalog.search(&self.typed, usize::MAX),
             };
+            if self.among == Among::Followed {
+                found.retain(|elements| favourites.contains(&elements.catalog_number()));
+            }
             Found {
                 catalog: Arc::clone(catalog),
                 typed: self.typed.clone(),
-                group: self.group.clone(),
+                among: self.among.clone(),
+                favourites: favourites.to_vec(),
                 numbers: found.into_iter().map(Elements::catalog_number).collect(),
             }
         });
@@ -82,14 +109,14 @@ pub(super) fn show(
         }
     };
     fields(ui, catalog, state);
-    let numbers = state.numbers(catalog);
-    let count = format::number(numbers.len() as f64, 0);
+    let numbers = state.numbers(catalog, &model.station.favourites);
+    let count = words::objects(numbers.len());
     let words = if numbers.is_empty() {
         "No object has this number or name.".to_owned()
     } else if settings_are_edited {
-        format!("{count} objects. Save or revert the preferences before following others.")
+        format!("{count}. Save or revert the preferences before following others.")
     } else {
-        format!("{count} objects")
+        count
     };
     ui.label(RichText::new(words).font(text::small()).color(t.t3));
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -112,22 +139,27 @@ fn fields(ui: &mut Ui, catalog: &Catalog, state: &mut SearchState) {
         if std::mem::take(&mut state.wants_focus) {
             edit.request_focus();
         }
-        let shown = state.group.clone().unwrap_or_else(|| "All groups".to_owned());
+        let shown = state.among.word().to_owned();
         let combo = ComboBox::from_id_salt("group").selected_text(&shown).truncate();
         let width = ui.available_width();
         let opened = combo.width(width).show_ui(ui, |ui| {
-            ui.selectable_value(&mut state.group, None, "All groups");
+            for among in [Among::All, Among::Followed] {
+                let word = among.word().to_owned();
+                ui.selectable_value(&mut state.among, among, word);
+            }
             for (group, count) in catalog.groups() {
                 let words = format!("{group}, {}", format::number(count as f64, 0));
-                ui.selectable_value(&mut state.group, Some(group.to_owned()), words);
+                ui.selectable_value(&mut state.among, Among::Group(group.to_owned()), words);
             }
         });
         let name = format!("Group, {shown}");
         opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
     });
     // A source that is gone has no objects to search.
-    if state.group.as_ref().is_some_and(|group| !catalog.groups().any(|(name, _)| name == group)) {
-        state.group = None;
+    if let Among::Group(group) = &state.among
+        && !catalog.groups().any(|(name, _)| name == group)
+    {
+        state.among = Among::All;
     }
 }
 

@@ -1,12 +1,17 @@
 //! The sources, one card each.
 
-use egui::{Align, Button, Color32, Layout, RichText, Role, Ui, WidgetInfo};
+use egui::{Align, Button, Color32, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::words::{self, Tone};
 use crate::{
     app::{Model, UiCommand},
     orbit::{Place, Source, SourceReport},
-    ui::{confirm::Question, text, theme, tokens::Tokens, widgets::card},
+    ui::{
+        confirm::Question,
+        text, theme,
+        tokens::Tokens,
+        widgets::{button::SMALL_HEIGHT, card},
+    },
 };
 
 /// A card is not wider than its words need.
@@ -35,7 +40,8 @@ fn one(
     let t = theme::tokens(ui);
     let name = &source.name;
     let is_free = model.sources.is_free();
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    let size = vec2(ui.available_width(), SMALL_HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         if named_button(ui, is_free, "Remove", &format!("Remove {name}")) {
             *question = Some(Question {
                 text: format!("Remove the source {name}? Its elements are used no longer."),
@@ -43,12 +49,18 @@ fn one(
                 command: UiCommand::RemoveSource(name.clone()),
             });
         }
-        let (word, spoken, can) = match source.place {
-            Place::Web(_) => ("Ask", format!("Ask {name}"), words::may_be_asked(report, model.now)),
-            Place::File(_) | Place::Folder(_) => ("Read", format!("Read {name} again"), true),
+        let (word, spoken) = match source.place {
+            Place::Web(_) => ("Ask", format!("Ask {name}")),
+            Place::File(_) | Place::Folder(_) => ("Read", format!("Read {name} again")),
         };
-        if named_button(ui, is_free && can, word, &spoken) {
-            commands.push(UiCommand::RefreshSources(vec![name.clone()]));
+        if named_button(ui, is_free, word, &spoken) {
+            let again = words::ask_again(name, report, model.now);
+            let forced = again.is_some();
+            let command = UiCommand::RefreshSources { names: vec![name.clone()], forced };
+            match again {
+                Some(text) => *question = Some(Question { text, yes: "Ask", command }),
+                None => commands.push(command),
+            }
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let words = RichText::new(name).font(text::value());

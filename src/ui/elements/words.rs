@@ -17,13 +17,18 @@ pub(super) enum Tone {
     Bad,
 }
 
+/// "1 object", "16 089 objects".
+pub(super) fn objects(count: usize) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{} object{plural}", format::number(count as f64, 0))
+}
+
 /// All elements in one sentence.
 pub(super) fn catalog(catalog: &Catalog, now: Timestamp) -> String {
-    let count = format::number(catalog.len() as f64, 0);
     let newest = catalog.newest_epoch().map_or_else(String::new, |epoch| {
         format!(", the newest epoch is {}", date_and_age(epoch, now))
     });
-    format!("{count} objects{newest}. Of each object the newest elements are used.")
+    format!("{}{newest}. Of each object the newest elements are used.", objects(catalog.len()))
 }
 
 /// "2026-08-11, 3 h old".
@@ -56,12 +61,14 @@ pub(super) fn report(
     let Some(report) = report else {
         return vec![(Tone::Caution, "Not read.".to_owned())];
     };
-    let mut lines = vec![held(source, report, now)];
-    for file in &report.files {
-        if let Some(problem) = &file.problem {
-            let place = file.path.display();
-            lines.push((Tone::Bad, format!("Cannot be read: {problem}: {place}.")));
-        }
+    let mut lines: Vec<(Tone, String)> = (report.files.iter())
+        .filter_map(|file| {
+            let (problem, place) = (file.problem.as_ref()?, file.path.display());
+            Some((Tone::Bad, format!("Cannot be read: {problem}: {place}.")))
+        })
+        .collect();
+    if report.objects() > 0 || lines.is_empty() {
+        lines.insert(0, held(source, report, now));
     }
     if report.refused() > 0 {
         let refused = format::number(report.refused() as f64, 0);
@@ -76,19 +83,24 @@ pub(super) fn report(
 }
 
 fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
-    let objects = report.objects();
-    if objects == 0 {
+    if report.objects() == 0 {
         let words = match source.place {
             Place::Web(_) => "Holds nothing yet.",
             Place::File(_) | Place::Folder(_) => "Holds no elements.",
         };
         return (Tone::Caution, words.to_owned());
     }
-    let count = format::number(objects as f64, 0);
     let newest = report
         .newest_epoch
         .map_or_else(String::new, |epoch| format!(", newest epoch {}", date_and_age(epoch, now)));
-    (Tone::Good, format!("{count} objects{newest}."))
+    let word = match source.place {
+        Place::Web(_) => "Sent or confirmed",
+        Place::File(_) | Place::Folder(_) => "Changed",
+    };
+    let age = report
+        .age_s(now)
+        .map_or_else(String::new, |age_s| format!(" {word} {} ago.", format::age(age_s)));
+    (Tone::Good, format!("{}{newest}.{age}", objects(report.objects())))
 }
 
 /// When the server was asked last, and when it may be asked again.
@@ -104,7 +116,18 @@ fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
     Some(format!("Asked {ago} ago.{again}"))
 }
 
-/// Whether the server of this source may be asked now.
-pub(super) fn may_be_asked(report: Option<&SourceReport>, now: Timestamp) -> bool {
-    report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
+/// The question before a server is asked sooner than it should be; `None` where
+/// it may be asked now.
+pub(super) fn ask_again(
+    name: &str,
+    report: Option<&SourceReport>,
+    now: Timestamp,
+) -> Option<String> {
+    let next = report?.next_fetch.filter(|next| *next > now)?;
+    let last = next.checked_sub(FETCH_PAUSE).ok()?;
+    let ago = format::age(seconds_between(last, now));
+    Some(format!(
+        "The server of {name} was asked {ago} ago. Servers shut out who asks more often than \
+         every 2 h. Ask again all the same?"
+    ))
 }

@@ -1,0 +1,379 @@
+//! Where the elements come from, and the catalogue.
+
+use std::{fs, path::PathBuf};
+
+use azel::{
+    app::{
+        Model, UiCommand, View,
+        model::CatalogState,
+        sources::{SourceWork, Sources},
+    },
+    astro::time::add_seconds,
+    orbit::{FetchProblem, FileReport, MergeSummary, Place, Source, SourceReport},
+    station,
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
+    states,
+    unit::{Unit, clock_from, open, step_until},
+};
+
+const HOUR_S: f64 = 3600.0;
+const METEOR_M2_3: u32 = 57_166;
+
+fn file_source() -> Source {
+    Source { name: "own".to_owned(), place: Place::File("/var/elements/own.tle".into()) }
+}
+
+/// What came of a source that holds so many objects.
+fn report(source: &Source, objects: usize) -> SourceReport {
+    let path = PathBuf::from("/var/elements/own.tle");
+    let file = FileReport { path, objects, merge: MergeSummary::default(), problem: None };
+    SourceReport {
+        source: source.name.clone(),
+        files: vec![file],
+        as_of: Some(add_seconds(rig::now(), -3.0 * HOUR_S)),
+        newest_epoch: Some(add_seconds(rig::now(), -20.0 * HOUR_S)),
+        fetch_problem: None,
+        next_fetch: None,
+    }
+}
+
+/// A server that was asked so many hours ago.
+fn server(hours_ago: f64) -> (Source, SourceReport) {
+    let source = Source::celestrak("weather");
+    let next = add_seconds(rig::now(), (2.0 - hours_ago) * HOUR_S);
+    let report = SourceReport { next_fetch: Some(next), ..report(&source, 71) };
+    (source, report)
+}
+
+fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Window {
+    let mut model = rig::model(states::holding());
+    model.view = View::Elements;
+    let (list, reports) = sources.into_iter().unzip();
+    model.sources = Sources { list, reports, ..Sources::default() };
+    rig::window(size, model)
+}
+
+fn write(window: &mut Window, field: &str, words: &str) {
+    window.get_by_role_and_label(Role::TextInput, field).focus();
+    settle(window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.key_press(Key::Backspace);
+    window.event(Event::Text(words.to_owned()));
+    settle(window);
+}
+
+fn click(window: &mut Window, button: &str) {
+    window.get_by_role_and_label(Role::Button, button).click();
+    settle(window);
+}
+
+fn is_disabled(window: &Window, button: &str) -> bool {
+    window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
+}
+
+fn refresh(names: &[&str], forced: bool) -> UiCommand {
+    let names = names.iter().map(|name| (*name).to_owned()).collect();
+    UiCommand::RefreshSources { names, forced }
+}
+
+#[test]
+fn the_view_opens_from_rail_and_key() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::Tab, "Elements").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Elements)]);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Elements)]);
+    }
+}
+
+#[test]
+fn a_source_says_what_it_holds_and_how_old_it_is() {
+    for size in SIZES {
+        let own = file_source();
+        let held = report(&own, 12);
+        let window = view(size, vec![(own, held), server(1.0)]);
+        assert!(says(&window, "File /var/elements/own.tle"));
+        let held = "12 objects, newest epoch 2026-08-11, 20 h 0 min old. Changed 3 h 0 min ago.";
+        assert!(says(&window, held));
+        assert!(says(&window, "71 objects"));
+        assert!(says(&window, "Asked 60 min ago. It may be asked again from 12:15:30Z."));
+        assert!(says(&window, "16\u{2009}089 objects, the newest epoch is 2026-08-13"));
+    }
+}
+
+#[test]
+fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
+    for size in SIZES {
+        let own = file_source();
+        let mut lost = report(&own, 0);
+        lost.files[0].problem = Some("No such file".to_owned());
+        let (weather, mut silent) = server(1.0);
+        silent.fetch_problem = Some(FetchProblem::Answer(403));
+        let window = view(size, vec![(own, lost), (weather, silent)]);
+        assert!(says(&window, "Cannot be read: No such file: /var/elements/own.tle."));
+        assert!(says(&window, "The server answered 403. What was held stays."));
+        let new = Source::celestrak("geo");
+        let never = SourceReport { files: Vec::new(), ..report(&new, 0) };
+        let window = view(size, vec![(new, never)]);
+        assert!(says(&window, "Holds nothing yet."));
+    }
+}
+
+#[test]
+fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
+    for size in SIZES {
+        let mut window = view(size, vec![server(3.0)]);
+        click(&mut window, "Ask weather");
+        assert_eq!(asked(&mut window), [refresh(&["weather"], false)]);
+
+        let mut window = view(size, vec![server(0.5)]);
+        click(&mut window, "Ask weather");
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "The server of weather was asked 30 min ago."));
+        click(&mut window, "Cancel");
+        assert_eq!(asked(&mut window), []);
+        click(&mut window, "Ask weather");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [refresh(&["weather"], true)]);
+        click(&mut window, "Refresh all");
+        assert_eq!(asked(&mut window), [refresh(&["weather"], false)], "never forced for all");
+    }
+}
+
+#[test]
+fn a_source_is_removed_after_a_question() {
+    for size in SIZES {
+        let own = file_source();
+        let held = report(&own, 12);
+        let mut window = view(size, vec![(own, held)]);
+        click(&mut window, "Read own again");
+        assert_eq!(asked(&mut window), [refresh(&["own"], false)]);
+        click(&mut window, "Remove own");
+        assert_eq!(asked(&mut window), []);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [UiCommand::RemoveSource("own".to_owned())]);
+    }
+}
+
+#[test]
+fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        assert!(says(&window, "No sources yet."));
+        assert!(is_disabled(&window, "Add source") && is_disabled(&window, "Refresh all"));
+        window.get_by_role_and_label(Role::RadioButton, "File").click();
+        settle(&mut window);
+        write(&mut window, "Name", "own");
+        write(&mut window, "Path", "own.tle");
+        assert!(says(&window, "Not to be added yet: the path does not start at the root."));
+        write(&mut window, "Path", "/var/elements/own.tle");
+        window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
+        settle(&mut window);
+        click(&mut window, "Add source");
+        assert_eq!(asked(&mut window), [UiCommand::AddSource(file_source())]);
+        let path = |window: &Window| {
+            window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
+        };
+        assert_eq!(path(&window), "/var/elements/own.tle", "it may not have been kept");
+        window.state_mut().model.sources.list.push(file_source());
+        settle(&mut window);
+        assert_eq!(path(&window), "");
+    }
+}
+
+#[test]
+fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
+    for size in SIZES {
+        let mut window = view(size, vec![server(3.0)]);
+        assert!(is_disabled(&window, "CelesTrak weather"), "it is there");
+        write(&mut window, "Name", "x");
+        write(&mut window, "Address", "http://celestrak.org/x");
+        assert!(says(&window, "Not to be added yet: the address is not a plain https address."));
+        click(&mut window, "CelesTrak stations");
+        window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
+        settle(&mut window);
+        click(&mut window, "Add source");
+        assert_eq!(asked(&mut window), [UiCommand::AddSource(Source::celestrak("stations"))]);
+    }
+}
+
+type Lock = fn(&mut Sources);
+
+#[test]
+fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
+    let locks: [(Lock, &str); 2] = [
+        (|sources| sources.work = SourceWork::Asking, "The servers are being asked."),
+        (
+            |sources| {
+                sources.is_locked = true;
+                sources.problem = Some("the list cannot be read".to_owned());
+            },
+            "The list cannot be read.",
+        ),
+    ];
+    for size in SIZES {
+        for (lock, words) in locks {
+            let mut window = view(size, vec![server(3.0)]);
+            lock(&mut window.state_mut().model.sources);
+            settle(&mut window);
+            assert!(says(&window, words));
+            for button in ["Ask weather", "Remove weather", "Refresh all", "Add source"] {
+                assert!(is_disabled(&window, button), "{button}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_catalogue_is_searched_by_name_number_and_group() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+        settle(&mut window);
+        window.event(Event::Text("meteor-m2 3".to_owned()));
+        settle(&mut window);
+        window.get_by_label("1 object");
+        window.get_by_label_contains("57166 · ");
+        write(&mut window, "Search the catalogue", "43013");
+        window.get_by_label_contains("NOAA 20 (JPSS-1), 43013 · ");
+        write(&mut window, "Search the catalogue", "no such");
+        assert!(says(&window, "No object has this number or name."));
+        write(&mut window, "Search the catalogue", "");
+        window.get_by_role_and_label(Role::ComboBox, "Group, All").click();
+        settle(&mut window);
+        window.get_by_label("Followed").click();
+        settle(&mut window);
+        assert!(says(&window, "5 objects"));
+    }
+}
+
+#[test]
+fn satellites_are_followed_and_unfollowed_from_the_catalogue() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        write(&mut window, "Search the catalogue", "57166");
+        window.get_by_label_contains("Follow METEOR").click();
+        let follow = UiCommand::Follow { number: METEOR_M2_3, is_followed: true };
+        assert_eq!(asked(&mut window), [follow]);
+        write(&mut window, "Search the catalogue", "43013");
+        click(&mut window, "Unfollow NOAA 20 (JPSS-1)");
+        let unfollow = UiCommand::Follow { number: NOAA_20, is_followed: false };
+        assert_eq!(asked(&mut window), [unfollow]);
+    }
+}
+
+#[test]
+fn what_is_typed_in_the_preferences_is_not_overtaken() {
+    let mut window = view(rig::LARGE, Vec::new());
+    window.state_mut().model.view = View::Preferences;
+    settle(&mut window);
+    write(&mut window, "Latitude", "1");
+    window.state_mut().model.view = View::Elements;
+    settle(&mut window);
+    write(&mut window, "Search the catalogue", "43013");
+    assert!(is_disabled(&window, "Unfollow NOAA 20 (JPSS-1)"));
+    assert!(says(&window, "Save or revert the preferences before following others."));
+}
+
+#[test]
+fn without_elements_there_is_still_a_way_to_add_some() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        window.state_mut().model.catalog = CatalogState::Failed;
+        settle(&mut window);
+        assert!(says(&window, "There are no elements."));
+        assert!(says(&window, "There is nothing to search."));
+        click(&mut window, "CelesTrak active");
+        assert!(!is_disabled(&window, "Add source"));
+    }
+}
+
+#[test]
+fn every_control_is_whole_in_every_window() {
+    for size in SIZES {
+        let window = view(size, vec![server(3.0)]);
+        for name in ["Refresh all", "Ask weather", "Remove weather", "CelesTrak geo", "Add source"]
+        {
+            let place = window.get_by_role_and_label(Role::Button, name).rect();
+            assert!(place.right() < size[0] - 360.0 && place.bottom() <= size[1], "{name}");
+        }
+        let fields = window.get_all_by_role(Role::TextInput);
+        assert!(fields.into_iter().all(|field| field.rect().right() < size[0]));
+    }
+}
+
+/// The elements of one object as a file in `folder`, a day newer than the
+/// bundled ones.
+fn newer_elements(folder: &tempfile::TempDir) -> PathBuf {
+    let path = folder.path().join("own.json");
+    let text = "[{\"OBJECT_NAME\":\"NOAA 20\",\"NORAD_CAT_ID\":43013,\
+                \"EPOCH\":\"2026-08-14T00:00:00\",\"MEAN_MOTION\":14.19,\"ECCENTRICITY\":0.0001,\
+                \"INCLINATION\":98.7,\"RA_OF_ASC_NODE\":0,\"ARG_OF_PERICENTER\":0,\
+                \"MEAN_ANOMALY\":0,\"BSTAR\":0}]";
+    fs::write(&path, text).unwrap();
+    path
+}
+
+fn source_of_noaa_20(model: &Model) -> Option<&str> {
+    match &model.catalog {
+        CatalogState::Ready(catalog) => catalog.source(NOAA_20),
+        CatalogState::Loading | CatalogState::Failed => None,
+    }
+}
+
+#[test]
+fn an_added_file_is_used_and_kept_for_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings).unwrap();
+    let path = newer_elements(&folder);
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the elements", |model| source_of_noaa_20(model).is_some());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    step_until(&mut window, "the view", |model| model.view == View::Elements);
+    window.step();
+    window.get_by_role_and_label(Role::RadioButton, "File").click();
+    window.run_steps(2);
+    for (field, words) in [("Name", "own"), ("Path", path.to_str().unwrap())] {
+        window.get_by_role_and_label(Role::TextInput, field).focus();
+        window.run_steps(2);
+        window.event(Event::Text(words.to_owned()));
+        window.run_steps(2);
+    }
+    window.get_by_role_and_label(Role::Button, "Add source").click();
+    let is_used = |model: &Model| source_of_noaa_20(model) == Some("own");
+    step_until(&mut window, "the newer elements", is_used);
+    drop(window);
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the newer elements again", is_used);
+    assert!(!folder.path().join("elements").exists(), "no server was asked");
+}
+
+#[test]
+fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings).unwrap();
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the elements", |model| source_of_noaa_20(model).is_some());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    step_until(&mut window, "the view", |model| model.view == View::Elements);
+    window.step();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(2);
+    window.event(Event::Text("57166".to_owned()));
+    window.run_steps(2);
+    window.get_by_label_contains("Follow METEOR").click();
+    step_until(&mut window, "its passes", |model| {
+        model.forecasts.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
+    });
+    assert!(station::load(&settings).unwrap().station.favourites.contains(&METEOR_M2_3));
+}
