@@ -50,11 +50,13 @@ pub enum Icon {
     Info,
     /// The list of keys.
     Question,
+    /// A search.
+    Search,
 }
 
 impl Icon {
     /// All icons.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::Octagon,
         Self::Bell,
         Self::Warning,
@@ -75,6 +77,7 @@ impl Icon {
         Self::Layers,
         Self::Info,
         Self::Question,
+        Self::Search,
     ];
 }
 

@@ -124,7 +124,11 @@ pub const ALL: [Binding; 20] = [
     row(Place::Operate, &[(Key::Num0, Act::UsualZoom)], "the usual hours in the strip of passes"),
     with(
         Modifiers::COMMAND,
-        row(Place::Everywhere, &[(Key::F, Act::Search)], "search the catalogue, in Elements"),
+        row(
+            Place::Everywhere,
+            &[(Key::F, Act::Search)],
+            "filter the list of passes; search the catalogue",
+        ),
     ),
     row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

@@ -2,6 +2,7 @@
 
 mod card;
 mod divider;
+mod filter;
 mod layout;
 mod passes;
 mod sky;
@@ -16,7 +17,10 @@ use super::{
     theme,
     timeline::Zoom,
 };
-use crate::app::{Model, UiCommand};
+use crate::app::{
+    Model, UiCommand,
+    forecast::{Forecast, PassKey},
+};
 use layout::Areas;
 
 /// What the operator typed, opened and folded in this view.
@@ -33,11 +37,35 @@ pub struct OperateState {
     /// The sky plot.
     pub sky: SkyPlotState,
     passes: PassListState,
+    found: filter::Found,
     /// The antenna whose card was shown last.
     shown_antenna: usize,
 }
 
 impl OperateState {
+    /// The next text that is typed filters the list, which is opened for it.
+    pub fn filter_list(&mut self) {
+        self.drawer_open = true;
+        self.passes.filter.open();
+    }
+
+    /// The pass so many places below the selected one in the list as it is
+    /// filtered.
+    pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
+        let listed = model.listed();
+        let found = self.found.places(model, self.passes.filter.text());
+        let listing = model.forecasts.of(model.list.scope);
+        let place = model.selected.and_then(|key| listing.place(key));
+        let place = place.filter(|place| *place < listed.len());
+        let at = match found {
+            Some(found) => place.and_then(|place| found.binary_search(&place).ok()),
+            None => place,
+        };
+        let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
+        let place = found.map_or(Some(wanted), |found| found.get(wanted).copied())?;
+        listed.get(place).map(Forecast::key)
+    }
+
     /// The card goes out of sight: a key that is held there must not go on.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
         if self.card.hide().is_some() {
@@ -81,7 +109,8 @@ pub fn show(
             // The drawer lies over the plot; elsewhere the list stands on the ground.
             ui.painter().rect_filled(list, 0.0, t.bg1);
         }
-        passes::list(ui, list, model, areas.thumbnails, &mut state.passes, commands);
+        let (list_state, found) = (&mut state.passes, &mut state.found);
+        passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
     if let Some(antenna) = model.antenna() {
         card::show(ui, areas.card, model, antenna, &mut state.card, commands);

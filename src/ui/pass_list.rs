@@ -1,5 +1,6 @@
 //! The passes to come, one row each, with the pass in progress on top.
 
+mod filter;
 mod header;
 mod phase;
 mod row;
@@ -21,6 +22,8 @@ use crate::{
     astro::time::seconds_between,
     plan::Sample,
 };
+
+pub use filter::Filter;
 
 /// Width of the column with thumbnails.
 pub const WIDTH: f32 = 320.0;
@@ -125,8 +128,10 @@ pub struct PassListModel<'a> {
 }
 
 /// What the column remembers from frame to frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PassListState {
+    /// What the operator looks for in the list.
+    pub filter: Filter,
     /// The pass that was selected when the rows were shown last.
     shown: Option<PassKey>,
     /// How far the rows were scrolled down, points.
@@ -191,11 +196,16 @@ pub fn show(
 ) -> Vec<PassListAction> {
     let mut actions = Vec::new();
     let (head, mut body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
-    header::show(ui, head, model, &mut actions);
+    header::show(ui, head, model, &mut state.filter, &mut actions);
     // Those few that the operator follows are found before anyone could look.
     if model.scope == Scope::All {
         let (strip, rest) = body.split_top_bottom_at_y(body.top() + status::HEIGHT);
         status::show(ui, strip, model, &mut actions);
+        body = rest;
+    }
+    if state.filter.is_open {
+        let (strip, rest) = body.split_top_bottom_at_y(body.top() + filter::HEIGHT);
+        filter::show(ui, strip, &mut state.filter);
         body = rest;
     }
     if model.rows == 0 {

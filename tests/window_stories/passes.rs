@@ -158,9 +158,9 @@ fn satellites_and_span_are_chosen_in_list_and_drawer() {
         open_list(&mut window);
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         assert_eq!(asked(&mut window), [UiCommand::SetScope(Scope::All)]);
-        window.get_by_role_and_label(Role::Button, "next 48 h").click();
+        window.get_by_role_and_label(Role::Button, "48 h").click();
         settle(&mut window);
-        window.get_by_label("next 12 h").click();
+        window.get_by_label("12 h").click();
         assert_eq!(asked(&mut window), [UiCommand::SetSpan(12)]);
     }
 }
@@ -211,6 +211,55 @@ fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
     window.state_mut().model.forecasts.favourites.passes.clear();
     settle(&mut window);
     assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));
+}
+
+#[test]
+fn the_list_is_filtered_by_name_and_number() {
+    for size in SIZES {
+        let mut window = window(size);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+        settle(&mut window);
+        window.event(Event::Text("meteor".to_owned()));
+        settle(&mut window);
+        // The strip of passes is not filtered, and its bars count to nothing.
+        let rows = window.get_all_by_role(Role::ListBoxOption);
+        let rows = rows.filter_map(|row| row.accesskit_node().label());
+        let rows: Vec<_> = rows.filter(|name| name.contains("OS T−")).collect();
+        assert!(rows.len() > 1 && rows.iter().all(|row| row.starts_with("METEOR")), "{rows:?}");
+        let wanted: Vec<_> = (window.state().model.listed().iter())
+            .filter(|pass| pass.number() == METEOR_M2_4)
+            .map(Forecast::key)
+            .collect();
+        window.state_mut().model.selected = Some(wanted[0]);
+        window.get_by_role_and_label(Role::TextInput, "Filter of the list").click();
+        settle(&mut window);
+        window.event(Event::Text("x".to_owned()));
+        settle(&mut window);
+        assert!(says(&window, "No listed pass has this name or number."));
+        window.get_by_role_and_label(Role::Button, "Close").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(window.get_all_by_label_contains("NOAA 20, ").count() > 0);
+    }
+}
+
+#[test]
+fn up_and_down_stay_within_what_is_filtered() {
+    let mut window = window(LARGE);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    settle(&mut window);
+    window.event(Event::Text("59051".to_owned()));
+    settle(&mut window);
+    let of_meteor: Vec<_> = (window.state().model.listed().iter())
+        .filter(|pass| pass.number() == METEOR_M2_4)
+        .map(Forecast::key)
+        .collect();
+    window.state_mut().model.selected = Some(of_meteor[0]);
+    // The focus leaves the field.
+    window.drag_at(egui::pos2(700.0, 300.0));
+    window.drop_at(egui::pos2(700.0, 300.0));
+    asked(&mut window);
+    window.key_press(Key::ArrowDown);
+    assert_eq!(asked(&mut window), [UiCommand::SelectPass(of_meteor[1])]);
 }
 
 /// The list is a drawer in the small window.

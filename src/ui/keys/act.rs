@@ -4,7 +4,7 @@ use egui::{FocusDirection, Ui};
 
 use super::Desk;
 use crate::{
-    app::{Model, UiCommand, View, antenna::AntennaModel, forecast::Forecast},
+    app::{Model, UiCommand, View, antenna::AntennaModel},
     driver::{self, Intent},
     ui::{confirm::Question, theme},
 };
@@ -43,7 +43,7 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => model.view == View::Elements,
+            Self::Search => model.view != View::Preferences,
             _ => true,
         }
     }
@@ -61,7 +61,7 @@ impl Act {
             Self::SelectAntenna(index) => commands.push(UiCommand::SelectAntenna(index)),
             Self::MoveInList(down) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                commands.extend(neighbour(model, down).map(UiCommand::SelectPass));
+                commands.extend(desk.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
@@ -79,7 +79,10 @@ impl Act {
             }
             Self::Zoom(closer) => desk.operate.zoom.change(closer),
             Self::UsualZoom => desk.operate.zoom.reset(),
-            Self::Search => desk.elements.focus_search(),
+            Self::Search => match model.view {
+                View::Elements => desk.elements.focus_search(),
+                _ => desk.operate.filter_list(),
+            },
             Self::Acknowledge => {
                 commands.extend(model.alarms.newest_unseen().map(UiCommand::AcknowledgeAlarm));
             }
@@ -87,15 +90,6 @@ impl Act {
             Self::List => *desk.list_open = true,
         }
     }
-}
-
-/// The pass so many places below the selected one in the list.
-fn neighbour(model: &Model, down: isize) -> Option<(u32, jiff::Timestamp)> {
-    let passes = model.listed();
-    let selected = model.selected_pass().map(Forecast::key);
-    let at = passes.iter().position(|forecast| Some(forecast.key()) == selected);
-    let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
-    passes.get(wanted).map(Forecast::key)
 }
 
 fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {

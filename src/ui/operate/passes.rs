@@ -3,6 +3,8 @@
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
+use super::filter::Found;
+
 use crate::{
     app::{
         Model, UiCommand,
@@ -33,12 +35,14 @@ pub(super) fn list(
     model: &Model,
     thumbnails: bool,
     state: &mut PassListState,
+    found: &mut Found,
     commands: &mut Vec<UiCommand>,
 ) {
     let passes = model.listed();
     let listing = model.forecasts.of(model.list.scope);
+    let found = found.places(model, state.filter.text());
     let row = |index: usize| {
-        let forecast = passes.get(index)?;
+        let forecast = passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
         let pass = &forecast.pass;
         let verdict = forecast.trackability().map(|trackability| match trackability {
             Trackability::Whole => Verdict::Trackable,
@@ -61,7 +65,10 @@ pub(super) fn list(
             path: forecast.path(),
         })
     };
-    let place = |key| listing.place(key).filter(|place| *place < passes.len());
+    let place = |key| {
+        let place = listing.place(key).filter(|place| *place < passes.len())?;
+        found.map_or(Some(place), |found| found.binary_search(&place).ok())
+    };
     let work = listing.work();
     let none = format!("No pass in the next {} h. Choose a lower elevation.", model.list.span_h());
     let empty = match &model.catalog {
@@ -71,11 +78,12 @@ pub(super) fn list(
             "The passes are being computed."
         }
         CatalogState::Ready(_) if work == Work::Cancelled => "The search was cancelled.",
+        CatalogState::Ready(_) if found.is_some() => "No listed pass has this name or number.",
         CatalogState::Ready(_) => &none,
     };
     let list = PassListModel {
         now: model.now,
-        rows: passes.len(),
+        rows: found.map_or(passes.len(), <[usize]>::len),
         row: &row,
         place: &place,
         selected: selected_key(model),

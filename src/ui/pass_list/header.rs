@@ -1,15 +1,17 @@
 //! Title and count, and the choice of satellites, span and lowest maximum
 //! elevation.
 
-use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
+use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::{FLOORS_DEG, PassListAction, PassListModel};
+use super::{FLOORS_DEG, Filter, PassListAction, PassListModel};
 use crate::{
     app::forecast::{SPANS_H, Scope},
     ui::{
-        format, text, theme,
+        format,
+        icons::{self, Icon},
+        text, theme,
         widgets::{
-            button::{Button, SMALL_HEIGHT},
+            button::{Button, RADIUS, SMALL_HEIGHT},
             paint,
             segmented::{self, Segment},
         },
@@ -24,7 +26,7 @@ const GAP: f32 = 8.0;
 /// Centres of the two lines from the top.
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
-const SCOPES: f32 = 132.0;
+const SCOPES: f32 = 116.0;
 /// Floors closer than this are the same.
 const SAME_DEG: f64 = 0.05;
 
@@ -32,6 +34,7 @@ pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     model: &PassListModel<'_>,
+    filter: &mut Filter,
     actions: &mut Vec<PassListAction>,
 ) {
     let t = theme::tokens(ui);
@@ -58,7 +61,10 @@ pub(super) fn show(
     {
         actions.push(PassListAction::SetScope(*scope));
     }
-    spans(ui, second, model, actions);
+    let span = spans(ui, second, model, actions);
+    let side = vec2(SMALL_HEIGHT, SMALL_HEIGHT);
+    let place = Rect::from_min_size(pos2(span.left() - GAP - side.x, span.top()), side);
+    search(ui, place, filter);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
@@ -81,8 +87,13 @@ fn floors(
     })
 }
 
-fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, actions: &mut Vec<PassListAction>) {
-    let words = |span_h: u32| format!("next {span_h} h");
+fn spans(
+    ui: &Ui,
+    line: Rect,
+    model: &PassListModel<'_>,
+    actions: &mut Vec<PassListAction>,
+) -> Rect {
+    let words = |span_h: u32| format!("{span_h} h");
     let menu = Menu { salt: "span", name: "How far ahead", line };
     menu.show(ui, &words(model.span_h), |ui| {
         for span_h in SPANS_H {
@@ -91,7 +102,22 @@ fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, actions: &mut Vec<PassL
                 actions.push(PassListAction::SetSpan(span_h));
             }
         }
-    });
+    })
+}
+
+/// The button that opens the filter.
+fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
+    let t = theme::tokens(ui);
+    let response = paint::control(ui, "open filter", place, Role::Button, true, "Filter the list");
+    let border = if response.hovered() { t.t2 } else { t.line };
+    let fill = if filter.is_open { t.bgsel } else { Color32::TRANSPARENT };
+    let stroke = Stroke::new(1.0, border);
+    ui.painter().rect(place, RADIUS, fill, stroke, StrokeKind::Inside);
+    icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Search, t.t1);
+    paint::focus_ring(ui, &response, RADIUS);
+    if response.on_hover_text("Filter by name or number (Ctrl F)").clicked() {
+        filter.open();
+    }
 }
 
 /// A button at the right end of a line that opens choices below it.

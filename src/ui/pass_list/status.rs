@@ -61,7 +61,7 @@ pub(super) fn show(
         let button = Button::quiet(word);
         let size = vec2(button.width(ui), SMALL_HEIGHT);
         let place = Align2::RIGHT_CENTER.align_size_within_rect(size, room);
-        if button.show(ui, "search", place).clicked() {
+        if button.show(ui, "search work", place).clicked() {
             actions.push(action);
         }
         left.set_right(place.left() - GAP);

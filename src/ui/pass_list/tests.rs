@@ -170,7 +170,7 @@ fn keys_move_the_selection_and_keep_it_in_view() {
 #[test]
 fn tab_walks_from_the_drop_down_to_the_rows() {
     let mut window = window(Desk::with(8));
-    for _ in 0..5 {
+    for _ in 0..6 {
         window.key_press(Key::Tab);
         window.run();
     }
@@ -194,9 +194,9 @@ fn satellites_and_span_are_chosen_above_the_list() {
         let mut window = window(Desk { thumbnails, ..Desk::with(8) });
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
-        window.get_by_role_and_label(Role::Button, "next 48 h").click();
+        window.get_by_role_and_label(Role::Button, "48 h").click();
         window.run();
-        window.get_by_label("next 6 h").click();
+        window.get_by_label("6 h").click();
         window.run();
         let wanted = [PassListAction::SetScope(Scope::All), PassListAction::SetSpan(6)];
         assert_eq!(window.state().actions, wanted);
@@ -250,6 +250,36 @@ fn what_is_read_stays_where_it_is_when_passes_above_end() {
     (window.state_mut().rows, window.state_mut().gone) = (970, 30);
     window.run();
     assert_eq!(place(&window), Some(before));
+}
+
+#[test]
+fn a_filter_is_opened_typed_and_closed() {
+    for thumbnails in [true, false] {
+        let mut window = window(Desk { thumbnails, ..Desk::with(8) });
+        assert!(window.query_by_role(Role::TextInput).is_none());
+        window.get_by_role_and_label(Role::Button, "Filter the list").click();
+        window.run();
+        window.event(egui::Event::Text("iss ".to_owned()));
+        window.run();
+        assert_eq!(window.state().state.filter.text(), "iss");
+        window.get_by_role_and_label(Role::Button, "Close").click();
+        window.run();
+        assert_eq!(window.state().state.filter.text(), "");
+        assert!(window.query_by_role(Role::TextInput).is_none());
+    }
+}
+
+#[test]
+fn the_choices_in_the_head_never_touch() {
+    for thumbnails in [true, false] {
+        let desk = Desk { scope: Scope::All, thumbnails, ..Desk::with(98_765) };
+        let window = window(desk);
+        let place = |name| window.get_by_label(name).rect();
+        let count = place("Next passes, 98\u{2009}765");
+        assert!(count.right() < place("max ≥ 10°").left());
+        assert!(place("All").right() < place("Filter the list").left());
+        assert!(place("Filter the list").right() < place("48 h").left());
+    }
 }
 
 #[test]

@@ -1,0 +1,40 @@
+//! The passes of the list whose satellite has the name or number that is
+//! looked for.
+
+use crate::app::{
+    Model,
+    forecast::{Forecast, Scope},
+};
+
+/// The passes that were found, kept until the list or the text changes.
+#[derive(Default)]
+pub(super) struct Found {
+    made_of: Option<(String, Scope, u64, usize)>,
+    places: Vec<usize>,
+}
+
+impl Found {
+    /// The places of the passes in the list of `model` that `text` finds, in
+    /// order; `None` when nothing is looked for.
+    pub(super) fn places(&mut self, model: &Model, text: &str) -> Option<&[usize]> {
+        if text.is_empty() {
+            return None;
+        }
+        let (scope, listed) = (model.list.scope, model.listed());
+        let edition = model.forecasts.of(scope).edition;
+        let made_of = Some((text.to_lowercase(), scope, edition, listed.len()));
+        if self.made_of != made_of {
+            let text = text.to_lowercase();
+            let is_found = |forecast: &Forecast| {
+                forecast.satellite.elements.name().to_lowercase().contains(&text)
+                    || forecast.number().to_string().starts_with(&text)
+            };
+            let listed = listed.iter().enumerate();
+            self.places = listed
+                .filter_map(|(place, forecast)| is_found(forecast).then_some(place))
+                .collect();
+            self.made_of = made_of;
+        }
+        Some(&self.places)
+    }
+}
