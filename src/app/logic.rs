@@ -76,9 +76,9 @@ impl App {
 
     fn start_demo(&mut self) {
         let CatalogState::Ready(catalog) = &self.model.catalog else { return };
-        let favourites = &self.model.station.favourites;
-        let elements = favourites.iter().filter_map(|number| catalog.get(*number).cloned());
-        match Demo::start(&self.model.station, elements.collect()) {
+        // Whatever can be selected can be tracked.
+        let elements = catalog.iter().cloned().collect();
+        match Demo::start(&self.model.station, elements) {
             Ok(demo) => {
                 let antennas = Station::demo(&demo.satrak.to_string()).antennas;
                 self.demo = Some(demo);
