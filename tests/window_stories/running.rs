@@ -1,7 +1,7 @@
 //! The real app with a simulated unit behind a real socket.
 
 use azel::{
-    app::Model,
+    app::{Model, View, model::CatalogState},
     astro::AzEl,
     controller::Measured,
     driver::{Clock, Intent, LinkState, StopState},
@@ -253,4 +253,26 @@ fn the_demo_station_leaves_no_file_behind() {
     let folder = tempfile::tempdir().unwrap();
     drop(demo(&folder));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn settings_that_cannot_be_read_are_not_replaced_by_following_a_satellite() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    std::fs::write(&path, "name = \"open").unwrap();
+    let mut window = open(&path, Clock::system());
+    step_until(&mut window, "the elements", |model| {
+        matches!(model.catalog, CatalogState::Ready(_))
+    });
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    step_until(&mut window, "the catalogue", |model| model.view == View::Elements);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(2);
+    window.event(Event::Text("43013".to_owned()));
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::Button, "Unfollow NOAA 20 (JPSS-1)").click();
+    step_until(&mut window, "it is not followed", |model| {
+        !model.station.favourites.contains(&NOAA_20)
+    });
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "name = \"open");
 }
