@@ -3,6 +3,7 @@
 //! nothing here waits for it.
 
 mod clock;
+pub mod files;
 mod gate;
 mod intent;
 mod link;

@@ -5,7 +5,7 @@
 //! Being offline is a normal state: what was held stays and tells its age. All
 //! calls wait for disks and servers: they belong on a worker thread.
 
-mod disk;
+pub(crate) mod disk;
 mod fetch;
 mod index;
 mod list;

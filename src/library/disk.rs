@@ -25,7 +25,7 @@ pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
 }
 
 /// Reads to the end; an error of kind `FileTooLarge` beyond `limit` bytes.
-pub(super) fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
+pub(crate) fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > limit {

@@ -1,0 +1,42 @@
+//! Files of elements between this computer, antenna units and servers: SFTP to
+//! a unit with proof of what is there, and a look at the sources a unit is
+//! told to fetch from.
+//!
+//! The functions here are slow on purpose where cryptography wants it, so they
+//! never run on the thread of the sessions: see [`Transfer`].
+
+mod connect_error;
+mod fetch;
+mod folder;
+mod hash;
+mod host_key;
+mod kept;
+mod keyring;
+mod limits;
+mod login;
+mod sftp;
+mod ssh;
+mod tle_file;
+mod transfer;
+mod upload;
+
+pub use connect_error::{ConnectError, ConnectStep, KeyFileProblem, Peer};
+pub use fetch::{
+    ElementSource, FetchError, FileProtocol, Seen, Trust, UnitView, fetch, what_a_unit_sees,
+};
+pub use folder::FolderError;
+pub use hash::{FileHash, NoHash};
+pub use host_key::{KnownHosts, KnownHostsError, OfferedKey, Verdict};
+pub use kept::{KeptError, KeptFile, KeptFiles, Origin};
+pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring};
+pub use limits::{Interruption, Limits};
+pub use login::{FACTORY_USER, Login, Proof, is_factory_password};
+pub use secrecy::SecretString;
+pub use sftp::SftpFolder;
+pub use ssh::open_sftp;
+pub use tle_file::{FileName, FileNameError, FileObject, TleFile, TleFileError};
+pub use tokio_util::sync::CancellationToken;
+pub use transfer::{BrokenOff, Transfer};
+pub use upload::{
+    FolderState, Progress, Upload, UploadError, UploadReason, UploadStep, Uploaded, upload,
+};

@@ -1,0 +1,172 @@
+//! What a unit will find in a file of elements.
+
+use jiff::Timestamp;
+
+use crate::{
+    driver::files::{FileHash, FileObject},
+    orbit::{Elements, Refusal, read_element_bytes},
+};
+
+/// Columns of a TLE line before its checksum.
+const TLE_COLUMNS: usize = 68;
+/// How many names are offered in place of one that was not found.
+const MOST_SIMILAR: usize = 5;
+
+/// What a unit will make of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitView {
+    /// Size of the file.
+    pub bytes: u64,
+    /// Its hash.
+    pub sha256: FileHash,
+    /// How many objects can be read.
+    pub objects: usize,
+    /// What cannot be read, with the reason; the unit may take it or stumble over it.
+    pub refused: Vec<Refusal>,
+    /// How many more were refused.
+    pub refused_unlisted: usize,
+    /// Whether the file is TLE, the only form that units are known to read.
+    pub is_tle: bool,
+    /// What the unit finds of the satellite it is to follow.
+    pub satellite: Seen,
+}
+
+/// What a unit finds of one satellite.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Seen {
+    /// One object with just that name.
+    Found(FileObject),
+    /// Several with that name; the unit takes one of them.
+    Several(Vec<FileObject>),
+    /// None: the unit will report that it cannot find the satellite.
+    Missing {
+        /// Names in the file that may be meant.
+        similar: Vec<String>,
+    },
+}
+
+impl UnitView {
+    /// The newest epoch of what was found.
+    pub fn epoch(&self) -> Option<Timestamp> {
+        match &self.satellite {
+            Seen::Found(object) => Some(object.epoch),
+            Seen::Several(objects) => objects.iter().map(|object| object.epoch).max(),
+            Seen::Missing { .. } => None,
+        }
+    }
+}
+
+/// Looks at the file `bytes` as a unit will that is to follow `satellite`.
+pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
+    let read = read_element_bytes(bytes);
+    let named = |elements: &&Elements| elements.name() == satellite;
+    let object = |elements: &Elements| FileObject {
+        name: elements.name().to_owned(),
+        catalog_number: elements.catalog_number(),
+        epoch: elements.epoch(),
+    };
+    let mut found: Vec<_> = read.elements.iter().filter(named).map(object).collect();
+    let satellite = match found.pop() {
+        None => Seen::Missing { similar: similar(&read.elements, satellite) },
+        Some(only) if found.is_empty() => Seen::Found(only),
+        Some(last) => {
+            found.push(last);
+            Seen::Several(found)
+        }
+    };
+    UnitView {
+        bytes: bytes.len() as u64,
+        sha256: FileHash::of(bytes),
+        objects: read.elements.len(),
+        refused: read.refused,
+        refused_unlisted: read.refused_unlisted,
+        is_tle: is_tle(bytes),
+        satellite,
+    }
+}
+
+/// Names that differ in case or blanks only, or that hold what was looked for
+/// or are held by it.
+fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
+    let plain = |name: &str| {
+        let letters = name.chars().filter(|letter| letter.is_alphanumeric());
+        letters.flat_map(char::to_lowercase).collect::<String>()
+    };
+    let wanted = plain(wanted);
+    let is_similar = |name: &&str| {
+        let name = plain(name);
+        !wanted.is_empty() && !name.is_empty() && (name.contains(&wanted) || wanted.contains(&name))
+    };
+    let names = elements.iter().map(Elements::name).filter(is_similar);
+    names.take(MOST_SIMILAR).map(str::to_owned).collect()
+}
+
+/// Whether two lines that follow one another are those of a TLE.
+fn is_tle(bytes: &[u8]) -> bool {
+    let is_line = |line: &[u8], start: &[u8]| line.starts_with(start) && line.len() >= TLE_COLUMNS;
+    let mut first = false;
+    bytes.split(|byte| *byte == b'\n').any(|line| {
+        let is_set = first && is_line(line, b"2 ");
+        first = is_line(line, b"1 ");
+        is_set
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From the book of the theory (Spacetrack Report 3), renumbered nowhere.
+    const SETS: &str = "\
+TEST 1\r
+1 88888U          80275.98708465  .00073094  13844-3  66816-4 0    87\r
+2 88888  72.8435 115.9689 0086731  52.6988 110.5714 16.05824518  1058\r
+TEST 1B\r
+1 88888U          80275.98708465  .00073094  13844-3  66816-4 0    88\r
+2 88888  72.8435 115.9689 0086731  52.6988 110.5714 16.05824518  1058\r
+";
+
+    #[test]
+    fn a_satellite_is_found_by_its_very_name() {
+        let view = what_a_unit_sees(SETS.as_bytes(), "TEST 1");
+        let Seen::Found(object) = &view.satellite else { panic!("{view:?}") };
+        assert_eq!(object.catalog_number, 88_888);
+        assert_eq!(view.epoch().unwrap().to_string()[..10], *"1980-10-01");
+        assert!(view.is_tle);
+        // The second set has a wrong checksum.
+        assert_eq!((view.objects, view.refused.len()), (1, 1));
+        assert_eq!(view.sha256, FileHash::of(SETS.as_bytes()));
+    }
+
+    #[test]
+    fn a_satellite_that_is_missing_is_told_with_the_names_it_may_have() {
+        for wanted in ["test 1", "TEST-1", "TEST"] {
+            let view = what_a_unit_sees(SETS.as_bytes(), wanted);
+            let similar = vec!["TEST 1".to_owned()];
+            assert_eq!(view.satellite, Seen::Missing { similar }, "{wanted}");
+            assert_eq!(view.epoch(), None);
+        }
+        let none = Seen::Missing { similar: Vec::new() };
+        assert_eq!(what_a_unit_sees(SETS.as_bytes(), "NOAA 15").satellite, none);
+        assert_eq!(what_a_unit_sees(SETS.as_bytes(), "").satellite, none);
+        let page = what_a_unit_sees(b"<html>gone</html>", "TEST 1");
+        assert_eq!((page.is_tle, page.objects, page.satellite), (false, 0, none));
+    }
+
+    #[test]
+    fn one_name_for_several_objects_is_told() {
+        let set = SETS.lines().take(3).collect::<Vec<_>>().join("\n");
+        let view = what_a_unit_sees(format!("{set}\n{set}\n").as_bytes(), "TEST 1");
+        assert!(matches!(&view.satellite, Seen::Several(objects) if objects.len() == 2));
+    }
+
+    #[test]
+    fn another_form_than_tle_is_told() {
+        let json = br#"[{"OBJECT_NAME":"A","EPOCH":"2026-08-11T12:00:00","MEAN_MOTION":15.5,
+            "ECCENTRICITY":0.0004,"INCLINATION":51.6,"RA_OF_ASC_NODE":100,"ARG_OF_PERICENTER":10,
+            "MEAN_ANOMALY":20,"NORAD_CAT_ID":7,"BSTAR":0,"MEAN_MOTION_DOT":0,"MEAN_MOTION_DDOT":0}]"#;
+        let view = what_a_unit_sees(json, "A");
+        assert!(matches!(view.satellite, Seen::Found(_)), "{view:?}");
+        assert!(!view.is_tle);
+    }
+}

@@ -1,0 +1,224 @@
+//! Which key belongs to which host: asked once, then pinned.
+//!
+//! The file has OpenSSH's `known_hosts` form, so that it can be read and mended
+//! with the tools that operators know. Names stand in it in clear; hashed names,
+//! patterns and certificate authorities, which OpenSSH knows too, match nothing
+//! here: such a host is asked about again.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use russh::keys::{
+    Algorithm, HashAlg, PublicKey,
+    ssh_key::known_hosts::{Entry, HostPatterns, Marker},
+};
+
+use crate::whole_file;
+
+/// The key that a host proved to have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OfferedKey {
+    host: String,
+    port: u16,
+    key: PublicKey,
+}
+
+impl OfferedKey {
+    pub(super) fn new(host: &str, port: u16, key: PublicKey) -> Self {
+        Self { host: host.to_owned(), port, key }
+    }
+
+    /// `SHA256:…`, as `ssh-keygen -l` shows it on the host.
+    pub fn fingerprint(&self) -> String {
+        fingerprint(&self.key)
+    }
+
+    /// The kind of key, such as `ssh-ed25519`.
+    pub fn algorithm(&self) -> String {
+        self.key.algorithm().to_string()
+    }
+
+    /// The host as the file names it: `unit`, or `[unit]:2222` off port 22.
+    pub fn address(&self) -> String {
+        pattern(&self.host, self.port)
+    }
+}
+
+/// What the file says about a key.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is the key of this host.
+    Pinned,
+    /// Nothing is known of this host: the operator has to look at the key.
+    Unknown,
+    /// The host has another key: refused.
+    Changed {
+        /// Fingerprints of the keys it should have.
+        pinned: Vec<String>,
+    },
+    /// The key was marked as stolen or withdrawn: refused.
+    Revoked,
+}
+
+/// Why the file cannot be used. It stays as it is.
+#[derive(Debug, thiserror::Error)]
+pub enum KnownHostsError {
+    /// The operating system refused.
+    #[error("the known host keys cannot be used: {source}; mend the access to {}", path.display())]
+    Disk {
+        /// Why.
+        source: io::Error,
+        /// Where.
+        path: PathBuf,
+    },
+    /// A line that cannot be read may hold the key of any host.
+    #[error("line {line} of the known host keys cannot be read; mend or remove it in {}", path.display())]
+    Line {
+        /// From 1.
+        line: usize,
+        /// Where.
+        path: PathBuf,
+    },
+    /// The key has no text form.
+    #[error("the host key of {address} cannot be written down, so it was not accepted")]
+    Key {
+        /// Whose.
+        address: String,
+    },
+}
+
+/// The file of pinned host keys.
+#[derive(Debug, Clone)]
+pub struct KnownHosts {
+    path: PathBuf,
+}
+
+impl KnownHosts {
+    /// The file at `path`, which need not exist yet.
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The file of this user; `None` on a machine without a home.
+    pub fn of_this_user() -> Option<Self> {
+        directories::ProjectDirs::from("", "", "azel")
+            .map(|dirs| Self::new(dirs.data_dir().join("known_hosts")))
+    }
+
+    /// Where the file is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is known of `offered`.
+    pub fn check(&self, offered: &OfferedKey) -> Result<Verdict, KnownHostsError> {
+        let entries = self.entries(&offered.address())?;
+        let is_same = |entry: &Entry| entry.public_key().key_data() == offered.key.key_data();
+        if entries.iter().any(|entry| entry.marker() == Some(&Marker::Revoked) && is_same(entry)) {
+            return Ok(Verdict::Revoked);
+        }
+        let pinned: Vec<_> = entries.iter().filter(|entry| entry.marker().is_none()).collect();
+        Ok(if pinned.is_empty() {
+            Verdict::Unknown
+        } else if pinned.iter().any(|entry| is_same(entry)) {
+            Verdict::Pinned
+        } else {
+            let pinned = pinned.iter().map(|entry| fingerprint(entry.public_key())).collect();
+            Verdict::Changed { pinned }
+        })
+    }
+
+    /// Accepts `offered` for its host from now on, beside keys it already has.
+    pub fn pin(&self, offered: &OfferedKey) -> Result<(), KnownHostsError> {
+        let address = offered.address();
+        let mut key = offered.key.clone();
+        key.set_comment("");
+        let key =
+            key.to_openssh().map_err(|_| KnownHostsError::Key { address: address.clone() })?;
+        let mut text = self.text()?;
+        if !text.is_empty() && !text.ends_with('\n') {
+            text.push('\n');
+        }
+        self.write(&format!("{text}{address} {key}\n"))
+    }
+
+    /// Forgets all keys of the host, as after it was replaced. What was revoked
+    /// stays revoked.
+    pub fn forget(&self, host: &str, port: u16) -> Result<(), KnownHostsError> {
+        let address = pattern(host, port);
+        let text = self.text()?;
+        let is_kept = |line: &&str| {
+            let entry: Option<Entry> = line.parse().ok();
+            entry.is_none_or(|entry| entry.marker().is_some() || !names(&entry, &address))
+        };
+        let kept: String = text.lines().filter(is_kept).flat_map(|line| [line, "\n"]).collect();
+        self.write(&kept)
+    }
+
+    /// The kinds of key that the host is known by.
+    pub(super) fn algorithms(
+        &self,
+        host: &str,
+        port: u16,
+    ) -> Result<Vec<Algorithm>, KnownHostsError> {
+        let entries = self.entries(&pattern(host, port))?;
+        let pinned = entries.iter().filter(|entry| entry.marker().is_none());
+        Ok(pinned.map(|entry| entry.public_key().algorithm()).collect())
+    }
+
+    /// All entries that name `address`.
+    fn entries(&self, address: &str) -> Result<Vec<Entry>, KnownHostsError> {
+        let text = self.text()?;
+        let lines = text.lines().map(str::trim).enumerate();
+        let lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let mut entries = Vec::new();
+        for (index, line) in lines {
+            let entry: Entry = line
+                .parse()
+                .map_err(|_| KnownHostsError::Line { line: index + 1, path: self.path.clone() })?;
+            if names(&entry, address) {
+                entries.push(entry);
+            }
+        }
+        Ok(entries)
+    }
+
+    fn text(&self) -> Result<String, KnownHostsError> {
+        match fs::read_to_string(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
+            other => other.map_err(|source| self.disk(source)),
+        }
+    }
+
+    fn write(&self, text: &str) -> Result<(), KnownHostsError> {
+        whole_file::replace_and_keep_old(&self.path, text.as_bytes())
+            .map_err(|source| self.disk(source))
+    }
+
+    fn disk(&self, source: io::Error) -> KnownHostsError {
+        KnownHostsError::Disk { source, path: self.path.clone() }
+    }
+}
+
+fn names(entry: &Entry, address: &str) -> bool {
+    match entry.host_patterns() {
+        HostPatterns::Patterns(names) => {
+            names.iter().any(|name| name.eq_ignore_ascii_case(address))
+        }
+        HostPatterns::HashedName { .. } => false,
+    }
+}
+
+fn pattern(host: &str, port: u16) -> String {
+    let host = host.to_ascii_lowercase();
+    if port == 22 { host } else { format!("[{host}]:{port}") }
+}
+
+fn fingerprint(key: &PublicKey) -> String {
+    key.fingerprint(HashAlg::Sha256).to_string()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,288 @@
+//! The last files of every unit, kept on this computer so that any of them can
+//! be put back.
+//!
+//! Contents are named by their hash; a small TOML file says which was where and when.
+
+use std::{
+    collections::BTreeSet,
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{FileHash, TleFile};
+use crate::whole_file;
+
+/// The version that this program writes. A list of a later one is left alone.
+const VERSION: u32 = 1;
+/// How many are kept of one file on one unit.
+const MOST: usize = 20;
+
+/// One file as it was on a unit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptFile {
+    /// Host and port of the unit.
+    pub unit: String,
+    /// Its name there.
+    pub file: String,
+    /// Of the whole file.
+    pub sha256: FileHash,
+    /// Of the whole file.
+    pub bytes: u64,
+    /// When it was sent, or read there.
+    pub at: Timestamp,
+    /// How it came to be there.
+    pub origin: Origin,
+}
+
+/// How a file came to be on a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// It was there before this program put another one in its place.
+    Found,
+    /// This program put it there.
+    Uploaded,
+}
+
+/// The list on disk.
+#[derive(Debug, Serialize, Deserialize)]
+struct List {
+    version: u32,
+    /// The newest last.
+    #[serde(default)]
+    kept: Vec<KeptFile>,
+}
+
+/// Why a file was not kept, or cannot be had again.
+#[derive(Debug, thiserror::Error)]
+pub enum KeptError {
+    /// The operating system refused.
+    #[error("{source}; make room or mend the rights on this computer: {}", path.display())]
+    Disk {
+        /// Why.
+        source: io::Error,
+        /// Where.
+        path: PathBuf,
+    },
+    /// The list is no TOML any more.
+    #[error("the list of kept files cannot be read: {source}; move it away: {}", path.display())]
+    Syntax {
+        /// Where in the text.
+        source: Box<toml::de::Error>,
+        /// Where.
+        path: PathBuf,
+    },
+    /// The list cannot be put into TOML.
+    #[error("the list of kept files cannot be put into TOML: {0}")]
+    Form(#[from] toml::ser::Error),
+    /// A later program wrote the list.
+    #[error("the list of kept files has version {found}, this program knows {VERSION}; use the newer program: {}", path.display())]
+    Newer {
+        /// Its version.
+        found: u32,
+        /// Where.
+        path: PathBuf,
+    },
+    /// The content is not what was kept.
+    #[error("the kept file was changed on disk; choose another one: {}", path.display())]
+    Changed {
+        /// Where.
+        path: PathBuf,
+    },
+}
+
+/// The kept files of all units.
+#[derive(Debug, Clone)]
+pub struct KeptFiles {
+    folder: PathBuf,
+}
+
+impl KeptFiles {
+    /// The files in `folder`, which need not exist yet.
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into() }
+    }
+
+    /// The folder of this user; `None` on a machine without a home.
+    pub fn of_this_user() -> Option<Self> {
+        directories::ProjectDirs::from("", "", "azel")
+            .map(|dirs| Self::new(dirs.data_dir().join("uploads")))
+    }
+
+    /// What is kept of `file` on `unit`, the newest first.
+    pub fn list(&self, unit: &str, file: &str) -> Result<Vec<KeptFile>, KeptError> {
+        let mut kept = self.load()?.kept;
+        kept.retain(|one| one.unit == unit && one.file == file);
+        kept.reverse();
+        Ok(kept)
+    }
+
+    /// The content of `kept`, checked, to be put back on the unit.
+    pub fn read(&self, kept: &KeptFile) -> Result<TleFile, KeptError> {
+        let path = self.content(kept.sha256);
+        let bytes = fs::read(&path).map_err(disk_error(&path))?;
+        if FileHash::of(&bytes) != kept.sha256 {
+            return Err(KeptError::Changed { path });
+        }
+        Ok(TleFile::kept(bytes))
+    }
+
+    /// Keeps what is on a unit. The same content is not kept twice in a row.
+    pub(super) fn keep(
+        &self,
+        unit: &str,
+        file: &str,
+        bytes: &[u8],
+        at: Timestamp,
+        origin: Origin,
+    ) -> Result<(), KeptError> {
+        let mut list = self.load()?;
+        let is_of_file = |one: &KeptFile| one.unit == unit && one.file == file;
+        let sha256 = FileHash::of(bytes);
+        let newest = list.kept.iter().rfind(|one| is_of_file(one));
+        let is_held = newest.is_some_and(|newest| newest.sha256 == sha256);
+        let path = self.content(sha256);
+        if is_held && origin == Origin::Found && path.is_file() {
+            return Ok(());
+        }
+        whole_file::replace(&path, bytes).map_err(disk_error(&path))?;
+        list.kept.push(KeptFile {
+            unit: unit.to_owned(),
+            file: file.to_owned(),
+            sha256,
+            bytes: bytes.len() as u64,
+            at,
+            origin,
+        });
+        let too_many = list.kept.iter().filter(|one| is_of_file(one)).count().saturating_sub(MOST);
+        let mut dropped = Vec::new();
+        list.kept.retain(|one| {
+            let is_old = is_of_file(one) && dropped.len() < too_many;
+            if is_old {
+                dropped.push(one.sha256);
+            }
+            !is_old
+        });
+        self.save(&list)?;
+        self.clear(&dropped, &list);
+        Ok(())
+    }
+
+    /// Removes contents that nothing in the list names any more.
+    fn clear(&self, dropped: &[FileHash], list: &List) {
+        let needed: BTreeSet<_> = list.kept.iter().map(|one| one.sha256.to_string()).collect();
+        for hash in dropped.iter().filter(|hash| !needed.contains(&hash.to_string())) {
+            let path = self.content(*hash);
+            if let Err(error) = fs::remove_file(&path) {
+                tracing::warn!(%error, path = %path.display(), "an old upload was not removed");
+            }
+        }
+    }
+
+    fn content(&self, hash: FileHash) -> PathBuf {
+        self.folder.join(format!("{hash}.tle"))
+    }
+
+    fn index(&self) -> PathBuf {
+        self.folder.join("index.toml")
+    }
+
+    fn load(&self) -> Result<List, KeptError> {
+        let path = self.index();
+        let text = match fs::read_to_string(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(List { version: VERSION, kept: Vec::new() });
+            }
+            other => other.map_err(disk_error(&path))?,
+        };
+        let list: List = toml::from_str(&text)
+            .map_err(|source| KeptError::Syntax { source: source.into(), path: path.clone() })?;
+        if list.version > VERSION {
+            return Err(KeptError::Newer { found: list.version, path });
+        }
+        Ok(list)
+    }
+
+    fn save(&self, list: &List) -> Result<(), KeptError> {
+        let path = self.index();
+        let text = toml::to_string_pretty(list)?;
+        whole_file::replace_and_keep_old(&path, text.as_bytes()).map_err(disk_error(&path))
+    }
+}
+
+fn disk_error(path: &Path) -> impl FnOnce(io::Error) -> KeptError {
+    let path = path.to_owned();
+    move |source| KeptError::Disk { source, path }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: &str = "unit:22";
+
+    fn at(minute: usize) -> Timestamp {
+        format!("2026-08-12T12:{minute:02}:00Z").parse().unwrap()
+    }
+
+    fn files() -> (tempfile::TempDir, KeptFiles) {
+        let folder = tempfile::tempdir().unwrap();
+        let kept = KeptFiles::new(folder.path().join("uploads"));
+        (folder, kept)
+    }
+
+    #[test]
+    fn files_come_back_newest_first_and_by_unit_and_name() {
+        let (_folder, kept) = files();
+        assert_eq!(kept.list(UNIT, "a.txt").unwrap(), []);
+        for (minute, (unit, file, bytes, origin)) in [
+            (UNIT, "a.txt", "one", Origin::Found),
+            (UNIT, "a.txt", "two", Origin::Uploaded),
+            (UNIT, "a.txt", "two", Origin::Found),
+            (UNIT, "b.txt", "three", Origin::Uploaded),
+            ("other:22", "a.txt", "four", Origin::Uploaded),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            kept.keep(unit, file, bytes.as_bytes(), at(minute), origin).unwrap();
+        }
+        let list = kept.list(UNIT, "a.txt").unwrap();
+        let seen: Vec<_> = list.iter().map(|one| (one.origin, one.at, one.bytes)).collect();
+        assert_eq!(seen, [(Origin::Uploaded, at(1), 3), (Origin::Found, at(0), 3)]);
+        assert_eq!(kept.read(&list[1]).unwrap().bytes(), b"one");
+        assert_eq!(kept.list("other:22", "a.txt").unwrap().len(), 1);
+    }
+
+    #[test]
+    fn the_oldest_give_way() {
+        let (_folder, kept) = files();
+        kept.keep("other:22", "a.txt", b"0", at(0), Origin::Uploaded).unwrap();
+        for minute in 0..MOST + 3 {
+            let bytes = minute.to_string();
+            kept.keep(UNIT, "a.txt", bytes.as_bytes(), at(minute), Origin::Uploaded).unwrap();
+        }
+        let list = kept.list(UNIT, "a.txt").unwrap();
+        assert_eq!((list.len(), list[MOST - 1].at), (MOST, at(3)));
+        let exists = |bytes: &str| kept.content(FileHash::of(bytes.as_bytes())).is_file();
+        assert!(!exists("1") && !exists("2") && exists("3"));
+        assert!(exists("0"), "another unit still names it");
+    }
+
+    #[test]
+    fn what_was_changed_on_disk_is_not_put_back() {
+        let (_folder, kept) = files();
+        kept.keep(UNIT, "a.txt", b"one", at(0), Origin::Uploaded).unwrap();
+        let one = kept.list(UNIT, "a.txt").unwrap().remove(0);
+        fs::write(kept.content(one.sha256), "onf").unwrap();
+        assert!(matches!(kept.read(&one), Err(KeptError::Changed { .. })));
+        fs::write(kept.index(), "version = 2").unwrap();
+        assert!(matches!(kept.list(UNIT, "a.txt"), Err(KeptError::Newer { found: 2, .. })));
+        fs::write(kept.index(), "version").unwrap();
+        let refused = kept.keep(UNIT, "a.txt", b"two", at(1), Origin::Found);
+        assert!(matches!(refused, Err(KeptError::Syntax { .. })));
+    }
+}

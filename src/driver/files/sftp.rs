@@ -1,0 +1,250 @@
+//! A folder on a unit, by SFTP version 3.
+
+use std::{future::Future, time::Duration};
+
+use russh_sftp::{
+    client::{Config, RawSftpSession, error::Error},
+    protocol::{FileAttributes, OpenFlags, Packet, StatusCode},
+};
+
+use super::{
+    FolderError, Limits,
+    folder::{Folder, Found, Tell},
+    ssh::Ssh,
+};
+
+/// What every server takes and gives in one packet.
+const CHUNK_BYTES: usize = 32 << 10;
+/// The bits of a mode that say who may do what.
+const RIGHTS: u32 = 0o7777;
+/// OpenSSH, `PROTOCOL`, section 4.3: a rename that replaces.
+const POSIX_RENAME: &str = "posix-rename@openssh.com";
+/// OpenSSH, `PROTOCOL`, section 4.6.
+const FSYNC: &str = "fsync@openssh.com";
+/// OpenSSH, `PROTOCOL`, section 4.4.
+const STATVFS: &str = "statvfs@openssh.com";
+
+/// An open folder on a unit.
+pub struct SftpFolder {
+    sftp: RawSftpSession,
+    ssh: Ssh,
+    path: String,
+    limits: Limits,
+    can_replace: bool,
+    can_sync: bool,
+    can_tell_space: bool,
+}
+
+impl SftpFolder {
+    pub(super) async fn open(ssh: Ssh, path: &str, limits: Limits) -> Result<Self, String> {
+        let told = |error: russh::Error| format!("no file transfer there ({error})");
+        let channel = ssh.handle.channel_open_session().await.map_err(told)?;
+        channel.request_subsystem(true, "sftp").await.map_err(told)?;
+        // This one counts whole seconds; ours ends before it.
+        let request_timeout_secs = limits.request.as_secs() + 2;
+        let config = Config { request_timeout_secs, ..Config::default() };
+        let sftp = RawSftpSession::new_with_config(channel.into_stream(), config);
+        let lost = ssh.lost.clone();
+        let version = tokio::select! {
+            version = sftp.init() => version.map_err(|error| format!("no file transfer there ({error})"))?,
+            () = lost.cancelled() => return Err("the host hung up".to_owned()),
+        };
+        let has = |name| version.extensions.contains_key(name);
+        Ok(Self {
+            can_replace: has(POSIX_RENAME),
+            can_sync: has(FSYNC),
+            can_tell_space: has(STATVFS),
+            path: path.trim_end_matches('/').to_owned(),
+            sftp,
+            ssh,
+            limits,
+        })
+    }
+
+    /// The file of that name in this folder.
+    fn path(&self, name: &str) -> String {
+        format!("{}/{name}", self.path)
+    }
+
+    /// One request: ends by its answer, its time limit, or the end of the connection.
+    async fn answer<T>(
+        &self,
+        request: impl Future<Output = Result<T, Error>>,
+    ) -> Result<Result<T, Error>, FolderError> {
+        let late = FolderError::TimedOut(self.limits.request);
+        tokio::select! {
+            biased;
+            answer = tokio::time::timeout(self.limits.request, request) => answer.map_err(|_| late),
+            () = self.ssh.lost.cancelled() => Err(FolderError::Lost("the host hung up".to_owned())),
+        }
+    }
+
+    /// One request that has to go well.
+    async fn ask<T>(
+        &self,
+        request: impl Future<Output = Result<T, Error>>,
+    ) -> Result<T, FolderError> {
+        self.answer(request).await?.map_err(|error| told(error, self.limits.request))
+    }
+
+    /// The whole of a file, one way.
+    async fn whole<T>(
+        &self,
+        work: impl Future<Output = Result<T, FolderError>>,
+    ) -> Result<T, FolderError> {
+        let late = FolderError::TimedOut(self.limits.file);
+        tokio::time::timeout(self.limits.file, work).await.unwrap_or(Err(late))
+    }
+
+    async fn read_all(&self, handle: &str, tell: Tell<'_>) -> Result<Vec<u8>, FolderError> {
+        let mut bytes = Vec::new();
+        loop {
+            let from = bytes.len() as u64;
+            if from > self.limits.file_bytes {
+                return Err(FolderError::TooLarge(self.limits.file_bytes));
+            }
+            match self.answer(self.sftp.read(handle, from, CHUNK_BYTES as u32)).await? {
+                Ok(data) if data.data.is_empty() => return Ok(bytes),
+                Ok(data) => bytes.extend_from_slice(&data.data),
+                Err(Error::Status(status)) if status.status_code == StatusCode::Eof => {
+                    return Ok(bytes);
+                }
+                Err(error) => return Err(told(error, self.limits.request)),
+            }
+            tell(bytes.len() as u64);
+        }
+    }
+
+    async fn write_all(
+        &self,
+        handle: &str,
+        bytes: &[u8],
+        tell: Tell<'_>,
+    ) -> Result<(), FolderError> {
+        let mut done = 0;
+        for chunk in bytes.chunks(CHUNK_BYTES) {
+            self.ask(self.sftp.write(handle, done, chunk.to_vec())).await?;
+            done += chunk.len() as u64;
+            tell(done);
+        }
+        if self.can_sync {
+            self.ask(self.sftp.fsync(handle)).await?;
+        }
+        Ok(())
+    }
+
+    /// Says that the disk is full where a refusal is due to that.
+    async fn explain(&self, error: FolderError, wanted: usize) -> FolderError {
+        if !self.can_tell_space || !matches!(error, FolderError::Refused(_)) {
+            return error;
+        }
+        match self.ask(self.sftp.statvfs(self.path.as_str())).await {
+            Ok(space) => {
+                let free_bytes = space.blocks_avail.saturating_mul(space.fragment_size);
+                if free_bytes < wanted as u64 {
+                    FolderError::DiskFull { free_bytes }
+                } else {
+                    error
+                }
+            }
+            Err(_) => error,
+        }
+    }
+}
+
+impl Folder for SftpFolder {
+    async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+        let path = self.path(name);
+        let none = FileAttributes::empty();
+        let handle = match self.ask(self.sftp.open(path.as_str(), OpenFlags::READ, none)).await {
+            Ok(handle) => handle.handle,
+            // A folder that is missing must not pass for a file that is.
+            Err(FolderError::Missing) => {
+                let folder = self.ask(self.sftp.opendir(self.path.as_str())).await?;
+                self.ask(self.sftp.close(folder.handle)).await?;
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        };
+        let bytes = self.whole(self.read_all(&handle, tell)).await?;
+        let attributes = self.ask(self.sftp.fstat(handle.as_str())).await?.attrs;
+        self.ask(self.sftp.close(handle)).await?;
+        Ok(Some(Found { bytes, mode: attributes.permissions.map(|mode| mode & RIGHTS) }))
+    }
+
+    async fn write_new(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+        mode: Option<u32>,
+        tell: Tell<'_>,
+    ) -> Result<(), FolderError> {
+        let path = self.path(name);
+        let flags = OpenFlags::CREATE | OpenFlags::EXCLUDE | OpenFlags::WRITE;
+        let opening = self.sftp.open(path.as_str(), flags, FileAttributes::empty());
+        let handle = match self.ask(opening).await {
+            Ok(handle) => handle.handle,
+            Err(error) => return Err(self.explain(error, bytes.len()).await),
+        };
+        let written = self.whole(self.write_all(&handle, bytes, tell)).await;
+        let closed = match &written {
+            Err(error) if error.ends_connection() => Ok(()),
+            _ => self.ask(self.sftp.close(handle)).await.map(|_| ()),
+        };
+        if let Err(error) = written.and(closed) {
+            return Err(self.explain(error, bytes.len()).await);
+        }
+        if let Some(mode) = mode {
+            let rights = FileAttributes { permissions: Some(mode), ..FileAttributes::empty() };
+            self.ask(self.sftp.setstat(path, rights)).await?;
+        }
+        Ok(())
+    }
+
+    async fn remove(&mut self, name: &str) -> Result<(), FolderError> {
+        match self.ask(self.sftp.remove(self.path(name))).await {
+            Ok(_) | Err(FolderError::Missing) => Ok(()),
+            Err(error) => Err(error),
+        }
+    }
+
+    async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+        self.ask(self.sftp.rename(self.path(from), self.path(to))).await.map(|_| ())
+    }
+
+    fn can_replace(&self) -> bool {
+        self.can_replace
+    }
+
+    async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+        let names: Vec<u8> =
+            [self.path(from), self.path(to)].iter().flat_map(|path| string(path)).collect();
+        match self.ask(self.sftp.extended(POSIX_RENAME, names)).await? {
+            Packet::Status(status) if status.status_code == StatusCode::Ok => Ok(()),
+            Packet::Status(status) => Err(told(Error::Status(status), self.limits.request)),
+            _ => Err(FolderError::Lost("an answer to another question".to_owned())),
+        }
+    }
+}
+
+/// RFC 4251, section 5: a string is its length and its bytes.
+fn string(text: &str) -> impl Iterator<Item = u8> {
+    (text.len() as u32).to_be_bytes().into_iter().chain(text.bytes())
+}
+
+fn told(error: Error, limit: Duration) -> FolderError {
+    match error {
+        Error::Status(status) => match status.status_code {
+            StatusCode::NoSuchFile => FolderError::Missing,
+            StatusCode::PermissionDenied => FolderError::Denied,
+            StatusCode::NoConnection | StatusCode::ConnectionLost => {
+                FolderError::Lost(status.error_message)
+            }
+            _ => FolderError::Refused(status.error_message),
+        },
+        Error::Timeout => FolderError::TimedOut(limit),
+        Error::Limited(reason) => FolderError::Refused(reason),
+        Error::IO(reason) | Error::UnexpectedBehavior(reason) => FolderError::Lost(reason),
+        Error::UnexpectedPacket => FolderError::Lost("an answer to another question".to_owned()),
+    }
+}

@@ -1,0 +1,223 @@
+//! A file of elements for a unit: what it carries, checked before it is sent.
+
+use jiff::Timestamp;
+
+use super::FileHash;
+use crate::{
+    orbit::{Elements, TleRefusal, read_element_bytes, write_tle},
+    protocol::satrak::{TextValue, ValueError},
+};
+
+/// One object of a file on a unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileObject {
+    /// Its name in the file: what the unit is told to look for.
+    pub name: String,
+    /// Its catalogue number.
+    pub catalog_number: u32,
+    /// The epoch of its elements, as the columns of a TLE carry it.
+    pub epoch: Timestamp,
+}
+
+/// A file of elements as TLE.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TleFile {
+    bytes: Vec<u8>,
+    objects: Vec<FileObject>,
+}
+
+/// Why no file was made. Nothing was sent.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TleFileError {
+    /// Nothing was chosen.
+    #[error("no satellite was chosen; choose one at least")]
+    Empty,
+    /// Some objects cannot be put into TLE; all of them are listed.
+    #[error("{}; leave them out", listed(.0))]
+    Refused(Vec<TleRefusal>),
+    /// The unit finds an object by its name only.
+    #[error("object {catalog_number} has no name, and the unit looks for names; leave it out")]
+    Nameless {
+        /// Which.
+        catalog_number: u32,
+    },
+    /// The unit would find the first one only.
+    #[error("two objects have the name {name}, and the unit looks for names; leave one out")]
+    NameTwice {
+        /// As it stands in the file.
+        name: String,
+    },
+    /// The unit cannot be told to look for it.
+    #[error("the unit cannot be told to look for {name}: the {problem}; leave it out")]
+    Name {
+        /// As it stands in the file.
+        name: String,
+        /// Why.
+        problem: ValueError,
+    },
+}
+
+fn listed(refused: &[TleRefusal]) -> String {
+    let one =
+        |refusal: &TleRefusal| format!("object {}: {}", refusal.catalog_number, refusal.reason);
+    refused.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+impl TleFile {
+    /// The file of the `chosen` objects. All of them are in it, each under a name
+    /// that the unit can be told, or there is no file.
+    pub fn of<'a>(chosen: impl IntoIterator<Item = &'a Elements>) -> Result<Self, TleFileError> {
+        let mut bytes = Vec::new();
+        // Memory takes all that is written.
+        let refused = write_tle(chosen, &mut bytes).unwrap_or_default();
+        if !refused.is_empty() {
+            return Err(TleFileError::Refused(refused));
+        }
+        let file = Self::kept(bytes);
+        if file.objects.is_empty() {
+            return Err(TleFileError::Empty);
+        }
+        let mut names = std::collections::BTreeSet::new();
+        for FileObject { name, catalog_number, .. } in &file.objects {
+            if name.is_empty() {
+                return Err(TleFileError::Nameless { catalog_number: *catalog_number });
+            }
+            if !names.insert(name) {
+                return Err(TleFileError::NameTwice { name: name.clone() });
+            }
+            TextValue::new("name", name)
+                .map_err(|problem| TleFileError::Name { name: name.clone(), problem })?;
+        }
+        Ok(file)
+    }
+
+    /// A file as it once was on a unit, whatever it holds: to put it back.
+    pub fn kept(bytes: Vec<u8>) -> Self {
+        let object = |elements: &Elements| FileObject {
+            name: elements.name().to_owned(),
+            catalog_number: elements.catalog_number(),
+            epoch: elements.epoch(),
+        };
+        let objects = read_element_bytes(&bytes).elements.iter().map(object).collect();
+        Self { bytes, objects }
+    }
+
+    /// The whole file.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// What is in it, in its order.
+    pub fn objects(&self) -> &[FileObject] {
+        &self.objects
+    }
+
+    /// Its hash.
+    pub fn hash(&self) -> FileHash {
+        FileHash::of(&self.bytes)
+    }
+}
+
+/// The name of a file in the folder of a unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FileName(String);
+
+/// Why a name is none for a file on a unit.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum FileNameError {
+    /// The unit cannot be told of it.
+    #[error("the {0}; choose another one")]
+    Value(#[from] ValueError),
+    /// It leads to another folder, or is hidden.
+    #[error(
+        "the file name starts with a dot or holds a slash; choose a plain one such as weather.txt"
+    )]
+    Path,
+}
+
+impl FileName {
+    /// Takes `name` as typed.
+    pub fn new(name: &str) -> Result<Self, FileNameError> {
+        TextValue::new("file name", name)?;
+        if name.starts_with('.') || name.contains(['/', '\\']) {
+            return Err(FileNameError::Path);
+        }
+        Ok(Self(name.to_owned()))
+    }
+
+    /// The name.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{TleRefusalReason, bundled, read_elements};
+
+    fn omm(name: &str, number: u32) -> String {
+        format!(
+            r#"{{"OBJECT_NAME":"{name}","OBJECT_ID":"1998-067A","EPOCH":"2026-08-11T12:00:00.000000",
+            "MEAN_MOTION":15.5,"ECCENTRICITY":0.0004,"INCLINATION":51.6,"RA_OF_ASC_NODE":100.0,
+            "ARG_OF_PERICENTER":10.0,"MEAN_ANOMALY":20.0,"EPHEMERIS_TYPE":0,
+            "CLASSIFICATION_TYPE":"U","NORAD_CAT_ID":{number},"ELEMENT_SET_NO":999,"REV_AT_EPOCH":1,
+            "BSTAR":0.0001,"MEAN_MOTION_DOT":0.0001,"MEAN_MOTION_DDOT":0}}"#
+        )
+    }
+
+    fn file(objects: &[(&str, u32)]) -> Result<TleFile, TleFileError> {
+        let objects: Vec<_> = objects.iter().map(|(name, number)| omm(name, *number)).collect();
+        let read = read_elements(&format!("[{}]", objects.join(",")));
+        assert_eq!(read.elements.len(), objects.len(), "{:?}", read.refused);
+        TleFile::of(&read.elements)
+    }
+
+    #[test]
+    fn a_file_holds_what_was_chosen_under_names_the_unit_can_be_told() {
+        let file = file(&[("ISS (ZARYA)", 25_544), ("NOAA 15 [B]", 125_338)]).unwrap();
+        let text = std::str::from_utf8(file.bytes()).unwrap();
+        assert_eq!(text.lines().count(), 6, "{text}");
+        let objects: Vec<_> =
+            file.objects().iter().map(|one| (one.name.as_str(), one.catalog_number)).collect();
+        assert_eq!(objects, [("ISS (ZARYA)", 25_544), ("NOAA 15 [B]", 125_338)]);
+        assert_eq!(file.objects()[0].epoch, "2026-08-11T12:00:00Z".parse().unwrap());
+        assert_eq!(file.hash(), FileHash::of(text.as_bytes()));
+    }
+
+    #[test]
+    fn what_cannot_be_carried_is_refused_with_all_reasons() {
+        let error = file(&[("A", 340_000), ("B", 5), ("C", 400_000)]).unwrap_err();
+        let TleFileError::Refused(refused) = &error else { panic!("{error}") };
+        assert_eq!(refused.len(), 2);
+        assert_eq!(refused[0].reason, TleRefusalReason::CatalogNumber);
+        assert!(error.to_string().contains("object 400000: a TLE carries"), "{error}");
+        assert_eq!(file(&[]), Err(TleFileError::Empty));
+        assert_eq!(file(&[("", 7)]), Err(TleFileError::Nameless { catalog_number: 7 }));
+        let twice = TleFileError::NameTwice { name: "A".to_owned() };
+        assert_eq!(file(&[("A", 7), ("A", 8)]), Err(twice));
+        let comma = file(&[("AO-7, OSCAR 7", 7530)]).unwrap_err();
+        assert!(matches!(comma, TleFileError::Name { .. }), "{comma}");
+    }
+
+    #[test]
+    fn most_of_the_bundled_objects_can_be_sent_one_by_one() {
+        let catalog = bundled().unwrap();
+        let elements: Vec<_> = catalog.iter().take(500).collect();
+        assert_eq!(elements.len(), 500);
+        for one in elements {
+            let file = TleFile::of([one]).unwrap();
+            assert_eq!(file.objects()[0].catalog_number, one.catalog_number());
+        }
+    }
+
+    #[test]
+    fn names_of_files_stay_in_their_folder() {
+        for name in ["weather.txt", "IRIDIUM 70 [+].tle"] {
+            assert_eq!(FileName::new(name).unwrap().as_str(), name);
+        }
+        for name in ["", ".", "..", ".hidden", "a/b", "a\\b", "a,b", "şile.txt", " a"] {
+            assert!(FileName::new(name).is_err(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! A transfer under way, on a thread of its own.
+
+use std::{
+    future::Future,
+    io,
+    sync::mpsc::{self, TryRecvError},
+    thread,
+};
+
+use tokio::{runtime, sync::watch};
+use tokio_util::sync::CancellationToken;
+
+use super::Progress;
+use crate::driver::Wake;
+
+/// A transfer under way. Dropping it cancels it.
+///
+/// It has its own thread and runtime: keys are unlocked and files are hashed on
+/// it, and no STOP may wait for that.
+pub struct Transfer<T> {
+    progress: watch::Receiver<Option<Progress>>,
+    result: mpsc::Receiver<T>,
+    cancel: CancellationToken,
+}
+
+impl<T: Send + 'static> Transfer<T> {
+    /// Starts what `work` makes, on a thread called `name`. `work` is given what
+    /// to call with the progress and what tells that it was cancelled. `wake` is
+    /// called after every progress and at the end.
+    pub fn start<F: Future<Output = T>>(
+        name: &str,
+        wake: Wake,
+        work: impl FnOnce(Box<dyn FnMut(Progress)>, CancellationToken) -> F + Send + 'static,
+    ) -> io::Result<Self> {
+        let runtime = runtime::Builder::new_current_thread().enable_all().build()?;
+        let (send_progress, progress) = watch::channel(None);
+        let (send_result, result) = mpsc::sync_channel(1);
+        let cancel = CancellationToken::new();
+        let cancelled = cancel.clone();
+        thread::Builder::new().name(name.to_owned()).spawn(move || {
+            let told = wake.clone();
+            let tell = Box::new(move |progress| {
+                send_progress.send_replace(Some(progress));
+                told();
+            });
+            let outcome = runtime.block_on(work(tell, cancelled));
+            // Nobody may be waiting any more.
+            let _ = send_result.send(outcome);
+            wake();
+            // A request of the web that was cancelled ends by its time limit.
+            runtime.shutdown_background();
+        })?;
+        Ok(Self { progress, result, cancel })
+    }
+
+    /// The newest progress, where the work tells any.
+    pub fn progress(&self) -> Option<Progress> {
+        *self.progress.borrow()
+    }
+
+    /// The result, once. An error when the work broke off without one.
+    pub fn poll(&self) -> Option<Result<T, BrokenOff>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(Ok(result)),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(BrokenOff)),
+        }
+    }
+
+    /// Asks the work to end; its result still comes and says where it ended.
+    pub fn cancel(&self) {
+        self.cancel.cancel();
+    }
+}
+
+impl<T> Drop for Transfer<T> {
+    fn drop(&mut self) {
+        self.cancel.cancel();
+    }
+}
+
+/// A transfer that ended without a result: a fault of this program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the transfer broke off inside this program; look at the unit's folder and try again")]
+pub struct BrokenOff;
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::driver::files::UploadStep;
+
+    /// Starts `work` and hands back what tells of each wake.
+    fn start<F: Future<Output = u8>>(
+        work: impl FnOnce(Box<dyn FnMut(Progress)>, CancellationToken) -> F + Send + 'static,
+    ) -> (Transfer<u8>, mpsc::Receiver<()>) {
+        let (send, woken) = mpsc::sync_channel(8);
+        let wake: Wake = Arc::new(move || send.send(()).unwrap());
+        (Transfer::start("test", wake, work).unwrap(), woken)
+    }
+
+    #[test]
+    fn progress_and_result_arrive_and_wake() {
+        let now = Progress { step: UploadStep::Write, done_bytes: 1, file_bytes: 2 };
+        let (transfer, woken) = start(move |mut tell, _| async move {
+            tell(now);
+            7
+        });
+        woken.recv().unwrap();
+        woken.recv().unwrap();
+        assert_eq!(transfer.progress(), Some(now));
+        assert_eq!(transfer.poll(), Some(Ok(7)));
+        assert!(matches!(transfer.poll(), None | Some(Err(BrokenOff))));
+    }
+
+    #[test]
+    fn a_cancel_and_a_drop_reach_the_work() {
+        let wait = |_, cancel: CancellationToken| async move {
+            cancel.cancelled().await;
+            9
+        };
+        let (transfer, woken) = start(wait);
+        assert_eq!(transfer.poll(), None);
+        transfer.cancel();
+        woken.recv().unwrap();
+        assert_eq!(transfer.poll(), Some(Ok(9)));
+        let (transfer, woken) = start(wait);
+        drop(transfer);
+        woken.recv().unwrap();
+    }
+}

@@ -1,0 +1,82 @@
+//! Puts a file of elements on a unit so that it can be shown to be there, and so
+//! that the old one is never lost.
+
+mod error;
+mod put;
+
+use jiff::Timestamp;
+use tokio_util::sync::CancellationToken;
+
+pub use error::{FolderState, Progress, UploadError, UploadReason, UploadStep};
+
+use super::{FileHash, FileName, FileObject, KeptFiles, Origin, Peer, SftpFolder, TleFile};
+use crate::{astro::time, driver::Clock};
+use put::Put;
+
+/// What is to be put where.
+#[derive(Debug, Clone)]
+pub struct Upload {
+    /// The unit that the folder is on: what is kept is listed under it.
+    pub unit: Peer,
+    /// The file's name there.
+    pub file: FileName,
+    /// What is to be in it. To roll back, what [`KeptFiles::read`] gave.
+    pub elements: TleFile,
+}
+
+/// Proof that a file is on a unit: it was read back there, in its place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Uploaded {
+    /// The unit.
+    pub unit: Peer,
+    /// The file's name there.
+    pub file: FileName,
+    /// Its size.
+    pub bytes: u64,
+    /// Its hash.
+    pub sha256: FileHash,
+    /// When it was read back.
+    pub at: Timestamp,
+    /// What is in it, in its order.
+    pub objects: Vec<FileObject>,
+}
+
+impl Uploaded {
+    /// Age of the oldest elements in the file at `now`, seconds.
+    pub fn oldest_age_s(&self, now: Timestamp) -> Option<f64> {
+        let oldest = self.objects.iter().map(|object| object.epoch).min()?;
+        Some(time::seconds_between(oldest, now))
+    }
+}
+
+/// Carries out `upload` in `folder`. What was there before and what is there
+/// now are both in `kept` afterwards. `tell` is called with the progress. A
+/// cancel is followed until the new file takes its place.
+pub async fn upload(
+    folder: &mut SftpFolder,
+    upload: Upload,
+    kept: &KeptFiles,
+    clock: &Clock,
+    tell: &mut dyn FnMut(Progress),
+    cancel: &CancellationToken,
+) -> Result<Uploaded, UploadError> {
+    let Upload { unit, file, elements } = upload;
+    let (name, address) = (file.as_str(), unit.to_string());
+    let put = Put { folder, file: name, new: elements.bytes(), tell, cancel };
+    put.run(&mut |old| kept.keep(&address, name, old, clock.utc(), Origin::Found)).await?;
+    let at = clock.utc();
+    // The unit has the file either way; only a later roll-back to it is lost.
+    if let Err(error) = kept.keep(&address, name, elements.bytes(), at, Origin::Uploaded) {
+        tracing::warn!(%error, file = name, "the uploaded file was not kept on this computer");
+    }
+    let sha256 = elements.hash();
+    tracing::info!(unit = address, file = name, %sha256, "elements uploaded and proved");
+    Ok(Uploaded {
+        bytes: elements.bytes().len() as u64,
+        sha256,
+        at,
+        objects: elements.objects().to_vec(),
+        unit,
+        file,
+    })
+}

@@ -1,0 +1,219 @@
+//! An upload that breaks at every request there is, in every way a link breaks.
+
+use std::{collections::BTreeMap, time::Duration};
+
+use super::*;
+use crate::driver::files::{FolderError, folder::Tell};
+
+const FILE: &str = "weather.tle";
+const OLD: &[u8] = b"the old elements";
+const NEW: &[u8] = b"the new elements, which are longer";
+
+/// How a request goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fault {
+    /// The unit says no and does nothing.
+    Refused,
+    /// The link is gone before the request arrives.
+    LostBefore,
+    /// The link is gone after the request was carried out.
+    LostAfter,
+    /// The operator cancels before the request.
+    Cancelled,
+}
+
+/// A folder in memory.
+#[derive(Default)]
+struct Memory {
+    files: BTreeMap<String, Vec<u8>>,
+    can_replace: bool,
+    /// Which request from now on goes wrong, and how.
+    fault: Option<(usize, Fault)>,
+    asked: usize,
+    cancel: CancellationToken,
+    is_gone: bool,
+}
+
+impl Memory {
+    async fn request<T>(
+        &mut self,
+        carry_out: impl FnOnce(&mut BTreeMap<String, Vec<u8>>) -> T,
+    ) -> Result<T, FolderError> {
+        let lost = || FolderError::Lost("cut".to_owned());
+        self.asked += 1;
+        if self.is_gone {
+            return Err(lost());
+        }
+        match self.fault.filter(|(at, _)| *at == self.asked) {
+            None => Ok(carry_out(&mut self.files)),
+            Some((_, Fault::Refused)) => Err(FolderError::Denied),
+            Some((_, Fault::LostBefore)) => {
+                self.is_gone = true;
+                Err(lost())
+            }
+            Some((_, Fault::LostAfter)) => {
+                self.is_gone = true;
+                carry_out(&mut self.files);
+                Err(FolderError::TimedOut(Duration::from_secs(1)))
+            }
+            Some((_, Fault::Cancelled)) => {
+                self.cancel.cancel();
+                tokio::task::yield_now().await;
+                Ok(carry_out(&mut self.files))
+            }
+        }
+    }
+
+    fn holds(&self, name: &str) -> Option<&[u8]> {
+        self.files.get(name).map(Vec::as_slice)
+    }
+}
+
+impl Folder for Memory {
+    async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+        let bytes = self.request(|files| files.get(name).cloned()).await?;
+        tell(bytes.as_ref().map_or(0, Vec::len) as u64);
+        Ok(bytes.map(|bytes| Found { bytes, mode: None }))
+    }
+
+    async fn write_new(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+        _mode: Option<u32>,
+        tell: Tell<'_>,
+    ) -> Result<(), FolderError> {
+        assert!(!self.files.contains_key(name), "{name} was not removed first");
+        // Each half is a request of its own, so that one can be lost.
+        let (first, _) = bytes.split_at(bytes.len() / 2);
+        self.request(|files| files.insert(name.to_owned(), first.to_vec())).await?;
+        tell(first.len() as u64);
+        self.request(|files| files.insert(name.to_owned(), bytes.to_vec())).await?;
+        tell(bytes.len() as u64);
+        Ok(())
+    }
+
+    async fn remove(&mut self, name: &str) -> Result<(), FolderError> {
+        self.request(|files| files.remove(name)).await.map(|_| ())
+    }
+
+    async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+        assert!(!self.files.contains_key(to), "{to} is taken");
+        self.replace(from, to).await
+    }
+
+    fn can_replace(&self) -> bool {
+        self.can_replace
+    }
+
+    async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+        self.request(|files| {
+            let bytes = files.remove(from).unwrap();
+            files.insert(to.to_owned(), bytes);
+        })
+        .await
+    }
+}
+
+/// Uploads [`NEW`]; also hands back what was kept of the old file.
+async fn put(folder: &mut Memory) -> (Result<(), UploadError>, Option<Vec<u8>>) {
+    let mut kept = None;
+    let cancel = folder.cancel.clone();
+    let put = Put { folder, file: FILE, new: NEW, tell: &mut |_| {}, cancel: &cancel };
+    let result = put
+        .run(&mut |old| {
+            kept = Some(old.to_vec());
+            Ok(())
+        })
+        .await;
+    (result, kept)
+}
+
+fn folder(can_replace: bool, old: Option<&[u8]>) -> Memory {
+    let files = old.map(|old| (FILE.to_owned(), old.to_vec())).into_iter().collect();
+    Memory { files, can_replace, ..Memory::default() }
+}
+
+/// What the error says must be so.
+fn assert_state(folder: &Memory, error: &UploadError, old: Option<&[u8]>) {
+    let (in_place, beside) = (folder.holds(FILE), folder.holds(&new_name(FILE)));
+    let aside = folder.holds(&old_name(FILE));
+    match &error.state {
+        FolderState::AsBefore => {
+            assert_eq!((in_place, beside), (old, None));
+        }
+        FolderState::Leftover { .. } => assert_eq!(in_place, old),
+        FolderState::OldOrNew => assert!(in_place == old || in_place == Some(NEW)),
+        FolderState::OldAside { .. } => assert!(in_place == old || aside == old),
+        FolderState::NewUnproved => assert_eq!(in_place, Some(NEW)),
+    }
+}
+
+#[tokio::test]
+async fn whatever_breaks_the_old_file_is_not_lost_and_the_next_upload_mends_all() {
+    let mut broken = 0;
+    for can_replace in [true, false] {
+        for old in [Some(OLD), None] {
+            for fault in [Fault::Refused, Fault::LostBefore, Fault::LostAfter, Fault::Cancelled] {
+                for at in 1.. {
+                    let mut folder = folder(can_replace, old);
+                    folder.fault = Some((at, fault));
+                    let (result, kept) = put(&mut folder).await;
+                    if folder.asked < at {
+                        break;
+                    }
+                    let case = format!("{can_replace} {fault:?} {at}");
+                    match result {
+                        // Too late to cancel, or only the last tidying failed.
+                        Ok(()) => assert_eq!(folder.holds(FILE), Some(NEW), "{case}"),
+                        Err(error) => {
+                            broken += 1;
+                            assert_state(&folder, &error, old);
+                            assert!(error.step < UploadStep::Write || kept.as_deref() == old);
+                            let is_cancel = matches!(error.reason, UploadReason::Cancelled);
+                            assert_eq!(is_cancel, fault == Fault::Cancelled, "{case}: {error}");
+                            assert!(!is_cancel || error.state == FolderState::AsBefore, "{case}");
+                        }
+                    }
+                    (folder.fault, folder.is_gone) = (None, false);
+                    folder.cancel = CancellationToken::new();
+                    let before = folder.holds(FILE).or(folder.holds(&old_name(FILE)));
+                    let before = before.map(<[u8]>::to_vec);
+                    let (result, kept) = put(&mut folder).await;
+                    result.unwrap();
+                    assert_eq!(kept, before, "{case}");
+                    assert_eq!(folder.files.len(), 1, "{case}: something was left behind");
+                    assert_eq!(folder.holds(FILE), Some(NEW), "{case}");
+                }
+            }
+        }
+    }
+    assert!(broken > 80, "{broken} uploads broke");
+}
+
+#[tokio::test]
+async fn nothing_is_written_when_the_old_file_cannot_be_kept() {
+    let mut folder = folder(true, Some(OLD));
+    let cancel = CancellationToken::new();
+    let put = Put { folder: &mut folder, file: FILE, new: NEW, tell: &mut |_| {}, cancel: &cancel };
+    let error = put.run(&mut |_| Err(KeptError::Changed { path: "old".into() })).await.unwrap_err();
+    assert!(matches!(error.reason, UploadReason::Keep(_)), "{error}");
+    assert_eq!((folder.asked, folder.holds(FILE)), (1, Some(OLD)));
+}
+
+#[tokio::test]
+async fn progress_goes_through_all_steps_in_order() {
+    let mut folder = folder(false, Some(OLD));
+    let cancel = CancellationToken::new();
+    let mut told = Vec::new();
+    let mut tell = |progress| told.push(progress);
+    let put = Put { folder: &mut folder, file: FILE, new: NEW, tell: &mut tell, cancel: &cancel };
+    put.run(&mut |_| Ok(())).await.unwrap();
+    assert!(told.is_sorted_by_key(|progress: &Progress| progress.step), "{told:?}");
+    let written = told.iter().filter(|progress| progress.step == UploadStep::Write);
+    let written: Vec<_> = written.map(|progress| progress.done_bytes).collect();
+    assert_eq!(written, [0, NEW.len() as u64 / 2, NEW.len() as u64]);
+    let mut steps: Vec<_> = told.iter().map(|progress| progress.step).collect();
+    steps.dedup();
+    assert_eq!(steps.len(), 6);
+}
