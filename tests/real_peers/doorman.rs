@@ -1,0 +1,66 @@
+//! Takes connections on loopback and hands each to a server process of its own,
+//! so that no server has to be waited for.
+
+use std::{
+    net::{SocketAddr, TcpListener, TcpStream},
+    os::fd::OwnedFd,
+    process::{Child, Command, Stdio},
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread::{self, JoinHandle},
+};
+
+/// Serves until it is dropped.
+pub(crate) struct Doorman {
+    address: SocketAddr,
+    ends: Arc<AtomicBool>,
+    servers: Arc<Mutex<Vec<Child>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Doorman {
+    /// `server` makes the process of one connection, which is its input and output.
+    pub(crate) fn new(server: impl Fn() -> Command + Send + 'static) -> Self {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap();
+        let ends = Arc::new(AtomicBool::new(false));
+        let servers = Arc::new(Mutex::new(Vec::new()));
+        let (told, running) = (Arc::clone(&ends), Arc::clone(&servers));
+        let serve = move || {
+            for stream in listener.incoming() {
+                if told.load(Ordering::SeqCst) {
+                    break;
+                }
+                let input = OwnedFd::from(stream.unwrap());
+                let output = input.try_clone().unwrap();
+                let mut command = server();
+                command.stdin(Stdio::from(input)).stdout(Stdio::from(output));
+                running.lock().unwrap().push(command.stderr(Stdio::null()).spawn().unwrap());
+            }
+        };
+        let thread = thread::Builder::new().name("doorman".to_owned()).spawn(serve).unwrap();
+        Self { address, ends, servers, thread: Some(thread) }
+    }
+
+    pub(crate) fn address(&self) -> SocketAddr {
+        self.address
+    }
+}
+
+impl Drop for Doorman {
+    fn drop(&mut self) {
+        self.ends.store(true, Ordering::SeqCst);
+        // Wakes the thread; when that fails it has ended already.
+        let _ = TcpStream::connect(self.address);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        for server in self.servers.lock().unwrap().iter_mut() {
+            // Most have ended with their connection.
+            let _ = server.kill();
+            let _ = server.wait();
+        }
+    }
+}
