@@ -130,6 +130,17 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
 }
 
 #[test]
+#[ignore = "needs vsftpd and root"]
+fn an_ftp_file_that_trickles_is_left() {
+    let server = FtpServer::with_options(&vec![b'x'; 1 << 20], false, "local_max_rate=1000\n");
+    let asked = source(FileProtocol::Ftp, &server.user.name, server.address());
+    let file = Duration::from_millis(1500);
+    let error = get(&asked, &trust(&[]), Limits { file, ..LIMITS }).unwrap_err();
+    let FetchError::Interrupted(by) = &error else { panic!("{error}") };
+    assert_eq!(*by, Interruption::TimedOut(file));
+}
+
+#[test]
 #[ignore = "needs sshd and root"]
 fn a_file_comes_over_ssh_where_the_port_says_so() {
     assert_eq!(FileProtocol::of_port(22), FileProtocol::Sftp);

@@ -22,6 +22,11 @@ pub(crate) struct FtpServer {
 impl FtpServer {
     /// With `content` in [`FILE`]; takes log-ins with TLS only when `tls` is set.
     pub(crate) fn new(content: &[u8], tls: bool) -> Self {
+        Self::with_options(content, tls, "")
+    }
+
+    /// With `options` in the server's own words.
+    pub(crate) fn with_options(content: &[u8], tls: bool, options: &str) -> Self {
         let home = open_folder();
         let user = User::new(home.path());
         fs::write(home.path().join(FILE), content).unwrap();
@@ -29,7 +34,8 @@ impl FtpServer {
         let mut lines = "anonymous_enable=NO\nlocal_enable=YES\npam_service_name=vsftpd\n\
                          secure_chroot_dir=/var/run/vsftpd/empty\nseccomp_sandbox=NO\n\
                          xferlog_enable=NO\n"
-            .to_owned();
+            .to_owned()
+            + options;
         if tls {
             let path = home.path().display();
             lines = format!(

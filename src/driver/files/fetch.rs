@@ -63,8 +63,8 @@ impl FileProtocol {
 pub struct Trust {
     /// Keys of SSH hosts.
     pub known_hosts: KnownHosts,
-    /// Certificate authorities of the station's own servers, in DER, beside the
-    /// public ones.
+    /// Certificate authorities of the station's own FTP servers, in DER, beside
+    /// the public ones. The web has the public ones alone.
     pub own_authorities: Vec<CertificateDer<'static>>,
 }
 

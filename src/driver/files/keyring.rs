@@ -85,7 +85,7 @@ impl Keyring for SystemKeyring {
 fn told(error: &Error) -> KeyringError {
     match error {
         Error::PlatformFailure(cause) => KeyringError::Missing(cause.to_string()),
-        Error::NoDefaultStore => KeyringError::Missing("none is known for this system".to_owned()),
+        Error::NoDefaultStore => KeyringError::Missing("none answers".to_owned()),
         Error::NoStorageAccess(cause) => KeyringError::Refused(cause.to_string()),
         Error::BadEncoding(_) | Error::BadDataFormat(..) => {
             KeyringError::Refused("the entry is no text".to_owned())

@@ -39,6 +39,8 @@ fn ask(uri: &Uri, limits: Limits) -> Result<Vec<u8>, FetchError> {
         .http_status_as_error(false)
         .max_redirects(0)
         .max_redirects_will_error(false)
+        // The unit does not have this computer's either.
+        .proxy(None)
         .timeout_connect(Some(limits.connect))
         .timeout_recv_response(Some(limits.request))
         .timeout_global(Some(limits.file))

@@ -85,7 +85,7 @@ pub enum FolderState {
         name: String,
     },
     /// The new file took its place after it had been compared; it was not
-    /// proved there.
+    /// proved there, or another file was found.
     NewUnproved,
 }
 

@@ -32,6 +32,8 @@ struct Memory {
     asked: usize,
     cancel: CancellationToken,
     is_gone: bool,
+    /// The disk turns what is written into something else.
+    corrupts: bool,
 }
 
 impl Memory {
@@ -88,7 +90,8 @@ impl Folder for Memory {
         let (first, _) = bytes.split_at(bytes.len() / 2);
         self.request(|files| files.insert(name.to_owned(), first.to_vec())).await?;
         tell(first.len() as u64);
-        self.request(|files| files.insert(name.to_owned(), bytes.to_vec())).await?;
+        let written = if self.corrupts { bytes.to_ascii_uppercase() } else { bytes.to_vec() };
+        self.request(|files| files.insert(name.to_owned(), written)).await?;
         tell(bytes.len() as u64);
         Ok(())
     }
@@ -199,6 +202,58 @@ async fn nothing_is_written_when_the_old_file_cannot_be_kept() {
     let error = put.run(&mut |_| Err(KeptError::Changed { path: "old".into() })).await.unwrap_err();
     assert!(matches!(error.reason, UploadReason::Keep(_)), "{error}");
     assert_eq!((folder.asked, folder.holds(FILE)), (1, Some(OLD)));
+}
+
+#[tokio::test]
+async fn what_reads_back_as_something_else_never_takes_the_old_file_s_place() {
+    for can_replace in [true, false] {
+        let mut folder = Memory { corrupts: true, ..folder(can_replace, Some(OLD)) };
+        let (result, _) = put(&mut folder).await;
+        let error = result.unwrap_err();
+        assert!(matches!(error.reason, UploadReason::Differs), "{error}");
+        assert_eq!((error.step, error.state), (UploadStep::Compare, FolderState::AsBefore));
+        assert_eq!((folder.holds(FILE), folder.files.len()), (Some(OLD), 1));
+    }
+}
+
+#[tokio::test]
+async fn what_reads_back_as_something_else_in_its_place_is_no_proof() {
+    // Someone else writes the file at the moment it takes its place.
+    struct Crowded(Memory);
+    impl Folder for Crowded {
+        async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+            self.0.read(name, tell).await
+        }
+        async fn write_new(
+            &mut self,
+            name: &str,
+            bytes: &[u8],
+            mode: Option<u32>,
+            tell: Tell<'_>,
+        ) -> Result<(), FolderError> {
+            self.0.write_new(name, bytes, mode, tell).await
+        }
+        async fn remove(&mut self, name: &str) -> Result<(), FolderError> {
+            self.0.remove(name).await
+        }
+        async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+            self.0.rename(from, to).await
+        }
+        fn can_replace(&self) -> bool {
+            true
+        }
+        async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError> {
+            self.0.replace(from, to).await?;
+            self.0.files.insert(to.to_owned(), b"of another console".to_vec());
+            Ok(())
+        }
+    }
+    let mut folder = Crowded(folder(true, Some(OLD)));
+    let cancel = CancellationToken::new();
+    let put = Put { folder: &mut folder, file: FILE, new: NEW, tell: &mut |_| {}, cancel: &cancel };
+    let error = put.run(&mut |_| Ok(())).await.unwrap_err();
+    assert!(matches!(error.reason, UploadReason::Differs), "{error}");
+    assert_eq!((error.step, error.state), (UploadStep::Prove, FolderState::NewUnproved));
 }
 
 #[tokio::test]
