@@ -30,7 +30,7 @@ fn assert_mended(unit: &Unit, new: &TleFile) {
 fn a_cut_in_the_middle_leaves_the_old_file() {
     let (unit, new) = (Unit::new(), elements(2000));
     let error = broken(&unit, &new, Then::Cut);
-    assert!(matches!(error.reason, UploadReason::Folder(FolderError::Lost(_))), "{error}");
+    assert!(matches!(error.reason, UploadReason::Folder(FolderError::Lost)), "{error}");
     assert_eq!(error.step, UploadStep::Write);
     assert!(matches!(error.state, FolderState::Leftover { .. }), "{error}");
     assert_mended(&unit, &new);

@@ -68,13 +68,13 @@ pub enum FolderError {
     #[error("no answer within {} s; check the link and try again", .0.as_secs_f64())]
     TimedOut(Duration),
     /// The connection is gone.
-    #[error("the connection was lost ({0}); check the link and try again")]
-    Lost(String),
+    #[error("the connection was lost; check the link and try again")]
+    Lost,
 }
 
 impl FolderError {
     /// Whether nothing more can be asked on this connection.
     pub(super) fn ends_connection(&self) -> bool {
-        matches!(self, Self::TimedOut(_) | Self::Lost(_))
+        matches!(self, Self::TimedOut(_) | Self::Lost)
     }
 }

@@ -27,7 +27,8 @@ const STATVFS: &str = "statvfs@openssh.com";
 /// An open folder on a unit.
 pub struct SftpFolder {
     sftp: RawSftpSession,
-    ssh: Ssh,
+    /// Carries the above.
+    _ssh: Ssh,
     path: String,
     limits: Limits,
     can_replace: bool,
@@ -38,17 +39,14 @@ pub struct SftpFolder {
 impl SftpFolder {
     pub(super) async fn open(ssh: Ssh, path: &str, limits: Limits) -> Result<Self, String> {
         let told = |error: russh::Error| format!("no file transfer there ({error})");
-        let channel = ssh.handle.channel_open_session().await.map_err(told)?;
+        let channel = ssh.channel_open_session().await.map_err(told)?;
         channel.request_subsystem(true, "sftp").await.map_err(told)?;
         // This one counts whole seconds; ours ends before it.
         let request_timeout_secs = limits.request.as_secs() + 2;
         let config = Config { request_timeout_secs, ..Config::default() };
         let sftp = RawSftpSession::new_with_config(channel.into_stream(), config);
-        let lost = ssh.lost.clone();
-        let version = tokio::select! {
-            version = sftp.init() => version.map_err(|error| format!("no file transfer there ({error})"))?,
-            () = lost.cancelled() => return Err("the host hung up".to_owned()),
-        };
+        let version =
+            sftp.init().await.map_err(|error| format!("no file transfer there ({error})"))?;
         let has = |name| version.extensions.contains_key(name);
         Ok(Self {
             can_replace: has(POSIX_RENAME),
@@ -56,7 +54,7 @@ impl SftpFolder {
             can_tell_space: has(STATVFS),
             path: path.trim_end_matches('/').to_owned(),
             sftp,
-            ssh,
+            _ssh: ssh,
             limits,
         })
     }
@@ -71,12 +69,8 @@ impl SftpFolder {
         &self,
         request: impl Future<Output = Result<T, Error>>,
     ) -> Result<Result<T, Error>, FolderError> {
-        let late = FolderError::TimedOut(self.limits.request);
-        tokio::select! {
-            biased;
-            answer = tokio::time::timeout(self.limits.request, request) => answer.map_err(|_| late),
-            () = self.ssh.lost.cancelled() => Err(FolderError::Lost("the host hung up".to_owned())),
-        }
+        let limit = self.limits.request;
+        tokio::time::timeout(limit, request).await.map_err(|_| FolderError::TimedOut(limit))
     }
 
     /// One request that has to go well.
@@ -222,7 +216,7 @@ impl Folder for SftpFolder {
         match self.ask(self.sftp.extended(POSIX_RENAME, names)).await? {
             Packet::Status(status) if status.status_code == StatusCode::Ok => Ok(()),
             Packet::Status(status) => Err(told(Error::Status(status), self.limits.request)),
-            _ => Err(FolderError::Lost("an answer to another question".to_owned())),
+            _ => Err(FolderError::Lost),
         }
     }
 }
@@ -237,14 +231,14 @@ fn told(error: Error, limit: Duration) -> FolderError {
         Error::Status(status) => match status.status_code {
             StatusCode::NoSuchFile => FolderError::Missing,
             StatusCode::PermissionDenied => FolderError::Denied,
-            StatusCode::NoConnection | StatusCode::ConnectionLost => {
-                FolderError::Lost(status.error_message)
-            }
+            StatusCode::NoConnection | StatusCode::ConnectionLost => FolderError::Lost,
             _ => FolderError::Refused(status.error_message),
         },
         Error::Timeout => FolderError::TimedOut(limit),
         Error::Limited(reason) => FolderError::Refused(reason),
-        Error::IO(reason) | Error::UnexpectedBehavior(reason) => FolderError::Lost(reason),
-        Error::UnexpectedPacket => FolderError::Lost("an answer to another question".to_owned()),
+        Error::IO(_) | Error::UnexpectedBehavior(_) | Error::UnexpectedPacket => {
+            tracing::debug!(%error, "SFTP ended");
+            FolderError::Lost
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::{io, path::Path, sync::Arc};
 
 use russh::{
     Disconnect, Preferred,
-    client::{self, AuthResult, DisconnectReason, Handle},
+    client::{self, AuthResult, Handle},
     keys::{Algorithm, PrivateKey, PrivateKeyWithHashAlg, PublicKeyOrCertificate, load_secret_key},
 };
 use secrecy::{ExposeSecret as _, SecretString};
@@ -16,12 +16,8 @@ use super::{
     SftpFolder, Verdict, limits::within,
 };
 
-/// An SSH connection, logged in.
-pub(super) struct Ssh {
-    pub(super) handle: Handle<Judge>,
-    /// Is set as soon as the other side is gone.
-    pub(super) lost: CancellationToken,
-}
+/// An SSH connection, logged in. Dropping it ends it.
+pub(super) type Ssh = Handle<Judge>;
 
 /// Opens `folder` on `peer` as `login`. `known` decides about the host's key
 /// before anything secret is sent; a key that is not known yet comes back as an
@@ -57,8 +53,7 @@ async fn connect(
     };
     let config = config(&known.algorithms(&peer.host, peer.port)?);
     let stream = dial(peer, limits, cancel).await?;
-    let lost = CancellationToken::new();
-    let judge = Judge { known: known.clone(), peer: peer.clone(), lost: lost.clone() };
+    let judge = Judge { known: known.clone(), peer: peer.clone() };
     let shaking = client::connect_stream(Arc::new(config), stream, judge);
     let mut handle = within(limits.log_in, cancel, shaking)
         .await
@@ -72,7 +67,7 @@ async fn connect(
         .map_err(|by| interrupted(ConnectStep::LogIn, by, peer))?
         .map_err(|error| failed(ConnectStep::LogIn, &error, peer))?;
     match result {
-        AuthResult::Success => Ok(Ssh { handle, lost }),
+        AuthResult::Success => Ok(handle),
         AuthResult::Failure { remaining_methods, .. } => {
             // It may be gone already; then this says nothing new.
             let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
@@ -165,7 +160,6 @@ fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<Private
 pub(super) struct Judge {
     known: KnownHosts,
     peer: Peer,
-    lost: CancellationToken,
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -192,14 +186,5 @@ impl client::Handler for Judge {
             Verdict::Changed { pinned } => ConnectError::HostKeyChanged { pinned, offered },
             Verdict::Revoked => ConnectError::HostKeyRevoked(offered),
         }))
-    }
-
-    async fn disconnected(
-        &mut self,
-        reason: DisconnectReason<Self::Error>,
-    ) -> Result<(), Self::Error> {
-        tracing::debug!(peer = %self.peer, ?reason, "SSH connection ended");
-        self.lost.cancel();
-        Ok(())
     }
 }

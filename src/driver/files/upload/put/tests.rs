@@ -41,17 +41,16 @@ impl Memory {
         &mut self,
         carry_out: impl FnOnce(&mut BTreeMap<String, Vec<u8>>) -> T,
     ) -> Result<T, FolderError> {
-        let lost = || FolderError::Lost("cut".to_owned());
         self.asked += 1;
         if self.is_gone {
-            return Err(lost());
+            return Err(FolderError::Lost);
         }
         match self.fault.filter(|(at, _)| *at == self.asked) {
             None => Ok(carry_out(&mut self.files)),
             Some((_, Fault::Refused)) => Err(FolderError::Denied),
             Some((_, Fault::LostBefore)) => {
                 self.is_gone = true;
-                Err(lost())
+                Err(FolderError::Lost)
             }
             Some((_, Fault::LostAfter)) => {
                 self.is_gone = true;
