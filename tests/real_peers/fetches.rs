@@ -2,6 +2,7 @@
 
 use std::{
     net::{SocketAddr, TcpListener},
+    sync::Mutex,
     time::Duration,
 };
 
@@ -168,4 +169,37 @@ fn a_file_comes_over_ssh_where_the_port_says_so() {
 fn connect_error(error: &FetchError) -> &ConnectError {
     let FetchError::Connect(error) = error else { panic!("{error}") };
     error
+}
+
+/// What the libraries log.
+static LOGGED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+struct Logger;
+
+impl log::Log for Logger {
+    fn enabled(&self, _: &log::Metadata<'_>) -> bool {
+        true
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        LOGGED.lock().unwrap().push(record.args().to_string());
+    }
+
+    fn flush(&self) {}
+}
+
+#[test]
+#[ignore = "needs sshd, vsftpd and root"]
+fn no_library_logs_a_password() {
+    log::set_logger(&Logger).unwrap();
+    log::set_max_level(log::LevelFilter::Trace);
+    let server = FtpServer::new(b"x", false);
+    let asked = source(FileProtocol::Ftp, &server.user.name, server.address());
+    get(&asked, &trust(&[]), LIMITS).unwrap();
+    let unit = Unit::new();
+    unit.upload(&elements(2)).unwrap();
+    log::set_max_level(log::LevelFilter::Off);
+    let logged = LOGGED.lock().unwrap().join("\n");
+    assert!(logged.contains("Login OK") && logged.contains("userauth_success"), "{logged}");
+    assert!(!logged.contains(PASSWORD), "{logged}");
 }

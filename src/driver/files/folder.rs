@@ -49,8 +49,8 @@ pub enum FolderError {
         "the user has no right to do this in the folder; log in as another user, or let the unit's keeper allow it"
     )]
     Denied,
-    /// The folder is not there.
-    #[error("the folder does not exist; check its path")]
+    /// The folder, or a file in it that has to be there, is not.
+    #[error("the folder or file is not there; check the path of the folder")]
     Missing,
     /// The disk there cannot take the file.
     #[error("its disk has {free_bytes} bytes left; remove files there that are not needed")]

@@ -1,8 +1,7 @@
 //! One file from an FTP server, with or without TLS.
 //!
 //! The FTP library writes whole commands, a password too, to the `log` facade at
-//! its finest level. This program reads `tracing` only and installs no `log`
-//! output; that must stay so.
+//! its finest level. `Cargo.toml` compiles that level out.
 
 use std::sync::Arc;
 
