@@ -111,14 +111,12 @@ pub enum ConnectError {
         path: PathBuf,
     },
     /// Wrong password or key, or a user that may not log in.
-    #[error(
-        "log-in refused for user {user}; check user name and password or key ({accepted}): {peer}"
-    )]
+    #[error("log-in refused for user {user}; check user name and password or key; {hint}: {peer}")]
     LoginRefused {
         /// Who asked.
         user: String,
-        /// What the host would take, in its own words.
-        accepted: String,
+        /// What the host would take, or what else may be wrong.
+        hint: String,
         /// Who refused.
         peer: Peer,
     },

@@ -12,8 +12,8 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    ConnectError, ConnectStep, KeyFileProblem, KnownHosts, Limits, Login, OfferedKey, Peer, Proof,
-    SftpFolder, Verdict, limits::within,
+    ConnectError, ConnectStep, Interruption, KeyFileProblem, KnownHosts, Limits, Login, OfferedKey,
+    Peer, Proof, SftpFolder, Verdict, limits::within,
 };
 
 /// An SSH connection, logged in. Dropping it ends it.
@@ -74,7 +74,7 @@ async fn connect(
             let methods: Vec<&str> = remaining_methods.iter().map(Into::into).collect();
             Err(ConnectError::LoginRefused {
                 user: login.user.clone(),
-                accepted: format!("accepted: {}", methods.join(", ")),
+                hint: format!("the host accepts: {}", methods.join(", ")),
                 peer: peer.clone(),
             })
         }
@@ -97,7 +97,7 @@ pub(super) async fn dial(
     Ok(stream)
 }
 
-pub(super) fn interrupted(step: ConnectStep, by: super::Interruption, peer: &Peer) -> ConnectError {
+pub(super) fn interrupted(step: ConnectStep, by: Interruption, peer: &Peer) -> ConnectError {
     ConnectError::Interrupted { step, by, peer: peer.clone() }
 }
 

@@ -52,7 +52,7 @@ pub(super) async fn fetch(
         .map_err(|error| match error {
             FtpError::UnexpectedResponse(_) => ConnectError::LoginRefused {
                 user: user.to_owned(),
-                accepted: "or the server wants another protocol, such as FTP with TLS".to_owned(),
+                hint: "the server may want another protocol, such as FTP with TLS".to_owned(),
                 peer: peer.clone(),
             },
             error => failed(step, &error, peer),
