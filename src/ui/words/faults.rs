@@ -6,11 +6,11 @@ use crate::protocol::satrak::FaultKind;
 pub fn fault_name(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "Internal link",
-        FaultKind::TleOutdated => "Elements up to date",
+        FaultKind::TleOutdated => "Age of the elements",
         FaultKind::TleMissing => "Element file",
         FaultKind::SatelliteMissing => "Satellite in the file",
         FaultKind::WebTle => "Elements from the web",
-        FaultKind::TrackingStopped => "Tracking runs on",
+        FaultKind::TrackingStopped => "Tracking",
         FaultKind::Setup => "Setup",
         FaultKind::XMotor => "X motor",
         FaultKind::YMotor => "Y motor",
