@@ -190,11 +190,16 @@ impl<N: Number> Vector<N> {
     }
 }
 
+/// The number of one lane.
+pub(super) fn lane_of(numbers: &Lanes, lane: usize) -> Option<f64> {
+    numbers.as_array().get(lane).copied()
+}
+
 impl Vector<Lanes> {
     /// The vector of one lane.
     pub(super) fn lane(&self, lane: usize) -> Option<Vector<f64>> {
-        let of = |number: &Lanes| number.as_array().get(lane).copied();
-        Some(Vector { x: of(&self.x)?, y: of(&self.y)?, z: of(&self.z)? })
+        let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| lane_of(numbers, lane));
+        Some(Vector { x: x?, y: y?, z: z? })
     }
 }
 

@@ -12,7 +12,10 @@ use std::f64::consts::TAU;
 use super::circular::Circular;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{lanes::Number, propagator::expand},
+    orbit::{
+        lanes::{Number, series},
+        propagator::expand,
+    },
 };
 
 /// The slow motion around one instant, linear but for the drag.
@@ -35,8 +38,8 @@ impl<'a> Piece<'a> {
         let minutes = circular.minutes(middle_s);
         let [node, node_rate, _] = expand(&secular.node, minutes);
         let [argument, argument_rate, half_acceleration] = expand(&secular.argument, minutes);
-        let (sin_perigee, cos_perigee) = expand(&secular.perigee, minutes)[0].sin_cos();
-        let eccentricity = expand(&secular.eccentricity, minutes)[0];
+        let (sin_perigee, cos_perigee) = series(&secular.perigee, minutes).sin_cos();
+        let eccentricity = series(&secular.eccentricity, minutes);
         let window = circular.track.window;
         Self {
             circular,

@@ -17,7 +17,7 @@ use super::window::Window;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
     orbit::{
-        lanes::{Lanes, Number, Vector},
+        lanes::{Lanes, Number, Vector, lane_of},
         propagator::WGS72_RADIUS_KM,
     },
 };
@@ -223,7 +223,7 @@ impl LocalSeries<Lanes> {
     /// The series of one lane.
     pub(super) fn lane(&self, lane: usize) -> Option<LocalSeries> {
         Some(LocalSeries {
-            at_s: *self.at_s.as_array().get(lane)?,
+            at_s: lane_of(&self.at_s, lane)?,
             state: EarthFixed {
                 position_km: self.state.position_km.lane(lane)?,
                 velocity_km_s: self.state.velocity_km_s.lane(lane)?,
@@ -239,8 +239,8 @@ impl LocalSeries<Lanes> {
 impl Place<Lanes> {
     /// The place of one lane.
     pub(super) fn lane(&self, lane: usize) -> Option<Place> {
-        let of = |number: &Lanes| number.as_array().get(lane).copied();
         let Height { sine, rate, curve } = &self.height;
+        let of = |numbers| lane_of(numbers, lane);
         Some(Place {
             at_s: of(&self.at_s)?,
             enu_km: self.enu_km.lane(lane)?,

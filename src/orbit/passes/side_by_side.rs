@@ -13,7 +13,7 @@ use super::{
     window::Sighting,
 };
 use crate::orbit::{
-    lanes::{LANES, Lanes},
+    lanes::{LANES, Lanes, lane_of},
     propagator::Secular,
 };
 
@@ -103,7 +103,7 @@ impl<'a> SideBySide<'a> {
     /// AOS or LOS of one lane, where it has settled.
     fn edge(&self, edges: &Edges, crest: &Place, lane: usize) -> Option<(Place, Sighting)> {
         let place = edges.places.lane(lane)?;
-        let tau = *edges.tau.as_array().get(lane)?;
+        let tau = lane_of(&edges.tau, lane)?;
         let is_settled =
             self.is_beside(crest, &place, edges.side) && self.track.is_timed(tau, &place);
         is_settled.then_some((place, edges.sightings.lane(lane)?))
@@ -162,7 +162,7 @@ struct Edge {
 
 impl Edges {
     fn lane(&self, lane: usize, settled: Option<Place>) -> Option<Edge> {
-        let guess_tau = *self.guess_tau.as_array().get(lane)?;
+        let guess_tau = lane_of(&self.guess_tau, lane)?;
         Some(Edge { side: self.side, guess_tau, near: self.places.lane(lane)?, settled })
     }
 }

@@ -12,7 +12,7 @@ use jiff::Timestamp;
 use super::{PassPoint, PassSearch, local_series::Place};
 use crate::{
     astro::{Angle, AzEl, frames, time},
-    orbit::lanes::{Lanes, Number, Vector},
+    orbit::lanes::{Lanes, Number, Vector, lane_of},
 };
 
 /// A site and a span of time, made ready for computing.
@@ -131,7 +131,7 @@ impl<N: Number> Sighting<N> {
 impl Sighting<Lanes> {
     /// The sighting of one lane.
     pub(super) fn lane(&self, lane: usize) -> Option<Sighting> {
-        let of = |number: &Lanes| number.as_array().get(lane).copied();
+        let of = |numbers| lane_of(numbers, lane);
         Some(Sighting {
             at_s: of(&self.at_s)?,
             azimuth: of(&self.azimuth)?,

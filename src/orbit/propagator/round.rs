@@ -15,7 +15,7 @@ use super::secular::Secular;
 use crate::orbit::lanes::{Number, Vector, series};
 
 /// Rounder orbits than this can be worked here.
-pub(in crate::orbit) const MOST_ECCENTRICITY: f64 = 0.05;
+pub(super) const MOST_ECCENTRICITY: f64 = 0.05;
 /// The theory does without rounder orbits than this.
 const LEAST_ECCENTRICITY: f64 = 1e-6;
 

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use sgp4::WGS72;
 
 use super::round::{self, DragWave, MOST_ECCENTRICITY, Motion, Waves};
-use crate::orbit::lanes::Number;
+use crate::orbit::lanes::{Number, series};
 
 /// Orbits with this period in minutes or a longer one follow other rules.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
@@ -65,9 +65,8 @@ impl Secular {
     /// Semi-major axis in Earth radii, and eccentricity, so many minutes after
     /// the epoch.
     pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
-        let [root_axis, ..] = expand(&self.root_axis, minutes);
-        let [eccentricity, ..] = expand(&self.eccentricity, minutes);
-        (root_axis * root_axis, eccentricity)
+        let root_axis = series(&self.root_axis, minutes);
+        (root_axis * root_axis, series(&self.eccentricity, minutes))
     }
 
     /// The eccentricity swings around its polynomial by this much, once a
