@@ -6,6 +6,7 @@
 //! only the driver's gate holds one; everyone else sees its [`Device`] side.
 
 pub mod satrak;
+pub mod settings;
 mod state;
 
 use std::time::{Duration, Instant};
@@ -15,6 +16,7 @@ use jiff::Timestamp;
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Program, Traffic};
 
 use crate::astro::{Angle, AzEl};
+use settings::{Change, Group};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -148,7 +150,7 @@ pub trait Device: Send {
     fn link_up(&mut self, now: Moment);
 
     /// The link is gone: nothing that was asked will be answered.
-    fn link_down(&mut self);
+    fn link_down(&mut self, now: Moment);
 
     /// Takes bytes that came in. Any bytes are harmless.
     fn receive(&mut self, bytes: &[u8], now: Moment);
@@ -168,6 +170,17 @@ pub trait Device: Send {
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
     fn prepare(&mut self, target: TrackTarget);
+
+    /// What the device remembers and can be told: the same for its whole life.
+    fn groups(&self) -> &'static [&'static Group];
+
+    /// Reads the group with this key anew. It is then among
+    /// [`AntennaState::held`].
+    fn read_group(&mut self, group: &str);
+
+    /// Puts new values of a group on the device and reads them back. How far it
+    /// is, and what came of it, stands in [`AntennaState::held`].
+    fn settle(&mut self, change: Change, now: Moment);
 
     /// The device no longer starts to follow by itself.
     fn disable_auto(&mut self);

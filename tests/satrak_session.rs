@@ -22,6 +22,8 @@ mod satrak_session {
     mod overtaken;
     mod position;
     mod reconnect;
+    mod settings;
+    mod settings_refused;
     mod stop;
     mod track;
 }

@@ -1,9 +1,12 @@
 //! Behaviour of a Satrak: one request outstanding, matched by its word, halts
 //! past everything else.
 
+mod changes;
 mod exchange;
 mod prepare;
 mod schedule;
+mod settings;
+mod settle;
 mod state;
 
 use std::{
@@ -11,11 +14,13 @@ use std::{
     time::{Duration, Instant},
 };
 
+pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 pub use state::{SatrakState, UnitClock};
 
 use super::{
     AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
     TrackTarget,
+    settings::{Change, Group, SettleError, SettleStep},
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -24,9 +29,14 @@ use crate::{
 use exchange::{Outstanding, Purpose, unit_motion};
 use prepare::Preparation;
 use schedule::Schedule;
+use settings::Plan;
+use settle::Settling;
 
 /// No answer within this is none.
 const REPLY: Duration = Duration::from_secs(2);
+/// No answer to a setting within this is none, where the unit has to fetch or
+/// read a file for it.
+const SLOW_REPLY: Duration = Duration::from_secs(15);
 /// After a question had to be repeated, the answers to both may come. Nothing
 /// is asked until the surplus one must have come, or every later answer would
 /// be taken for the one after it.
@@ -49,6 +59,14 @@ pub struct Satrak {
     motions: VecDeque<Motion>,
     calm: VecDeque<Halt>,
     preparation: Option<Preparation>,
+    /// Questions that the operator wants answered.
+    wanted: VecDeque<Query>,
+    /// The change that is under way.
+    settling: Option<Settling>,
+    /// Changes that wait for it to be over.
+    changes: VecDeque<Change>,
+    /// A setting that takes the unit long; other questions go on meanwhile.
+    slow: Option<Outstanding>,
     happenings: VecDeque<Happening>,
 }
 
@@ -70,6 +88,10 @@ impl Satrak {
             motions: VecDeque::new(),
             calm: VecDeque::new(),
             preparation: None,
+            wanted: VecDeque::new(),
+            settling: None,
+            changes: VecDeque::new(),
+            slow: None,
             happenings: VecDeque::new(),
         }
     }
@@ -78,6 +100,10 @@ impl Satrak {
         self.state.measured.is_some_and(|measured| measured.moving())
             || self.state.program.is_some_and(|program| program.enabled)
             || !self.halts.is_empty()
+    }
+
+    fn motion_waits(&self) -> bool {
+        !self.motions.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
     /// The tracking program is on, or may be: nothing was read since it was
@@ -112,8 +138,17 @@ impl Satrak {
                 Err(reason) => self.fail_preparation(reason),
             }
         }
-        let query = self.schedule.as_ref()?.next(now.steady)?;
-        Some((Request::Query(query), Purpose::Poll(query)))
+        let due = self.schedule.as_ref()?.next(now.steady);
+        // Whatever else there is to ask, the position must not grow old.
+        if due != Some(Query::Status) {
+            if let Some(request) = self.settling_request(now) {
+                return Some((request, Purpose::Settle));
+            }
+            if let Some(query) = self.wanted.pop_front() {
+                return Some((Request::Query(query), Purpose::Poll(query)));
+            }
+        }
+        due.map(|query| (Request::Query(query), Purpose::Poll(query)))
     }
 
     fn fail_preparation(&mut self, reason: PrepareError) {
@@ -136,13 +171,13 @@ impl Device for Satrak {
     }
 
     fn link_up(&mut self, now: Moment) {
-        self.link_down();
+        self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
         self.schedule = Some(Schedule::new(now.steady));
     }
 
-    fn link_down(&mut self) {
+    fn link_down(&mut self, now: Moment) {
         self.decoder = Decoder::new();
         self.schedule = None;
         self.outstanding = None;
@@ -151,6 +186,9 @@ impl Device for Satrak {
         self.motions.clear();
         self.calm.clear();
         self.fail_preparation(PrepareError::Unanswered);
+        self.wanted.clear();
+        self.slow = None;
+        self.abandon_changes(now);
     }
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
@@ -166,6 +204,8 @@ impl Device for Satrak {
         if let Some(again) = self.expire(now) {
             return Some(again);
         }
+        self.expire_slow(now);
+        self.begin_change(now);
         if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
@@ -183,10 +223,18 @@ impl Device for Satrak {
         if let Some(until) = self.drain_until {
             return until;
         }
+        let slow = self.slow.as_ref().map(Outstanding::deadline);
         let far = now.steady + Duration::from_hours(1);
         let Some(schedule) = &self.schedule else { return far };
-        let waits = !self.motions.is_empty() || !self.calm.is_empty() || self.preparation.is_some();
-        if waits { now.steady } else { schedule.due().unwrap_or(far) }
+        let waits = !self.motions.is_empty()
+            || !self.calm.is_empty()
+            || !self.wanted.is_empty()
+            || self.preparation.is_some();
+        if waits {
+            return now.steady;
+        }
+        let due = schedule.due().into_iter().chain(slow).chain(self.settling_due(now));
+        due.min().unwrap_or(far)
     }
 
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
@@ -214,12 +262,33 @@ impl Device for Satrak {
         self.preparation = Some(Preparation::new(target));
     }
 
+    fn groups(&self) -> &'static [&'static Group] {
+        GROUPS
+    }
+
+    fn read_group(&mut self, group: &str) {
+        if let Some(Plan { query, .. }) = Plan::of(group)
+            && self.schedule.is_some()
+            && !self.wanted.contains(&query)
+        {
+            self.wanted.push_back(query);
+        }
+    }
+
+    fn settle(&mut self, change: Change, now: Moment) {
+        if self.schedule.is_none() {
+            return self.settled(change, Err(SettleError::NoLink), now);
+        }
+        self.state.group(change.group).step = Some(SettleStep::Waiting);
+        self.changes.push_back(change);
+    }
+
     fn disable_auto(&mut self) {
         self.calm.push_back(Halt::AutoTrackOff);
     }
 
     fn motion_under_way(&self) -> bool {
-        !self.motions.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
+        self.motion_waits()
     }
 
     fn state(&self) -> &AntennaState {

@@ -1,10 +1,13 @@
 //! The state that all antennas share, as last read from the device.
 
-use std::time::Instant;
+use std::{sync::Arc, time::Instant};
 
 use jiff::Timestamp;
 
-use super::satrak::SatrakState;
+use super::{
+    satrak::SatrakState,
+    settings::{GroupState, Held},
+};
 use crate::astro::AzEl;
 
 /// What is known of an antenna. `None` means not read yet, never a default.
@@ -21,8 +24,17 @@ pub struct AntennaState {
     pub link_since: Option<Instant>,
     /// What the name on the box adds to the above.
     pub satrak: SatrakState,
+    /// Its settings, as far as they were read, and what came of changes.
+    pub held: Arc<Held>,
     /// What went over the link.
     pub traffic: Traffic,
+}
+
+impl AntennaState {
+    /// What is known of a group of settings.
+    pub(super) fn group(&mut self, key: &'static str) -> &mut GroupState {
+        Arc::make_mut(&mut self.held).entry(key).or_default()
+    }
 }
 
 /// A measured position.

@@ -1,11 +1,11 @@
 //! One request and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use super::{DRAIN, REPLY, Satrak, prepare::Outcome};
+use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome};
 use crate::{
     astro::Angle,
-    controller::{Happening, Moment, Motion, PrepareError},
+    controller::{Happening, Moment, Motion, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
         ValueError, Verb, Word,
@@ -19,6 +19,8 @@ pub(super) enum Purpose {
     Poll(Query),
     /// A step of putting a target on the unit.
     Prepare,
+    /// A step of changing a group of settings.
+    Settle,
     /// Metal is to move.
     Motion(Motion),
     /// A program is to be switched off, without hurry.
@@ -36,24 +38,38 @@ pub(super) struct Outstanding {
     /// When the question is repeated, its answer may be to the first one.
     first_sent: Moment,
     again: bool,
+    /// How long its answer may take.
+    patience: Duration,
 }
 
 impl Outstanding {
     pub(super) fn new(request: Request, purpose: Purpose, sent: Moment) -> Self {
-        Self { request, purpose, sent, first_sent: sent, again: false }
+        Self { request, purpose, sent, first_sent: sent, again: false, patience: REPLY }
     }
 
     pub(super) fn deadline(&self) -> Instant {
-        self.sent.steady + REPLY
+        self.sent.steady + self.patience
+    }
+
+    /// A setting for which the unit may fetch or read a file before it answers.
+    fn is_slow(&self) -> bool {
+        let word = self.request.word();
+        self.request.verb() == Verb::Set
+            && self.patience == REPLY
+            && matches!(
+                word,
+                Word::Satellite | Word::SatelliteHttp | Word::SatelliteFtp | Word::LoadImage
+            )
+            && self.purpose == Purpose::Settle
     }
 
     pub(super) fn is_motion(&self) -> bool {
         matches!(self.purpose, Purpose::Motion(_))
     }
 
-    /// A halt or a newer wish came after it.
+    /// A halt or a newer wish came after it. Settings move nothing.
     pub(super) fn disown(&mut self) {
-        if !matches!(self.purpose, Purpose::Poll(_)) {
+        if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Settle) {
             self.purpose = Purpose::Disowned;
         }
     }
@@ -84,6 +100,10 @@ impl Satrak {
             if let Some(outstanding) = self.outstanding.take() {
                 self.take_reply(&outstanding, Reply::parse(&frame), now);
             }
+        } else if let Some(slow) =
+            self.slow.take_if(|slow| command.is_some_and(|it| slow.answers(it)))
+        {
+            self.take_reply(&slow, Reply::parse(&frame), now);
         } else if let Some(halt) = self.answered_halt(command) {
             self.take_halt_reply(halt, &frame, now);
         } else {
@@ -156,6 +176,10 @@ impl Satrak {
                 self.advance_preparation(&reply);
                 self.state.take_satrak(reply, outstanding.first_sent, now);
             }
+            (reply, Purpose::Settle) => {
+                self.state.take_satrak(reply.clone(), outstanding.first_sent, now);
+                self.change_answered(&reply, now);
+            }
             (_, Purpose::Motion(motion)) => {
                 self.happenings.push_back(Happening::Accepted(motion));
                 self.look_soon(now);
@@ -176,7 +200,8 @@ impl Satrak {
     }
 
     /// The unit does not know the question, or does not answer it.
-    fn poll_failed(&mut self, query: Query, now: Moment) {
+    fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
+        self.state.take_read_failure(query, failure);
         if query == Query::Faults && self.state.motion_lock.is_none() {
             // A unit that cannot name its faults still says that there are some.
             self.state.motion_lock = Some(self.state.satrak.fault_flag);
@@ -202,8 +227,9 @@ impl Satrak {
 
     fn take_refusal(&mut self, code: String, purpose: Purpose, now: Moment) {
         match purpose {
-            Purpose::Poll(query) => self.poll_failed(query, now),
+            Purpose::Poll(query) => self.poll_failed(query, ReadFailure::Refused(code), now),
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
+            Purpose::Settle => self.change_refused(code, now),
             Purpose::Motion(motion) => {
                 self.happenings.push_back(Happening::Refused(motion, code));
                 self.look_soon(now);
@@ -216,6 +242,14 @@ impl Satrak {
         }
     }
 
+    /// A setting that took the unit too long.
+    pub(super) fn expire_slow(&mut self, now: Moment) {
+        if let Some(late) = self.slow.take_if(|slow| now.steady >= slow.deadline()) {
+            self.state.traffic.unanswered += 1;
+            self.give_up(late.purpose, now);
+        }
+    }
+
     /// A question is repeated once; anything else never: the state tells
     /// whether it came through.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
@@ -223,6 +257,11 @@ impl Satrak {
             return None;
         }
         let mut late = self.outstanding.take()?;
+        if late.is_slow() {
+            late.patience = SLOW_REPLY;
+            self.slow = Some(late);
+            return None;
+        }
         self.state.traffic.unanswered += 1;
         if late.request.verb() == Verb::Query && !late.again {
             late.again = true;
@@ -237,8 +276,9 @@ impl Satrak {
 
     fn give_up(&mut self, purpose: Purpose, now: Moment) {
         match purpose {
-            Purpose::Poll(query) => self.poll_failed(query, now),
+            Purpose::Poll(query) => self.poll_failed(query, ReadFailure::Unanswered, now),
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
+            Purpose::Settle => self.change_unanswered(now),
             Purpose::Motion(motion) => {
                 self.happenings.push_back(Happening::Unanswered(motion));
                 self.look_soon(now);

@@ -2,12 +2,16 @@
 
 use jiff::Timestamp;
 
+use super::settings::{group_of, values_of};
 use crate::{
     astro::{AzEl, time::seconds_between},
-    controller::{AntennaState, Axis, AxisMotion, Measured, Moment, Phase, Program},
+    controller::{
+        AntennaState, Axis, AxisMotion, Measured, Moment, Phase, Program,
+        settings::{HeldGroup, ReadFailure},
+    },
     protocol::satrak::{
-        AxisMotion as UnitMotion, Faults, GpsData, Reply, Satellite, Settings, StartStopTime,
-        Status, TrackState, Version,
+        AxisMotion as UnitMotion, Faults, GpsData, Query, Reply, Satellite, Settings,
+        StartStopTime, Status, TrackState, Version,
     },
 };
 
@@ -54,6 +58,14 @@ impl AntennaState {
     pub(super) fn take_satrak(&mut self, reply: Reply, asked: Moment, now: Moment) {
         let way = now.steady.saturating_duration_since(asked.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
+        if let Reply::Clock(clock) = &reply {
+            self.satrak.clock = Some(UnitClock {
+                ahead_s: seconds_between(measured_at, clock.time),
+                is_set: clock.is_set(),
+                read_at: now.utc,
+            });
+        }
+        self.take_values(&reply, now);
         let unit = &mut self.satrak;
         match reply {
             Reply::Version(version) => unit.version = Some(version),
@@ -62,19 +74,26 @@ impl AntennaState {
                 unit.faults = Some((faults, now.utc));
                 self.motion_lock = Some(faults.lock_motion());
             }
-            Reply::Clock(clock) => {
-                unit.clock = Some(UnitClock {
-                    ahead_s: seconds_between(measured_at, clock.time),
-                    is_set: clock.is_set(),
-                    read_at: now.utc,
-                });
-            }
             Reply::StartStopTime(window) => unit.window = Some(window),
             Reply::Settings(settings) => unit.settings = Some(settings),
             Reply::GpsData(gps) => unit.gps = Some(gps),
             Reply::Satellite(satellite) => unit.satellite = Some(satellite),
-            // Not asked for here.
+            // Only among the settings.
             _ => {}
+        }
+    }
+
+    fn take_values(&mut self, reply: &Reply, now: Moment) {
+        let Some((group, values)) = values_of(reply, self.satrak.clock.as_ref()) else { return };
+        let state = self.group(group.key);
+        state.held = Some(HeldGroup { values, read_at: now.utc });
+        state.failure = None;
+    }
+
+    /// A question was refused or not answered; what was read before stays.
+    pub(super) fn take_read_failure(&mut self, query: Query, failure: ReadFailure) {
+        if let Some(group) = group_of(query) {
+            self.group(group.key).failure = Some(failure);
         }
     }
 

@@ -10,7 +10,10 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::Angle,
-    controller::{Axis, AxisMotion, Capabilities, Extent, Happening, Measured, TrackTarget},
+    controller::{
+        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, TrackTarget,
+        settings::{Change, Group},
+    },
     station::Antenna,
 };
 
@@ -25,7 +28,7 @@ impl Device for Metal {
         Capabilities { axes: ["X", "Y"] }
     }
     fn link_up(&mut self, _: Moment) {}
-    fn link_down(&mut self) {}
+    fn link_down(&mut self, _: Moment) {}
     fn receive(&mut self, _: &[u8], _: Moment) {}
     fn poll(&mut self, _: Moment) -> Option<Vec<u8>> {
         None
@@ -40,6 +43,14 @@ impl Device for Metal {
     fn motion_under_way(&self) -> bool {
         false
     }
+    fn groups(&self) -> &'static [&'static Group] {
+        &[]
+    }
+
+    fn read_group(&mut self, _: &str) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn disable_auto(&mut self) {}
     fn state(&self) -> &AntennaState {
         &self.state

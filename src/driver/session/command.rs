@@ -3,7 +3,7 @@
 use super::{Event, Session};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, TrackTarget},
+    controller::{Moment, Motion, TrackTarget, settings::Change},
     driver::{Intent, Refusal},
 };
 
@@ -42,6 +42,11 @@ pub enum Command {
     Park,
     /// The device may start to follow by itself.
     AutoTrack(bool),
+    /// Read the group of settings with this key anew.
+    ReadGroup(&'static str),
+    /// Put new values of a group of settings on the device. The outcome stands
+    /// in the snapshot.
+    Settle(Change),
 }
 
 /// What is done as soon as the antenna stands.
@@ -55,8 +60,9 @@ pub(super) enum Waiting {
 
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
-        // A hold is renewed many times a second; not worth a line each.
-        if !matches!(command, Command::Jog { .. }) {
+        // A hold is renewed many times a second; not worth a line each. Settings
+        // are logged where they are made, without their values.
+        if !matches!(command, Command::Jog { .. } | Command::Settle(_)) {
             tracing::info!(antenna = self.name, ?command, "command");
         }
         match command {
@@ -81,6 +87,8 @@ impl Session {
                 self.start(Motion::EnableAuto, now);
             }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
+            Command::ReadGroup(group) => self.gate.device().read_group(group),
+            Command::Settle(change) => self.gate.device().settle(change, now),
         }
     }
 
@@ -165,8 +173,11 @@ impl Session {
     }
 
     /// A command while there is no link.
-    pub(super) fn turn_down(&mut self, command: &Command) {
+    pub(super) fn turn_down(&mut self, command: Command, now: Moment) {
         match command {
+            Command::Settle(change) => self.gate.device().settle(change, now),
+            // It is read when the link is back and somebody looks.
+            Command::ReadGroup(_) => {}
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { .. } | Command::EndJog => self.jog = None,
             Command::Standby => {

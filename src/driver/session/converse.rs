@@ -75,7 +75,8 @@ impl Session {
             // A link on which nothing was ever said is no new one.
             self.told_lost = false;
         }
-        self.gate.device().link_down();
+        let now = self.now();
+        self.gate.device().link_down(now);
         end
     }
 
@@ -147,7 +148,7 @@ impl Session {
         match turn {
             Turn::Over => return false,
             Turn::Stop => self.halt_and_forget(now),
-            Turn::Command(command) => self.turn_down(&command),
+            Turn::Command(command) => self.turn_down(command, now),
             Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
         }
         self.publish(now);

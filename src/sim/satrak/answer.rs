@@ -24,6 +24,8 @@ pub enum ErrorCode {
     NotReady = 5,
     /// A fault forbids it.
     Fault = 6,
+    /// No setting is taken.
+    Refused = 7,
 }
 
 impl From<RequestError> for ErrorCode {

@@ -58,13 +58,15 @@ pub enum Fault {
     Silence,
     /// Every third reply has a wrong checksum.
     BadChecksum,
+    /// Every setting is refused.
+    RefuseSettings,
     /// The unit reports this fault, and suffers from it.
     Unit(FaultKind),
 }
 
 impl Fault {
     /// All faults with their names.
-    pub const ALL: [(Self, &'static str); 19] = [
+    pub const ALL: [(Self, &'static str); 20] = [
         (Self::Unsolicited, "unsolicited"),
         (Self::DropReply, "drop_reply"),
         (Self::Garbage, "garbage"),
@@ -72,6 +74,7 @@ impl Fault {
         (Self::Merge, "merge"),
         (Self::Silence, "silence"),
         (Self::BadChecksum, "bad_checksum"),
+        (Self::RefuseSettings, "refuse_settings"),
         (Self::Unit(FaultKind::InternalLink), "internal_link"),
         (Self::Unit(FaultKind::TleOutdated), "tle_outdated"),
         (Self::Unit(FaultKind::TleMissing), "tle_missing"),

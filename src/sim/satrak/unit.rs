@@ -43,6 +43,7 @@ pub(super) struct Unit {
     tracking: Tracking,
     memory: Memory,
     injected: BTreeSet<FaultKind>,
+    refuses_settings: bool,
     /// Faults that the unit found by itself.
     found: BTreeSet<FaultKind>,
     /// Readings that a dead sensor repeats.
@@ -72,6 +73,7 @@ impl Unit {
             tracking: Tracking::default(),
             memory: Memory::default(),
             injected: BTreeSet::new(),
+            refuses_settings: false,
             found: BTreeSet::new(),
             last_xy_deg: [0.0; 2],
         };
@@ -130,6 +132,7 @@ impl Unit {
             .iter()
             .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
             .collect();
+        self.refuses_settings = faults.contains(&Fault::RefuseSettings);
         let has = |kind| self.injected.contains(&kind);
         self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
     }

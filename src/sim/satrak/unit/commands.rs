@@ -89,6 +89,9 @@ impl Unit {
     }
 
     fn set(&mut self, setting: Setting) -> Result<(), ErrorCode> {
+        if self.refuses_settings {
+            return Err(ErrorCode::Refused);
+        }
         match setting {
             Setting::Time(time) => {
                 self.clock_error = time.time().duration_since(self.utc());

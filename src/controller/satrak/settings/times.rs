@@ -1,0 +1,88 @@
+//! The tracking window and the clock (sections 8 to 11 and 20).
+
+use super::{
+    super::state::UnitClock,
+    wish::{Wish, cannot},
+};
+use crate::{
+    astro::time::add_seconds,
+    controller::settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
+    protocol::satrak::{Clock, ClockTime, Setting, StartStopTime, TrackWindow},
+};
+
+/// No pass of a satellite that moves is longer, seconds.
+const LONGEST_S: i64 = 86_400;
+
+pub(super) static WINDOW: Group = Group {
+    key: "window",
+    title: "Tracking window",
+    is_service: false,
+    fields: &[
+        Field::edit("start", "Start", Kind::Time)
+            .in_unit("UTC")
+            .about("The unit tracks from here on while tracking is switched on."),
+        Field::edit("stop", "Stop", Kind::Time)
+            .in_unit("UTC")
+            .about("The unit ends tracking here."),
+    ],
+};
+
+/// Where the unit's clock is set from.
+pub const FROM_THIS_PC: i64 = 0;
+/// See [`FROM_THIS_PC`].
+pub const FROM_GPS: i64 = 1;
+
+pub(super) static CLOCK: Group = Group {
+    key: "clock",
+    title: "Clock",
+    is_service: false,
+    fields: &[
+        Field::read("time", "Unit clock", Kind::Time).in_unit("UTC"),
+        Field::read(
+            "ahead_s",
+            "Ahead of this PC",
+            Kind::Decimal { least: f64::MIN, most: f64::MAX, places: 1 },
+        )
+        .in_unit("s"),
+        Field::write(
+            "set_from",
+            "Set from",
+            Kind::Choice(&[(FROM_THIS_PC, "This PC"), (FROM_GPS, "GPS")]),
+        ),
+    ],
+};
+
+pub(super) fn window(window: &StartStopTime) -> Values {
+    [("start", Value::Time(window.start)), ("stop", Value::Time(window.stop))].into()
+}
+
+pub(super) fn clock(clock: Clock, against_ours: Option<&UnitClock>) -> Values {
+    let mut values = Values::from([("time", Value::Time(clock.time))]);
+    let tenths = |seconds: f64| (seconds * 10.0).round() / 10.0;
+    values.extend(against_ours.map(|it| ("ahead_s", Value::Decimal(tenths(it.ahead_s)))));
+    values
+}
+
+pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+    let refuse = |field, reason: &str| {
+        Err(SettleError::CannotBeSent { field, reason: Unfit::Text(reason.to_owned()) })
+    };
+    let (start, stop) = (wish.time("start")?, wish.time("stop")?);
+    if stop <= wish.utc {
+        return refuse("stop", "is over already");
+    }
+    if stop.as_second() - start.as_second() > LONGEST_S {
+        return refuse("stop", "is more than a day after the start");
+    }
+    TrackWindow::new(start, stop).map(Setting::StartStopTime).map_err(cannot("stop"))
+}
+
+/// Sent just after a full second of our clock, for the command has no parts
+/// of a second.
+pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+    if wish.code("set_from").unwrap_or(FROM_THIS_PC) == FROM_GPS {
+        return Ok(Setting::RtcReupdate);
+    }
+    let nearest = add_seconds(wish.utc, 0.5);
+    ClockTime::new(nearest).map(Setting::Time).map_err(cannot("set_from"))
+}

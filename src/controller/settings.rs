@@ -1,0 +1,12 @@
+//! What a device remembers, described once: forms, files and read-backs of all
+//! controllers are driven by the same groups of fields.
+
+mod field;
+mod held;
+mod value;
+
+pub use field::{Access, Field, Group, Guard, Kind};
+pub use held::{
+    Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
+};
+pub use value::{Secret, Unfit, Value, Values};

@@ -1,0 +1,157 @@
+//! The description of a setting.
+
+use super::{Unfit, Value};
+
+/// Settings that a device reports with one answer and takes with one command.
+#[derive(Debug)]
+pub struct Group {
+    /// Names the group in files and commands.
+    pub key: &'static str,
+    /// Its head in the form.
+    pub title: &'static str,
+    /// In the order of the form.
+    pub fields: &'static [Field],
+    /// Calibration, drive scaling, firmware: a wrong value moves the antenna or
+    /// points it wrong.
+    pub is_service: bool,
+}
+
+/// One setting.
+#[derive(Debug)]
+pub struct Field {
+    /// Names it within its group.
+    pub key: &'static str,
+    /// Before its value in the form.
+    pub label: &'static str,
+    /// Behind its value; empty for none.
+    pub unit: &'static str,
+    /// What it can hold.
+    pub kind: Kind,
+    /// Who writes it.
+    pub access: Access,
+    /// How much care a new value takes.
+    pub guard: fn(&Value) -> Guard,
+    /// What it does, in a sentence or two.
+    pub about: &'static str,
+}
+
+/// What a field can hold.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind {
+    /// On or off.
+    Flag,
+    /// One of these codes, each with its name.
+    Choice(&'static [(i64, &'static str)]),
+    /// A whole number within these ends.
+    Integer {
+        /// Lowest that is taken.
+        least: i64,
+        /// Highest that is taken.
+        most: i64,
+    },
+    /// A number within these ends.
+    Decimal {
+        /// Lowest that is taken.
+        least: f64,
+        /// Highest that is taken.
+        most: f64,
+        /// Decimal places that are shown and compared.
+        places: usize,
+    },
+    /// An angle with a letter for its sign, such as `41.02N`.
+    Place {
+        /// Largest magnitude, degrees.
+        most: f64,
+        /// Letters of positive and negative.
+        letters: [char; 2],
+    },
+    /// A text that passes this check.
+    Text(fn(&str) -> Result<(), Unfit>),
+    /// A secret that passes this check. Never shown, logged or saved.
+    Password(fn(&str) -> Result<(), Unfit>),
+    /// UTC to the second.
+    Time,
+}
+
+/// Who writes a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// Reported by the device and set by the operator.
+    Edit,
+    /// Only reported.
+    Read,
+    /// Goes along with a change and is never reported. Its first choice, or
+    /// off, stands where the operator says nothing.
+    Write,
+}
+
+/// How much care a new value takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Guard {
+    /// Nothing special.
+    Free,
+    /// The operator confirms it by itself.
+    Confirm,
+    /// Only with the service functions unlocked, and while the antenna stands.
+    Service,
+}
+
+const fn free(_: &Value) -> Guard {
+    Guard::Free
+}
+
+impl Field {
+    /// A setting without a unit that the operator may change freely.
+    pub const fn edit(key: &'static str, label: &'static str, kind: Kind) -> Self {
+        Self { key, label, unit: "", kind, access: Access::Edit, guard: free, about: "" }
+    }
+
+    /// A value that is only reported.
+    pub const fn read(key: &'static str, label: &'static str, kind: Kind) -> Self {
+        Self { access: Access::Read, ..Self::edit(key, label, kind) }
+    }
+
+    /// A value that goes along with a change and is never reported.
+    pub const fn write(key: &'static str, label: &'static str, kind: Kind) -> Self {
+        Self { access: Access::Write, ..Self::edit(key, label, kind) }
+    }
+
+    /// With the unit behind its value.
+    #[must_use]
+    pub const fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// With what it does.
+    #[must_use]
+    pub const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
+
+    /// With the care that its values take.
+    #[must_use]
+    pub const fn guarded(self, guard: fn(&Value) -> Guard) -> Self {
+        Self { guard, ..self }
+    }
+}
+
+impl Group {
+    /// The field with this key.
+    pub fn field(&self, key: &str) -> Option<&'static Field> {
+        self.fields.iter().find(|field| field.key == key)
+    }
+
+    /// Something in it can be set.
+    pub fn is_writable(&self) -> bool {
+        self.fields.iter().any(|field| field.access != Access::Read)
+    }
+
+    /// The most care that any of `values` takes.
+    pub fn guard(&self, values: &super::Values) -> Guard {
+        if self.is_service {
+            return Guard::Service;
+        }
+        let guards = values.iter().filter_map(|(key, value)| Some((self.field(key)?.guard)(value)));
+        guards.max_by_key(|guard| *guard as u8).unwrap_or(Guard::Free)
+    }
+}
