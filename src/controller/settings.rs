@@ -1,10 +1,12 @@
 //! What a device remembers, described once: forms, files and read-backs of all
 //! controllers are driven by the same groups of fields.
 
+mod copy;
 mod field;
 mod held;
 mod value;
 
+pub use copy::{CopiedValue, CopyError, CopyHead, Difference, SettingsCopy, Verdict};
 pub use field::{Access, Field, Group, Guard, Kind};
 pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,

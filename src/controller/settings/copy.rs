@@ -1,0 +1,359 @@
+//! The settings of a device as a file: written from what was read, and
+//! compared with what the device holds now.
+//!
+//! The file is TOML, one table for each group. A password is never in it, and
+//! a service setting is only shown, never taken from it.
+
+use std::fmt::Write as _;
+
+use jiff::Timestamp;
+
+use super::{Access, Field, Group, Guard, Held, Kind, Unfit, Value};
+
+/// The version that this program writes.
+const VERSION: i64 = 1;
+
+/// Whose settings a copy holds.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CopyHead {
+    /// The antenna, as the station file names it.
+    pub antenna: String,
+    /// Where its controller answers.
+    pub address: String,
+    /// Kind of the controller, such as `satrak`.
+    pub controller: String,
+    /// When the copy was made.
+    pub saved_at: Timestamp,
+}
+
+/// A copy that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SettingsCopy {
+    /// Whose it is.
+    pub head: CopyHead,
+    /// Every value in it that a device of this kind has, in the order of the
+    /// forms.
+    pub values: Vec<CopiedValue>,
+    /// Names in it that no such device has, as `group.field`.
+    pub unknown: Vec<String>,
+}
+
+/// A value of a copy.
+#[derive(Debug, Clone)]
+pub struct CopiedValue {
+    /// Its group.
+    pub group: &'static Group,
+    /// Its field.
+    pub field: &'static Field,
+    /// The value, or why it cannot be used.
+    pub value: Result<Value, Unfit>,
+}
+
+impl PartialEq for CopiedValue {
+    fn eq(&self, other: &Self) -> bool {
+        (self.group.key, self.field.key, &self.value)
+            == (other.group.key, other.field.key, &other.value)
+    }
+}
+
+/// A setting that stands otherwise in a copy than on the device.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// What the copy says.
+    pub copied: CopiedValue,
+    /// What the device holds; `None` where that is not known.
+    pub held: Option<Value>,
+    /// Whether it may be taken over.
+    pub verdict: Verdict,
+}
+
+/// Whether a value may be taken from a copy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It may.
+    Free,
+    /// A service setting: only shown.
+    Service,
+    /// It cannot be used; see its error.
+    Unfit,
+    /// What the device holds is not known.
+    NotRead,
+}
+
+/// Why a file is no copy.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CopyError {
+    /// No TOML.
+    #[error("it is no TOML: {0}")]
+    Syntax(String),
+    /// Another file, or a damaged one.
+    #[error("it is no copy of settings: {0} is missing")]
+    NoCopy(&'static str),
+    /// A later program wrote it.
+    #[error("it has version {0}, this program knows {VERSION}; use the newer program")]
+    Newer(i64),
+    /// Of another kind of controller.
+    #[error("it holds settings of a {found}, not of a {wanted}")]
+    OtherController {
+        /// In the file.
+        found: String,
+        /// Of the antenna.
+        wanted: String,
+    },
+}
+
+/// Whether a copy holds this field.
+fn is_copied(field: &Field) -> bool {
+    field.access == Access::Edit && !matches!(field.kind, Kind::Password(_))
+}
+
+impl SettingsCopy {
+    /// The text of a copy of what is `held` of `groups`. Groups that were not
+    /// read are named with the reason.
+    pub fn text(head: &CopyHead, groups: &[&'static Group], held: &Held) -> String {
+        let text = |text: &str| toml::Value::String(text.to_owned());
+        let mut lines = format!(
+            "# Settings of an antenna controller, saved by Azel. Passwords are left out.\n\
+             version = {VERSION}\ncontroller = {}\nantenna = {}\naddress = {}\nsaved_at = {}\n",
+            text(&head.controller),
+            text(&head.antenna),
+            text(&head.address),
+            text(&head.saved_at.strftime("%Y-%m-%dT%H:%M:%SZ").to_string()),
+        );
+        for group in groups.iter().filter(|group| group.fields.iter().any(is_copied)) {
+            let state = held.get(group.key);
+            let Some(read) = state.and_then(|state| state.held.as_ref()) else {
+                let why = state.and_then(|state| state.failure.as_ref());
+                let why = why.map_or("nobody asked".to_owned(), ToString::to_string);
+                let _ = write!(lines, "\n# {}: not read, {why}\n", group.key);
+                continue;
+            };
+            let _ = write!(lines, "\n[{}]\n", group.key);
+            for field in group.fields.iter().filter(|field| is_copied(field)) {
+                let Some(value) = read.values.get(field.key) else { continue };
+                let gap = if field.unit.is_empty() { "" } else { ", " };
+                let about = format!("{}{gap}{}", field.label, field.unit);
+                let _ = writeln!(lines, "{} = {} # {about}", field.key, as_toml(field, value));
+            }
+        }
+        lines
+    }
+
+    /// Reads the text of a copy for a device of the kind `controller` with
+    /// these groups. One bad value costs no other.
+    pub fn read(
+        text: &str,
+        controller: &str,
+        groups: &[&'static Group],
+    ) -> Result<Self, CopyError> {
+        let table: toml::Table =
+            text.parse().map_err(|error: toml::de::Error| CopyError::Syntax(first_line(&error)))?;
+        let version = table.get("version").and_then(toml::Value::as_integer);
+        match version.ok_or(CopyError::NoCopy("version"))? {
+            version if version > VERSION => return Err(CopyError::Newer(version)),
+            _ => {}
+        }
+        let word = |key: &'static str| {
+            let word = table.get(key).and_then(toml::Value::as_str);
+            word.map(str::to_owned).ok_or(CopyError::NoCopy(key))
+        };
+        let head = CopyHead {
+            antenna: word("antenna")?,
+            address: word("address")?,
+            controller: word("controller")?,
+            saved_at: word("saved_at")?.parse().map_err(|_| CopyError::NoCopy("saved_at"))?,
+        };
+        if head.controller != controller {
+            let wanted = controller.to_owned();
+            return Err(CopyError::OtherController { found: head.controller, wanted });
+        }
+        let mut values = Vec::new();
+        for group in groups {
+            let of_group = table.get(group.key).and_then(toml::Value::as_table);
+            for field in group.fields.iter().filter(|field| is_copied(field)) {
+                if let Some(value) = of_group.and_then(|of_group| of_group.get(field.key)) {
+                    values.push(CopiedValue { group, field, value: from_toml(field, value) });
+                }
+            }
+        }
+        Ok(Self { head, values, unknown: unknown(&table, groups) })
+    }
+
+    /// What stands otherwise on the device.
+    pub fn differences(&self, held: &Held) -> Vec<Difference> {
+        let difference = |copied: &CopiedValue| {
+            let of_group = held.get(copied.group.key).and_then(|state| state.held.as_ref());
+            let held = of_group.and_then(|read| read.values.get(copied.field.key)).cloned();
+            if let (Ok(value), Some(held)) = (&copied.value, &held)
+                && copied.field.kind.same(value, held)
+            {
+                return None;
+            }
+            let verdict = match &copied.value {
+                Err(_) => Verdict::Unfit,
+                Ok(_) if copied.group.is_service => Verdict::Service,
+                Ok(value) if (copied.field.guard)(value) == Guard::Service => Verdict::Service,
+                Ok(_) if of_group.is_none() => Verdict::NotRead,
+                Ok(_) => Verdict::Free,
+            };
+            Some(Difference { copied: copied.clone(), held, verdict })
+        };
+        self.values.iter().filter_map(difference).collect()
+    }
+}
+
+fn first_line(error: &toml::de::Error) -> String {
+    error.message().lines().next().unwrap_or_default().to_owned()
+}
+
+/// Choices stand by their names, times and texts as the operator reads them.
+fn as_toml(field: &Field, value: &Value) -> toml::Value {
+    match value {
+        Value::Flag(on) => toml::Value::Boolean(*on),
+        Value::Integer(number) => toml::Value::Integer(*number),
+        Value::Decimal(number) => toml::Value::Float(*number),
+        Value::Choice(code) => match field.kind.read(&field.kind.text(value)) {
+            Ok(_) => toml::Value::String(field.kind.text(value)),
+            Err(_) => toml::Value::Integer(*code),
+        },
+        Value::Text(_) | Value::Time(_) => toml::Value::String(field.kind.text(value)),
+        Value::Secret(_) => toml::Value::String(String::new()),
+    }
+}
+
+fn from_toml(field: &Field, value: &toml::Value) -> Result<Value, Unfit> {
+    match value {
+        toml::Value::Boolean(on) => field.kind.read(if *on { "On" } else { "Off" }),
+        toml::Value::Integer(number) => field.kind.read(&number.to_string()),
+        toml::Value::Float(number) => field.kind.read(&number.to_string()),
+        toml::Value::String(text) => field.kind.read(text),
+        _ => Err(Unfit::NotAChoice),
+    }
+}
+
+fn unknown(table: &toml::Table, groups: &[&'static Group]) -> Vec<String> {
+    let mut unknown = Vec::new();
+    for (key, value) in table {
+        let Some(of_group) = value.as_table() else { continue };
+        let group = groups.iter().find(|group| group.key == key);
+        let is_known =
+            |field: &str| group.and_then(|group| group.field(field)).is_some_and(is_copied);
+        let strange = of_group.keys().filter(|field| !is_known(field));
+        unknown.extend(strange.map(|field| format!("{key}.{field}")));
+    }
+    unknown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::controller::{
+        satrak::GROUPS,
+        settings::{GroupState, HeldGroup, ReadFailure, Secret, Values},
+    };
+
+    fn head() -> CopyHead {
+        CopyHead {
+            antenna: "Dish \"2\"".to_owned(),
+            address: "192.168.10.21:4001".to_owned(),
+            controller: "satrak".to_owned(),
+            saved_at: "2026-08-12T11:15:30Z".parse().unwrap(),
+        }
+    }
+
+    fn state<const N: usize>(values: [(&'static str, Value); N]) -> GroupState {
+        let read_at = head().saved_at;
+        let held = Some(HeldGroup { values: Values::from(values), read_at });
+        GroupState { held, ..GroupState::default() }
+    }
+
+    fn held() -> Held {
+        let text = |text: &str| Value::Text(text.to_owned());
+        let failed = GroupState {
+            failure: Some(ReadFailure::Refused("1".to_owned())),
+            ..GroupState::default()
+        };
+        Held::from([
+            (
+                "general",
+                state([
+                    ("clock_from_gps", Value::Flag(true)),
+                    ("lead_ms", Value::Integer(90_000)),
+                    ("azimuth_offset_deg", Value::Decimal(-0.15)),
+                    ("sspa", Value::Choice(0)),
+                    ("sspa_rule", Value::Choice(9)),
+                    ("tle_source", Value::Choice(1)),
+                ]),
+            ),
+            ("gps", state([("latitude_deg", Value::Decimal(-33.86))])),
+            ("window", state([("start", Value::Time(head().saved_at))])),
+            (
+                "ftp",
+                state([
+                    ("password", Value::Secret(Secret::new("hunter2"))),
+                    ("user", text("a \"b\" # c")),
+                ]),
+            ),
+            ("reduction", state([("x", Value::Decimal(4000.0))])),
+            ("web", failed),
+        ])
+    }
+
+    #[test]
+    fn a_copy_of_a_unit_differs_from_it_in_nothing() {
+        let written = SettingsCopy::text(&head(), GROUPS, &held());
+        assert!(!written.contains("hunter2"), "{written}");
+        assert!(written.contains("# web: not read, the unit answered ERR,1"), "{written}");
+        let copy = SettingsCopy::read(&written, "satrak", GROUPS).unwrap();
+        assert_eq!(copy.head, head());
+        assert_eq!(copy.unknown, Vec::<String>::new());
+        let names: Vec<_> = copy.values.iter().map(|value| value.field.key).collect();
+        assert!(!names.contains(&"tle_source") && !names.contains(&"password"), "{names:?}");
+        let rest: Vec<_> =
+            copy.differences(&held()).into_iter().map(|one| one.copied.field.key).collect();
+        assert_eq!(rest, ["sspa_rule"], "a code without a name cannot be sent back");
+    }
+
+    #[test]
+    fn what_differs_is_told_and_service_is_only_shown() {
+        let text = "version = 1\ncontroller = \"satrak\"\nantenna = \"A\"\naddress = \"b\"\n\
+            saved_at = \"2026-08-12T11:15:30Z\"\n[general]\nlead_ms = 60000\nsspa = \"On\"\n\
+            azimuth_offset_deg = 99\nminimum = 1\n[gps]\nlatitude_deg = 41.02\n\
+            [reduction]\nx = 4100\n[web]\nurl = \"https://x\"\n[other]\nz = 1\n";
+        let copy = SettingsCopy::read(text, "satrak", GROUPS).unwrap();
+        assert_eq!(copy.unknown, ["general.minimum", "other.z"]);
+        let found: Vec<_> = copy
+            .differences(&held())
+            .into_iter()
+            .map(|one| (one.copied.field.key, one.verdict))
+            .collect();
+        let expected = [
+            ("azimuth_offset_deg", Verdict::Unfit),
+            ("lead_ms", Verdict::Free),
+            ("sspa", Verdict::Service),
+            ("latitude_deg", Verdict::Free),
+            ("url", Verdict::NotRead),
+            ("x", Verdict::Service),
+        ];
+        let as_sets = |mut list: Vec<_>| {
+            list.sort_by_key(|(key, _)| *key);
+            list
+        };
+        assert_eq!(as_sets(found), as_sets(expected.to_vec()));
+    }
+
+    #[test]
+    fn another_file_is_refused_with_the_reason() {
+        let read = |text: &str| SettingsCopy::read(text, "satrak", GROUPS).unwrap_err();
+        assert!(matches!(read("[["), CopyError::Syntax(_)));
+        assert_eq!(read("a = 1"), CopyError::NoCopy("version"));
+        assert_eq!(read("version = 2"), CopyError::Newer(2));
+        assert_eq!(read("version = 1\nantenna = 3"), CopyError::NoCopy("antenna"));
+        let other = SettingsCopy::text(
+            &CopyHead { controller: "genius".to_owned(), ..head() },
+            GROUPS,
+            &held(),
+        );
+        assert!(matches!(read(&other), CopyError::OtherController { .. }));
+    }
+}
