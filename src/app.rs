@@ -11,6 +11,7 @@ mod carry_out;
 pub mod clearance;
 mod clock_watch;
 pub mod command;
+pub mod copies;
 pub mod daylight;
 mod demo;
 pub mod forecast;
@@ -18,6 +19,7 @@ mod job;
 mod logic;
 mod memory;
 pub mod model;
+mod settle;
 pub mod sources;
 
 use std::{path::PathBuf, sync::Arc, time::Instant};
@@ -28,6 +30,7 @@ pub use model::{Model, View};
 use self::{
     antenna::AntennaModel,
     clock_watch::ClockWatch,
+    copies::CopyWork,
     demo::Demo,
     job::Job,
     memory::Keeper,
@@ -62,6 +65,7 @@ pub struct App {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    copy_work: CopyWork,
     keeper: Keeper,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
@@ -91,9 +95,11 @@ impl App {
             selected: None,
             sky: model::Sky::default(),
             alarms: alarms::Alarms::default(),
+            copies: copies::Copies::default(),
             view: View::Operate,
         };
         close_on_signals(&driver, ctx.clone());
+        let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
@@ -108,6 +114,7 @@ impl App {
             settings_path,
             places,
             elements_job: Some(elements_job),
+            copy_work,
             keeper,
             settings_unread: false,
             drawn: false,

@@ -8,9 +8,9 @@ use jiff::Timestamp;
 use super::forecast::Followed;
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
-    controller::{Measured, Phase},
+    controller::{Measured, Phase, satrak, settings::Group},
     driver::{AntennaHandle, Event, Intent, Snapshot},
-    station::Antenna,
+    station::{Antenna, Connection},
 };
 
 /// The errors of this long are kept for the profile of a pass.
@@ -73,6 +73,20 @@ impl AntennaModel {
             rates_deg_s: None,
             news: None,
             recent: VecDeque::new(),
+        }
+    }
+
+    /// Kind of its controller, as the station file names it.
+    pub fn controller(&self) -> &'static str {
+        match self.config.connection {
+            Connection::Satrak { .. } => "satrak",
+        }
+    }
+
+    /// What its controller remembers.
+    pub fn groups(&self) -> &'static [&'static Group] {
+        match self.config.connection {
+            Connection::Satrak { .. } => satrak::GROUPS,
         }
     }
 

@@ -32,7 +32,18 @@ impl App {
                 let antenna = model.antenna();
                 self.keeper.memory.antenna = antenna.map(|antenna| antenna.config.name.clone());
             }
+            UiCommand::Antenna(antenna, driver::Command::Settle(change)) => {
+                self.settle(antenna, change);
+            }
             UiCommand::Antenna(antenna, command) => self.send(antenna, command),
+            UiCommand::SaveSettings { antenna } => self.save_copy(antenna),
+            UiCommand::CompareSettings { antenna } => self.open_copies(antenna),
+            UiCommand::ReadCopy { antenna, path } => {
+                if let Some(antenna) = model.antennas.get(antenna) {
+                    self.copy_work.read(path, antenna);
+                }
+            }
+            UiCommand::CloseCopy => model.copies.open = None,
             UiCommand::Track { antenna, pass } => self.track(antenna, pass),
             UiCommand::SetElevationFloor(floor_deg) => {
                 model.station.elevation_floor_deg = floor_deg;
@@ -74,7 +85,7 @@ impl App {
         (self.wake)();
     }
 
-    fn send(&mut self, index: usize, command: driver::Command) {
+    pub(super) fn send(&mut self, index: usize, command: driver::Command) {
         let Some(antenna) = self.model.antennas.get(index) else { return };
         let Err(command) = antenna.handle.send(command) else { return };
         tracing::error!(?command, "the session is too busy to take a command");

@@ -1,5 +1,7 @@
 //! What a view asks for. Carried out once a frame, after everything is drawn.
 
+use std::path::PathBuf;
+
 use super::{
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
@@ -63,6 +65,25 @@ pub enum UiCommand {
     OpenedAlarms,
     /// This alarm was seen.
     AcknowledgeAlarm(u64),
+    /// Save what is known of the settings of the antenna with this index.
+    SaveSettings {
+        /// Which antenna was shown when it was asked for.
+        antenna: usize,
+    },
+    /// Compare the settings of the antenna with this index with a file.
+    CompareSettings {
+        /// Which antenna was shown when it was asked for.
+        antenna: usize,
+    },
+    /// Read this copy of settings for the comparison.
+    ReadCopy {
+        /// Which antenna was shown when it was asked for.
+        antenna: usize,
+        /// Where it is.
+        path: PathBuf,
+    },
+    /// End the comparison.
+    CloseCopy,
     /// Save these settings and use them.
     SaveStation(Box<Station>),
 }

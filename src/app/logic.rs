@@ -28,6 +28,7 @@ impl App {
         let time_sync = self.clock_watch.poll(self.model.steady, &self.wake);
         self.model.time_sync = time_sync.unwrap_or(self.model.time_sync);
         self.take_catalog();
+        self.take_copies();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);
             let renewed = self.model.forecasts.refresh(

@@ -9,6 +9,7 @@ use super::{
     alarms::Alarms,
     antenna::AntennaModel,
     clearance::Clearance,
+    copies::Copies,
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
     sources::Sources,
@@ -76,6 +77,8 @@ pub struct Model {
     pub sky: Sky,
     /// What must not be missed.
     pub alarms: Alarms,
+    /// Copies of the settings of units.
+    pub copies: Copies,
     /// Which view fills the window.
     pub view: View,
 }

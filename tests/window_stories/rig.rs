@@ -11,6 +11,7 @@ use azel::{
         Model, UiCommand, View,
         alarms::Alarms,
         antenna::AntennaModel,
+        copies::Copies,
         forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
         model::{CatalogState, Sky},
         sources::Sources,
@@ -140,6 +141,7 @@ pub(crate) fn model(snapshot: Snapshot) -> Model {
         selected: None,
         sky: Sky::default(),
         alarms: Alarms::default(),
+        copies: Copies::default(),
         view: View::Operate,
     };
     model.selected = model.pass_of(NOAA_20).map(Forecast::key);
