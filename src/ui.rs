@@ -4,6 +4,7 @@ pub mod antenna_card;
 pub mod banner;
 pub mod bar;
 pub mod confirm;
+pub mod copies;
 pub mod elements;
 pub mod format;
 pub mod icons;

@@ -1,0 +1,202 @@
+//! The comparison of a unit's settings with a file: a dialog in which the
+//! operator chooses what to take over into the form.
+
+use std::{collections::BTreeSet, path::Path, path::PathBuf};
+
+use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
+
+use super::{format, text, theme};
+use crate::{
+    app::{UiCommand, antenna::AntennaModel, copies::OpenCopy},
+    controller::settings::{Difference, Field, Group, Held, SettingsCopy, Value, Verdict},
+};
+
+/// Width of the dialog where the window has room for it.
+const WIDTH: f32 = 760.0;
+/// Height of the table before it scrolls.
+const TABLE: f32 = 320.0;
+
+/// What was typed and chosen.
+#[derive(Debug, Default)]
+pub struct CompareState {
+    path: String,
+    chosen: BTreeSet<(&'static str, &'static str)>,
+}
+
+/// A value that the operator takes over from a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Taken {
+    /// Key of its group.
+    pub group: &'static str,
+    /// Key of its field.
+    pub field: &'static str,
+    /// The value.
+    pub value: Value,
+}
+
+/// Shows the dialog for `antenna`, which has this index. Gives what the
+/// operator takes over, once.
+pub fn show(
+    ui: &Ui,
+    (index, antenna): (usize, &AntennaModel),
+    open: &OpenCopy,
+    state: &mut CompareState,
+    commands: &mut Vec<UiCommand>,
+) -> Vec<Taken> {
+    let mut taken = Vec::new();
+    let mut closed = false;
+    let room = ui.ctx().content_rect().width() - 64.0;
+    let modal = Modal::new(egui::Id::unique("compare settings")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH.min(room));
+        let title = format!("Compare the settings of {} with a file", open.antenna);
+        ui.label(RichText::new(title).font(text::value()));
+        let read = choose(ui, open, state);
+        if let Some(path) = read {
+            state.chosen.clear();
+            commands.push(UiCommand::ReadCopy { antenna: index, path });
+        }
+        let held = &antenna.snapshot.state.held;
+        match &open.read {
+            None => {}
+            Some((path, Err(why))) => problem(ui, path, why),
+            Some((_, Ok(copy))) => taken = compared(ui, copy, held, state),
+        }
+        closed = !taken.is_empty() || ui.button("Close").clicked();
+    });
+    if closed || modal.should_close() {
+        *state = CompareState::default();
+        commands.push(UiCommand::CloseCopy);
+    }
+    taken
+}
+
+/// The copies that there are, and a path to any other. Gives the one to read.
+fn choose(ui: &mut Ui, open: &OpenCopy, state: &mut CompareState) -> Option<PathBuf> {
+    let t = theme::tokens(ui);
+    let mut read = None;
+    if open.listed.is_empty() {
+        let words = "No copy of this antenna was saved on this computer yet.";
+        ui.label(RichText::new(words).font(text::body()).color(t.t2));
+    }
+    ScrollArea::vertical().id_salt("copies").max_height(96.0).show(ui, |ui| {
+        for path in &open.listed {
+            if ui.link(file_name(path)).clicked() {
+                read = Some(path.clone());
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label(RichText::new("Path").font(text::body()).color(t.t2)).id;
+        let width = ui.available_width() - 80.0;
+        let edit = TextEdit::singleline(&mut state.path).desired_width(width);
+        ui.add(edit).labelled_by(label);
+        let path = state.path.trim();
+        if ui.add_enabled(!path.is_empty(), egui::Button::new("Read")).clicked() {
+            read = Some(PathBuf::from(path));
+        }
+    });
+    read
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn problem(ui: &mut Ui, path: &Path, why: &str) {
+    let t = theme::tokens(ui);
+    let words = format!("{}: {why}.", file_name(path));
+    ui.label(RichText::new(words).font(text::body()).color(t.bad));
+}
+
+fn compared(ui: &mut Ui, copy: &SettingsCopy, held: &Held, state: &mut CompareState) -> Vec<Taken> {
+    let t = theme::tokens(ui);
+    let head = &copy.head;
+    let words = format!(
+        "Copy of {} at {}, saved {} {}.",
+        head.antenna,
+        head.address,
+        format::date(head.saved_at),
+        format::time_z(head.saved_at)
+    );
+    ui.label(RichText::new(words).font(text::small()).color(t.t2));
+    if !copy.unknown.is_empty() {
+        let words = format!("Not known and left out: {}.", copy.unknown.join(", "));
+        ui.label(RichText::new(words).font(text::small()).color(t.warn));
+    }
+    let differences = copy.differences(held);
+    if differences.is_empty() {
+        let words = "Every value in the file is on the unit.";
+        ui.label(RichText::new(words).font(text::body()).color(t.ok));
+        return Vec::new();
+    }
+    ScrollArea::vertical().id_salt("differences").max_height(TABLE).show(ui, |ui| {
+        Grid::new("differences").num_columns(4).striped(true).show(ui, |ui| {
+            for head in ["Setting", "In the file", "On the unit", ""] {
+                ui.label(RichText::new(head).font(text::caption()).color(t.t3));
+            }
+            ui.end_row();
+            for difference in &differences {
+                row(ui, difference, state);
+                ui.end_row();
+            }
+        });
+    });
+    let mut taken = Vec::new();
+    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+        let chosen: Vec<_> = differences.iter().filter_map(|it| chosen(it, state)).collect();
+        let word = format!("Take over {}", chosen.len());
+        if ui.add_enabled(!chosen.is_empty(), egui::Button::new(word)).clicked() {
+            taken = chosen;
+        }
+        let words = "They stand in the form as edits then; Apply sends them.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t2));
+    });
+    taken
+}
+
+fn chosen(difference: &Difference, state: &CompareState) -> Option<Taken> {
+    let (group, field) = (difference.copied.group.key, difference.copied.field.key);
+    let value = difference.copied.value.as_ref().ok()?;
+    (difference.verdict == Verdict::Free && state.chosen.contains(&(group, field))).then(|| Taken {
+        group,
+        field,
+        value: value.clone(),
+    })
+}
+
+fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
+    let t = theme::tokens(ui);
+    let (group, field) = (difference.copied.group, difference.copied.field);
+    let name = format!("{}, {}", group.title, field.label);
+    let key = (group.key, field.key);
+    let is_free = difference.verdict == Verdict::Free;
+    let mut is_chosen = is_free && state.chosen.contains(&key);
+    let check = ui.add_enabled(is_free, egui::Checkbox::new(&mut is_chosen, name));
+    if check.clicked() {
+        if is_chosen {
+            state.chosen.insert(key)
+        } else {
+            state.chosen.remove(&key)
+        };
+    }
+    let words = |value: Option<&Value>| value.map_or("–".to_owned(), |it| shown(field, it));
+    let in_file = words(difference.copied.value.as_ref().ok());
+    let on_unit = words(difference.held.as_ref());
+    ui.label(RichText::new(in_file).font(text::body()));
+    ui.label(RichText::new(on_unit).font(text::body()).color(t.t2));
+    ui.label(RichText::new(verdict(group, difference)).font(text::small()).color(t.t3));
+}
+
+fn shown(field: &Field, value: &Value) -> String {
+    let gap = if field.unit.is_empty() || field.unit == "°" { "" } else { " " };
+    format!("{}{gap}{}", field.kind.text(value), field.unit)
+}
+
+fn verdict(group: &Group, difference: &Difference) -> String {
+    match (difference.verdict, &difference.copied.value) {
+        (Verdict::Unfit, Err(why)) => format!("cannot be used: {why}"),
+        (Verdict::Service, _) => "service setting, only shown".to_owned(),
+        (Verdict::NotRead, _) => format!("{} was not read from the unit", group.title),
+        _ => String::new(),
+    }
+}
