@@ -1,11 +1,17 @@
 //! What a session tells the rest of the program: snapshots and events.
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use super::{Intent, Refusal};
 use crate::{
     astro::AzEl,
-    controller::{AntennaState, Motion, PrepareError, TrackTarget},
+    controller::{
+        AntennaState, Motion, PrepareError, TrackTarget,
+        settings::{GroupState, Held},
+    },
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -65,9 +71,13 @@ impl Snapshot {
         if standing(self).is_none() || standing(self) != standing(newer) {
             return false;
         }
+        if !same_settings(&self.state.held, &newer.state.held) {
+            return false;
+        }
         let mut newer = newer.clone();
         newer.state.measured = self.state.measured;
         newer.state.traffic = self.state.traffic;
+        newer.state.held = Arc::clone(&self.state.held);
         newer.state.satrak.clock = self.state.satrak.clock;
         newer.state.satrak.gps = self.state.satrak.gps;
         if let (Some(old), Some(new)) = (&self.state.satrak.faults, &mut newer.state.satrak.faults)
@@ -76,6 +86,15 @@ impl Snapshot {
         }
         *self == newer
     }
+}
+
+/// Whether the same is known of the settings, and the same is being done. What
+/// the device reports anew of its own accord is shown with the next tick.
+fn same_settings(old: &Held, new: &Held) -> bool {
+    let shown = |state: &GroupState| {
+        (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
+    };
+    old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
 }
 
 /// The link to a controller.
