@@ -3,6 +3,7 @@
 
 mod general;
 mod place;
+mod proof;
 mod report;
 mod service;
 mod source;
@@ -14,6 +15,7 @@ use crate::{
     controller::settings::{Group, SettleError, Unfit, Values},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
+pub(super) use proof::{Differing, Judge, Proof};
 pub use times::{FROM_GPS, FROM_THIS_PC};
 pub(super) use wish::Wish;
 
@@ -42,6 +44,12 @@ pub(super) struct Plan {
     pub(super) write: Option<Write>,
     /// What else a change may have changed, or may prove wrong.
     pub(super) also: &'static [Query],
+    /// What the read-back proves wrong.
+    pub(super) differing: Differing,
+    /// What the faults say about it.
+    pub(super) judge: Judge,
+    /// The clock is told whole seconds, and not while the unit tracks by it.
+    pub(super) is_clock: bool,
 }
 
 pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, SettleError>;
@@ -50,25 +58,46 @@ pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, SettleError>;
 const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
 
 impl Plan {
+    const fn read(query: Query) -> Self {
+        let (differing, judge): (Differing, Judge) = (proof::plain, proof::no_objection);
+        Self { query, write: None, also: &[], differing, judge, is_clock: false }
+    }
+
+    const fn write(query: Query, write: Write) -> Self {
+        Self { write: Some(write), ..Self::read(query) }
+    }
+
     /// The plan of the group with this key.
     pub(super) fn of(key: &str) -> Option<Self> {
-        let (query, write, also): (Query, Option<Write>, &'static [Query]) = match key {
-            "general" => (Query::Settings, Some(general::write), &[]),
-            "gps" => (Query::GpsSettings, Some(place::write), &[]),
-            "receiver" => (Query::GpsData, None, &[]),
-            "window" => (Query::StartStopTime, Some(times::write_window), &[]),
-            "file" => (Query::Satellite, Some(source::write_file), SOURCE),
-            "web" => (Query::SatelliteHttp, Some(source::write_web), SOURCE),
-            "ftp" => (Query::SatelliteFtp, Some(source::write_ftp), SOURCE),
-            "clock" => (Query::Clock, Some(times::write_clock), &[]),
-            "versions" => (Query::Version, None, &[]),
-            "position" => (Query::TimedPosition, None, &[]),
-            "angles" => (Query::AngleSettings, Some(service::write_angles), &[]),
-            "reduction" => (Query::Reduction, Some(service::write_reduction), &[]),
-            "image" => (Query::ImageStatus, Some(service::write_image), &[]),
+        let source = |query, write| Self { also: SOURCE, ..Self::write(query, write) };
+        Some(match key {
+            "general" => Self::write(Query::Settings, general::write),
+            "gps" => Self::write(Query::GpsSettings, place::write),
+            "receiver" => Self::read(Query::GpsData),
+            "window" => Self::write(Query::StartStopTime, times::write_window),
+            "file" => {
+                Self { judge: source::judge_file, ..source(Query::Satellite, source::write_file) }
+            }
+            "web" => Self {
+                differing: source::web_differing,
+                ..source(Query::SatelliteHttp, source::write_web)
+            },
+            "ftp" => source(Query::SatelliteFtp, source::write_ftp),
+            "clock" => Self {
+                differing: times::clock_differing,
+                is_clock: true,
+                ..Self::write(Query::Clock, times::write_clock)
+            },
+            "versions" => Self::read(Query::Version),
+            "position" => Self::read(Query::TimedPosition),
+            "angles" => Self {
+                differing: service::angles_differing,
+                ..Self::write(Query::AngleSettings, service::write_angles)
+            },
+            "reduction" => Self::write(Query::Reduction, service::write_reduction),
+            "image" => Self::write(Query::ImageStatus, service::write_image),
             _ => return None,
-        };
-        Some(Self { query, write, also })
+        })
     }
 }
 
@@ -117,5 +146,26 @@ fn unfit(error: ValueError) -> Unfit {
             Unfit::Range { least: least.to_string(), most: most.to_string() }
         }
         other => Unfit::Text(other.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_group_can_be_read_and_written_where_it_has_something_to_write() {
+        for group in GROUPS {
+            let plan = Plan::of(group.key).unwrap();
+            assert_eq!(plan.write.is_some(), group.is_writable(), "{}", group.key);
+            assert_eq!(group_of(plan.query).unwrap().key, group.key);
+            let keys: BTreeSet<_> = group.fields.iter().map(|field| field.key).collect();
+            let labels: BTreeSet<_> = group.fields.iter().map(|field| field.label).collect();
+            assert_eq!((keys.len(), labels.len()), (group.fields.len(), group.fields.len()));
+        }
+        let keys: BTreeSet<_> = GROUPS.iter().map(|group| group.key).collect();
+        assert_eq!(keys.len(), GROUPS.len());
     }
 }

@@ -2,21 +2,17 @@
 //! still holds what the operator saw, sends, reads back, and asks what the unit
 //! makes of it.
 
-use super::settings::{GROUPS, Plan, Wish, values_of};
+use super::settings::{GROUPS, Plan, Proof, Wish, values_of};
 use crate::{
     controller::{
         Moment,
         settings::{
-            Access, Change, Field, Group, Guard, ReadFailure, SettleError, SettleStep, Value,
-            Values,
+            Access, Change, Field, Group, Guard, ReadFailure, SettleError, SettleStep, Values,
         },
     },
-    protocol::satrak::{FaultKind, Faults, Query, Reply, Request},
+    protocol::satrak::{Faults, Reply, Request},
 };
 
-/// The clock of the unit is right within this, seconds: the command has no
-/// parts of a second, and the answer takes its way.
-const CLOCK_RIGHT_S: f64 = 2.0;
 /// A clock is set within this after a full second, nanoseconds.
 const FULL_SECOND_NS: i32 = 60_000_000;
 
@@ -112,7 +108,7 @@ impl Settling {
         if self.group.guard(&self.change.values) == Guard::Service && doing.moves {
             return Next::Over(Err(SettleError::Moving));
         }
-        if plan.query == Query::Clock {
+        if plan.is_clock {
             if doing.tracks {
                 return Next::Over(Err(SettleError::Tracking));
             }
@@ -225,43 +221,13 @@ impl Settling {
 
     /// The fields that do not hold what was asked for.
     fn differing(&self, held: &Values, ahead_s: Option<f64>) -> Vec<&'static str> {
-        if self.group.key == "clock" {
-            let from_gps = self.change.values.get("set_from") == Some(&Value::Choice(1));
-            let is_right = ahead_s.is_some_and(|ahead_s| ahead_s.abs() <= CLOCK_RIGHT_S);
-            // GPS knows better than this computer what time it is.
-            return if from_gps || is_right { Vec::new() } else { vec!["time"] };
-        }
-        let takes_present = self.change.values.get("reference") == Some(&Value::Choice(1));
-        let differs = |field: &&Field| {
-            let Some(new) = self.change.values.get(field.key) else { return false };
-            let is_measured = takes_present && field.key.ends_with("_sensor");
-            let is_held = held.get(field.key).is_some_and(|held| is_same(field, new, held));
-            !is_measured && !is_held
-        };
-        self.editable().filter(differs).map(|field| field.key).collect()
+        let Some(plan) = self.plan() else { return Vec::new() };
+        (plan.differing)(&Proof { group: self.group, new: &self.change.values, held, ahead_s })
     }
 
-    /// What the unit makes of a satellite that it was told to take from a file.
+    /// What the faults say about values that the unit holds.
     fn judge(&self, faults: Faults) -> Result<(), SettleError> {
-        if self.group.key != "file" {
-            return Ok(());
-        }
-        let is_active = |kind| faults.active().any(|active| active == kind);
-        if is_active(FaultKind::TleMissing) {
-            return Err(SettleError::Useless("the unit does not find the file".to_owned()));
-        }
-        if is_active(FaultKind::SatelliteMissing) {
-            let why = "the unit does not find the satellite in the file";
-            return Err(SettleError::Useless(why.to_owned()));
-        }
-        Ok(())
-    }
-}
-
-/// Commas of a web address are on the unit as they were sent.
-fn is_same(field: &Field, new: &Value, held: &Value) -> bool {
-    match new {
-        Value::Text(text) if field.key == "url" => *held == Value::Text(text.replace(',', "%2C")),
-        _ => field.kind.same(new, held),
+        let objection = self.plan().and_then(|plan| (plan.judge)(faults));
+        objection.map_or(Ok(()), |why| Err(SettleError::Useless(why.to_owned())))
     }
 }

@@ -2,6 +2,7 @@
 //! to 32).
 
 use super::{
+    proof::Proof,
     text,
     wish::{Wish, cannot},
 };
@@ -97,4 +98,14 @@ pub(super) fn write_reduction(wish: &Wish<'_>) -> Result<Setting, SettleError> {
 
 pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     Ok(Setting::LoadImage(wish.text("file")?))
+}
+
+/// Where the references are taken from the present position, nobody knows them
+/// before.
+pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
+    let takes_present = proof.new.get("reference") == Some(&Value::Choice(PRESENT));
+    proof.differing(|field, new, held| {
+        let is_measured = takes_present && matches!(field.kind, Kind::Integer { .. });
+        is_measured || field.kind.same(new, held)
+    })
 }

@@ -1,14 +1,15 @@
 //! The satellite and where its elements come from (sections 23 to 28).
 
 use super::{
+    proof::Proof,
     text, url,
     wish::{Wish, cannot},
 };
 use crate::{
     controller::settings::{Field, Group, Kind, Secret, SettleError, Unfit, Value, Values},
     protocol::satrak::{
-        FtpTle, HttpTle, Password, Satellite, SatelliteChoice, SatelliteFtp, SatelliteHttp,
-        Setting, TleSelection, UrlValue,
+        FaultKind, Faults, FtpTle, HttpTle, Password, Satellite, SatelliteChoice, SatelliteFtp,
+        SatelliteHttp, Setting, TleSelection, UrlValue,
     },
 };
 
@@ -142,6 +143,26 @@ pub(super) fn write_ftp(wish: &Wish<'_>) -> Result<Setting, SettleError> {
         period_days: wish.integer("period_days")?,
         continue_on_error: wish.code("on_error")? == 1,
     }))
+}
+
+/// An address is on the unit as it was sent: with its commas encoded.
+pub(super) fn web_differing(proof: &Proof<'_>) -> Vec<&'static str> {
+    proof.differing(|field, new, held| match new {
+        Value::Text(url) => {
+            UrlValue::new(url).is_ok_and(|url| *held == Value::Text(url.as_str().to_owned()))
+        }
+        _ => field.kind.same(new, held),
+    })
+}
+
+/// A unit takes any name and says afterwards that it does not find it.
+pub(super) fn judge_file(faults: Faults) -> Option<&'static str> {
+    let is_active = |kind| faults.active().any(|active| active == kind);
+    if is_active(FaultKind::TleMissing) {
+        return Some("the unit does not find the file");
+    }
+    is_active(FaultKind::SatelliteMissing)
+        .then_some("the unit does not find the satellite in the file")
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::{
     super::state::UnitClock,
+    proof::Proof,
     wish::{Wish, cannot},
 };
 use crate::{
@@ -12,6 +13,9 @@ use crate::{
 
 /// No pass of a satellite that moves is longer, seconds.
 const LONGEST_S: i64 = 86_400;
+/// The clock of the unit is right within this, seconds: the command has no
+/// parts of a second, and the answer takes its way.
+const CLOCK_RIGHT_S: f64 = 2.0;
 
 pub(super) static WINDOW: Group = Group {
     key: "window",
@@ -85,4 +89,11 @@ pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     }
     let nearest = add_seconds(wish.utc, 0.5);
     ClockTime::new(nearest).map(Setting::Time).map_err(cannot("set_from"))
+}
+
+/// GPS knows better than this computer what time it is.
+pub(super) fn clock_differing(proof: &Proof<'_>) -> Vec<&'static str> {
+    let from_gps = proof.new.get("set_from") == Some(&Value::Choice(FROM_GPS));
+    let is_right = proof.ahead_s.is_some_and(|ahead_s| ahead_s.abs() <= CLOCK_RIGHT_S);
+    if from_gps || is_right { Vec::new() } else { vec!["time"] }
 }
