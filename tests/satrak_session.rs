@@ -22,6 +22,7 @@ mod satrak_session {
     mod overtaken;
     mod position;
     mod reconnect;
+    mod secrets;
     mod settings;
     mod settings_refused;
     mod stop;
