@@ -16,6 +16,7 @@ mod satrak_session {
 
     mod connect;
     mod doubt;
+    mod every_command;
     mod idle;
     mod jog;
     mod oddities;
