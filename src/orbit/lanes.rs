@@ -11,12 +11,12 @@ use std::{
 };
 
 use glam::DVec3;
-use wide::f64x4;
+use wide::f64x8;
 
 /// Four numbers that go through the same operations.
-pub(super) type Lanes = f64x4;
+pub(super) type Lanes = f64x8;
 /// How many they are.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 8;
 
 /// From here on a number of this type has no digits after the point.
 const WHOLE_ABOVE: f64 = 6_755_399_441_055_744.0;
