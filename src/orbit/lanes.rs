@@ -1,9 +1,9 @@
-//! One number or four at once.
+//! One number or eight at once.
 //!
-//! The passes of a satellite are worked four at a time: a processor takes four
-//! numbers through one operation nearly as fast as one, and nothing waits for
-//! the result of the step before. What serves both is written once, for any
-//! [`Number`].
+//! The passes of a satellite are worked eight at a time: a processor takes two
+//! or more numbers through one operation as fast as one, and has something to
+//! do while others wait for the result of the step before. What serves both is
+//! written once, for any [`Number`].
 
 use std::{
     f64::consts::TAU,
@@ -13,7 +13,7 @@ use std::{
 use glam::DVec3;
 use wide::f64x8;
 
-/// Four numbers that go through the same operations.
+/// Numbers that go through the same operations.
 pub(super) type Lanes = f64x8;
 /// How many they are.
 pub(super) const LANES: usize = 8;
@@ -188,6 +188,15 @@ impl<N: Number> Vector<N> {
     pub(super) fn length(self) -> N {
         self.length_squared().sqrt()
     }
+}
+
+/// Up to as many numbers as there are lanes; the last one fills the rest.
+pub(super) fn lanes_of(numbers: &[f64]) -> Lanes {
+    let mut lanes = [numbers.last().copied().unwrap_or_default(); LANES];
+    for (lane, number) in lanes.iter_mut().zip(numbers) {
+        *lane = *number;
+    }
+    Lanes::from(lanes)
 }
 
 /// The number of one lane.

@@ -107,8 +107,10 @@ pub fn passes_and_effort(
     search: &PassSearch,
     cancelled: &dyn Fn() -> bool,
 ) -> (Vec<Pass>, u64) {
-    Window::new(search)
-        .map_or_else(Default::default, |window| passes_in(propagator, &window, cancelled))
+    let mut found = Vec::new();
+    let effort = Window::new(search)
+        .map_or(0, |window| passes_in(propagator, &window, cancelled, &mut found));
+    (found, effort)
 }
 
 /// The passes of many satellites: each with the index of its satellite, in the
@@ -125,39 +127,39 @@ pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
 ) -> Vec<(usize, Pass)> {
     let Some(window) = Window::new(search) else { return Vec::new() };
     let done = AtomicUsize::new(0);
-    let batches: Vec<Vec<(usize, Pass)>> = propagators
-        .par_chunks(BATCH)
-        .enumerate()
-        .map(|(batch, propagators)| {
-            let mut found = Vec::new();
-            for (index, propagator) in propagators.iter().enumerate() {
-                if cancelled() {
-                    break;
-                }
-                let (passes, _) = passes_in(propagator.borrow(), &window, cancelled);
-                found.extend(passes.into_iter().map(|pass| (batch * BATCH + index, pass)));
+    let batch_of = |mut found: Vec<(usize, Pass)>, (batch, propagators): (usize, &[P])| {
+        let mut passes = Vec::new();
+        for (index, propagator) in propagators.iter().enumerate() {
+            if cancelled() {
+                break;
             }
-            progress(done.fetch_add(propagators.len(), Ordering::Relaxed) + propagators.len());
-            found
-        })
-        .collect();
-    batches.concat()
+            passes_in(propagator.borrow(), &window, cancelled, &mut passes);
+            found.extend(passes.drain(..).map(|pass| (batch * BATCH + index, pass)));
+        }
+        progress(done.fetch_add(propagators.len(), Ordering::Relaxed) + propagators.len());
+        found
+    };
+    let joined = |mut first: Vec<_>, mut second: Vec<_>| {
+        first.append(&mut second);
+        first
+    };
+    propagators.par_chunks(BATCH).enumerate().fold(Vec::new, batch_of).reduce(Vec::new, joined)
 }
 
+/// Adds the passes of a satellite, and says how many states they took.
 fn passes_in(
     propagator: &Propagator,
     window: &Window,
     cancelled: &dyn Fn() -> bool,
-) -> (Vec<Pass>, u64) {
+    found: &mut Vec<Pass>,
+) -> u64 {
     let track = Track::new(window, propagator);
-    let found = if let Some(circular) = Circular::new(&track) {
-        circular.passes(cancelled)
-    } else if geosynchronous::never_rises(&track) {
-        Vec::new()
-    } else {
-        sampled::passes(&track, cancelled)
-    };
-    (found, track.propagations())
+    if let Some(circular) = Circular::new(&track) {
+        circular.passes(cancelled, found);
+    } else if !geosynchronous::never_rises(&track) {
+        sampled::passes(&track, cancelled, found);
+    }
+    track.propagations()
 }
 
 #[cfg(test)]

@@ -8,11 +8,11 @@
 //! number of turns, the satellite goes by, and there is at most one pass about
 //! each such instant. The exact state there tells whether there is one.
 
-use super::{Pass, arcs::Arcs, fly_bys::Piece, side_by_side::SideBySide, track::Track};
+use super::{Pass, arcs::Arcs, side_by_side::SideBySide, track::Track};
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
     orbit::{
-        lanes::LANES,
+        lanes::{LANES, Number},
         propagator::{Secular, WGS72_RADIUS_KM, expand},
     },
 };
@@ -83,46 +83,20 @@ impl<'a> Circular<'a> {
         })
     }
 
-    /// All passes of the window, in order.
-    pub(super) fn passes(&self, cancelled: &dyn Fn() -> bool) -> Vec<Pass> {
-        let guesses = self.guesses(cancelled);
-        let mut found = Vec::with_capacity(guesses.len());
+    /// Adds all passes of the window, in order.
+    pub(super) fn passes(&self, cancelled: &dyn Fn() -> bool, found: &mut Vec<Pass>) {
         let side_by_side = SideBySide::new(self.track, self.secular, self.half_pass_s);
-        for guesses in guesses.chunks(LANES) {
+        for guesses in self.fly_bys(cancelled).chunks(LANES) {
             if cancelled() {
                 break;
             }
-            side_by_side.passes(guesses, &mut found);
+            side_by_side.passes(guesses, found);
         }
-        found
-    }
-
-    /// When the satellite goes by, to some seconds.
-    fn guesses(&self, cancelled: &dyn Fn() -> bool) -> Vec<f64> {
-        let mut guesses = Vec::new();
-        let end_s = self.track.window.length_s + self.half_pass_s;
-        let mut last_s = f64::NEG_INFINITY;
-        for (start_s, piece_end_s) in self.pieces(end_s) {
-            if cancelled() {
-                break;
-            }
-            let piece = Piece::new(self, f64::midpoint(start_s, piece_end_s));
-            // Touching pieces differ by some hundredths of a turn: both look a
-            // little beyond, and what both find is taken once.
-            let least_gap_s = 0.3 * piece.revolution_s;
-            let overlap_s = 0.02 * piece.revolution_s;
-            for guess_s in piece.fly_bys(start_s - overlap_s, piece_end_s + overlap_s) {
-                if guess_s - last_s > least_gap_s {
-                    last_s = guess_s;
-                    guesses.push(guess_s);
-                }
-            }
-        }
-        guesses
     }
 
     /// The times in which the site is near enough to the plane, in pieces.
-    fn pieces(&self, end_s: f64) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn pieces(&self) -> impl Iterator<Item = (f64, f64)> {
+        let end_s = self.track.window.length_s + self.half_pass_s;
         let beta_at = |at_s: f64| {
             let [node, node_rate, _] = expand(&self.secular.node, self.minutes(at_s));
             let beta = self.track.window.sidereal_at(at_s) + self.track.window.longitude - node;
@@ -143,7 +117,8 @@ impl<'a> Circular<'a> {
             .take_while(move |(start_s, _)| *start_s < end_s)
     }
 
-    pub(super) fn minutes(&self, at_s: f64) -> f64 {
-        (self.track.start_since_epoch_s + at_s) / 60.0
+    /// Minutes since the epoch.
+    pub(super) fn minutes<N: Number>(&self, at_s: N) -> N {
+        (at_s + self.track.start_since_epoch_s) / 60.0
     }
 }

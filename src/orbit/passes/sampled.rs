@@ -27,9 +27,9 @@ const GAP_STEP_S: f64 = 60.0;
 /// The last state of an orbit is found as exactly as this, in seconds.
 const END_TOLERANCE_S: f64 = 1e-3;
 
-/// All passes of the window, in order.
-pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool) -> Vec<Pass> {
-    let mut finder = Finder { track, last: None, guess_s: None, open: None, found: Vec::new() };
+/// Adds all passes of the window, in order.
+pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool, found: &mut Vec<Pass>) {
+    let mut finder = Finder { track, last: None, guess_s: None, open: None, found };
     let end_s = track.window.length_s;
     let mut from_s = 0.0;
     while from_s <= end_s && !cancelled() {
@@ -44,7 +44,6 @@ pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool) -> Vec<Pas
         }
         from_s += GAP_STEP_S;
     }
-    finder.found
 }
 
 /// Puts passes together from the extremes of the height, in the order of time.
@@ -55,7 +54,7 @@ struct Finder<'a> {
     /// Where the polynomial has passed the horizon since.
     guess_s: Option<f64>,
     open: Option<Open>,
-    found: Vec<Pass>,
+    found: &'a mut Vec<Pass>,
 }
 
 #[derive(Clone, Copy)]

@@ -13,7 +13,7 @@ use super::{
     window::Sighting,
 };
 use crate::orbit::{
-    lanes::{LANES, Lanes, lane_of},
+    lanes::{Lanes, lane_of, lanes_of},
     propagator::Secular,
 };
 
@@ -49,13 +49,9 @@ impl<'a> SideBySide<'a> {
     /// Adds the passes with their middles near up to four `guesses`, cut to the
     /// window.
     pub(super) fn passes(&self, guesses: &[f64], found: &mut Vec<Pass>) {
-        let Some(last) = guesses.last() else { return };
-        let mut middles = [*last; LANES];
-        for (lane, guess_s) in middles.iter_mut().zip(guesses) {
-            *lane = *guess_s;
-        }
+        let middles = lanes_of(guesses);
         let window = self.track.window;
-        let series = self.track.four_series(self.secular, Lanes::from(middles));
+        let series = self.track.four_series(self.secular, middles);
         let crests = series.turning();
         let ellipse = TwoBody::new(window, &series, &crests);
         let rising = self.edges(&series, &ellipse, -1.0);
@@ -63,7 +59,7 @@ impl<'a> SideBySide<'a> {
         let sightings = Sighting::new(&crests);
         self.track.count(guesses.len());
         for lane in 0..guesses.len() {
-            let (Some(crest), Some(from_s)) = (crests.lane(lane), middles.get(lane)) else {
+            let (Some(crest), Some(from_s)) = (crests.lane(lane), lane_of(&middles, lane)) else {
                 return;
             };
             let is_crest =
