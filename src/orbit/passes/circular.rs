@@ -119,6 +119,6 @@ impl<'a> Circular<'a> {
 
     /// Minutes since the epoch.
     pub(super) fn minutes<N: Number>(&self, at_s: N) -> N {
-        (at_s + self.track.start_since_epoch_s) / 60.0
+        (at_s + self.track.start_since_epoch_s) * (1.0 / 60.0)
     }
 }

@@ -128,7 +128,7 @@ impl Circular<'_> {
         let eccentricity = series(&secular.eccentricity, minutes);
         let (e_sin, e_cos) = (eccentricity * sin_anomaly, eccentricity * cos_anomaly);
         let [_, argument_rate, half_acceleration, ..] = secular.argument;
-        let mean_rate = (minutes * (2.0 * half_acceleration) + argument_rate) / 60.0;
+        let mean_rate = (minutes * (2.0 * half_acceleration) + argument_rate) * (1.0 / 60.0);
         let rate = mean_rate * (e_cos * 2.0 + 1.0) - site_rate;
         let toward = cos_beta * (cos_latitude * sin_inclination * beta_rate);
         let lead = normal * toward / (in_plane2 * rate);

@@ -31,8 +31,8 @@ const J2: f64 = 0.001_082_616;
 /// in seconds, the next one would be below a tenth of a millisecond.
 const LAST_STEP_S: f64 = 0.1;
 /// Halley's method for a crossing cubes the share of the rate that a step
-/// changes: after a share this small nothing is left.
-const LAST_SHARE: f64 = 2e-3;
+/// changes: after a share this small less than a tenth of a millisecond is left.
+const LAST_SHARE: f64 = 8e-3;
 /// More steps than this are needed where there is nothing to be found.
 const MOST_STEPS: usize = 8;
 
@@ -75,10 +75,10 @@ pub(super) enum Bend {
 }
 
 impl Bend {
-    fn fits(self, curve: f64) -> bool {
+    fn fits<N: Number>(self, curve: N) -> N::Answer {
         match self {
-            Self::Crest => curve < 0.0,
-            Self::Trough => curve > 0.0,
+            Self::Crest => curve.is_less(N::of(0.0)),
+            Self::Trough => N::of(0.0).is_less(curve),
         }
     }
 }
@@ -90,6 +90,7 @@ pub(super) struct Place<N = f64> {
     /// East, north, up in km.
     pub(super) enu_km: Vector<N>,
     velocity: Vector<N>,
+    pub(super) range_km: N,
     pub(super) height: Height<N>,
 }
 
@@ -97,6 +98,17 @@ impl<N: Number> Place<N> {
     /// How fast the satellite moves across the sky, in radians per second.
     pub(super) fn angular_rate(&self) -> N {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
+    }
+
+    /// Whether the height turns here, this way.
+    pub(super) fn turns(&self, bend: Bend) -> N::Answer {
+        let Height { rate, curve, .. } = self.height;
+        bend.fits(curve) & rate.abs().is_less(curve.abs() * LAST_STEP_S)
+    }
+
+    /// Whether the height is `sine` here, within a millisecond.
+    pub(super) fn crosses(&self, sine: f64) -> N::Answer {
+        (self.height.sine - sine).abs().is_less(self.height.rate.abs() * 1e-3)
     }
 
     /// A little later: less than [`LAST_STEP_S`], or as little of the way to an
@@ -114,9 +126,9 @@ impl<N: Number> Place<N> {
 }
 
 impl<N: Number> Height<N> {
-    /// Of a satellite at `q` with velocity `v` and acceleration `a`.
-    pub(super) fn new(q: Vector<N>, v: Vector<N>, a: Vector<N>) -> Self {
-        let inverse_range = N::of(1.0) / q.length();
+    /// Of a satellite at `q`, so far away, with velocity `v` and acceleration `a`.
+    pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
+        let inverse_range = N::of(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
         let range_curve = (v.length_squared() + q.dot(a) - range_rate * range_rate) * inverse_range;
         let sine = q.z * inverse_range;
@@ -159,8 +171,9 @@ impl<N: Number> LocalSeries<N> {
         let velocity = self.velocity + (self.acceleration + acceleration) * half;
         let change = self.velocity + (self.acceleration + self.jerk * (tau * (1.0 / 3.0))) * half;
         let enu_km = self.position + change * tau;
-        let height = Height::new(enu_km, velocity, acceleration);
-        Place { at_s: self.at_s + tau, enu_km, velocity, height }
+        let range_km = enu_km.length();
+        let height = Height::new(enu_km, range_km, velocity, acceleration);
+        Place { at_s: self.at_s + tau, enu_km, velocity, range_km, height }
     }
 
     /// Where the height is greatest or least, by Newton's method from the
@@ -206,47 +219,35 @@ impl LocalSeries {
     }
 }
 
-impl Place {
-    /// Whether the height turns here, this way.
-    pub(super) fn turns(&self, bend: Bend) -> bool {
-        let Height { rate, curve, .. } = self.height;
-        bend.fits(curve) && rate.abs() < LAST_STEP_S * curve.abs()
-    }
-
-    /// Whether the height is `sine` here, within a millisecond.
-    pub(super) fn crosses(&self, sine: f64) -> bool {
-        (self.height.sine - sine).abs() < 1e-3 * self.height.rate.abs()
-    }
-}
-
 impl LocalSeries<Lanes> {
     /// The series of one lane.
-    pub(super) fn lane(&self, lane: usize) -> Option<LocalSeries> {
-        Some(LocalSeries {
-            at_s: lane_of(&self.at_s, lane)?,
+    pub(super) fn lane(&self, lane: usize) -> LocalSeries {
+        LocalSeries {
+            at_s: lane_of(&self.at_s, lane),
             state: EarthFixed {
-                position_km: self.state.position_km.lane(lane)?,
-                velocity_km_s: self.state.velocity_km_s.lane(lane)?,
+                position_km: self.state.position_km.lane(lane),
+                velocity_km_s: self.state.velocity_km_s.lane(lane),
             },
-            position: self.position.lane(lane)?,
-            velocity: self.velocity.lane(lane)?,
-            acceleration: self.acceleration.lane(lane)?,
-            jerk: self.jerk.lane(lane)?,
-        })
+            position: self.position.lane(lane),
+            velocity: self.velocity.lane(lane),
+            acceleration: self.acceleration.lane(lane),
+            jerk: self.jerk.lane(lane),
+        }
     }
 }
 
 impl Place<Lanes> {
     /// The place of one lane.
-    pub(super) fn lane(&self, lane: usize) -> Option<Place> {
+    pub(super) fn lane(&self, lane: usize) -> Place {
         let Height { sine, rate, curve } = &self.height;
         let of = |numbers| lane_of(numbers, lane);
-        Some(Place {
-            at_s: of(&self.at_s)?,
-            enu_km: self.enu_km.lane(lane)?,
-            velocity: self.velocity.lane(lane)?,
-            height: Height { sine: of(sine)?, rate: of(rate)?, curve: of(curve)? },
-        })
+        Place {
+            at_s: of(&self.at_s),
+            enu_km: self.enu_km.lane(lane),
+            velocity: self.velocity.lane(lane),
+            range_km: of(&self.range_km),
+            height: Height { sine: of(sine), rate: of(rate), curve: of(curve) },
+        }
     }
 }
 

@@ -282,7 +282,7 @@ impl Quintic {
         Look {
             share,
             at_s: self.from_s + share * self.span_s,
-            height: Height::new(q, v * inverse_s, a * (2.0 * inverse_s * inverse_s)),
+            height: Height::new(q, q.length(), v * inverse_s, a * (2.0 * inverse_s * inverse_s)),
             spacing_s: self.span_s / f64::from(LOOKS),
         }
     }

@@ -13,7 +13,7 @@ use crate::{
     astro::time,
     orbit::{
         PropagationError, Propagator, State,
-        lanes::{Lanes, Vector},
+        lanes::{Lanes, Number, Vector},
         propagator::{Resumable, Secular},
     },
 };
@@ -48,7 +48,10 @@ impl<'a> Track<'a> {
             window,
             propagator,
             start_since_epoch_s,
-            drift_km_s: propagator.drift_km_s(),
+            drift_km_s: f64::max(
+                propagator.drift_km_s(start_since_epoch_s),
+                propagator.drift_km_s(start_since_epoch_s + window.length_s),
+            ),
             resumable: Cell::default(),
             propagations: Cell::new(0),
         }
@@ -73,10 +76,10 @@ impl<'a> Track<'a> {
         Some(LocalSeries::new(self.window, at_s, self.earth_fixed(at_s, &state.ok()?)))
     }
 
-    /// The series around four exact states of an orbit that is round. Whoever
-    /// uses them [counts](Self::count) them.
-    pub(super) fn four_series(&self, secular: &Secular, at_s: Lanes) -> LocalSeries<Lanes> {
-        let minutes = (at_s + self.start_since_epoch_s) / 60.0;
+    /// The series around exact states of an orbit that is round. Whoever uses
+    /// them [counts](Self::count) them.
+    pub(super) fn round_series(&self, secular: &Secular, at_s: Lanes) -> LocalSeries<Lanes> {
+        let minutes = (at_s + self.start_since_epoch_s) * (1.0 / 60.0);
         let (position_km, velocity_km_s) = secular.motion(minutes, self.window.sidereal_at(at_s));
         LocalSeries::new(self.window, at_s, EarthFixed { position_km, velocity_km_s })
     }
@@ -146,11 +149,12 @@ impl<'a> Track<'a> {
 
     /// Whether an extreme `tau` seconds from the state it follows from is as
     /// exact as is asked for.
-    pub(super) fn is_exact_crest(&self, tau: f64, place: &Place) -> bool {
-        let turn = self.drift_km_s / place.enu_km.length();
-        tau.abs() <= LONGEST_STEP_S
-            && turn * tau.abs() < CREST_TOLERANCE
-            && turn < CREST_TIME_TOLERANCE_S * place.height.curve.abs()
+    pub(super) fn is_exact_crest<N: Number>(&self, tau: N, place: &Place<N>) -> N::Answer {
+        let (tau, range_km) = (tau.abs(), place.range_km);
+        tau.is_less(N::of(LONGEST_STEP_S))
+            & (tau * self.drift_km_s).is_less(range_km * CREST_TOLERANCE)
+            & N::of(self.drift_km_s)
+                .is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
     }
 
     /// The extreme near a series, with the speed that a second state shows.
@@ -163,12 +167,13 @@ impl<'a> Track<'a> {
 
     /// Whether a place `tau` seconds from the state it follows from is where the
     /// height passes the horizon, as exactly as is asked for.
-    pub(super) fn is_timed(&self, tau: f64, place: &Place) -> bool {
+    pub(super) fn is_timed<N: Number>(&self, tau: N, place: &Place<N>) -> N::Answer {
         let tau = tau.abs();
-        let rise_km_s = place.height.rate.abs() * place.enu_km.length();
-        tau <= LONGEST_STEP_S
-            && place.crosses(self.window.sin_horizon)
-            && (tau * self.drift_km_s <= TIME_TOLERANCE_S * rise_km_s || tau < TIME_TOLERANCE_S)
+        let rise_km_s = place.height.rate.abs() * place.range_km;
+        tau.is_less(N::of(LONGEST_STEP_S))
+            & place.crosses(self.window.sin_horizon)
+            & ((tau * self.drift_km_s).is_less(rise_km_s * TIME_TOLERANCE_S)
+                | tau.is_less(N::of(TIME_TOLERANCE_S)))
     }
 
     /// Where the height passes the horizon between `below_s`, where it is less,

@@ -30,8 +30,6 @@ pub(super) struct Window {
     pub(super) radius_km: f64,
     /// The site in Earth-fixed axes.
     pub(super) site_ecef_km: DVec3,
-    /// The way up, in Earth-fixed axes.
-    pub(super) up: DVec3,
     /// The directions east, north and up, and where the site itself lies along
     /// them from the centre of the Earth.
     axes: [DVec3; 3],
@@ -66,7 +64,6 @@ impl Window {
             cos_latitude: site_ecef_km.x.hypot(site_ecef_km.y) / radius_km,
             radius_km,
             site_ecef_km,
-            up: to_enu.transpose() * DVec3::Z,
             axes: [0, 1, 2].map(|axis| to_enu.row(axis)),
             site_enu_km: to_enu * site_ecef_km,
             horizon,
@@ -122,20 +119,26 @@ pub(super) struct Sighting<N = f64> {
 
 impl<N: Number> Sighting<N> {
     pub(super) fn new(place: &Place<N>) -> Self {
+        let Vector { x, y, z } = place.enu_km;
+        let elevation = z.atan2((x * x + y * y).sqrt());
+        Self { elevation, ..Self::at_elevation(place, 0.0) }
+    }
+
+    /// Of a place at this elevation.
+    pub(super) fn at_elevation(place: &Place<N>, elevation: f64) -> Self {
         let Vector { x, y, .. } = place.enu_km;
-        let elevation = place.height.sine.within(-1.0, 1.0).asin();
-        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation }
+        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::of(elevation) }
     }
 }
 
 impl Sighting<Lanes> {
     /// The sighting of one lane.
-    pub(super) fn lane(&self, lane: usize) -> Option<Sighting> {
+    pub(super) fn lane(&self, lane: usize) -> Sighting {
         let of = |numbers| lane_of(numbers, lane);
-        Some(Sighting {
-            at_s: of(&self.at_s)?,
-            azimuth: of(&self.azimuth)?,
-            elevation: of(&self.elevation)?,
-        })
+        Sighting {
+            at_s: of(&self.at_s),
+            azimuth: of(&self.azimuth),
+            elevation: of(&self.elevation),
+        }
     }
 }

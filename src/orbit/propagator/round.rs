@@ -3,7 +3,7 @@
 //! The same theory as the library's, written so that one sine and cosine does
 //! for each angle: what the short waves add to an angle is small, and turning a
 //! sine and cosine by a small angle takes a few multiplications. Over the
-//! whole bundled catalog the positions agree within 1e-8 km.
+//! whole bundled catalog the positions agree within 2e-8 km.
 //!
 //! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, and
 //! Vallado et al., "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths
@@ -193,7 +193,8 @@ mod tests {
             let propagator = Propagator::new(elements).unwrap();
             let Some(secular) = propagator.secular() else { continue };
             for days in [-3.0, 0.0, 0.5, 4.0, 9.0] {
-                let times = [0.0, 23.0, 47.0, 71.0].map(|minute| days * 1440.0 + minute);
+                let minutes = [0.0, 11.0, 23.0, 35.0, 47.0, 59.0, 71.0, 83.0];
+                let times = minutes.map(|minute| days * 1440.0 + minute);
                 if times.iter().any(|minutes| !secular.is_round_at(*minutes)) {
                     continue;
                 }
@@ -201,15 +202,15 @@ mod tests {
                 for (lane, minutes) in times.iter().enumerate() {
                     let state = propagator.state_after(minutes * 60.0, &mut Resumable::default());
                     let state = state.unwrap();
-                    let position = positions.lane(lane).unwrap() - state.position_km.into();
-                    let velocity = velocities.lane(lane).unwrap() - state.velocity_km_s.into();
+                    let position = positions.lane(lane) - state.position_km.into();
+                    let velocity = velocities.lane(lane) - state.velocity_km_s.into();
                     worst = (worst.0.max(position.length()), worst.1.max(velocity.length()));
                     compared += 1;
                 }
             }
         }
-        assert!(compared > 290_000, "{compared}");
-        assert!(worst.0 < 1e-8 && worst.1 < 2e-11, "{worst:?}");
+        assert!(compared > 580_000, "{compared}");
+        assert!(worst.0 < 2e-8 && worst.1 < 2e-11, "{worst:?}");
     }
 
     #[test]

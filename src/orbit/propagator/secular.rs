@@ -94,11 +94,20 @@ impl Secular {
     }
 
     /// How fast, in km/s, the drag carries the satellite off the way that
-    /// SGP4's velocities point: they are those of an orbit that keeps its size
-    /// and shape.
-    pub(in crate::orbit) fn drag_drift_km_s(&self) -> f64 {
-        let [root_axis, shrinking, ..] = self.root_axis;
-        4.0 * (root_axis * shrinking).abs() * WGS72.ae / 60.0
+    /// SGP4's velocities point so many minutes after the epoch: they are those
+    /// of an orbit that keeps its size and shape.
+    pub(super) fn drag_drift_km_s(&self, minutes: f64) -> f64 {
+        let [root_axis, shrinking, _] = expand(&self.root_axis, minutes);
+        let [_, rate, _] = expand(&self.argument, minutes);
+        let axis = root_axis * root_axis;
+        let inward = 4.0 * (root_axis * shrinking).abs();
+        // The angle grows by powers of the time, the speed follows from the size.
+        let speed_up = WGS72.ke * (root_axis.powi(-3) - self.root_axis[0].powi(-3));
+        let ahead = axis * (rate - self.argument[1] - speed_up).abs();
+        // Once a revolution the drag changes the shape and turns it back.
+        let DragWave { eta, angle, eccentricity, .. } = &self.drag_wave;
+        let swing = eccentricity[0].abs() + 3.0 * (self.eccentricity[0] * eta * angle[0]).abs();
+        (inward + ahead + 2.0 * swing * axis * rate) * WGS72.ae / 60.0
     }
 
     fn of_near_earth(orbit: &sgp4::Orbit, bstar: f64) -> Self {

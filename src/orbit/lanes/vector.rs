@@ -1,0 +1,76 @@
+//! Vectors in three dimensions, one or several at once.
+
+use std::ops::{Add, Mul, Sub};
+
+use glam::DVec3;
+
+use super::{Lanes, Number, lane_of};
+
+/// A vector in three dimensions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::orbit) struct Vector<N> {
+    pub(in crate::orbit) x: N,
+    pub(in crate::orbit) y: N,
+    pub(in crate::orbit) z: N,
+}
+
+impl<N: Number> Vector<N> {
+    pub(in crate::orbit) fn new(x: N, y: N, z: N) -> Self {
+        Self { x, y, z }
+    }
+
+    pub(in crate::orbit) fn dot(self, other: Self) -> N {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    pub(in crate::orbit) fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    pub(in crate::orbit) fn length_squared(self) -> N {
+        self.dot(self)
+    }
+
+    pub(in crate::orbit) fn length(self) -> N {
+        self.length_squared().sqrt()
+    }
+}
+
+impl Vector<Lanes> {
+    /// The vector of one lane.
+    pub(in crate::orbit) fn lane(&self, lane: usize) -> Vector<f64> {
+        let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| lane_of(numbers, lane));
+        Vector { x, y, z }
+    }
+}
+
+impl<N: Number> From<DVec3> for Vector<N> {
+    fn from(vector: DVec3) -> Self {
+        Self::new(N::of(vector.x), N::of(vector.y), N::of(vector.z))
+    }
+}
+
+impl<N: Number> Add for Vector<N> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<N: Number> Sub for Vector<N> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl<N: Number> Mul<N> for Vector<N> {
+    type Output = Self;
+    fn mul(self, factor: N) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
