@@ -90,6 +90,7 @@ pub(super) struct Place<N = f64> {
     /// East, north, up in km.
     pub(super) enu_km: Vector<N>,
     velocity: Vector<N>,
+    acceleration: Vector<N>,
     pub(super) range_km: N,
     pub(super) height: Height<N>,
 }
@@ -120,7 +121,7 @@ impl<N: Number> Place<N> {
             rate: rate + step_s * curve,
             curve,
         };
-        let enu_km = self.enu_km + self.velocity * step_s;
+        let enu_km = self.enu_km + (self.velocity + self.acceleration * (step_s * 0.5)) * step_s;
         Self { at_s: self.at_s + step_s, enu_km, height, ..self }
     }
 }
@@ -173,7 +174,7 @@ impl<N: Number> LocalSeries<N> {
         let enu_km = self.position + change * tau;
         let range_km = enu_km.length();
         let height = Height::new(enu_km, range_km, velocity, acceleration);
-        Place { at_s: self.at_s + tau, enu_km, velocity, range_km, height }
+        Place { at_s: self.at_s + tau, enu_km, velocity, acceleration, range_km, height }
     }
 
     /// Where the height is greatest or least, by Newton's method from the
@@ -245,6 +246,7 @@ impl Place<Lanes> {
             at_s: of(&self.at_s),
             enu_km: self.enu_km.lane(lane),
             velocity: self.velocity.lane(lane),
+            acceleration: self.acceleration.lane(lane),
             range_km: of(&self.range_km),
             height: Height { sine: of(sine), rate: of(rate), curve: of(curve) },
         }
