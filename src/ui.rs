@@ -1,6 +1,7 @@
 //! Views and widgets: they draw and queue commands, nothing else.
 
 pub mod antenna_card;
+pub mod antennas;
 pub mod banner;
 pub mod bar;
 pub mod confirm;

@@ -32,6 +32,8 @@ pub enum View {
     Operate,
     /// The catalogue and where it comes from.
     Elements,
+    /// The settings of the units.
+    Antennas,
     /// The station's settings.
     Preferences,
 }

@@ -154,7 +154,7 @@ fn age(model: &Model, antenna: &AntennaModel) -> String {
 }
 
 /// What an antenna does, in one or two words.
-fn activity(antenna: &AntennaModel) -> &'static str {
+pub fn activity(antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
     match antenna.snapshot.link {
         LinkState::Off => return "Not connected",

@@ -32,6 +32,8 @@ pub enum Icon {
     CrossHair,
     /// View: Elements.
     Orbit,
+    /// View: Antennas.
+    Antenna,
     /// View: Preferences.
     Sliders,
     /// The sign of the program.
@@ -52,11 +54,15 @@ pub enum Icon {
     Question,
     /// A search.
     Search,
+    /// Typed and not sent yet.
+    Pencil,
+    /// Shows what is hidden.
+    Eye,
 }
 
 impl Icon {
     /// All icons.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 24] = [
         Self::Octagon,
         Self::Bell,
         Self::Warning,
@@ -68,6 +74,7 @@ impl Icon {
         Self::ChevronRight,
         Self::CrossHair,
         Self::Orbit,
+        Self::Antenna,
         Self::Sliders,
         Self::Dish,
         Self::Disc,
@@ -78,6 +85,8 @@ impl Icon {
         Self::Info,
         Self::Question,
         Self::Search,
+        Self::Pencil,
+        Self::Eye,
     ];
 }
 

@@ -62,9 +62,10 @@ pub const ALL: [Binding; 20] = [
             &[
                 (Key::Num1, Act::Show(View::Operate)),
                 (Key::Num3, Act::Show(View::Elements)),
+                (Key::Num4, Act::Show(View::Antennas)),
                 (Key::Num6, Act::Show(View::Preferences)),
             ],
-            "Operate, Elements, Preferences",
+            "Operate, Elements, Antennas, Preferences",
         ),
     ),
     row(

@@ -4,7 +4,7 @@ use egui::{Rect, Ui, pos2};
 use jiff::Timestamp;
 
 use super::{
-    banner, bar,
+    antennas, banner, bar,
     confirm::Question,
     elements,
     icons::Icon,
@@ -22,6 +22,7 @@ use crate::app::{Model, UiCommand, View};
 pub struct Views {
     operate: operate::OperateState,
     elements: elements::ElementsState,
+    antennas: antennas::AntennasState,
     preferences: preferences::PreferencesState,
     question: Option<Question>,
     keys_open: bool,
@@ -79,6 +80,7 @@ impl Views {
         };
         keys::take(ui, model, &mut desk, commands);
 
+        self.antennas.watch(model);
         let mut body = window.with_min_y(top.bottom());
         // In a low window the antenna card needs the whole height.
         let beside_card = window.height() < top_bar::SMALL_BELOW && model.view == View::Operate;
@@ -101,10 +103,17 @@ impl Views {
                 let (state, question) = (&mut self.elements, &mut self.question);
                 elements::show(ui, rest, model, is_edited, state, question, commands);
             }
+            View::Antennas => {
+                self.operate.leave_card(commands);
+                antennas::show(ui, rest, model, &mut self.antennas, commands);
+            }
             View::Preferences => {
                 self.operate.leave_card(commands);
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
+        }
+        if let Some(question) = self.antennas.ask_before_leaving(model, commands) {
+            self.question = Some(question);
         }
         Question::show(&mut self.question, ui, commands);
         keys::list::show(ui, &mut self.keys_open);
@@ -125,6 +134,7 @@ fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComman
     let views = [
         (View::Operate, Icon::CrossHair, "Operate"),
         (View::Elements, Icon::Orbit, "Elements"),
+        (View::Antennas, Icon::Antenna, "Antennas"),
         (View::Preferences, Icon::Sliders, "Preferences"),
     ];
     let entries =

@@ -59,6 +59,15 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.line(&[(12.6, 12.6), (17.5, 17.5)]);
         }
         Icon::Sliders => sliders(pen),
+        Icon::Antenna => antenna(pen),
+        Icon::Pencil => {
+            pen.outline(&[(3.0, 17.0), (4.2, 12.6), (13.4, 3.4), (16.6, 6.6), (7.4, 15.8)]);
+            pen.line(&[(11.2, 5.6), (14.4, 8.8)]);
+        }
+        Icon::Eye => {
+            pen.outline(&ellipse((10.0, 10.0), 8.0, 5.0, 0.0));
+            pen.ring((10.0, 10.0), 2.4);
+        }
         Icon::Dish => {
             bowl(pen);
             feed(pen);
@@ -91,6 +100,15 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.disc((10.0, 14.2), 1.0);
         }
     }
+}
+
+/// A dish that looks up, with its feed, on a foot.
+fn antenna(pen: &Pen<'_>) {
+    pen.outline(&arc_points((9.5, 9.5), 7.0, 45.0, 225.0));
+    pen.line(&[(9.5, 9.5), (13.6, 5.4)]);
+    pen.disc((14.4, 4.6), 1.6);
+    pen.line(&[(7.0, 16.0), (5.6, 18.0)]);
+    pen.line(&[(3.4, 18.0), (13.0, 18.0)]);
 }
 
 fn bell(pen: &Pen<'_>) {

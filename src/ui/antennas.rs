@@ -1,0 +1,156 @@
+//! The Antennas view: every setting of every unit, as it is on the unit, as it
+//! is to be, and what came of putting it there.
+//!
+//! Invariant: what a form shows as on the unit is what was read from it, with
+//! its age; an edit is the operator's until it was read back.
+
+mod cards;
+mod draft;
+mod field_row;
+mod field_state;
+mod foot;
+mod form;
+mod head;
+mod inputs;
+mod list;
+mod outcome;
+mod row;
+mod section;
+mod unit;
+mod unlock;
+mod unlock_dialog;
+
+use std::collections::BTreeMap;
+
+use egui::{Align2, Rect, ScrollArea, Ui, UiBuilder, vec2};
+
+use self::{
+    cards::Desk,
+    form::Form,
+    section::Section,
+    unit::Unit,
+    unlock::Unlock,
+    unlock_dialog::{Answer, UnlockDialog},
+};
+use super::{
+    confirm::Question,
+    text, theme,
+    widgets::{
+        button::{Button, HEIGHT},
+        paint,
+    },
+};
+use crate::app::{Model, UiCommand, View};
+
+const PADDING: f32 = 16.0;
+
+/// What was typed over the units, by the names of their antennas. It has no
+/// `Debug`: a password may be in it.
+#[derive(Default)]
+pub struct AntennasState {
+    forms: BTreeMap<String, Form>,
+    scroll_to: Option<Section>,
+    unlock: Option<UnlockDialog>,
+}
+
+impl AntennasState {
+    /// Once a frame, whatever is shown: takes what came of changes, and locks
+    /// the service functions when they may no longer be open.
+    pub fn watch(&mut self, model: &Model) {
+        for index in 0..model.antennas.len() {
+            let Some(unit) = Unit::of(model, index) else { continue };
+            let Some(form) = self.forms.get_mut(unit.name()) else { continue };
+            form.take_outcomes(&unit);
+            form.unlock = form.unlock.filter(|unlock| unlock.holds(&unit));
+        }
+    }
+
+    /// The question before the operator leaves edits behind. They are kept.
+    pub fn ask_before_leaving(
+        &self,
+        model: &Model,
+        commands: &mut Vec<UiCommand>,
+    ) -> Option<Question> {
+        if model.view != View::Antennas {
+            return None;
+        }
+        let unit = Unit::of(model, model.selected_antenna)?;
+        let edited = self.forms.get(unit.name())?.count_all(&unit).edited;
+        let leaves = |command: &UiCommand| match command {
+            UiCommand::Show(view) => *view != View::Antennas,
+            UiCommand::SelectAntenna(index) => *index != model.selected_antenna,
+            _ => false,
+        };
+        let place = commands.iter().position(leaves).filter(|_| edited > 0)?;
+        let command = commands.remove(place);
+        let changes = if edited == 1 { "change is" } else { "changes are" };
+        let text = format!(
+            "{edited} {changes} not on {} yet. They are kept here until they are applied or \
+             reverted. Leave?",
+            unit.name()
+        );
+        Some(Question { text, yes: "Leave", command })
+    }
+}
+
+/// Draws the view.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut AntennasState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    let (side, body) = rect.split_left_right_at_x(rect.left() + list::WIDTH);
+    let Some(mut unit) = Unit::of(model, model.selected_antenna) else {
+        list::show(ui, side, model, None, commands);
+        return none(ui, body, commands);
+    };
+    let form = state.forms.entry(unit.name().to_owned()).or_default();
+    unit.is_unlocked = form.unlock.is_some();
+    form.ask_unread(&unit, commands);
+    let clicked = list::show(ui, side, model, Some((&unit, form)), commands);
+    state.scroll_to = clicked.or(state.scroll_to);
+    let (top, rest) = body.split_top_bottom_at_y(body.top() + head::HEIGHT);
+    head::show(ui, top, &unit, commands);
+    let foot = foot::height(ui, form, rest.width()).min(rest.height() / 2.0);
+    let (middle, bottom) = rest.split_top_bottom_at_y(rest.bottom() - foot);
+    let mut wants_unlock = false;
+    let builder = UiBuilder::new().id_salt(("settings", unit.name())).max_rect(middle);
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(middle);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            let inner = ui.available_rect_before_wrap();
+            let room = inner.shrink2(vec2(PADDING, 0.0)).with_min_y(inner.top() + PADDING);
+            ui.scope_builder(UiBuilder::new().max_rect(room), |ui| {
+                let mut desk = Desk { commands: &mut *commands, unlock: &mut wants_unlock };
+                cards::show(ui, &unit, form, &mut state.scroll_to, &mut desk);
+            });
+        });
+    });
+    foot::show(ui, bottom, &unit, form, commands);
+    if wants_unlock {
+        state.unlock = Some(UnlockDialog::default());
+    }
+    let answer = state.unlock.as_mut().map(|dialog| dialog.show(ui, &unit));
+    if answer == Some(Answer::Unlock) {
+        form.unlock = Some(Unlock::new(&unit));
+    }
+    state.unlock.take_if(|_| answer != Some(Answer::Open) && answer.is_some());
+}
+
+/// There is no antenna.
+fn none(ui: &Ui, rect: Rect, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let inner = rect.shrink(PADDING);
+    let words = "No antenna yet. Set one up.";
+    let line = paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
+    let button = Button::primary("Set up an antenna");
+    let size = vec2(button.width(ui), HEIGHT);
+    let place = Rect::from_min_size(line.left_bottom() + vec2(0.0, 12.0), size);
+    if button.show(ui, "set up antenna", place).clicked() {
+        commands.push(UiCommand::Show(View::Preferences));
+    }
+}

@@ -1,0 +1,148 @@
+//! The cards of a unit, in one column or two.
+
+mod checks;
+mod clock;
+mod gps;
+mod satellite;
+mod service;
+mod window;
+
+use egui::{Align, Frame, Layout, Margin, RichText, Stroke, Ui, style::ScrollAnimation, vec2};
+
+use super::{
+    field_row,
+    form::Form,
+    row,
+    section::{self, Section},
+    unit::Unit,
+};
+use crate::{
+    app::UiCommand,
+    controller::settings::{Access, Field},
+    ui::{text, theme},
+};
+
+/// Between the columns, and around them.
+const GAP: f32 = 16.0;
+const PADDING: i8 = 12;
+/// A card is not wider than its fields need.
+const WIDEST: f32 = 760.0;
+
+/// What a card can do beside editing its fields.
+pub(super) struct Desk<'a> {
+    pub(super) commands: &'a mut Vec<UiCommand>,
+    /// The dialog that unlocks the service functions is to open.
+    pub(super) unlock: &'a mut bool,
+}
+
+/// Shows all cards; the one of `scroll_to` is brought into view.
+pub(super) fn show(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    scroll_to: &mut Option<Section>,
+    desk: &mut Desk<'_>,
+) {
+    let room = ui.available_width();
+    let least = row::LEAST_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
+    let half = (room - GAP) / 2.0;
+    let (left, right) = Section::ALL.split_at(3);
+    if half < least {
+        column(ui, room.min(WIDEST), unit, form, &Section::ALL, (&mut *scroll_to, desk));
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        for sections in [left, right] {
+            let size = vec2(half.min(WIDEST), 0.0);
+            ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
+                ui.spacing_mut().item_spacing.x = 8.0;
+                column(ui, size.x, unit, form, sections, (&mut *scroll_to, &mut *desk));
+            });
+        }
+    });
+}
+
+fn column(
+    ui: &mut Ui,
+    width: f32,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    sections: &[Section],
+    (scroll_to, desk): (&mut Option<Section>, &mut Desk<'_>),
+) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    for section in sections {
+        let card = card(ui, width, |ui| fill(ui, unit, form, *section, desk));
+        if *scroll_to == Some(*section) {
+            ui.scroll_to_rect_animation(card, Some(Align::TOP), ScrollAnimation::none());
+            *scroll_to = None;
+        }
+        ui.add_space(GAP);
+    }
+}
+
+fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
+    let t = theme::tokens(ui);
+    let frame = Frame::new()
+        .fill(t.bg1)
+        .stroke(Stroke::new(1.0, t.line))
+        .corner_radius(6)
+        .inner_margin(Margin::same(PADDING));
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(width - 2.0 * f32::from(PADDING) - 2.0);
+        content(ui);
+    });
+    shown.response.rect
+}
+
+fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &mut Desk<'_>) {
+    if section == Section::Service {
+        return service::show(ui, unit, form, desk);
+    }
+    title(ui, section.title());
+    match section {
+        Section::General => {
+            row::head(ui);
+            fields(ui, unit, form, "general", |_| true);
+        }
+        Section::Gps => gps::show(ui, unit, form),
+        Section::Window => window::show(ui, unit, form, desk.commands),
+        // The upload of elements to the unit has its place below this card.
+        Section::Satellite => satellite::show(ui, unit, form, desk),
+        Section::Clock => clock::show(ui, unit, form, desk.commands),
+        Section::Checks => checks::show(ui, unit, form),
+        Section::Service => {}
+    }
+}
+
+fn title(ui: &mut Ui, words: &str) {
+    ui.label(RichText::new(words).font(text::value()));
+    ui.add_space(4.0);
+}
+
+/// A head within a card.
+fn subtitle(ui: &mut Ui, words: &str) {
+    let t = theme::tokens(ui);
+    ui.add_space(8.0);
+    ui.label(RichText::new(words).font(text::small_strong()).color(t.t2));
+    ui.add_space(2.0);
+}
+
+/// The fields of a group for which `is_wanted` is true.
+fn fields(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    key: &'static str,
+    is_wanted: fn(&Field) -> bool,
+) {
+    let Some(group) = section::group(key) else { return };
+    let mut is_revealed = form.is_revealed;
+    field_row::show_all(ui, unit, group, form.draft(group.key), &mut is_revealed, is_wanted);
+    form.is_revealed = is_revealed;
+}
+
+fn is_reported(field: &Field) -> bool {
+    field.access != Access::Write
+}

@@ -1,0 +1,110 @@
+//! The unit's clock, and what it does to the track.
+
+use egui::{Rect, Sense, Ui, pos2, vec2};
+
+use super::{fields, is_reported};
+use crate::{
+    app::{Model, UiCommand, forecast::Forecast},
+    astro::time::add_seconds,
+    controller::{
+        satrak::{FROM_GPS, FROM_THIS_PC},
+        settings::{Value, Values},
+    },
+    ui::{
+        antennas::{draft::Mark, form::Form, row, section, unit::Unit},
+        format,
+        icons::Icon,
+        text, theme,
+        widgets::button::{Button, SMALL_HEIGHT},
+    },
+};
+
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+    fields(ui, unit, form, "clock", is_reported);
+    effect(ui, unit);
+    ui.add_space(6.0);
+    set(ui, unit, form, commands);
+}
+
+/// How far the clock puts the beam from the satellite.
+fn effect(ui: &mut Ui, unit: &Unit<'_>) {
+    let t = theme::tokens(ui);
+    let ahead_s = unit.values("clock").and_then(|values| match values.get("ahead_s") {
+        Some(Value::Decimal(ahead_s)) => Some(*ahead_s),
+        _ => None,
+    });
+    let forecast = forecast(unit);
+    let rate_deg_s = forecast.and_then(|forecast| rate_at_tca(unit.model, forecast));
+    let (Some(ahead_s), Some(forecast), Some(rate_deg_s)) = (ahead_s, forecast, rate_deg_s) else {
+        return row::plain(ui, "Effect", "not known without clock and pass", None);
+    };
+    let off_deg = (ahead_s * rate_deg_s).abs();
+    let label = format!("Effect on {}", forecast.satellite.short_name());
+    let value = format!("{} along track at TCA", format::degrees(off_deg, 1));
+    let verdict = if off_deg <= unit.antenna.config.beam_width_deg / 2.0 {
+        (Some(Icon::Check), "Inside beam", t.t3)
+    } else {
+        (Some(Icon::Warning), "Outside beam", t.warn)
+    };
+    row::plain(ui, &label, &value, Some(verdict));
+}
+
+/// The pass of the satellite on the unit, or else the selected one.
+fn forecast<'a>(unit: &Unit<'a>) -> Option<&'a Forecast> {
+    let model = unit.model;
+    let number = match unit.values("file").and_then(|values| values.get("catalog_number")) {
+        Some(Value::Integer(number)) => u32::try_from(*number).ok(),
+        _ => None,
+    };
+    number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
+}
+
+/// How fast the satellite goes over the sky at its highest, degrees a second.
+fn rate_at_tca(model: &Model, forecast: &Forecast) -> Option<f64> {
+    let tca = forecast.pass.tca.time;
+    let at = |seconds| {
+        let time = add_seconds(tca, seconds);
+        forecast.satellite.propagator.look_from(model.station.site, time).ok()
+    };
+    Some(at(-0.5)?.direction.separation(at(0.5)?.direction).degrees())
+}
+
+fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let Some(group) = section::group("clock") else { return };
+    let is_sending = form.draft(group.key).sent().is_some();
+    let refusal = if !unit.is_open() {
+        Some("There is no link.")
+    } else if unit.tracks() {
+        Some("Not while the unit tracks.")
+    } else if is_sending {
+        Some("Sending.")
+    } else {
+        None
+    };
+    let size = vec2(ui.available_width(), SMALL_HEIGHT);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let mut left = rect.left();
+    for (words, from) in [("Set from GPS", FROM_GPS), ("Set from this PC", FROM_THIS_PC)] {
+        let button = Button::normal(words).locked(refusal.is_some());
+        let size = vec2(button.width(ui), SMALL_HEIGHT);
+        let place = Rect::from_min_size(pos2(left, rect.top()), size);
+        left = place.right() + 8.0;
+        if button.show(ui, words, place).clicked() {
+            let values = Values::from([("set_from", Value::Choice(from))]);
+            form.begin_report();
+            form.send(unit, group, values, commands);
+        }
+    }
+    let said = match (refusal, form.draft(group.key).mark("set_from")) {
+        (Some(refusal), _) => refusal.to_owned(),
+        (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {
+            format!("Set and read again {}", format::time_z(at))
+        }
+        (None, Some(Mark::Rejected)) => "Not set. See below.".to_owned(),
+        (None, None) => String::new(),
+    };
+    if !said.is_empty() {
+        row::said(ui, rect.with_min_x(left), &said, text::small(), t.t2, &said);
+    }
+}

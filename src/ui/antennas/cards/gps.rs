@@ -1,0 +1,63 @@
+//! Where the unit believes to be.
+
+use egui::Ui;
+
+use super::{fields, subtitle};
+use crate::{
+    astro::{Site, frames},
+    controller::settings::{Value, Values},
+    ui::{
+        antennas::{form::Form, row, unit::Unit},
+        format,
+        icons::Icon,
+        theme,
+    },
+};
+
+/// Further from the site than this the unit sees other passes than Azel. The
+/// rounding of its place to 0.01° is at most 0.8 km.
+const FAR_KM: f64 = 1.0;
+
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+    row::head(ui);
+    fields(ui, unit, form, "gps", |_| true);
+    site_check(ui, unit);
+    subtitle(ui, "GPS receiver");
+    fields(ui, unit, form, "receiver", |_| true);
+}
+
+fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
+    let t = theme::tokens(ui);
+    let Some(away_km) = place(unit).map(|place| distance_km(place, unit.model.station.site)) else {
+        return row::plain(ui, "Distance to site", "not known", None);
+    };
+    let words = format!("{} km from the station's site", format::number(away_km, 1));
+    if away_km <= FAR_KM {
+        let verdict = Some((Some(Icon::Check), "Agrees", t.t3));
+        return row::plain(ui, "Distance to site", &words, verdict);
+    }
+    row::plain(ui, "Distance to site", &words, Some((Some(Icon::Warning), "Differs", t.warn)));
+    let why = "The unit tracks from its own place and Azel predicts from the station's: one of \
+               them is wrong.";
+    row::note(ui, Some(Icon::Warning), why, t.warn);
+}
+
+/// The place that the unit uses: that of its receiver, or the one it was given.
+fn place(unit: &Unit<'_>) -> Option<Site> {
+    let given = unit.values("gps")?;
+    let is_automatic = given.get("is_automatic") == Some(&Value::Flag(true));
+    let from_gps = unit
+        .values("receiver")
+        .filter(|receiver| is_automatic && receiver.get("is_valid") == Some(&Value::Flag(true)));
+    let altitude_m = unit.model.station.site.altitude_m();
+    let angle = |values: &Values, key| match values.get(key) {
+        Some(Value::Decimal(angle)) => Some(*angle),
+        _ => None,
+    };
+    let values = from_gps.unwrap_or(given);
+    Site::new(angle(values, "latitude_deg")?, angle(values, "longitude_deg")?, altitude_m).ok()
+}
+
+fn distance_km(a: Site, b: Site) -> f64 {
+    frames::site_ecef_km(a).distance(frames::site_ecef_km(b))
+}

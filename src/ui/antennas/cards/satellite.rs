@@ -1,0 +1,136 @@
+//! The satellite and where its elements come from.
+
+use egui::{Rect, Sense, Ui, vec2};
+
+use super::{Desk, fields};
+use crate::{
+    controller::settings::{Access, Group, Kind, Value, Values},
+    ui::{
+        antennas::{
+            form::{Count, Form},
+            row, section,
+            unit::Unit,
+        },
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT},
+            paint,
+            segmented::{self, Segment},
+        },
+    },
+};
+
+/// The groups behind the codes of `tle_source`, with their tabs.
+const SOURCES: [(&str, &str); 3] = [("file", "File"), ("web", "Web"), ("ftp", "FTP")];
+const TABS: f32 = 216.0;
+
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Desk<'_>) {
+    let used = used(unit);
+    let shown = form.tab.or(used).unwrap_or("file");
+    if let Some(tab) = tabs(ui, unit, form, used, shown) {
+        form.tab = Some(tab);
+    }
+    row::head(ui);
+    fields(ui, unit, form, shown, |_| true);
+    let t = theme::tokens(ui);
+    if shown == "ftp" {
+        let words = "The unit tells and sends this password in clear. Azel shows it to nobody and \
+                     never logs it.";
+        row::note(ui, Some(Icon::Info), words, t.t2);
+    }
+    if let Some(group) = section::group(shown).filter(|_| used != Some(shown)) {
+        use_it(ui, unit, form, group, desk);
+    }
+}
+
+/// The group of the source that the unit uses.
+fn used(unit: &Unit<'_>) -> Option<&'static str> {
+    let Some(Value::Choice(code)) = unit.values("general")?.get("tle_source") else { return None };
+    let (group, _) = SOURCES.get(usize::try_from(*code).ok()?)?;
+    Some(group)
+}
+
+fn tabs(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &Form,
+    used: Option<&str>,
+    shown: &str,
+) -> Option<&'static str> {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    let segments = SOURCES
+        .map(|(group, word)| (word, if group == shown { Segment::Chosen } else { Segment::Free }));
+    let place = rect.with_max_x(rect.left() + TABS);
+    let clicked = segmented::show(ui, "source", place, "Source of the elements", &segments);
+    let word = |of: &str| SOURCES.iter().find(|(group, _)| *group == of).map_or("", |(_, w)| w);
+    let elsewhere = SOURCES.iter().filter(|(group, _)| *group != shown);
+    let edited: Vec<&str> = elsewhere
+        .filter(|(group, _)| form.count(unit, &[group]).edited > 0)
+        .map(|(_, word)| *word)
+        .collect();
+    let said = match used {
+        _ if !edited.is_empty() => format!("Edits under {} too", edited.join(" and ")),
+        Some(used) if used == shown => format!("{} is in use", word(used)),
+        Some(used) => format!("{} is in use, not {}", word(used), word(shown)),
+        None => "Which one is in use is not known".to_owned(),
+    };
+    let room = Rect::from_min_max(place.right_top() + vec2(12.0, 0.0), rect.max);
+    let (icon, colour) = match used {
+        _ if !edited.is_empty() => (Icon::Pencil, t.sat),
+        Some(used) if used == shown => (Icon::Check, t.ok),
+        _ => (Icon::Info, t.t2),
+    };
+    icons::paint(
+        ui.painter(),
+        paint::square(room.left_center() + vec2(7.0, 0.0), 14.0),
+        icon,
+        colour,
+    );
+    row::said(ui, room.with_min_x(room.left() + 20.0), &said, text::small(), t.t2, &said);
+    let (group, _) = SOURCES.get(clicked?)?;
+    Some(group)
+}
+
+/// The unit takes its elements from the source that was set last: setting one
+/// as it is chooses it.
+fn use_it(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    group: &'static Group,
+    desk: &mut Desk<'_>,
+) {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 32.0), Sense::hover());
+    let values = again(group, unit.values(group.key));
+    let is_free = form.count(unit, &[group.key]) == Count::default();
+    let refusal = if unit.tracks() {
+        Some("Not while the unit tracks.")
+    } else if !is_free {
+        Some("Apply does it, with the edits.")
+    } else if !unit.is_fresh(group.key) || values.is_empty() {
+        Some("Its values are not known yet.")
+    } else {
+        None
+    };
+    let words = format!("Use {}", group.title);
+    let button = Button::normal(&words).locked(refusal.is_some());
+    let place = rect.with_max_x(rect.left() + button.width(ui)).with_min_y(rect.top() + 6.0);
+    if button.show(ui, "use source", place).clicked() {
+        form.begin_report();
+        form.send(unit, group, values, desk.commands);
+    }
+    let room = place.with_min_x(place.right() + 8.0).with_max_x(rect.right());
+    let said = refusal.unwrap_or("Sets it as it is, which makes it the source.");
+    row::said(ui, room, said, text::small(), t.t3, said);
+}
+
+/// The first value as it is: enough to have the whole group sent again.
+fn again(group: &Group, held: Option<&Values>) -> Values {
+    let plain = |kind: &Kind| !matches!(kind, Kind::Password(_));
+    let editable = group.fields.iter().filter(|f| f.access == Access::Edit && plain(&f.kind));
+    let value = editable.filter_map(|field| Some((field.key, held?.get(field.key)?.clone())));
+    value.take(1).collect()
+}

@@ -1,0 +1,52 @@
+//! Functions that point the antenna wrong or move it: locked.
+
+use egui::{Align2, Sense, Ui, vec2};
+
+use super::{Desk, fields, subtitle};
+use crate::ui::{
+    antennas::{form::Form, row, section, section::Section, unit::Unit},
+    format,
+    icons::{self, Icon},
+    text, theme,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        paint,
+    },
+};
+
+const ABOUT: &str = "A wrong value here points the antenna wrong or moves it. Opens for 10 minutes \
+                     after the station name is typed, while the antenna stands.";
+
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Desk<'_>) {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
+    let lock = paint::square(rect.left_center() + vec2(8.0, 0.0), 16.0);
+    let title = Section::Service.title();
+    if form.unlock.is_none() {
+        icons::paint(ui.painter(), lock, Icon::Lock, t.t2);
+    } else {
+        icons::paint(ui.painter(), lock, Icon::Warning, t.warn);
+    }
+    let at = rect.with_min_x(rect.left() + 24.0);
+    paint::text_in(ui, at, Align2::LEFT_CENTER, title, text::value(), t.t1);
+    paint::name_text(ui, "service title", at, title);
+    let button = Button::normal(if form.unlock.is_some() { "Lock" } else { "Unlock" });
+    let place = rect.with_min_x(rect.right() - button.width(ui));
+    let place = place.with_max_y(place.top() + SMALL_HEIGHT);
+    if let Some(unlock) = form.unlock {
+        let left = format!("Open, locks in {}", format::duration(unlock.left(unit).as_secs_f64()));
+        let room = at.with_max_x(place.left() - 8.0);
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, &left, text::small(), t.warn);
+        paint::name_text(ui, "countdown", room, &left);
+    }
+    if button.show(ui, "unlock", place).clicked() && form.unlock.take().is_none() {
+        *desk.unlock = true;
+    }
+    ui.add_space(4.0);
+    row::note(ui, None, ABOUT, t.t2);
+    row::head(ui);
+    for key in Section::Service.groups() {
+        subtitle(ui, section::group(key).map_or("", |group| group.title));
+        fields(ui, unit, form, key, |_| true);
+    }
+}

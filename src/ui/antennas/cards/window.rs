@@ -1,0 +1,117 @@
+//! When the unit tracks, and whether it starts by itself.
+
+use egui::{Align2, Rect, Ui, vec2};
+
+use super::fields;
+use crate::{
+    app::UiCommand,
+    astro::time::add_seconds,
+    controller::settings::{Kind, Value},
+    driver::{Command, Event},
+    ui::{
+        antennas::{
+            form::Form,
+            row::{self, Columns},
+            section,
+            unit::Unit,
+        },
+        format,
+        icons::Icon,
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            hold_button, paint,
+        },
+        words,
+    },
+};
+
+const AUTO: &str = "Automatic tracking";
+
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+    row::head(ui);
+    automatic(ui, unit, form, commands);
+    fields(ui, unit, form, "window", |_| true);
+    ui.add_space(8.0);
+    take_from_pass(ui, unit, form);
+}
+
+/// The antenna may start by itself: so it is switched on by holding.
+fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let at = Columns::of(row::take(ui));
+    let program = unit.antenna.snapshot.state.program.filter(|_| unit.is_open());
+    let auto = program.map(|program| program.auto);
+    paint::text_in(ui, at.label, Align2::LEFT_CENTER, AUTO, text::small(), t.t1);
+    let value = match auto {
+        Some(Some(true)) => "On",
+        Some(Some(false)) => "Off",
+        Some(None) => "Not told",
+        None => "–",
+    };
+    let name = format!("{AUTO}, on the unit: {value}");
+    row::said(ui, at.on_unit, value, text::small(), t.t2, &name);
+    let place = at.new.with_max_x(at.state.right());
+    let send = |on| UiCommand::Antenna(unit.index, Command::AutoTrack(on));
+    if auto == Some(Some(true)) {
+        let button = Button::normal("Switch off");
+        let place = place.with_max_x(place.left() + button.width(ui));
+        if button.show(ui, "auto off", place).clicked() {
+            commands.push(send(false));
+        }
+    } else if auto.is_some()
+        && hold_button::show(ui, place, "Hold 1 s to switch on", &mut form.auto_hold)
+    {
+        commands.push(send(true));
+    }
+    let note = match auto {
+        Some(Some(true)) => "On: the antenna starts by itself when the window begins.",
+        Some(None) => "This unit does not tell whether it starts by itself.",
+        _ => "",
+    };
+    if !note.is_empty() {
+        row::note(ui, Some(Icon::Info), note, t.t2);
+    }
+    // Why it was not switched on is told as an event.
+    if let Some((Event::NotSent(refusal), _)) = &unit.antenna.news {
+        row::note(ui, Some(Icon::Cross), &words::refusal(refusal), t.bad);
+    }
+}
+
+/// Fills AOS and LOS of the selected pass in, to be applied.
+fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+    let t = theme::tokens(ui);
+    let pass = unit.model.selected_pass();
+    let (rect, _) =
+        ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), egui::Sense::hover());
+    let can = pass.is_some() && unit.is_open() && unit.values("window").is_some();
+    let button = Button::normal("Take from pass").locked(!can);
+    let place = rect.with_max_x(rect.left() + button.width(ui));
+    let clicked = button.show(ui, "take from pass", place).clicked();
+    let room = Rect::from_min_max(place.right_top() + vec2(8.0, 0.0), rect.max);
+    let words = pass.map_or_else(
+        || "No pass is selected.".to_owned(),
+        |forecast| {
+            let pass = forecast.pass;
+            format!(
+                "{}, {} to {}",
+                forecast.satellite.short_name(),
+                format::time(pass.aos.time),
+                format::time_z(pass.los.time)
+            )
+        },
+    );
+    row::said(ui, room, &words, text::small(), t.t3, &words);
+    let (Some(forecast), true, Some(group)) = (pass, clicked, section::group("window")) else {
+        return;
+    };
+    // The unit takes whole seconds, and no time that is over.
+    let start = forecast.pass.aos.time.max(unit.model.now);
+    let stop = add_seconds(forecast.pass.los.time, 1.0);
+    for (key, time) in [("start", start), ("stop", stop)] {
+        if let Some(field) = group.field(key) {
+            let text = Kind::Time.text(&Value::Time(time));
+            form.draft(group.key).type_in(field, text, unit.values(group.key));
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! What was typed over one group of settings, and what became of it.
+
+use std::{collections::BTreeMap, time::Instant};
+
+use jiff::Timestamp;
+
+use crate::{
+    controller::settings::{Access, Field, Kind, Settled, Unfit, Value, Values},
+    ui::widgets::hold_button::HoldState,
+};
+
+/// What was typed over one group. It has no `Debug`: a password may be in it.
+#[derive(Default)]
+pub(super) struct Draft {
+    edits: BTreeMap<&'static str, Edit>,
+    /// What the form showed as on the unit when the first edit began.
+    seen: Option<Values>,
+    sent: Option<Sent>,
+    marks: BTreeMap<&'static str, Mark>,
+}
+
+#[derive(Default)]
+struct Edit {
+    text: String,
+    is_confirmed: bool,
+    hold: HoldState,
+}
+
+/// A change that is on its way.
+pub(super) struct Sent {
+    pub(super) ticket: u64,
+    pub(super) at: Instant,
+    pub(super) values: Values,
+}
+
+/// What came of the last change of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// Read back and found right.
+    Verified(Timestamp),
+    /// Taken by the unit, which never reports it.
+    Taken(Timestamp),
+    Rejected,
+}
+
+/// What stands in a field against what the unit holds.
+#[derive(Debug, PartialEq)]
+pub(super) enum Reading {
+    Same,
+    New(Value),
+    Unfit(Unfit),
+}
+
+/// What stands in a field while nothing is typed.
+fn usual_text(field: &Field, held: Option<&Values>) -> String {
+    if field.access == Access::Write {
+        return match field.kind {
+            Kind::Flag => "Off".to_owned(),
+            Kind::Choice(choices) => {
+                choices.first().map(|(_, name)| (*name).to_owned()).unwrap_or_default()
+            }
+            _ => String::new(),
+        };
+    }
+    let value = held.and_then(|held| held.get(field.key));
+    value.map(|value| field.kind.text(value)).unwrap_or_default()
+}
+
+impl Draft {
+    /// What stands in the field.
+    pub(super) fn text(&self, field: &Field, held: Option<&Values>) -> String {
+        let typed = self.edits.get(field.key).map(|edit| edit.text.clone());
+        typed.unwrap_or_else(|| usual_text(field, held))
+    }
+
+    /// The operator has typed `text`.
+    pub(super) fn type_in(&mut self, field: &'static Field, text: String, held: Option<&Values>) {
+        self.marks.remove(field.key);
+        if text == usual_text(field, held) {
+            self.edits.remove(field.key);
+        } else {
+            if self.edits.is_empty() {
+                self.seen = held.cloned();
+            }
+            self.edits.insert(field.key, Edit { text, ..Edit::default() });
+        }
+    }
+
+    pub(super) fn reading(&self, field: &Field, held: Option<&Values>) -> Reading {
+        let Some(edit) = self.edits.get(field.key) else { return Reading::Same };
+        if edit.text == usual_text(field, held) {
+            return Reading::Same;
+        }
+        match field.kind.read(&edit.text) {
+            Ok(new) => {
+                let same = held.and_then(|held| held.get(field.key));
+                if same.is_some_and(|old| field.kind.same(old, &new)) {
+                    Reading::Same
+                } else {
+                    Reading::New(new)
+                }
+            }
+            Err(unfit) => Reading::Unfit(unfit),
+        }
+    }
+
+    pub(super) fn is_confirmed(&self, key: &str) -> bool {
+        self.edits.get(key).is_some_and(|edit| edit.is_confirmed)
+    }
+
+    /// The button that confirms the edit of this field.
+    pub(super) fn hold(&mut self, key: &str) -> Option<&mut HoldState> {
+        self.edits.get_mut(key).map(|edit| &mut edit.hold)
+    }
+
+    /// What stands in the field is meant so.
+    pub(super) fn confirm(&mut self, key: &str) {
+        if let Some(edit) = self.edits.get_mut(key) {
+            edit.is_confirmed = true;
+        }
+    }
+
+    pub(super) fn mark(&self, key: &str) -> Option<Mark> {
+        self.marks.get(key).copied()
+    }
+
+    pub(super) fn seen(&self) -> Option<&Values> {
+        self.seen.as_ref()
+    }
+
+    pub(super) fn sent(&self) -> Option<&Sent> {
+        self.sent.as_ref()
+    }
+
+    pub(super) fn is_sending(&self, key: &str) -> bool {
+        self.sent.as_ref().is_some_and(|sent| sent.values.contains_key(key))
+    }
+
+    pub(super) fn begin(&mut self, sent: Sent) {
+        self.sent = Some(sent);
+    }
+
+    /// The change is over. What was proved is no longer an edit; what the form
+    /// shows from here on is what the operator sees.
+    pub(super) fn end(&mut self, settled: &Settled, fields: &[Field], held: Option<&Values>) {
+        let Some(sent) = self.sent.take() else { return };
+        for (key, value) in &sent.values {
+            let Some(field) = fields.iter().find(|field| field.key == *key) else { continue };
+            let mark = match (&settled.result, field.access) {
+                (Err(_), _) => Mark::Rejected,
+                (Ok(()), Access::Write) => Mark::Taken(settled.at),
+                (Ok(()), _) => Mark::Verified(settled.at),
+            };
+            self.marks.insert(field.key, mark);
+            let still = self.edits.get(key).map(|edit| field.kind.read(&edit.text));
+            if mark != Mark::Rejected && still == Some(Ok(value.clone())) {
+                self.edits.remove(key);
+            }
+        }
+        self.seen = held.cloned();
+    }
+
+    /// Nothing is heard of the change any more.
+    pub(super) fn give_up(&mut self) {
+        self.sent = None;
+    }
+
+    /// Drops what was typed. What is on its way stays so.
+    pub(super) fn revert(&mut self) {
+        self.edits.clear();
+        self.marks.retain(|_, mark| *mark != Mark::Rejected);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::controller::settings::{Change, SettleError};
+
+    static FIELDS: [Field; 2] = [
+        Field::edit("low", "Low", Kind::Decimal { least: 0.0, most: 90.0, places: 1 }),
+        Field::write("keep", "Keep", Kind::Flag),
+    ];
+
+    fn held(low: f64) -> Values {
+        [("low", Value::Decimal(low))].into()
+    }
+
+    fn draft_of(text: &str) -> Draft {
+        let mut draft = Draft::default();
+        draft.type_in(&FIELDS[0], text.to_owned(), Some(&held(3.0)));
+        draft
+    }
+
+    fn settled(result: Result<(), SettleError>) -> Settled {
+        let values = held(5.0);
+        let change = Change { ticket: 1, group: "g", values, seen: None, is_unlocked: false };
+        Settled { change, at: Timestamp::UNIX_EPOCH, result }
+    }
+
+    fn send(draft: &mut Draft) {
+        draft.begin(Sent { ticket: 1, at: Instant::now(), values: held(5.0) });
+    }
+
+    #[test]
+    fn only_what_differs_is_an_edit() {
+        for (text, wanted) in [("3.0", Reading::Same), ("3,00", Reading::Same)] {
+            assert_eq!(draft_of(text).reading(&FIELDS[0], Some(&held(3.0))), wanted);
+        }
+        let new = draft_of("5").reading(&FIELDS[0], Some(&held(3.0)));
+        assert_eq!(new, Reading::New(Value::Decimal(5.0)));
+        assert_eq!(draft_of("5").reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
+        let unfit = draft_of("x").reading(&FIELDS[0], Some(&held(3.0)));
+        assert_eq!(unfit, Reading::Unfit(Unfit::NotANumber));
+    }
+
+    #[test]
+    fn what_was_seen_is_what_stood_there_when_the_edit_began() {
+        let mut draft = draft_of("5");
+        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held(7.5)));
+        assert_eq!(draft.seen(), Some(&held(3.0)));
+        draft.revert();
+        draft.type_in(&FIELDS[1], "On".to_owned(), Some(&held(7.5)));
+        assert_eq!(draft.seen(), Some(&held(7.5)));
+    }
+
+    #[test]
+    fn a_proved_edit_is_none_any_more_and_a_refused_one_stays() {
+        let mut draft = draft_of("5");
+        send(&mut draft);
+        assert!(draft.is_sending("low"));
+        draft.end(&settled(Err(SettleError::NoLink)), &FIELDS, Some(&held(3.0)));
+        assert_eq!(draft.mark("low"), Some(Mark::Rejected));
+        assert_eq!(draft.text(&FIELDS[0], Some(&held(3.0))), "5");
+        send(&mut draft);
+        draft.end(&settled(Ok(())), &FIELDS, Some(&held(5.0)));
+        assert_eq!(draft.mark("low"), Some(Mark::Verified(Timestamp::UNIX_EPOCH)));
+        assert_eq!(draft.reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(5.0)));
+        assert_eq!(draft.mark("low"), None, "until it is edited again");
+    }
+
+    #[test]
+    fn what_was_typed_on_while_it_was_sent_stays_an_edit() {
+        let mut draft = draft_of("5");
+        send(&mut draft);
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(3.0)));
+        draft.end(&settled(Ok(())), &FIELDS, Some(&held(5.0)));
+        let still = draft.reading(&FIELDS[0], Some(&held(5.0)));
+        assert_eq!(still, Reading::New(Value::Decimal(6.0)));
+    }
+
+    #[test]
+    fn another_text_has_to_be_confirmed_again() {
+        let mut draft = draft_of("5");
+        draft.confirm("low");
+        assert!(draft.is_confirmed("low"));
+        draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(3.0)));
+        assert!(!draft.is_confirmed("low"));
+    }
+}

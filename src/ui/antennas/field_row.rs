@@ -1,0 +1,249 @@
+//! The line of one setting, drawn from its description: the one way in which
+//! every setting of every group is shown.
+
+use egui::{Color32, Rect, Role, Sense, Ui, pos2, vec2};
+
+use super::{
+    draft::Draft,
+    field_state::{self, FieldState},
+    inputs::Input,
+    outcome::{self, HIDDEN},
+    row::{self, Columns},
+    unit::Unit,
+};
+use crate::{
+    astro::time::seconds_between,
+    controller::settings::{Access, Field, Group, Kind, Value},
+    ui::{
+        format,
+        icons::{self, Icon},
+        text, theme,
+        tokens::Tokens,
+        widgets::{axes_table::UNKNOWN, hold_button, paint},
+    },
+};
+
+/// Shows the fields of `group` for which `is_wanted` is true. `is_revealed`
+/// shows a password that is being typed.
+pub(super) fn show_all(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    group: &'static Group,
+    draft: &mut Draft,
+    is_revealed: &mut bool,
+    is_wanted: fn(&Field) -> bool,
+) {
+    ui.push_id(group.key, |ui| {
+        if !unit.is_fresh(group.key) {
+            old_or_unread(ui, unit, group);
+        }
+        for field in group.fields.iter().filter(|field| is_wanted(field)) {
+            show(ui, unit, group, field, draft, is_revealed);
+        }
+    });
+}
+
+/// Why the values are not of now.
+fn old_or_unread(ui: &mut Ui, unit: &Unit<'_>, group: &Group) {
+    let t = theme::tokens(ui);
+    let why = unit.failure(group.key).map(outcome::read_failure);
+    let words = match (unit.read_at(group.key), unit.is_open(), why) {
+        (Some(at), _, _) => {
+            let age = format::age(seconds_between(at, unit.model.now));
+            format!("{}: as read {age} ago.", group.title)
+        }
+        (None, _, Some(why)) => format!("{}: not known, {why}.", group.title),
+        (None, true, None) => format!("{}: being read.", group.title),
+        (None, false, None) => format!("{}: never read, there is no link.", group.title),
+    };
+    row::note(ui, Some(Icon::OpenRing), &words, t.t3);
+}
+
+fn show(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    group: &'static Group,
+    field: &'static Field,
+    draft: &mut Draft,
+    is_revealed: &mut bool,
+) {
+    let t = theme::tokens(ui);
+    let (state, _) = field_state::of(unit, group, field, draft);
+    let at = Columns::of(row::take(ui));
+    paint::text_in(ui, at.label, egui::Align2::LEFT_CENTER, field.label, text::small(), t.t1);
+    let about = if field.about.is_empty() { field.label } else { field.about };
+    paint::name_text(ui, ("label", field.key), at.label, field.label).on_hover_text(about);
+    on_unit(ui, unit, group, field, &at);
+    let is_long = field.unit.is_empty() || matches!(field.kind, Kind::Time);
+    let place = if is_long && !matches!(field.kind, Kind::Flag | Kind::Choice(_)) {
+        at.wide()
+    } else {
+        paint_unit(ui, &at, field);
+        at.new
+    };
+    if field.access != Access::Read {
+        edit(ui, unit, group, field, draft, is_revealed, (&state, place));
+    }
+    let (icon, colour) = look(&state, t);
+    let word = state.word();
+    row::state(ui, at.state, icon, &word, colour, &format!("{}: {word}", field.label));
+    below(ui, field, draft, &state);
+    if *is_revealed && matches!(field.kind, Kind::Password(_)) {
+        typed_password(ui, &draft.text(field, unit.values(group.key)));
+    }
+}
+
+fn paint_unit(ui: &Ui, at: &Columns, field: &Field) {
+    let t = theme::tokens(ui);
+    let room = at.unit.with_min_x(at.unit.left() + 3.0);
+    paint::text_in(ui, room, egui::Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
+}
+
+/// What the unit holds, hollow when it is not of now.
+fn on_unit(ui: &Ui, unit: &Unit<'_>, group: &Group, field: &Field, at: &Columns) {
+    if field.access == Access::Write {
+        return;
+    }
+    let t = theme::tokens(ui);
+    let value = unit.values(group.key).and_then(|held| held.get(field.key));
+    let full = value.map_or_else(|| UNKNOWN.to_owned(), |value| outcome::shown(field, value));
+    let short = match value {
+        Some(Value::Time(time)) => time.strftime("%-d %b %H:%M:%S").to_string(),
+        _ => full.clone(),
+    };
+    let mut room = if field.access == Access::Read {
+        at.on_unit.with_max_x(at.unit.right())
+    } else {
+        at.on_unit
+    };
+    let is_old = !unit.is_fresh(group.key);
+    if is_old && value.is_some() {
+        let ring = paint::square(pos2(room.left() + 5.0, room.center().y), 9.0);
+        icons::paint(ui.painter(), ring, Icon::OpenRing, t.t3);
+        room = room.with_min_x(room.left() + 13.0);
+    }
+    let old = if is_old && value.is_some() { ", old" } else { "" };
+    let name = format!("{}, on the unit{old}: {full}", field.label);
+    // Where no field follows there is room for the unit.
+    let short = if field.access == Access::Read && !field.unit.is_empty() && value.is_some() {
+        format!("{short}{}{}", if field.unit == "°" { "" } else { " " }, field.unit)
+    } else {
+        short
+    };
+    let colour = if is_old { t.t3 } else { t.t2 };
+    row::said(ui, room, &short, text::small(), colour, &name);
+}
+
+fn edit(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    group: &Group,
+    field: &'static Field,
+    draft: &mut Draft,
+    is_revealed: &mut bool,
+    (state, place): (&FieldState, Rect),
+) {
+    let held = unit.values(group.key);
+    let name = format!("{}, new value", field.label);
+    let border = border(state, theme::tokens(ui));
+    let input = Input { rect: place, name: &name, border };
+    let mut typed = draft.text(field, held);
+    let is_password = matches!(field.kind, Kind::Password(_));
+    let is_closed = group.is_service && !unit.is_unlocked;
+    if !unit.is_open() || is_closed || !state.is_editable() {
+        let words = match (state, is_password && !typed.is_empty()) {
+            (FieldState::Unknown, _) if typed.is_empty() => UNKNOWN,
+            (_, true) => HIDDEN,
+            _ => &typed,
+        };
+        return input.inert(ui, words);
+    }
+    let choices: Vec<&str> = match field.kind {
+        Kind::Flag => vec!["Off", "On"],
+        Kind::Choice(choices) => choices.iter().map(|(_, name)| *name).collect(),
+        _ => {
+            let eye = place.with_min_x(place.right() - 24.0);
+            let rect = if is_password { place.with_max_x(eye.left() - 2.0) } else { place };
+            if (Input { rect, ..input }).text(ui, &mut typed, is_password) {
+                draft.type_in(field, typed, held);
+            }
+            if is_password {
+                reveal(ui, eye, is_revealed);
+            }
+            return;
+        }
+    };
+    if let Some(chosen) = input.choice(ui, &typed, &choices) {
+        draft.type_in(field, chosen, held);
+    }
+}
+
+/// The eye that shows what is being typed; never what the unit told.
+fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
+    let t = theme::tokens(ui);
+    let name = if *is_revealed { "Hide the typed password" } else { "Show the typed password" };
+    let response = paint::control(ui, "reveal", rect, Role::Button, true, name);
+    if response.clicked() {
+        *is_revealed = !*is_revealed;
+    }
+    let colour = if *is_revealed { t.sat } else { t.t2 };
+    icons::paint(ui.painter(), paint::square(rect.center(), 16.0), Icon::Eye, colour);
+    paint::focus_ring(ui, &response, 4);
+}
+
+/// Painted only: a screen reader would speak it, and tools would record it.
+fn typed_password(ui: &mut Ui, typed: &str) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
+    let at = Columns::of(rect).new.with_max_x(rect.right());
+    let colour = theme::tokens(ui).t1;
+    paint::text_in(ui, at, egui::Align2::LEFT_CENTER, typed, text::small(), colour);
+}
+
+/// What stands under the line: why a value cannot be used, how it is confirmed.
+fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldState) {
+    let t = theme::tokens(ui);
+    match state {
+        FieldState::Invalid(unfit) => {
+            row::note(ui, None, &format!("{} {unfit}.", field.label), t.bad);
+        }
+        FieldState::NeedsService => {
+            let words = format!("{}: unlock Service to send this value.", field.label);
+            row::note(ui, Some(Icon::Lock), &words, t.warn);
+        }
+        FieldState::ConfirmFirst => {
+            let value = draft.text(field, None);
+            let words = format!("Hold 1 s to confirm {} {value}", field.label);
+            let (rect, _) =
+                ui.allocate_exact_size(vec2(ui.available_width(), row::HEIGHT), Sense::hover());
+            let at = rect.shrink2(vec2(0.0, 2.0));
+            if draft.hold(field.key).is_some_and(|hold| hold_button::show(ui, at, &words, hold)) {
+                draft.confirm(field.key);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
+    match state {
+        FieldState::Edited => Some(t.sat),
+        FieldState::ConfirmFirst | FieldState::NeedsService => Some(t.warn),
+        FieldState::Verified(_) | FieldState::Taken(_) => Some(t.ok),
+        FieldState::Rejected | FieldState::Invalid(_) => Some(t.bad),
+        _ => None,
+    }
+}
+
+fn look(state: &FieldState, t: &Tokens) -> (Option<Icon>, Color32) {
+    match state {
+        FieldState::Edited => (Some(Icon::Pencil), t.sat),
+        FieldState::ConfirmFirst => (Some(Icon::Warning), t.warn),
+        FieldState::NeedsService => (Some(Icon::Lock), t.warn),
+        FieldState::Sending => (Some(Icon::HalfDisc), t.cmd),
+        FieldState::Verified(_) | FieldState::Taken(_) => (Some(Icon::Check), t.ok),
+        FieldState::Rejected | FieldState::Invalid(_) => (Some(Icon::Cross), t.bad),
+        FieldState::Unknown => (Some(Icon::Dash), t.t3),
+        FieldState::Locked => (Some(Icon::Lock), t.t3),
+        FieldState::Unchanged | FieldState::ReadOnly => (None, t.t3),
+    }
+}

@@ -1,0 +1,125 @@
+//! How a field stands.
+
+use jiff::Timestamp;
+
+use super::{
+    draft::{Draft, Mark, Reading},
+    unit::Unit,
+};
+use crate::{
+    controller::settings::{Access, Field, Group, Guard, Unfit, Value},
+    ui::format,
+};
+
+/// How a field stands.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum FieldState {
+    /// The unit has not told its value.
+    Unknown,
+    Unchanged,
+    Edited,
+    /// The value is meant only when it is confirmed by itself.
+    ConfirmFirst,
+    /// The value takes the service functions, which are locked.
+    NeedsService,
+    Sending,
+    Verified(Timestamp),
+    /// Taken by the unit, which never reports it.
+    Taken(Timestamp),
+    Rejected,
+    Invalid(Unfit),
+    ReadOnly,
+    Locked,
+}
+
+impl FieldState {
+    /// The state in a word or two.
+    pub(super) fn word(&self) -> String {
+        match self {
+            Self::Unknown => "Not read".to_owned(),
+            Self::Unchanged => "Unchanged".to_owned(),
+            Self::Edited => "Edited".to_owned(),
+            Self::ConfirmFirst => "Confirm first".to_owned(),
+            Self::NeedsService => "Service locked".to_owned(),
+            Self::Sending => "Sending".to_owned(),
+            Self::Verified(at) => format!("Verified {}", format::time_z(*at)),
+            Self::Taken(at) => format!("Taken {}", format::time_z(*at)),
+            Self::Rejected => "Rejected".to_owned(),
+            Self::Invalid(_) => "Invalid".to_owned(),
+            Self::ReadOnly => "Read only".to_owned(),
+            Self::Locked => "Locked".to_owned(),
+        }
+    }
+
+    /// The operator may type into it.
+    pub(super) fn is_editable(&self) -> bool {
+        !matches!(self, Self::Unknown | Self::Sending | Self::ReadOnly | Self::Locked)
+    }
+
+    /// Something is typed that is not on the unit.
+    pub(super) fn is_edit(&self) -> bool {
+        matches!(
+            self,
+            Self::Edited
+                | Self::ConfirmFirst
+                | Self::NeedsService
+                | Self::Rejected
+                | Self::Invalid(_)
+        )
+    }
+}
+
+/// How `field` of `group` stands, and the new value where it can be sent.
+pub(super) fn of(
+    unit: &Unit<'_>,
+    group: &Group,
+    field: &Field,
+    draft: &Draft,
+) -> (FieldState, Option<Value>) {
+    let held = unit.values(group.key);
+    let is_told = held.is_some_and(|held| held.contains_key(field.key));
+    // What is never reported is known as far as its group is.
+    let is_known = is_told || (field.access == Access::Write && held.is_some());
+    if field.access == Access::Read {
+        return (if is_known { FieldState::ReadOnly } else { FieldState::Unknown }, None);
+    }
+    if draft.is_sending(field.key) {
+        return (FieldState::Sending, None);
+    }
+    if group.is_service && !unit.is_unlocked {
+        let is_typed = draft.reading(field, held) != Reading::Same;
+        return (if is_typed { FieldState::NeedsService } else { FieldState::Locked }, None);
+    }
+    if !is_known {
+        return (FieldState::Unknown, None);
+    }
+    let state = match draft.reading(field, held) {
+        Reading::Unfit(unfit) => FieldState::Invalid(unfit),
+        Reading::Same => match draft.mark(field.key) {
+            Some(Mark::Verified(at)) => FieldState::Verified(at),
+            Some(Mark::Taken(at)) => FieldState::Taken(at),
+            Some(Mark::Rejected) | None => FieldState::Unchanged,
+        },
+        Reading::New(value) => return edited(unit, group, field, draft, value),
+    };
+    (state, None)
+}
+
+fn edited(
+    unit: &Unit<'_>,
+    group: &Group,
+    field: &Field,
+    draft: &Draft,
+    value: Value,
+) -> (FieldState, Option<Value>) {
+    let guard = if group.is_service { Guard::Free } else { (field.guard)(&value) };
+    if guard == Guard::Service && !unit.is_unlocked {
+        (FieldState::NeedsService, None)
+    } else if guard != Guard::Free && !draft.is_confirmed(field.key) {
+        (FieldState::ConfirmFirst, None)
+    } else if draft.mark(field.key) == Some(Mark::Rejected) {
+        (FieldState::Rejected, Some(value))
+    } else {
+        (FieldState::Edited, Some(value))
+    }
+}

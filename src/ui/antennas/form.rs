@@ -1,0 +1,226 @@
+//! The forms of one unit: what was typed, what is on its way, what came of it.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::atomic::{AtomicU64, Ordering},
+    time::{Duration, Instant},
+};
+
+use super::{
+    draft::{Draft, Sent},
+    field_state::{self, FieldState},
+    outcome,
+    section::{self, Section},
+    unit::Unit,
+    unlock::Unlock,
+};
+use crate::{
+    app::UiCommand,
+    controller::{
+        satrak::GROUPS,
+        settings::{Access, Change, Group, Guard, Values},
+    },
+    driver::Command,
+    ui::{format, widgets::hold_button::HoldState},
+};
+
+/// The session shows a change that it was given within this.
+const HEARD: Duration = Duration::from_secs(3);
+
+/// The forms of one unit. It has no `Debug`: a password may be in it.
+#[derive(Default)]
+pub(super) struct Form {
+    drafts: BTreeMap<&'static str, Draft>,
+    /// The groups that were asked for, and the link on which.
+    asked: (Option<Instant>, BTreeSet<&'static str>),
+    pub(super) unlock: Option<Unlock>,
+    pub(super) report: Report,
+    /// The source of elements that is shown; `None` for the one in use.
+    pub(super) tab: Option<&'static str>,
+    pub(super) auto_hold: HoldState,
+    /// What was typed as a password is shown.
+    pub(super) is_revealed: bool,
+}
+
+/// What came of what was applied last.
+#[derive(Default)]
+pub(super) struct Report {
+    /// How many settings were proved, and when the last of them.
+    verified: Option<(usize, String)>,
+    /// Sentences; `true` for good ones.
+    pub(super) lines: Vec<(bool, String)>,
+}
+
+impl Report {
+    /// All of it, what went well first.
+    pub(super) fn lines(&self) -> Vec<(bool, String)> {
+        let verified = self.verified.iter().map(|(count, at)| {
+            let plural = if *count == 1 { "" } else { "s" };
+            (true, format!("{count} setting{plural} read back and verified {at}"))
+        });
+        verified.chain(self.lines.iter().cloned()).collect()
+    }
+}
+
+/// How many fields stand how.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Count {
+    /// Typed and not on the unit.
+    pub(super) edited: usize,
+    /// Of these, what Apply would send.
+    pub(super) ready: usize,
+    pub(super) to_confirm: usize,
+    pub(super) locked: usize,
+    pub(super) invalid: usize,
+    pub(super) rejected: usize,
+    pub(super) sending: usize,
+}
+
+impl Form {
+    pub(super) fn draft(&mut self, group: &'static str) -> &mut Draft {
+        self.drafts.entry(group).or_default()
+    }
+
+    /// How the fields of these groups stand.
+    pub(super) fn count(&self, unit: &Unit<'_>, groups: &[&'static str]) -> Count {
+        let mut count = Count::default();
+        for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
+            let Some(group) = section::group(key) else { continue };
+            for field in group.fields {
+                let (state, value) = field_state::of(unit, group, field, draft);
+                let add = |to: &mut usize, is_so: bool| *to += usize::from(is_so);
+                add(&mut count.edited, state.is_edit());
+                add(&mut count.ready, value.is_some());
+                add(&mut count.to_confirm, state == FieldState::ConfirmFirst);
+                add(&mut count.locked, state == FieldState::NeedsService);
+                add(&mut count.invalid, matches!(state, FieldState::Invalid(_)));
+                add(&mut count.rejected, state == FieldState::Rejected);
+                add(&mut count.sending, state == FieldState::Sending);
+            }
+        }
+        count
+    }
+
+    /// The same over the whole unit.
+    pub(super) fn count_all(&self, unit: &Unit<'_>) -> Count {
+        let groups: Vec<&str> =
+            Section::ALL.iter().flat_map(|section| section.groups()).copied().collect();
+        self.count(unit, &groups)
+    }
+
+    /// Asks for every group that is not known on this link, each once.
+    pub(super) fn ask_unread(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+        let link = unit.antenna.snapshot.state.link_since;
+        if !unit.is_open() || link.is_none() {
+            return;
+        }
+        if self.asked.0 != link {
+            self.asked = (link, BTreeSet::new());
+        }
+        for group in GROUPS {
+            if !unit.is_fresh(group.key) && self.asked.1.insert(group.key) {
+                commands.push(UiCommand::Antenna(unit.index, Command::ReadGroup(group.key)));
+            }
+        }
+    }
+
+    /// Puts what is ready on the unit, a change for each group.
+    pub(super) fn apply(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+        self.begin_report();
+        let all: Vec<(&'static Group, Values)> = GROUPS
+            .iter()
+            .filter_map(|group| {
+                let draft = self.drafts.get(group.key).filter(|draft| draft.sent().is_none())?;
+                let ready = |field| Some((field_state::of(unit, group, field, draft).1?, field));
+                let values = group.fields.iter().filter_map(ready);
+                let values: Values = values.map(|(value, field)| (field.key, value)).collect();
+                (!values.is_empty()).then_some((*group, values))
+            })
+            .collect();
+        for (group, values) in all {
+            self.send(unit, group, values, commands);
+        }
+    }
+
+    /// What is said of earlier changes makes room.
+    pub(super) fn begin_report(&mut self) {
+        self.report = Report::default();
+    }
+
+    /// Puts `values` on the unit. Before the first service change what the unit
+    /// holds goes to a file.
+    pub(super) fn send(
+        &mut self,
+        unit: &Unit<'_>,
+        group: &'static Group,
+        values: Values,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        static TICKETS: AtomicU64 = AtomicU64::new(1);
+        let is_service = group.guard(&values) == Guard::Service;
+        if is_service
+            && let Some(unlock) = &mut self.unlock
+            && !std::mem::replace(&mut unlock.is_saved, true)
+        {
+            commands.push(UiCommand::SaveSettings { antenna: unit.index });
+        }
+        let ticket = TICKETS.fetch_add(1, Ordering::Relaxed);
+        let draft = self.draft(group.key);
+        let seen = draft.seen().cloned().or_else(|| unit.values(group.key).cloned());
+        draft.begin(Sent { ticket, at: unit.model.steady, values: values.clone() });
+        let is_unlocked = is_service && unit.is_unlocked;
+        let change = Change { ticket, group: group.key, values, seen, is_unlocked };
+        commands.push(UiCommand::Antenna(unit.index, Command::Settle(change)));
+    }
+
+    /// Takes what came of the changes that were sent.
+    pub(super) fn take_outcomes(&mut self, unit: &Unit<'_>) {
+        for (key, draft) in &mut self.drafts {
+            let (Some(sent), Some(group)) = (draft.sent(), section::group(key)) else { continue };
+            let state = unit.group(key);
+            let settled = state.and_then(|state| state.settled.clone()).filter(|settled| {
+                settled.change.ticket == sent.ticket && settled.change.values == sent.values
+            });
+            let held = unit.values(key);
+            if let Some(settled) = settled {
+                let count = sent.values.len();
+                match &settled.result {
+                    Ok(()) => self.report.verify(group, &sent.values, count, &settled.at),
+                    Err(error) => {
+                        let words = outcome::sentence(group, &settled, error, draft.seen(), held);
+                        self.report.lines.push((false, words));
+                    }
+                }
+                draft.end(&settled, group.fields, held);
+                continue;
+            }
+            let is_under_way = state.is_some_and(|state| state.step.is_some());
+            if !is_under_way && unit.model.steady.saturating_duration_since(sent.at) > HEARD {
+                draft.give_up();
+                let words = format!("{}: nothing was heard of it. Read again.", group.title);
+                self.report.lines.push((false, words));
+            }
+        }
+    }
+
+    /// Drops what was typed, and what was said of it.
+    pub(super) fn revert(&mut self) {
+        self.drafts.values_mut().for_each(Draft::revert);
+        self.begin_report();
+    }
+}
+
+impl Report {
+    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: &jiff::Timestamp) {
+        let at = format::time_z(*at);
+        let reported =
+            |key: &&&str| group.field(key).is_some_and(|field| field.access == Access::Edit);
+        if values.keys().any(|key| reported(&key)) {
+            let before = self.verified.as_ref().map_or(0, |(count, _)| *count);
+            self.verified = Some((before + count, at));
+        } else {
+            let words = format!("{}: the unit said OK, and was read again {at}", group.title);
+            self.lines.push((true, words));
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Which unit, how much of it is read, and what can be done with all of it.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::unit::Unit;
+use crate::{
+    app::UiCommand,
+    controller::satrak::GROUPS,
+    driver::Command,
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            paint,
+        },
+    },
+};
+
+/// Height of the head.
+pub(super) const HEIGHT: f32 = 56.0;
+const PADDING: f32 = 16.0;
+
+pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let antenna = unit.index;
+    let is_read = GROUPS.iter().any(|group| unit.values(group.key).is_some());
+    let mut right = rect.right() - PADDING;
+    let mut button = |words: &'static str, can: bool| {
+        let button = Button::normal(words).locked(!can);
+        let min = pos2(right - button.width(ui), rect.center().y - BUTTON / 2.0);
+        let place = Rect::from_min_max(min, pos2(right, min.y + BUTTON));
+        right = place.left() - 8.0;
+        button.show(ui, words, place).clicked()
+    };
+    if button("Save copy", is_read) {
+        commands.push(UiCommand::SaveSettings { antenna });
+    }
+    if button("Compare with file", is_read) {
+        commands.push(UiCommand::CompareSettings { antenna });
+    }
+    if button("Read again", unit.is_open()) {
+        let read = |key| UiCommand::Antenna(antenna, Command::ReadGroup(key));
+        commands.extend(GROUPS.iter().map(|group| read(group.key)));
+    }
+    let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right);
+    let title = format!("{} settings", unit.name());
+    let up = room.translate(vec2(0.0, -9.0));
+    paint::text_in(ui, up, Align2::LEFT_CENTER, &title, text::title(), t.t1);
+    paint::name_text(ui, "settings title", up.with_max_y(rect.center().y), &title);
+    let words = format!("{}, {}", unit.antenna.config.connection.address(), read(unit));
+    let down = room.translate(vec2(0.0, 13.0));
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), t.t2);
+    let place = down.with_min_y(rect.center().y + 4.0).with_max_y(rect.bottom());
+    paint::name_text(ui, "settings read", place, &words).on_hover_text(&words);
+}
+
+/// How much of the unit is read.
+fn read(unit: &Unit<'_>) -> String {
+    if !unit.is_open() {
+        return "no link, what was read before is shown".to_owned();
+    }
+    let missing: Vec<&str> =
+        GROUPS.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();
+    let oldest = GROUPS.iter().filter_map(|group| unit.read_at(group.key)).min();
+    match (missing.as_slice(), oldest) {
+        ([], Some(oldest)) => format!("all groups read {}", format::time_z(oldest)),
+        (missing, _) => format!("not read: {}", missing.join(", ")),
+    }
+}

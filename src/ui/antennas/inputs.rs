@@ -1,0 +1,97 @@
+//! The fields into which a new value goes.
+
+use egui::{
+    Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
+};
+
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    widgets::paint,
+};
+
+const RADIUS: u8 = 4;
+
+/// A field at its place.
+pub(super) struct Input<'a> {
+    pub(super) rect: Rect,
+    /// What it is called.
+    pub(super) name: &'a str,
+    /// The border of a field that is not as the unit holds it.
+    pub(super) border: Option<Color32>,
+}
+
+impl Input<'_> {
+    fn stroke(&self, ui: &Ui, has_focus: bool) -> Stroke {
+        let t = theme::tokens(ui);
+        match (self.border, has_focus) {
+            (Some(colour), _) => Stroke::new(2.0, colour),
+            (None, true) => Stroke::new(2.0, t.sat),
+            (None, false) => Stroke::new(1.0, t.edge),
+        }
+    }
+
+    fn font(&self) -> egui::FontId {
+        let weight = if self.border.is_some() { Weight::SemiBold } else { Weight::Regular };
+        text::sized(12.0, weight)
+    }
+
+    /// Shows a text to type; `true` when it was changed.
+    pub(super) fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
+        let t = theme::tokens(ui);
+        let id = ui.make_persistent_id(("input", self.name));
+        let stroke = self.stroke(ui, ui.memory(|memory| memory.has_focus(id)));
+        let frame = Frame::new()
+            .fill(t.bg0)
+            .stroke(stroke)
+            .corner_radius(RADIUS)
+            .inner_margin(Margin::symmetric(8, 0));
+        let edit = TextEdit::singleline(typed)
+            .id(id)
+            .frame(frame)
+            .font(self.font())
+            .text_color(t.t1)
+            .password(is_password)
+            .align(Align2::LEFT_CENTER)
+            .min_size(self.rect.size())
+            .desired_width(self.rect.width());
+        ui.place(self.rect, edit).accessible_name(self.name).changed()
+    }
+
+    /// Shows one of a few; returns another one that was chosen.
+    pub(super) fn choice(&self, ui: &Ui, chosen: &str, offered: &[&str]) -> Option<String> {
+        let t = theme::tokens(ui);
+        let salt = ("input", self.name);
+        let response = paint::control(ui, salt, self.rect, Role::ComboBox, true, self.name);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(chosen));
+        let stroke = self.stroke(ui, false);
+        ui.painter().rect(self.rect, RADIUS, t.bg0, stroke, StrokeKind::Inside);
+        let at = pos2(self.rect.right() - 12.0, self.rect.center().y);
+        icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t2);
+        let room = self.rect.shrink2(vec2(8.0, 0.0)).with_max_x(self.rect.right() - 20.0);
+        paint::text_in(ui, room, Align2::LEFT_CENTER, chosen, self.font(), t.t1);
+        paint::focus_ring(ui, &response, RADIUS);
+        let mut other = None;
+        Popup::menu(&response).width(self.rect.width()).accessible_name(self.name).show(|ui| {
+            ui.set_min_width(ui.available_width());
+            for word in offered {
+                let button = egui::Button::selectable(*word == chosen, *word);
+                if ui.add(button).clicked() && *word != chosen {
+                    other = Some((*word).to_owned());
+                }
+            }
+        });
+        other
+    }
+
+    /// Shows what cannot be changed here.
+    pub(super) fn inert(&self, ui: &Ui, words: &str) {
+        let t = theme::tokens(ui);
+        paint::dashed_border(ui, self.rect, f32::from(RADIUS), (1.0, t.edge));
+        let room = self.rect.shrink2(vec2(8.0, 0.0));
+        paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        let name = format!("{}: {words}", self.name);
+        paint::name_text(ui, ("inert", self.name), self.rect, &name);
+    }
+}

@@ -1,0 +1,181 @@
+//! The antennas, and the sections of the one that is shown.
+
+use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::{form::Form, section::Section, unit::Unit};
+use crate::{
+    app::{Model, UiCommand, View, antenna::AntennaModel},
+    controller::settings::Value,
+    ui::{
+        bar,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
+};
+
+/// Width of the list.
+pub(super) const WIDTH: f32 = 232.0;
+const ANTENNA: f32 = 56.0;
+const SECTION: f32 = 32.0;
+const PADDING: f32 = 16.0;
+
+/// Shows the list in `rect` and returns the section that was clicked.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    shown: Option<(&Unit<'_>, &Form)>,
+    commands: &mut Vec<UiCommand>,
+) -> Option<Section> {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
+    let head = rect.with_max_y(rect.top() + 40.0).shrink2(vec2(PADDING, 0.0));
+    paint::text_in(ui, head, Align2::LEFT_CENTER, "Antennas", text::value(), t.t1);
+    let mut y = head.bottom();
+    let mut clicked = None;
+    for (index, antenna) in model.antennas.iter().enumerate() {
+        let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), ANTENNA));
+        y = place.bottom();
+        let of_this = shown.filter(|(unit, _)| unit.index == index);
+        if antenna_line(ui, place, antenna, of_this) && of_this.is_none() {
+            commands.push(UiCommand::SelectAntenna(index));
+        }
+        let Some((unit, form)) = of_this else { continue };
+        y += 4.0;
+        for section in Section::ALL {
+            let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
+            y = place.bottom();
+            if section_line(ui, place, section, unit, form) {
+                clicked = Some(section);
+            }
+        }
+        let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
+        y = place.bottom() + 4.0;
+        if line(ui, place, "Mount, limits and connection", t.t2) {
+            commands.push(UiCommand::Show(View::Preferences));
+        }
+        ui.painter().hline(rect.x_range(), y, (1.0, t.line));
+    }
+    if let Some((unit, _)) = shown {
+        versions(ui, rect.with_min_y(y), unit);
+    }
+    clicked
+}
+
+fn antenna_line(
+    ui: &Ui,
+    rect: Rect,
+    antenna: &AntennaModel,
+    shown: Option<(&Unit<'_>, &Form)>,
+) -> bool {
+    let t = theme::tokens(ui);
+    let activity = bar::activity(antenna);
+    let name = format!("{}, settings: {activity}", antenna.config.name);
+    let id = ("settings of", &antenna.config.name);
+    let response = paint::control(ui, id, rect, Role::Button, true, &name);
+    if shown.is_some() {
+        ui.painter().rect_filled(rect, 0.0, t.bgsel);
+        let bar = rect.with_max_x(rect.left() + 3.0);
+        ui.painter().rect_filled(bar, 0.0, t.sat);
+    } else if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, t.bg3);
+    }
+    let (icon, colour) = bar::glyph(antenna).look(t);
+    let at = paint::square(pos2(rect.left() + 23.0, rect.center().y), 13.0);
+    icons::paint(ui.painter(), at, icon, colour);
+    let edited = shown.map_or(0, |(unit, form)| form.count_all(unit).edited);
+    let right = if edited > 0 {
+        badge(ui, pos2(rect.right() - PADDING, rect.center().y), edited, (t.onsat, Some(t.sat)))
+    } else {
+        rect.right()
+    };
+    let room = rect.with_min_x(rect.left() + 40.0).with_max_x(right - 4.0);
+    let font = text::sized(13.0, Weight::SemiBold);
+    let up = room.translate(vec2(0.0, -8.0));
+    paint::text_in(ui, up, Align2::LEFT_CENTER, &antenna.config.name, font, t.t1);
+    let down = room.translate(vec2(0.0, 8.0));
+    paint::text_in(ui, down, Align2::LEFT_CENTER, activity, text::small(), t.t2);
+    paint::focus_ring(ui, &response, 0);
+    response.clicked()
+}
+
+fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &Unit<'_>, form: &Form) -> bool {
+    let t = theme::tokens(ui);
+    let count = form.count(unit, section.groups());
+    let clicked = line(ui, rect, section.title(), if count.edited > 0 { t.t1 } else { t.t2 });
+    let mut right = pos2(rect.right() - PADDING, rect.center().y);
+    let mut said = Vec::new();
+    for (number, colour, word) in
+        [(count.edited, t.sat, "edited"), (count.rejected, t.bad, "rejected")]
+    {
+        if number > 0 {
+            right.x = badge(ui, right, number, (colour, None)) - 6.0;
+            said.push(format!("{number} {word}"));
+        }
+    }
+    if !said.is_empty() {
+        let name = format!("{}: {}", section.title(), said.join(", "));
+        let at = rect.with_min_x(right.x).with_max_x(rect.right());
+        paint::name_text(ui, ("counts", section.title()), at, &name);
+    }
+    if section == Section::Service && form.unlock.is_none() && said.is_empty() {
+        icons::paint(ui.painter(), paint::square(right - vec2(8.0, 0.0), 14.0), Icon::Lock, t.t3);
+    }
+    clicked
+}
+
+fn line(ui: &Ui, rect: Rect, words: &str, colour: Color32) -> bool {
+    let t = theme::tokens(ui);
+    let response = paint::control(ui, ("line", words), rect, Role::Button, true, words);
+    if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, t.bg3);
+    }
+    let room = rect.with_min_x(rect.left() + 44.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::body_medium(), colour);
+    paint::focus_ring(ui, &response, 0);
+    response.clicked()
+}
+
+/// A number in a box whose right end is at `right`; returns its left end.
+fn badge(
+    ui: &Ui,
+    right: egui::Pos2,
+    number: usize,
+    (ink, fill): (Color32, Option<Color32>),
+) -> f32 {
+    let words = number.to_string();
+    let width = (paint::text_width(ui, &words, text::small_strong()) + 10.0).max(19.0);
+    let rect = Rect::from_min_max(right - vec2(width, 9.0), right + vec2(0.0, 9.0));
+    let stroke = Stroke::new(1.0, fill.unwrap_or(ink));
+    let ground = fill.unwrap_or(Color32::TRANSPARENT);
+    ui.painter().rect(rect, 3, ground, stroke, StrokeKind::Inside);
+    paint::text_in(ui, rect, Align2::CENTER_CENTER, &words, text::small_strong(), ink);
+    rect.left()
+}
+
+/// At the foot, where there is room: what the unit calls itself.
+fn versions(ui: &Ui, rect: Rect, unit: &Unit<'_>) {
+    let t = theme::tokens(ui);
+    let Some(values) = unit.values("versions") else { return };
+    let told = values.values().filter_map(|value| match value {
+        Value::Text(text) => Some(text.as_str()),
+        _ => None,
+    });
+    let told: Vec<&str> = told.collect();
+    let height = 18.0 * (told.len() + 1) as f32;
+    let top = rect.bottom() - PADDING - height;
+    if top < rect.top() + 4.0 {
+        return;
+    }
+    let lines = std::iter::once(("Unit", t.t3)).chain(told.into_iter().map(|text| (text, t.t2)));
+    for (index, (words, colour)) in lines.enumerate() {
+        let y = top + 18.0 * index as f32;
+        let at =
+            Rect::from_min_size(pos2(rect.left() + PADDING, y), vec2(rect.width() - 24.0, 18.0));
+        paint::text_in(ui, at, Align2::LEFT_CENTER, words, text::small(), colour);
+        paint::name_text(ui, ("version", index), at, words);
+    }
+}

@@ -1,0 +1,183 @@
+//! What came of a change, in a sentence: what did not happen, why, what is true
+//! now, what to do.
+
+use crate::{
+    controller::settings::{Field, Group, Kind, ReadFailure, SettleError, Settled, Value, Values},
+    ui::format,
+};
+
+/// What stands where a value is not to be read.
+pub(super) const HIDDEN: &str = "hidden";
+
+/// A value as it stands beside its field, without its unit.
+pub(super) fn shown(field: &Field, value: &Value) -> String {
+    match (field.kind, value) {
+        (_, Value::Secret(_)) => HIDDEN.to_owned(),
+        (Kind::Integer { .. }, Value::Integer(number)) => format::number(*number as f64, 0),
+        (Kind::Decimal { .. }, Value::Decimal(_)) => {
+            field.kind.text(value).replace('-', "\u{2212}")
+        }
+        _ => field.kind.text(value),
+    }
+}
+
+/// The same with its unit, where it has one.
+fn with_unit(field: &Field, value: Option<&Value>) -> String {
+    let Some(value) = value else { return "not told".to_owned() };
+    let value = shown(field, value);
+    match field.unit {
+        "" => value,
+        "°" => format!("{value}°"),
+        unit => format!("{value} {unit}"),
+    }
+}
+
+/// Why a group is not known.
+pub(super) fn read_failure(failure: &ReadFailure) -> String {
+    match failure {
+        ReadFailure::Refused(code) => format!("the unit answered ERR,{code}"),
+        ReadFailure::Unanswered => "the unit did not answer".to_owned(),
+    }
+}
+
+/// Why `settled` failed. `seen` is what the form showed before, `held` what the
+/// unit holds now.
+pub(super) fn sentence(
+    group: &Group,
+    settled: &Settled,
+    error: &SettleError,
+    seen: Option<&Values>,
+    held: Option<&Values>,
+) -> String {
+    let fields: Vec<&Field> =
+        settled.change.values.keys().filter_map(|key| group.field(key)).collect();
+    let subject = match fields.as_slice() {
+        [only] => only.label,
+        _ => group.title,
+    };
+    let kept = || kept(&fields, held);
+    match error {
+        SettleError::NoLink => format!("{subject}: not sent, there is no link. The edit stays."),
+        SettleError::LinkLost => format!(
+            "{subject}: the link was lost before it was read back. What the unit holds is not \
+             known until it is read again."
+        ),
+        SettleError::NoSuchSetting => format!("{subject}: not sent, the unit has no such setting."),
+        SettleError::Locked => {
+            format!("{subject}: not sent, the service functions are locked. Unlock Service.")
+        }
+        SettleError::Moving => {
+            format!("{subject}: not sent, the antenna moves. Apply when it stands.")
+        }
+        SettleError::Tracking => {
+            format!("{subject}: not sent, the unit tracks. Apply when tracking is off.")
+        }
+        SettleError::Unread(failure) => format!(
+            "{subject}: not sent, its present value cannot be read: {}. Read again.",
+            read_failure(failure)
+        ),
+        SettleError::ChangedMeanwhile => {
+            let changed = changed(group, seen, held);
+            format!("{}: not sent. {changed} Apply again to send yours.", group.title)
+        }
+        SettleError::CannotBeSent { field, reason } => {
+            let label = group.field(field).map_or(subject, |field| field.label);
+            format!("{label} {reason}. Nothing was sent.")
+        }
+        SettleError::Refused(code) => {
+            format!("{subject}: the unit answered ERR,{code} and kept {}.", kept())
+        }
+        SettleError::Unanswered => {
+            format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())
+        }
+        SettleError::NotReadBack(failure) => format!(
+            "{subject}: sent, but not read back: {}. What the unit holds is not known. Read again.",
+            read_failure(failure)
+        ),
+        SettleError::Differs(keys) => {
+            let fields: Vec<&Field> = keys.iter().filter_map(|key| group.field(key)).collect();
+            let holds = self::kept(&fields, held);
+            format!("{subject}: the unit said OK, but holds {holds}. Read again.")
+        }
+        SettleError::Useless(why) => format!("{subject}: set, but {why}."),
+    }
+}
+
+/// What the unit holds in `fields`.
+fn kept(fields: &[&Field], held: Option<&Values>) -> String {
+    let value = |field: &Field| with_unit(field, held.and_then(|held| held.get(field.key)));
+    if let [only] = fields {
+        return value(only);
+    }
+    let named = fields.iter().map(|field| format!("{} {}", field.label, value(field)));
+    named.collect::<Vec<_>>().join(", ")
+}
+
+/// The fields in which the unit no longer holds what was seen.
+fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> String {
+    let changes = group.fields.iter().filter_map(|field| {
+        let (was, is) = (seen?.get(field.key), held?.get(field.key));
+        let same = match (was, is) {
+            (Some(was), Some(is)) => field.kind.same(was, is),
+            (was, is) => was.is_some() == is.is_some(),
+        };
+        let (was, is) = (with_unit(field, was), with_unit(field, is));
+        (!same).then(|| format!("{} was {was} and is {is} now", field.label))
+    });
+    let changes: Vec<String> = changes.collect();
+    if changes.is_empty() {
+        return "Its values on the unit have changed meanwhile.".to_owned();
+    }
+    format!("On the unit {}.", changes.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        controller::settings::{Change, Secret},
+        ui::antennas::section,
+    };
+    use jiff::Timestamp;
+
+    fn said(values: Values, error: &SettleError, seen: f64, held: f64) -> String {
+        let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
+        let group = section::group("general").unwrap();
+        let change = Change { ticket: 1, group: "general", values, seen: None, is_unlocked: false };
+        let settled = Settled { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
+        sentence(group, &settled, error, Some(&of(seen)), Some(&of(held)))
+    }
+
+    #[test]
+    fn a_refusal_names_the_field_the_answer_and_what_was_kept() {
+        let values = Values::from([("elevation_threshold_deg", Value::Decimal(12.0))]);
+        assert_eq!(
+            said(values.clone(), &SettleError::Refused("7".to_owned()), 2.0, 2.0),
+            "Elevation threshold: the unit answered ERR,7 and kept 2.0°."
+        );
+        assert_eq!(
+            said(values, &SettleError::ChangedMeanwhile, 2.0, 7.5),
+            "General: not sent. On the unit Elevation threshold was 2.0° and is 7.5° now. \
+             Apply again to send yours."
+        );
+    }
+
+    #[test]
+    fn a_password_is_never_in_a_sentence() {
+        let group = section::group("ftp").unwrap();
+        let secret = |text: &str| Values::from([("password", Value::Secret(Secret::new(text)))]);
+        let values = secret("hunter2");
+        let change = Change { ticket: 1, group: "ftp", values, seen: None, is_unlocked: false };
+        for error in [
+            SettleError::Refused("7".to_owned()),
+            SettleError::ChangedMeanwhile,
+            SettleError::Differs(vec!["password"]),
+        ] {
+            let result = Err(error.clone());
+            let settled = Settled { change: change.clone(), at: Timestamp::UNIX_EPOCH, result };
+            let (seen, held) = (secret("hunter3"), secret("hunter4"));
+            let words = sentence(group, &settled, &error, Some(&seen), Some(&held));
+            assert!(!words.contains("hunter") && words.contains(HIDDEN), "{words}");
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The lines of a card: fixed columns, so that no text pushes its neighbours.
+
+use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
+
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+    widgets::paint,
+};
+
+/// Height of a line.
+pub(super) const HEIGHT: f32 = 28.0;
+/// Height of a field in it.
+const FIELD: f32 = 24.0;
+/// The columns need so much.
+pub(super) const LEAST_WIDTH: f32 = 500.0;
+
+/// Setting, on the unit, new value, unit, state.
+pub(super) struct Columns {
+    pub(super) label: Rect,
+    pub(super) on_unit: Rect,
+    pub(super) new: Rect,
+    pub(super) unit: Rect,
+    pub(super) state: Rect,
+}
+
+impl Columns {
+    /// The columns of a line in `rect`; what is beyond the least width is
+    /// shared by the values.
+    pub(super) fn of(rect: Rect) -> Self {
+        let spare = (rect.width() - LEAST_WIDTH).max(0.0);
+        let widths = [130.0, 100.0 + spare * 0.4, 112.0 + spare * 0.4, 28.0, 118.0 + spare * 0.2];
+        let mut left = rect.left();
+        let [label, on_unit, new, unit, state] = widths.map(|width| {
+            let column =
+                Rect::from_min_max(pos2(left, rect.top()), pos2(left + width, rect.bottom()));
+            left += width + 3.0;
+            column
+        });
+        let inset = (rect.height() - FIELD) / 2.0;
+        Self { label, on_unit, new: new.shrink2(vec2(0.0, inset)), unit, state }
+    }
+
+    /// The field with the column of its unit, for what is long and has none.
+    pub(super) fn wide(&self) -> Rect {
+        self.new.with_max_x(self.unit.right())
+    }
+}
+
+/// The next line of the card.
+pub(super) fn take(ui: &mut Ui) -> Rect {
+    ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover()).0
+}
+
+/// The heads of the columns.
+pub(super) fn head(ui: &mut Ui) {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
+    let at = Columns::of(rect);
+    for (column, word) in [
+        (at.label, "Setting"),
+        (at.on_unit, "On the unit"),
+        (at.new, "New value"),
+        (at.state, "State"),
+    ] {
+        paint::text_in(ui, column, Align2::LEFT_CENTER, word, text::caption(), t.t3);
+    }
+}
+
+/// A text in a column, found and read as `name`; what is cut is shown whole
+/// under the pointer.
+pub(super) fn said(ui: &Ui, rect: Rect, words: &str, font: FontId, colour: Color32, name: &str) {
+    paint::text_in(ui, rect, Align2::LEFT_CENTER, words, font, colour);
+    paint::name_text(ui, ("said", name), rect, name).on_hover_text(name);
+}
+
+/// A state with its mark.
+pub(super) fn state(
+    ui: &Ui,
+    rect: Rect,
+    icon: Option<Icon>,
+    words: &str,
+    colour: Color32,
+    name: &str,
+) {
+    let mut room = rect;
+    if let Some(icon) = icon {
+        let at = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
+        icons::paint(ui.painter(), at, icon, colour);
+        room = rect.with_min_x(rect.left() + 17.0);
+    }
+    said(ui, room, words, text::small(), colour, name);
+}
+
+/// A line that is no field: what it is about, what is so, and what to make of
+/// it.
+pub(super) fn plain(
+    ui: &mut Ui,
+    label: &str,
+    value: &str,
+    verdict: Option<(Option<Icon>, &str, Color32)>,
+) {
+    let t = theme::tokens(ui);
+    let rect = take(ui);
+    let at = Columns::of(rect);
+    said(ui, at.label, label, text::small(), t.t1, label);
+    let room = at.on_unit.with_max_x(at.unit.right());
+    let room = if verdict.is_none() { room.with_max_x(rect.right()) } else { room };
+    said(ui, room, value, text::small(), t.t2, &format!("{label}: {value}"));
+    if let Some((icon, words, colour)) = verdict {
+        state(ui, at.state, icon, words, colour, &format!("{label}: {words}"));
+    }
+}
+
+/// A sentence over the whole width, wrapped.
+pub(super) fn note(ui: &mut Ui, icon: Option<Icon>, words: &str, colour: Color32) {
+    let indent = if icon.is_some() { 20.0 } else { 0.0 };
+    let width = ui.available_width() - indent;
+    let galley = ui.painter().layout(words.to_owned(), text::small(), colour, width);
+    let size = vec2(ui.available_width(), galley.size().y + 6.0);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    if let Some(icon) = icon {
+        let at = paint::square(pos2(rect.left() + 7.0, rect.top() + 10.0), 14.0);
+        icons::paint(ui.painter(), at, icon, colour);
+    }
+    ui.painter().galley(rect.min + vec2(indent, 2.0), galley, colour);
+    paint::name_text(ui, ("note", words), rect, words);
+}

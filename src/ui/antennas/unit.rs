@@ -1,0 +1,74 @@
+//! A unit as this frame shows it.
+
+use jiff::Timestamp;
+
+use crate::{
+    app::{Model, antenna::AntennaModel},
+    astro::time::add_seconds,
+    controller::settings::{GroupState, ReadFailure, Values},
+};
+
+/// A unit as this frame shows it, with what its form may do.
+#[derive(Clone, Copy)]
+pub(super) struct Unit<'a> {
+    pub(super) model: &'a Model,
+    /// Its place among the antennas.
+    pub(super) index: usize,
+    pub(super) antenna: &'a AntennaModel,
+    /// The service functions are open.
+    pub(super) is_unlocked: bool,
+}
+
+impl<'a> Unit<'a> {
+    pub(super) fn of(model: &'a Model, index: usize) -> Option<Self> {
+        let antenna = model.antennas.get(index)?;
+        Some(Self { model, index, antenna, is_unlocked: false })
+    }
+
+    pub(super) fn name(&self) -> &'a str {
+        &self.antenna.config.name
+    }
+
+    pub(super) fn group(&self, key: &str) -> Option<&'a GroupState> {
+        self.antenna.snapshot.state.held.get(key)
+    }
+
+    /// What the unit held when the group was last read.
+    pub(super) fn values(&self, key: &str) -> Option<&'a Values> {
+        self.group(key)?.held.as_ref().map(|held| &held.values)
+    }
+
+    pub(super) fn read_at(&self, key: &str) -> Option<Timestamp> {
+        self.group(key)?.held.as_ref().map(|held| held.read_at)
+    }
+
+    pub(super) fn failure(&self, key: &str) -> Option<&'a ReadFailure> {
+        self.group(key)?.failure.as_ref()
+    }
+
+    pub(super) fn is_open(&self) -> bool {
+        self.antenna.snapshot.link.is_open()
+    }
+
+    /// The group was read on the present link: what is older tells of another
+    /// time.
+    pub(super) fn is_fresh(&self, key: &str) -> bool {
+        let Some(since) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
+            return false;
+        };
+        let up_s = self.model.steady.saturating_duration_since(since).as_secs_f64();
+        self.read_at(key).is_some_and(|at| at >= add_seconds(self.model.now, -up_s))
+    }
+
+    /// The unit's own program is on, or not known to be off.
+    pub(super) fn tracks(&self) -> bool {
+        self.antenna.snapshot.state.program.is_none_or(|program| program.enabled)
+    }
+
+    /// It is known that nothing turns, nor is about to.
+    pub(super) fn stands(&self) -> bool {
+        let moving = |measured: crate::controller::Measured| measured.moving();
+        let measured = self.antenna.snapshot.state.measured;
+        self.is_open() && !self.tracks() && measured.is_some_and(|measured| !moving(measured))
+    }
+}

@@ -1,0 +1,82 @@
+//! Asks for the name of the station before the service functions open.
+
+use egui::{Frame, Modal, RichText, Sense, TextEdit, Ui, vec2};
+
+use super::{unit::Unit, unlock};
+use crate::ui::{
+    text, theme,
+    widgets::{
+        button::{Button, HEIGHT},
+        hold_button::{self, HoldState},
+    },
+};
+
+const WIDTH: f32 = 360.0;
+const HOLD: &str = "Hold 1 s to unlock";
+
+/// What was typed into the dialog.
+#[derive(Default)]
+pub(super) struct UnlockDialog {
+    typed: String,
+    hold: HoldState,
+}
+
+/// What became of the dialog.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Answer {
+    Open,
+    Closed,
+    Unlock,
+}
+
+impl UnlockDialog {
+    /// Shows the dialog in the middle of the window. Esc closes it, as STOP.
+    pub(super) fn show(&mut self, ui: &Ui, unit: &Unit<'_>) -> Answer {
+        let frame = Frame::popup(ui.style()).inner_margin(16);
+        let modal = Modal::new(egui::Id::unique("unlock")).frame(frame);
+        let shown = modal.show(ui.ctx(), |ui| self.fill(ui, unit));
+        if shown.should_close() && shown.inner == Answer::Open {
+            return Answer::Closed;
+        }
+        shown.inner
+    }
+
+    fn fill(&mut self, ui: &mut Ui, unit: &Unit<'_>) -> Answer {
+        let t = theme::tokens(ui);
+        ui.set_width(WIDTH);
+        let station = unit.model.station.name.trim();
+        ui.label(RichText::new("Unlock the service functions").font(text::value()));
+        let words = format!(
+            "A wrong value there points {} wrong or moves it. Type the name of the station, \
+             {station}.",
+            unit.name()
+        );
+        ui.label(RichText::new(words).font(text::body()).color(t.t2));
+        let edit = TextEdit::singleline(&mut self.typed).desired_width(WIDTH - 16.0);
+        ui.add(edit).accessible_name("Name of the station");
+        let is_named = self.typed.trim() == station;
+        let refusal = unlock::refusal(unit);
+        if let Some(refusal) = refusal {
+            ui.label(RichText::new(refusal).font(text::small()).color(t.bad));
+        } else if !is_named && !self.typed.is_empty() {
+            let words = "This is not the name of the station.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t3));
+        }
+        let (row, _) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT), Sense::hover());
+        let cancel = Button::normal("Cancel");
+        let (hold, cancelling) = row.split_left_right_at_x(row.right() - cancel.width(ui));
+        let hold = hold.with_max_x(hold.right() - 8.0);
+        if cancel.show(ui, "cancel unlock", cancelling).clicked() {
+            return Answer::Closed;
+        }
+        if !is_named || refusal.is_some() {
+            self.hold = HoldState::Released;
+            Button::normal(HOLD).locked(true).show(ui, "unlock locked", hold);
+            return Answer::Open;
+        }
+        if hold_button::show(ui, hold, HOLD, &mut self.hold) {
+            return Answer::Unlock;
+        }
+        Answer::Open
+    }
+}
