@@ -65,10 +65,12 @@ impl AntennasState {
         }
     }
 
-    /// The question before the operator leaves edits behind. They are kept.
+    /// The question before the operator leaves edits behind, where one of the
+    /// commands from the place `from` on does so. The edits are kept.
     pub fn ask_before_leaving(
         &self,
         model: &Model,
+        from: usize,
         commands: &mut Vec<UiCommand>,
     ) -> Option<Question> {
         if model.view != View::Antennas {
@@ -81,8 +83,8 @@ impl AntennasState {
             UiCommand::SelectAntenna(index) => *index != model.selected_antenna,
             _ => false,
         };
-        let place = commands.iter().position(leaves).filter(|_| edited > 0)?;
-        let command = commands.remove(place);
+        let place = commands.iter().skip(from).position(leaves).filter(|_| edited > 0)?;
+        let command = commands.remove(from + place);
         let changes = if edited == 1 { "change is" } else { "changes are" };
         let text = format!(
             "{edited} {changes} not on {} yet. They are kept here until they are applied or \

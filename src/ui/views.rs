@@ -69,7 +69,7 @@ impl Views {
 
     /// Draws everything and collects what the operator asked for.
     pub fn show(&mut self, ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
-        let window = ui.max_rect();
+        let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
         bar::show(ui, top, model, commands);
         let mut desk = Desk {
@@ -112,8 +112,10 @@ impl Views {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
         }
-        if let Some(question) = self.antennas.ask_before_leaving(model, commands) {
+        if let Some(question) = self.antennas.ask_before_leaving(model, before, commands) {
             self.question = Some(question);
+            // Enter is to answer the question, not to end the typing behind it.
+            ui.memory_mut(egui::Memory::stop_text_input);
         }
         Question::show(&mut self.question, ui, commands);
         keys::list::show(ui, &mut self.keys_open);

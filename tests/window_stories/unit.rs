@@ -4,6 +4,7 @@ use std::{
     collections::BTreeMap,
     io::{BufRead as _, BufReader, Write as _},
     net::{SocketAddr, TcpStream},
+    ops::RangeInclusive,
     path::Path,
     thread,
     time::{Duration, Instant},
@@ -40,12 +41,18 @@ impl Unit {
     /// A unit that holds the elements of the station and whose clock starts at
     /// `utc`.
     pub(crate) fn start(utc: Timestamp) -> Self {
+        Self::with_delay(utc, Duration::from_millis(5)..=Duration::from_millis(30))
+    }
+
+    /// The same, with answers that take so long.
+    pub(crate) fn with_delay(utc: Timestamp, reply_delay: RangeInclusive<Duration>) -> Self {
         let station = rig::station();
         let catalog = bundled().unwrap();
         let elements =
             station.favourites.iter().map(|number| catalog.get(*number).unwrap().clone());
         let options = Options {
             elements: BTreeMap::from([(DEMO_ELEMENT_FILE.to_owned(), elements.collect())]),
+            reply_delay,
             ..Options::new(station.site, utc)
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();

@@ -74,14 +74,12 @@ fn show(
     let about = if field.about.is_empty() { field.label } else { field.about };
     paint::name_text(ui, ("label", field.key), at.label, field.label).on_hover_text(about);
     on_unit(ui, unit, group, field, &at);
-    let is_long = field.unit.is_empty() || matches!(field.kind, Kind::Time);
-    let place = if is_long && !matches!(field.kind, Kind::Flag | Kind::Choice(_)) {
-        at.wide()
-    } else {
-        paint_unit(ui, &at, field);
-        at.new
-    };
     if field.access != Access::Read {
+        let is_long = matches!(field.kind, Kind::Text(_) | Kind::Password(_) | Kind::Time);
+        let place = if is_long { at.wide() } else { at.new };
+        if !is_long {
+            paint_unit(ui, &at, field);
+        }
         edit(ui, unit, group, field, draft, is_revealed, (&state, place));
     }
     let (icon, colour) = look(&state, t);

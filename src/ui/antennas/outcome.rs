@@ -15,7 +15,10 @@ pub(super) fn shown(field: &Field, value: &Value) -> String {
         (_, Value::Secret(_)) => HIDDEN.to_owned(),
         (Kind::Integer { .. }, Value::Integer(number)) => format::number(*number as f64, 0),
         (Kind::Decimal { .. }, Value::Decimal(_)) => {
-            field.kind.text(value).replace('-', "\u{2212}")
+            let text = field.kind.text(value);
+            let is_zero = !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+            let minus = if is_zero { "" } else { "\u{2212}" };
+            text.replace('-', minus)
         }
         _ => field.kind.text(value),
     }

@@ -29,7 +29,7 @@ impl Columns {
     /// shared by the values.
     pub(super) fn of(rect: Rect) -> Self {
         let spare = (rect.width() - LEAST_WIDTH).max(0.0);
-        let widths = [130.0, 100.0 + spare * 0.4, 112.0 + spare * 0.4, 28.0, 118.0 + spare * 0.2];
+        let widths = [130.0, 92.0 + spare * 0.5, 110.0 + spare * 0.3, 28.0, 128.0 + spare * 0.2];
         let mut left = rect.left();
         let [label, on_unit, new, unit, state] = widths.map(|width| {
             let column =
@@ -43,7 +43,7 @@ impl Columns {
 
     /// The field with the column of its unit, for what is long and has none.
     pub(super) fn wide(&self) -> Rect {
-        self.new.with_max_x(self.unit.right())
+        self.new.with_max_x(self.unit.right() - 6.0)
     }
 }
 

@@ -1,0 +1,377 @@
+//! The Antennas view on a unit that is made by hand.
+
+use std::sync::Arc;
+
+use azel::{
+    app::{UiCommand, View},
+    controller::{
+        Program,
+        settings::{Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value},
+    },
+    driver::{Command, LinkLoss, LinkState, Snapshot},
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    rig::{self, LARGE, SIZES, Window, asked, settle},
+    settings_desk::{
+        ON_UNIT, apply, change, choose, desk, hold, press, read, says, state_of, texts, write,
+    },
+    states,
+};
+
+/// The only change that was asked for, and what was asked for before it.
+pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
+    let change = |command| match command {
+        UiCommand::Antenna(0, Command::Settle(change)) => change,
+        other => panic!("{other:?}"),
+    };
+    commands.into_iter().map(change).collect()
+}
+
+fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mut GroupState {
+    Arc::make_mut(&mut snapshot.state.held).get_mut(key).unwrap()
+}
+
+/// The session is done with `change`.
+fn end(window: &mut Window, change: &Change, result: Result<(), SettleError>) {
+    let settled = Settled { change: change.clone(), at: rig::now(), result };
+    self::change(window, 0, |snapshot| {
+        let state = group(snapshot, change.group);
+        if settled.result.is_ok() {
+            state.held.as_mut().unwrap().values.extend(change.values.clone());
+        }
+        state.settled = Some(Arc::new(settled));
+    });
+}
+
+#[test]
+fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::Tab, "Antennas").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
+        let mut window = desk(size, read());
+        press(&mut window, "Mount, limits and connection");
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+    }
+}
+
+#[test]
+fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
+    let mut snapshot = read();
+    for key in ["general", "web"] {
+        *group(&mut snapshot, key) = GroupState::default();
+    }
+    group(&mut snapshot, "web").failure = Some(ReadFailure::Refused("1".to_owned()));
+    let mut window = desk(LARGE, snapshot);
+    let read = |key| UiCommand::Antenna(0, Command::ReadGroup(key));
+    assert_eq!(asked(&mut window), [read("general"), read("web")]);
+    assert_eq!(asked(&mut window), []);
+    assert!(says(&window, "not read: General, Web"));
+    assert!(says(&window, "Minimum elevation, on the unit: –"));
+    assert_eq!(state_of(&window, "Minimum elevation"), "Not read");
+    let inputs: Vec<_> = window.query_all_by_label("Minimum elevation, new value").collect();
+    assert!(inputs.is_empty(), "it cannot be typed over");
+    window.get_by_role_and_label(Role::RadioButton, "Web").click();
+    settle(&mut window);
+    assert!(says(&window, "Web: not known, the unit answered ERR,1."));
+    press(&mut window, "Read again");
+    assert_eq!(asked(&mut window).len(), 13);
+}
+
+#[test]
+fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        for (typed, why) in [
+            ("91", "Minimum elevation is not between 0 and 90."),
+            ("x", "Minimum elevation is not a number."),
+        ] {
+            write(&mut window, "Minimum elevation", typed);
+            assert_eq!(state_of(&window, "Minimum elevation"), "Invalid");
+            assert!(says(&window, why), "{typed}");
+            let name = "Minimum elevation, new value";
+            let field = window.get_by_role_and_label(Role::TextInput, name);
+            assert_eq!(field.value().as_deref(), Some(typed));
+        }
+        write(&mut window, "North offset", "1.5");
+        assert!(says(&window, "2 changes not sent, 1 cannot be used"));
+        apply(&mut window);
+        let changes = settles(asked(&mut window));
+        let values = &changes[0].values;
+        assert_eq!(*values, [("north_offset_deg", Value::Decimal(1.5))].into());
+    }
+}
+
+#[test]
+fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        write(&mut window, "Minimum elevation", "5");
+        write(&mut window, "Latitude", "41.02N");
+        write(&mut window, "North offset", "3,00");
+        assert!(says(&window, "1 change not sent"), "what is the same is no edit");
+        // Another client is at work: what the operator saw is what counts.
+        change(&mut window, 0, |snapshot| {
+            let values = &mut group(snapshot, "general").held.as_mut().unwrap().values;
+            values.insert("lead_ms", Value::Integer(90_000));
+        });
+        press(&mut window, "Apply 1 change (Ctrl Enter)");
+        let changes = settles(asked(&mut window));
+        let [change_of_general] = changes.as_slice() else { panic!("{changes:?}") };
+        let Change { group: key, values, seen, is_unlocked, .. } = change_of_general;
+        assert_eq!((*key, *is_unlocked), ("general", false));
+        assert_eq!(*values, [("minimum_elevation_deg", Value::Decimal(5.0))].into());
+        assert_eq!(seen.as_ref().unwrap()["lead_ms"], Value::Integer(1));
+        assert_eq!(state_of(&window, "Minimum elevation"), "Sending");
+        apply(&mut window);
+        assert_eq!(asked(&mut window), [], "not twice");
+
+        change(&mut window, 0, |of| group(of, "general").step = Some(SettleStep::Sending));
+        change(&mut window, 0, |of| group(of, "general").step = None);
+        end(&mut window, change_of_general, Err(SettleError::ChangedMeanwhile));
+        assert_eq!(state_of(&window, "Minimum elevation"), "Rejected");
+        assert!(says(
+            &window,
+            "On the unit Go to start before was 1 ms and is 90\u{2009}000 ms now."
+        ));
+        apply(&mut window);
+        let again = settles(asked(&mut window)).remove(0);
+        assert_eq!(again.seen.as_ref().unwrap()["lead_ms"], Value::Integer(90_000));
+        assert_ne!(again.ticket, change_of_general.ticket);
+        end(&mut window, &again, Ok(()));
+        assert_eq!(state_of(&window, "Minimum elevation"), "Verified 11:15:30Z");
+        assert!(says(&window, "1 setting read back and verified 11:15:30Z"));
+        write(&mut window, "Minimum elevation", "6");
+        assert_eq!(state_of(&window, "Minimum elevation"), "Edited");
+    }
+}
+
+#[test]
+fn a_value_that_radiates_is_confirmed_by_holding() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        choose(&mut window, "Transmitter (SSPA)", "Auto");
+        assert_eq!(state_of(&window, "Transmitter (SSPA)"), "Confirm first");
+        assert!(says(&window, "1 change not sent, 1 needs confirmation"));
+        apply(&mut window);
+        assert_eq!(asked(&mut window), []);
+        hold(&mut window, "Hold 1 s to confirm Transmitter (SSPA) Auto");
+        assert_eq!(state_of(&window, "Transmitter (SSPA)"), "Edited");
+        apply(&mut window);
+        let values = settles(asked(&mut window)).remove(0).values;
+        assert_eq!(values, [("sspa", Value::Choice(2))].into());
+    }
+}
+
+#[test]
+fn revert_drops_the_edits_and_sends_nothing() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        write(&mut window, "Minimum elevation", "5");
+        write(&mut window, "Latitude", "1N");
+        assert!(says(&window, "General: 1 edited") && says(&window, "GPS: 1 edited"));
+        press(&mut window, "Revert");
+        assert_eq!(asked(&mut window), []);
+        assert_eq!(state_of(&window, "Minimum elevation"), "Unchanged");
+        assert!(says(&window, "Nothing to send."));
+    }
+}
+
+#[test]
+fn leaving_with_edits_asks_and_keeps_them() {
+    for size in SIZES {
+        let mut model = rig::model(read());
+        model.view = View::Antennas;
+        let mut config = model.station.antennas[0].clone();
+        "Mast".clone_into(&mut config.name);
+        model.antennas.push(rig::antenna(config, read()));
+        let mut window = rig::window(size, model);
+        for (leave, wanted) in
+            [(Key::Num1, UiCommand::Show(View::Operate)), (Key::F2, UiCommand::SelectAntenna(1))]
+        {
+            let modifiers = if leave == Key::F2 { Modifiers::NONE } else { Modifiers::COMMAND };
+            window.key_press_modifiers(modifiers, leave);
+            assert_eq!(asked(&mut window), [wanted.clone()], "nothing is typed");
+            write(&mut window, "Minimum elevation", "5");
+            window.key_press_modifiers(modifiers, leave);
+            assert_eq!(asked(&mut window), []);
+            assert!(says(&window, "1 change is not on Satrak yet."));
+            window.key_press(Key::Enter);
+            assert_eq!(asked(&mut window), [wanted]);
+            window.state_mut().model.selected_antenna = 1;
+            settle(&mut window);
+            assert_eq!(state_of(&window, "Minimum elevation"), "Unchanged", "of the other one");
+            window.state_mut().model.selected_antenna = 0;
+            settle(&mut window);
+            assert_eq!(state_of(&window, "Minimum elevation"), "Edited");
+            press(&mut window, "Revert");
+        }
+    }
+}
+
+#[test]
+fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        write(&mut window, "Minimum elevation", "5");
+        change(&mut window, 0, |snapshot| {
+            let now = std::time::Instant::now();
+            let reason = LinkLoss::Closed;
+            snapshot.link = LinkState::Lost { since: now, reason, retry_at: now };
+        });
+        assert!(says(&window, "Minimum elevation, on the unit, old: 3.0"));
+        assert!(says(&window, "General: as read 0.0 s ago."));
+        assert!(says(&window, "Minimum elevation, new value: 5"));
+        assert!(says(&window, "1 change not sent, no link"));
+        apply(&mut window);
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
+    let mut window = desk(LARGE, read());
+    press(&mut window, "Take from pass");
+    assert_eq!(asked(&mut window), [], "filled in, not sent");
+    assert_eq!(state_of(&window, "Stop"), "Edited");
+    apply(&mut window);
+    let values = settles(asked(&mut window)).remove(0).values;
+    let stop = Value::Time("2026-08-12T11:21:27Z".parse().unwrap());
+    // The pass is under way, and its start on the unit already.
+    assert_eq!(values, [("stop", stop)].into());
+}
+
+#[test]
+fn automatic_tracking_is_switched_on_by_holding_and_off_at_once() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        hold(&mut window, "Hold 1 s to switch on");
+        let asked_for = |on| UiCommand::Antenna(0, Command::AutoTrack(on));
+        assert_eq!(asked(&mut window), [asked_for(true)]);
+        for (auto, wanted) in [(Some(true), "On"), (None, "Not told")] {
+            change(&mut window, 0, |snapshot| {
+                let program = snapshot.state.program.unwrap();
+                snapshot.state.program = Some(Program { auto, ..program });
+            });
+            assert!(says(&window, &format!("Automatic tracking, on the unit: {wanted}")));
+            if auto.is_some() {
+                press(&mut window, "Switch off");
+                assert_eq!(asked(&mut window), [asked_for(false)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_clock_is_not_set_while_the_unit_tracks() {
+    let mut snapshot = states::tracking(0.0);
+    snapshot.state.link_since = read().state.link_since;
+    snapshot.state.held = read().state.held;
+    let mut window = desk(LARGE, snapshot);
+    assert!(says(&window, "Not while the unit tracks."));
+    press(&mut window, "Set from this PC");
+    assert_eq!(asked(&mut window), []);
+    // 3.0 s ahead is several beams of a low satellite.
+    assert!(
+        texts(&window)
+            .iter()
+            .any(|text| text.starts_with("Effect on") && text.ends_with("Outside beam"))
+    );
+}
+
+#[test]
+fn a_place_far_from_the_site_is_a_warning() {
+    let mut snapshot = read();
+    let mut window = desk(LARGE, snapshot.clone());
+    assert_eq!(says(&window, "Distance to site: Differs"), false);
+    let values = &mut group(&mut snapshot, "gps").held.as_mut().unwrap().values;
+    values.insert("latitude_deg", Value::Decimal(41.5));
+    change(&mut window, 0, |of| *of = snapshot);
+    assert!(says(&window, "Distance to site: Differs"));
+}
+
+#[test]
+fn faults_stand_with_what_to_do() {
+    let mut snapshot = read();
+    snapshot.state.satrak.faults = Some((states::faults(&[2, 10]), rig::now()));
+    let window = desk(LARGE, snapshot);
+    assert!(says(&window, "Faults, read 11:15:30Z"));
+    assert_eq!(state_of_check(&window, "Age of the elements"), "Caution");
+    assert_eq!(state_of_check(&window, "X position sensor"), "Fault");
+    assert!(says(&window, "The X angle cannot be trusted: check the sensor and its cable."));
+}
+
+fn state_of_check(window: &Window, name: &str) -> String {
+    let before = format!("{name}: ");
+    let told = texts(window).into_iter().filter(|text| !text.contains("Check "));
+    told.filter_map(|text| Some(text.strip_prefix(&before)?.to_owned())).next().unwrap()
+}
+
+#[test]
+fn no_text_ever_has_a_password() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
+        settle(&mut window);
+        assert!(says(&window, "Password, on the unit: hidden"));
+        write(&mut window, "Password", "swordfish");
+        press(&mut window, "Show the typed password");
+        assert_eq!(state_of(&window, "Password"), "Edited");
+        apply(&mut window);
+        let commands = asked(&mut window);
+        let told = format!("{:?} {commands:?}", texts(&window));
+        let change = settles(commands).remove(0);
+        end(&mut window, &change, Err(SettleError::Refused("7".to_owned())));
+        let told = format!("{told} {:?}", texts(&window));
+        for secret in [ON_UNIT, "swordfish"] {
+            assert!(!told.contains(secret), "{told}");
+        }
+        let Some(Value::Secret(sent)) = change.values.get("password") else { panic!() };
+        assert_eq!(sent.reveal(), "swordfish");
+    }
+}
+
+#[test]
+fn a_section_of_the_list_is_brought_into_view() {
+    for size in SIZES {
+        let mut window = desk(size, read());
+        press(&mut window, "Service");
+        settle(&mut window);
+        let title = window.get_by_role_and_label(Role::Label, "Service").rect();
+        assert!(title.top() > 100.0 && title.bottom() < size[1] - 64.0, "{title:?}");
+    }
+}
+
+#[test]
+fn esc_while_typing_sends_nothing_and_keeps_the_typing() {
+    let mut window = desk(LARGE, read());
+    write(&mut window, "Minimum elevation", "5");
+    window.key_press(Key::Escape);
+    assert_eq!(asked(&mut window), []);
+    window.event(Event::Text("5".to_owned()));
+    settle(&mut window);
+    assert_eq!(state_of(&window, "Minimum elevation"), "Edited");
+    window.get_by_role_and_label(Role::Button, "STOP").click();
+    assert_eq!(asked(&mut window), [UiCommand::Stop]);
+}
+
+#[test]
+fn every_field_has_a_name_and_the_bar_is_whole() {
+    for size in SIZES {
+        let window = desk(size, read());
+        let apply = window.get_by_role_and_label(Role::Button, "Apply (Ctrl Enter)").rect();
+        assert!(apply.right() <= size[0] && apply.bottom() <= size[1], "{apply:?}");
+        for role in [Role::TextInput, Role::ComboBox] {
+            for node in window.query_all_by_role(role) {
+                let name = node.accesskit_node().label().unwrap_or_default();
+                assert!(name.ends_with(", new value"), "{name:?}");
+                assert!(node.rect().right() <= size[0] - 16.0, "{name}");
+            }
+        }
+    }
+}

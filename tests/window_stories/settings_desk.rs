@@ -1,0 +1,156 @@
+//! The hands of the operator in the Antennas view, on a model made by hand and
+//! on the real app.
+
+use std::{sync::Arc, time::Instant};
+
+use azel::{
+    app::View,
+    controller::{
+        satrak::GROUPS,
+        settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
+    },
+    driver::Snapshot,
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::{
+    Harness,
+    kittest::{By, NodeT as _, Queryable as _},
+};
+
+use crate::{
+    rig::{self, Window, now},
+    states,
+};
+
+/// The password that the unit holds. No text may have it.
+pub(crate) const ON_UNIT: &str = "hunter2";
+
+/// A value that every field of this kind can have.
+fn usual(field: &Field) -> Value {
+    match field.kind {
+        Kind::Flag => Value::Flag(false),
+        Kind::Choice(choices) => Value::Choice(choices[0].0),
+        Kind::Integer { .. } => Value::Integer(1),
+        Kind::Decimal { .. } => Value::Decimal(3.0),
+        Kind::Place { .. } if field.key == "latitude_deg" => Value::Decimal(41.02),
+        Kind::Place { .. } => Value::Decimal(29.17),
+        Kind::Text(_) => Value::Text("old.txt".to_owned()),
+        Kind::Password(_) => Value::Secret(Secret::new(ON_UNIT)),
+        Kind::Time => Value::Time(now()),
+    }
+}
+
+/// Everything is read, with the usual values.
+pub(crate) fn held() -> Held {
+    let group = |fields: &[Field]| {
+        let reported = fields.iter().filter(|field| field.access != Access::Write);
+        let values: Values = reported.map(|field| (field.key, usual(field))).collect();
+        let held = Some(HeldGroup { values, read_at: now() });
+        GroupState { held, ..GroupState::default() }
+    };
+    GROUPS.iter().map(|known| (known.key, group(known.fields))).collect()
+}
+
+/// A unit that stands and is read.
+pub(crate) fn read() -> Snapshot {
+    let mut snapshot = states::holding();
+    snapshot.state.link_since = Some(Instant::now());
+    snapshot.state.held = Arc::new(held());
+    snapshot
+}
+
+/// The Antennas view on a unit in this state.
+pub(crate) fn desk(size: [f32; 2], snapshot: Snapshot) -> Window {
+    let mut model = rig::model(snapshot);
+    model.view = View::Antennas;
+    rig::window(size, model)
+}
+
+/// From here on the unit is so.
+pub(crate) fn change(window: &mut Window, index: usize, with: impl FnOnce(&mut Snapshot)) {
+    let antenna = &mut window.state_mut().model.antennas[index];
+    with(Arc::make_mut(&mut antenna.snapshot));
+    rig::settle(window);
+}
+
+/// Writes `words` over what stands in the field.
+pub(crate) fn write<S>(window: &mut Harness<'_, S>, label: &str, words: &str) {
+    let name = format!("{label}, new value");
+    let is_input = |role| matches!(role, Role::TextInput | Role::PasswordInput);
+    let named: Vec<_> = window.query_all_by_label(&name).collect();
+    let field = named.iter().find(|node| is_input(node.accesskit_node().role()));
+    field.unwrap_or_else(|| panic!("no field {name}")).focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(words.to_owned()));
+    window.run_steps(2);
+}
+
+/// Opens the choices of a field and takes one.
+pub(crate) fn choose<S>(window: &mut Harness<'_, S>, label: &str, word: &str) {
+    let name = format!("{label}, new value");
+    window.get_by_role_and_label(Role::ComboBox, &name).scroll_to_me();
+    window.run_steps(4);
+    window.get_by_role_and_label(Role::ComboBox, &name).click();
+    window.run_steps(2);
+    let offered: Vec<_> = window.query_all_by_role_and_label(Role::Button, word).collect();
+    offered.last().unwrap_or_else(|| panic!("{word} is not offered")).click();
+    window.run_steps(2);
+}
+
+/// Clicks a button, in view or not.
+pub(crate) fn press<S>(window: &mut Harness<'_, S>, name: &str) {
+    window.get_by_role_and_label(Role::Button, name).click_accesskit();
+    window.run_steps(2);
+}
+
+/// Holds a button for longer than a second of the window.
+pub(crate) fn hold<S>(window: &mut Harness<'_, S>, name: &str) {
+    window.get_by_role_and_label(Role::Button, name).scroll_to_me();
+    window.run_steps(4);
+    let at = window.get_by_role_and_label(Role::Button, name).rect().center();
+    window.drag_at(at);
+    // Each step is a quarter of a second.
+    window.run_steps(6);
+    window.drop_at(at);
+    window.run_steps(2);
+}
+
+/// Applies with the key.
+pub(crate) fn apply<S>(window: &mut Harness<'_, S>) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+    window.step();
+}
+
+/// The state that stands beside a field.
+pub(crate) fn state_of<S>(window: &Harness<'_, S>, label: &str) -> String {
+    let before = format!("{label}: ");
+    let told =
+        texts(window).into_iter().find_map(|text| Some(text.strip_prefix(&before)?.to_owned()));
+    told.unwrap_or_else(|| panic!("{label} has no state"))
+}
+
+/// Opens the service functions.
+pub(crate) fn unlock<S>(window: &mut Harness<'_, S>, station: &str) {
+    press(window, "Unlock");
+    window.get_by_role_and_label(Role::TextInput, "Name of the station").focus();
+    window.run_steps(2);
+    window.event(Event::Text(station.to_owned()));
+    window.run_steps(2);
+    hold(window, "Hold 1 s to unlock");
+}
+
+/// Whether one of the texts has `words` in it.
+pub(crate) fn says<S>(window: &Harness<'_, S>, words: &str) -> bool {
+    texts(window).iter().any(|text| text.contains(words))
+}
+
+/// All names and values that can be read in the window.
+pub(crate) fn texts<S>(window: &Harness<'_, S>) -> Vec<String> {
+    let nodes = window.query_all(By::new());
+    let said = nodes.flat_map(|node| {
+        let node = node.accesskit_node();
+        [node.label(), node.value()]
+    });
+    said.flatten().collect()
+}
