@@ -107,6 +107,10 @@ impl UiCommand {
 
     /// Whether it may move an antenna. A stop in the same frame voids it.
     pub fn may_move(&self) -> bool {
-        matches!(self, Self::Antenna(..) | Self::Track { .. })
+        match self {
+            Self::Antenna(_, command) => !matches!(command, driver::Command::ReadGroup(_)),
+            Self::Track { .. } => true,
+            _ => false,
+        }
     }
 }

@@ -117,7 +117,7 @@ pub fn show(
     state.scroll_to = clicked.or(state.scroll_to);
     let (top, rest) = body.split_top_bottom_at_y(body.top() + head::HEIGHT);
     head::show(ui, top, &unit, commands);
-    let foot = foot::height(ui, form, rest.width()).min(rest.height() / 2.0);
+    let foot = foot::height(ui, &unit, form, rest.width()).min(rest.height() / 2.0);
     let (middle, bottom) = rest.split_top_bottom_at_y(rest.bottom() - foot);
     let mut wants_unlock = false;
     let builder = UiBuilder::new().id_salt(("settings", unit.name())).max_rect(middle);

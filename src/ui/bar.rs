@@ -142,7 +142,8 @@ pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     }
 }
 
-fn age(model: &Model, antenna: &AntennaModel) -> String {
+/// Age of the last good reply, or nothing.
+pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     let last = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return String::new(),
         LinkState::Lost { since, .. } => Some(since),

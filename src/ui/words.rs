@@ -6,7 +6,7 @@ mod faults;
 mod refusals;
 
 pub use alarms::alarm;
-pub use faults::{fault_advice, fault_name};
+pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{link_loss, prepare_error, refusal};
 
 use crate::{controller::Motion, driver::Intent};

@@ -28,6 +28,10 @@ const PADDING: i8 = 12;
 /// A card is not wider than its fields need.
 const WIDEST: f32 = 760.0;
 
+/// The cards of the two columns, where there are two.
+const LEFT: [Section; 4] = [Section::General, Section::Gps, Section::Window, Section::Checks];
+const RIGHT: [Section; 3] = [Section::Satellite, Section::Clock, Section::Service];
+
 /// What a card can do beside editing its fields.
 pub(super) struct Desk<'a> {
     pub(super) commands: &'a mut Vec<UiCommand>,
@@ -46,14 +50,13 @@ pub(super) fn show(
     let room = ui.available_width();
     let least = row::LEAST_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
     let half = (room - GAP) / 2.0;
-    let (left, right) = Section::ALL.split_at(3);
     if half < least {
         column(ui, room.min(WIDEST), unit, form, &Section::ALL, (&mut *scroll_to, desk));
         return;
     }
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        for sections in [left, right] {
+        for sections in [LEFT.as_slice(), &RIGHT] {
             let size = vec2(half.min(WIDEST), 0.0);
             ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;

@@ -1,12 +1,11 @@
 //! The bar below the cards: what came of the last changes, and what is not sent
 //! yet.
 
-use egui::{Align2, Color32, Key, Modifiers, Rect, Ui, pos2, vec2};
+use std::sync::Arc;
 
-use super::{
-    form::{Count, Form},
-    unit::Unit,
-};
+use egui::{Align2, Color32, Galley, Key, Modifiers, Rect, Ui, pos2, vec2};
+
+use super::{form::Form, unit::Unit};
 use crate::{
     app::UiCommand,
     ui::{
@@ -22,35 +21,48 @@ use crate::{
 const LEAST_HEIGHT: f32 = 64.0;
 const PADDING: f32 = 16.0;
 const LINE_GAP: f32 = 4.0;
-/// The report may take this part of the width.
+/// The report may take this part of the width,
 const REPORT: f32 = 0.5;
+/// and in a view narrower than this all that the buttons leave.
+const NARROW: f32 = 900.0;
+const BUTTONS: f32 = 390.0;
 
 /// The laid-out sentences of the report.
 struct Lines {
-    galleys: Vec<(bool, String, std::sync::Arc<egui::Galley>)>,
+    galleys: Vec<(Mark, String, Arc<Galley>)>,
     height: f32,
 }
 
+/// What stands before a sentence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mark {
+    Good,
+    Bad,
+    Pending,
+}
+
 impl Lines {
-    fn of(ui: &Ui, form: &Form, width: f32) -> Self {
+    /// In a narrow view with what is not sent yet.
+    fn of(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> Self {
         let t = theme::tokens(ui);
-        let lay = |(is_good, words): (bool, String)| {
-            let galley = ui.painter().layout(words.clone(), text::small(), t.t1, width);
-            (is_good, words, galley)
+        let is_narrow = width < NARROW;
+        let room = if is_narrow { width - BUTTONS } else { width * REPORT - PADDING } - 24.0;
+        let pending = is_narrow.then(|| (Mark::Pending, pending(ui, unit, form).0));
+        let report = form.report.lines().into_iter();
+        let report = report.map(|(good, words)| (if good { Mark::Good } else { Mark::Bad }, words));
+        let lay = |(mark, words): (Mark, String)| {
+            let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);
+            (mark, words, galley)
         };
-        let galleys: Vec<_> = form.report.lines().into_iter().map(lay).collect();
+        let galleys: Vec<_> = pending.into_iter().chain(report).map(lay).collect();
         let height = galleys.iter().map(|(_, _, galley)| galley.size().y + LINE_GAP).sum();
         Self { galleys, height }
     }
 }
 
 /// The height that the bar needs in a view of this width.
-pub(super) fn height(ui: &Ui, form: &Form, width: f32) -> f32 {
-    (Lines::of(ui, form, report_width(width)).height + 16.0).max(LEAST_HEIGHT)
-}
-
-fn report_width(width: f32) -> f32 {
-    width * REPORT - PADDING - 24.0
+pub(super) fn height(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> f32 {
+    (Lines::of(ui, unit, form, width).height + 16.0).max(LEAST_HEIGHT)
 }
 
 /// Shows the bar in `rect` and does what it was asked for.
@@ -64,7 +76,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
-    report(ui, rect, form);
+    report(ui, rect, unit, form);
     let count = form.count_all(unit);
     let can_apply = count.ready > 0 && count.sending == 0 && unit.is_open();
     let changes = if count.ready == 1 { "change" } else { "changes" };
@@ -80,13 +92,13 @@ pub(super) fn show(
     let applying = place(rect.right() - PADDING, apply.width(ui));
     let revert = Button::normal("Revert").locked(count.edited == 0);
     let reverting = place(applying.left() - 8.0, revert.width(ui));
-    let (said, colour) = pending(ui, unit, count);
-    let left = rect.left() + rect.width() * REPORT;
-    let room = Rect::from_x_y_ranges(left..=reverting.left() - 12.0, rect.y_range());
-    let galley = ui.painter().layout(said.clone(), text::small(), colour, room.width());
-    let at = Align2::RIGHT_CENTER.align_size_within_rect(galley.size(), room);
-    ui.painter().galley(at.min, galley, colour);
-    paint::name_text(ui, "pending", room, &said);
+    if rect.width() >= NARROW {
+        let (said, colour) = pending(ui, unit, form);
+        let left = rect.left() + rect.width() * REPORT;
+        let room = Rect::from_x_y_ranges(left..=reverting.left() - 12.0, rect.y_range());
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, &said, text::small(), colour);
+        paint::name_text(ui, "pending", room, &said).on_hover_text(&said);
+    }
     if revert.show(ui, "revert settings", reverting).clicked() {
         form.revert();
     }
@@ -97,17 +109,22 @@ pub(super) fn show(
     }
 }
 
-fn report(ui: &Ui, rect: Rect, form: &Form) {
+fn report(ui: &Ui, rect: Rect, unit: &Unit<'_>, form: &Form) {
     let t = theme::tokens(ui);
-    let lines = Lines::of(ui, form, report_width(rect.width()));
+    let lines = Lines::of(ui, unit, form, rect.width());
+    let painter = ui.painter_at(rect);
     let mut y = rect.center().y - lines.height / 2.0;
-    for (index, (is_good, words, galley)) in lines.galleys.into_iter().enumerate() {
-        let (icon, colour) = if is_good { (Icon::Check, t.ok) } else { (Icon::Cross, t.bad) };
+    for (index, (mark, words, galley)) in lines.galleys.into_iter().enumerate() {
+        let (icon, colour) = match mark {
+            Mark::Good => (Icon::Check, t.ok),
+            Mark::Bad => (Icon::Cross, t.bad),
+            Mark::Pending => (Icon::Pencil, t.t2),
+        };
         let at = pos2(rect.left() + PADDING, y);
-        icons::paint(ui.painter(), paint::square(at + vec2(7.0, 8.0), 13.0), icon, colour);
+        icons::paint(&painter, paint::square(at + vec2(7.0, 8.0), 13.0), icon, colour);
         let place = Rect::from_min_size(at + vec2(20.0, 0.0), galley.size());
         y += galley.size().y + LINE_GAP;
-        ui.painter().galley(place.min, galley, t.t1);
+        painter.galley(place.min, galley, t.t1);
         let said = paint::name_text(ui, ("report", index), place, &words);
         let live = egui::accesskit::Live::Polite;
         ui.ctx().accesskit_node_builder(said.id, |node| node.set_live(live));
@@ -115,8 +132,9 @@ fn report(ui: &Ui, rect: Rect, form: &Form) {
 }
 
 /// What is not sent yet, and why not.
-fn pending(ui: &Ui, unit: &Unit<'_>, count: Count) -> (String, Color32) {
+fn pending(ui: &Ui, unit: &Unit<'_>, form: &Form) -> (String, Color32) {
     let t = theme::tokens(ui);
+    let count = form.count_all(unit);
     if count.sending > 0 {
         return (format!("Sending {}", count.sending), t.cmd);
     }

@@ -6,6 +6,8 @@ use std::{
     time::{Duration, Instant},
 };
 
+use jiff::Timestamp;
+
 use super::{
     draft::{Draft, Sent},
     field_state::{self, FieldState},
@@ -38,6 +40,8 @@ pub(super) struct Form {
     /// The source of elements that is shown; `None` for the one in use.
     pub(super) tab: Option<&'static str>,
     pub(super) auto_hold: HoldState,
+    /// When automatic tracking was asked for.
+    pub(super) auto_asked: Option<Timestamp>,
     /// What was typed as a password is shown.
     pub(super) is_revealed: bool,
 }
@@ -211,7 +215,7 @@ impl Form {
 }
 
 impl Report {
-    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: &jiff::Timestamp) {
+    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: &Timestamp) {
         let at = format::time_z(*at);
         let reported =
             |key: &&&str| group.field(key).is_some_and(|field| field.access == Access::Edit);

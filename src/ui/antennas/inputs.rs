@@ -12,6 +12,8 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 4;
+/// Between the border and the text.
+const INSET: f32 = 6.0;
 
 /// A field at its place.
 pub(super) struct Input<'a> {
@@ -46,7 +48,7 @@ impl Input<'_> {
             .fill(t.bg0)
             .stroke(stroke)
             .corner_radius(RADIUS)
-            .inner_margin(Margin::symmetric(8, 0));
+            .inner_margin(Margin::symmetric(INSET as i8, 0));
         let edit = TextEdit::singleline(typed)
             .id(id)
             .frame(frame)
@@ -69,7 +71,7 @@ impl Input<'_> {
         ui.painter().rect(self.rect, RADIUS, t.bg0, stroke, StrokeKind::Inside);
         let at = pos2(self.rect.right() - 12.0, self.rect.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t2);
-        let room = self.rect.shrink2(vec2(8.0, 0.0)).with_max_x(self.rect.right() - 20.0);
+        let room = self.rect.shrink2(vec2(INSET, 0.0)).with_max_x(self.rect.right() - 20.0);
         paint::text_in(ui, room, Align2::LEFT_CENTER, chosen, self.font(), t.t1);
         paint::focus_ring(ui, &response, RADIUS);
         let mut other = None;
@@ -89,7 +91,7 @@ impl Input<'_> {
     pub(super) fn inert(&self, ui: &Ui, words: &str) {
         let t = theme::tokens(ui);
         paint::dashed_border(ui, self.rect, f32::from(RADIUS), (1.0, t.edge));
-        let room = self.rect.shrink2(vec2(8.0, 0.0));
+        let room = self.rect.shrink2(vec2(INSET, 0.0));
         paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t2);
         let name = format!("{}: {words}", self.name);
         paint::name_text(ui, ("inert", self.name), self.rect, &name);

@@ -40,7 +40,7 @@ pub(super) fn show(
         let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), ANTENNA));
         y = place.bottom();
         let of_this = shown.filter(|(unit, _)| unit.index == index);
-        if antenna_line(ui, place, antenna, of_this) && of_this.is_none() {
+        if antenna_line(ui, place, model, antenna, of_this) && of_this.is_none() {
             commands.push(UiCommand::SelectAntenna(index));
         }
         let Some((unit, form)) = of_this else { continue };
@@ -68,6 +68,7 @@ pub(super) fn show(
 fn antenna_line(
     ui: &Ui,
     rect: Rect,
+    model: &Model,
     antenna: &AntennaModel,
     shown: Option<(&Unit<'_>, &Form)>,
 ) -> bool {
@@ -97,7 +98,9 @@ fn antenna_line(
     let up = room.translate(vec2(0.0, -8.0));
     paint::text_in(ui, up, Align2::LEFT_CENTER, &antenna.config.name, font, t.t1);
     let down = room.translate(vec2(0.0, 8.0));
-    paint::text_in(ui, down, Align2::LEFT_CENTER, activity, text::small(), t.t2);
+    let age = bar::age(model, antenna);
+    let second = if age.is_empty() { activity.to_owned() } else { format!("{activity}, {age}") };
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &second, text::small(), t.t2);
     paint::focus_ring(ui, &response, 0);
     response.clicked()
 }

@@ -18,6 +18,7 @@ const HOLD: &str = "Hold 1 s to unlock";
 #[derive(Default)]
 pub(super) struct UnlockDialog {
     typed: String,
+    is_shown: bool,
     hold: HoldState,
 }
 
@@ -53,7 +54,10 @@ impl UnlockDialog {
         );
         ui.label(RichText::new(words).font(text::body()).color(t.t2));
         let edit = TextEdit::singleline(&mut self.typed).desired_width(WIDTH - 16.0);
-        ui.add(edit).accessible_name("Name of the station");
+        let edit = ui.add(edit).accessible_name("Name of the station");
+        if !std::mem::replace(&mut self.is_shown, true) {
+            edit.request_focus();
+        }
         let is_named = self.typed.trim() == station;
         let refusal = unlock::refusal(unit);
         if let Some(refusal) = refusal {

@@ -20,6 +20,22 @@ pub fn fault_name(kind: FaultKind) -> &'static str {
     }
 }
 
+/// What is good, or not, with it.
+pub fn fault_about(kind: FaultKind) -> &'static str {
+    match kind {
+        FaultKind::InternalLink => "between control and drive unit",
+        FaultKind::TleOutdated => "young enough to track by",
+        FaultKind::TleMissing => "is on the unit",
+        FaultKind::SatelliteMissing => "its name is found",
+        FaultKind::WebTle => "the unit can read them",
+        FaultKind::TrackingStopped => "not ended by an error",
+        FaultKind::Setup => "of the unit",
+        FaultKind::XMotor | FaultKind::YMotor => "works",
+        FaultKind::XSensor | FaultKind::YSensor => "connected and set up",
+        FaultKind::GpsLink => "the receiver answers",
+    }
+}
+
 /// What to do when it is not good.
 pub fn fault_advice(kind: FaultKind) -> &'static str {
     match kind {

@@ -45,8 +45,8 @@ fn check(ui: &mut Ui, faults: &Faults, kind: FaultKind) {
             (icon, word, colour)
         }
     };
-    let number = format!("Check {}", kind.index());
-    row::plain(ui, words::fault_name(kind), &number, Some((Some(icon), &word, colour)));
+    let about = words::fault_about(kind);
+    row::plain(ui, words::fault_name(kind), about, Some((Some(icon), &word, colour)));
     if faults.state(kind).is_some_and(FaultState::is_set) {
         row::note(ui, None, words::fault_advice(kind), t.t2);
     }

@@ -35,8 +35,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
     fields(ui, unit, form, shown, |_| true);
     let t = theme::tokens(ui);
     if shown == "ftp" {
-        let words = "The unit tells and sends this password in clear. Azel shows it to nobody and \
-                     never logs it.";
+        let words = "The unit sends this password in clear. Azel never logs it.";
         row::note(ui, Some(Icon::Info), words, t.t2);
     }
     if let Some(group) = section::group(shown).filter(|_| used != Some(shown)) {

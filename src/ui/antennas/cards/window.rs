@@ -6,7 +6,10 @@ use super::fields;
 use crate::{
     app::UiCommand,
     astro::time::add_seconds,
-    controller::settings::{Kind, Value},
+    controller::{
+        Motion,
+        settings::{Kind, Value},
+    },
     driver::{Command, Event},
     ui::{
         antennas::{
@@ -62,6 +65,7 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
     } else if auto.is_some()
         && hold_button::show(ui, place, "Hold 1 s to switch on", &mut form.auto_hold)
     {
+        form.auto_asked = Some(unit.model.now);
         commands.push(send(true));
     }
     let note = match auto {
@@ -72,9 +76,22 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
     if !note.is_empty() {
         row::note(ui, Some(Icon::Info), note, t.t2);
     }
-    // Why it was not switched on is told as an event.
-    if let Some((Event::NotSent(refusal), _)) = &unit.antenna.news {
-        row::note(ui, Some(Icon::Cross), &words::refusal(refusal), t.bad);
+    if let Some(words) = refusal(unit, form) {
+        row::note(ui, Some(Icon::Cross), &words, t.bad);
+    }
+}
+
+/// Why it was not switched on, which is told as an event.
+fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
+    let asked = form.auto_asked?;
+    let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
+    match event {
+        Event::NotSent(refusal) => Some(words::refusal(refusal)),
+        Event::Refused(Motion::EnableAuto, code) => {
+            Some(format!("{AUTO}: the unit answered ERR,{code}."))
+        }
+        Event::Unanswered(Motion::EnableAuto) => Some(format!("{AUTO}: the unit did not answer.")),
+        _ => None,
     }
 }
 
