@@ -45,7 +45,6 @@ impl App {
             }
             UiCommand::CloseCopy => model.copies.open = None,
             UiCommand::Track { antenna, pass } => self.track(antenna, pass),
-            UiCommand::SaveSettings { .. } | UiCommand::CompareSettings { .. } => {}
             UiCommand::SetElevationFloor(floor_deg) => {
                 model.station.elevation_floor_deg = floor_deg;
             }

@@ -22,16 +22,6 @@ pub enum UiCommand {
     /// Something for the antenna with this index, which was shown when it was
     /// asked for.
     Antenna(usize, driver::Command),
-    /// Save what this antenna's unit holds to a file.
-    SaveSettings {
-        /// Which antenna was shown when it was asked for.
-        antenna: usize,
-    },
-    /// Compare what this antenna's unit holds with a file.
-    CompareSettings {
-        /// Which antenna was shown when it was asked for.
-        antenna: usize,
-    },
     /// Track a pass with the antenna of this index.
     Track {
         /// Which antenna was shown when it was asked for.

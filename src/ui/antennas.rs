@@ -34,6 +34,7 @@ use self::{
 };
 use super::{
     confirm::Question,
+    copies::{self, CompareState},
     text, theme,
     widgets::{
         button::{Button, HEIGHT},
@@ -51,6 +52,7 @@ pub struct AntennasState {
     forms: BTreeMap<String, Form>,
     scroll_to: Option<Section>,
     unlock: Option<UnlockDialog>,
+    compare: CompareState,
 }
 
 impl AntennasState {
@@ -133,6 +135,11 @@ pub fn show(
         });
     });
     foot::show(ui, bottom, &unit, form, commands);
+    if let Some(open) = model.copies.open.as_ref().filter(|open| open.antenna == unit.name()) {
+        let of = (unit.index, unit.antenna);
+        let taken = copies::show(ui, of, open, &mut state.compare, commands);
+        form.take_over(&unit, taken);
+    }
     if wants_unlock {
         state.unlock = Some(UnlockDialog::default());
     }

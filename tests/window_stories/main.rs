@@ -21,6 +21,7 @@ mod rig;
 mod running;
 mod sentences;
 mod settings;
+mod settings_copies;
 mod settings_desk;
 mod settings_service;
 mod settings_unit;

@@ -179,7 +179,7 @@ const IMAGE: Story = Story {
 };
 
 /// What another client of the unit is answered.
-fn ask(control: &Control, payload: &str) -> String {
+pub(crate) fn ask(control: &Control, payload: &str) -> String {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
     runtime.block_on(async {
         let (near, far) = tokio::io::duplex(4096);
@@ -194,14 +194,14 @@ fn ask(control: &Control, payload: &str) -> String {
 }
 
 /// A unit, and the window on its settings, all of them read.
-struct Scene {
-    unit: Unit,
-    window: RealWindow,
-    _folder: tempfile::TempDir,
+pub(crate) struct Scene {
+    pub(crate) unit: Unit,
+    pub(crate) window: RealWindow,
+    pub(crate) folder: tempfile::TempDir,
 }
 
 impl Scene {
-    fn open() -> Self {
+    pub(crate) fn open() -> Self {
         let utc = "2026-08-12T11:14:30Z".parse().unwrap();
         // Slow enough to break the link in the middle of a change.
         let delay = Duration::from_millis(100);
@@ -212,12 +212,12 @@ impl Scene {
         window.run_steps(2);
         window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
         window.run_steps(2);
-        let mut scene = Self { unit, window, _folder: folder };
+        let mut scene = Self { unit, window, folder };
         scene.until_said("all groups read");
         scene
     }
 
-    fn until_said(&mut self, words: &str) {
+    pub(crate) fn until_said(&mut self, words: &str) {
         crate::unit::wait_until(words, || {
             self.window.step();
             says(&self.window, words)
@@ -234,7 +234,7 @@ impl Scene {
     }
 
     /// Applies, and waits until the field says so.
-    fn apply_until(&mut self, field: &str, state: &str) {
+    pub(crate) fn apply_until(&mut self, field: &str, state: &str) {
         apply(&mut self.window);
         crate::unit::wait_until(state, || {
             self.window.step();
@@ -242,7 +242,7 @@ impl Scene {
         });
     }
 
-    fn open_service(&mut self) {
+    pub(crate) fn open_service(&mut self) {
         let station = self.window.state().model().station.name.clone();
         step_until(&mut self.window, "it stands", |model| {
             let measured = model.antennas[0].snapshot.state.measured;

@@ -95,7 +95,7 @@ impl Circular<'_> {
         for _ in 0..MOST_STEPS {
             let InPlane { satellite, site, rate } = self.in_plane(at_s);
             let ahead = wrapped(satellite - site);
-            at_s = at_s - ahead / rate;
+            at_s -= ahead / rate;
             if !Number::abs(ahead).any_reaches(LAST_STEP_RAD) {
                 break;
             }

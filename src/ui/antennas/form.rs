@@ -23,7 +23,7 @@ use crate::{
         settings::{Access, Change, Group, Guard, Values},
     },
     driver::Command,
-    ui::{format, widgets::hold_button::HoldState},
+    ui::{copies::Taken, format, widgets::hold_button::HoldState},
 };
 
 /// The session shows a change that it was given within this.
@@ -146,13 +146,21 @@ impl Form {
         }
     }
 
+    /// Takes over values of a copy as if they had been typed.
+    pub(super) fn take_over(&mut self, unit: &Unit<'_>, taken: Vec<Taken>) {
+        for Taken { group: key, field: field_key, value } in taken {
+            let group = section::group(key);
+            let Some(field) = group.and_then(|group| group.field(field_key)) else { continue };
+            self.draft(key).type_in(field, field.kind.text(&value), unit.values(key));
+        }
+    }
+
     /// What is said of earlier changes makes room.
     pub(super) fn begin_report(&mut self) {
         self.report = Report::default();
     }
 
-    /// Puts `values` on the unit. Before the first service change what the unit
-    /// holds goes to a file.
+    /// Puts `values` on the unit.
     pub(super) fn send(
         &mut self,
         unit: &Unit<'_>,
@@ -162,12 +170,6 @@ impl Form {
     ) {
         static TICKETS: AtomicU64 = AtomicU64::new(1);
         let is_service = group.guard(&values) == Guard::Service;
-        if is_service
-            && let Some(unlock) = &mut self.unlock
-            && !std::mem::replace(&mut unlock.is_saved, true)
-        {
-            commands.push(UiCommand::SaveSettings { antenna: unit.index });
-        }
         let ticket = TICKETS.fetch_add(1, Ordering::Relaxed);
         let draft = self.draft(group.key);
         let seen = draft.seen().cloned().or_else(|| unit.values(group.key).cloned());

@@ -5,6 +5,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::unit::Unit;
 use crate::{
     app::UiCommand,
+    astro::time::seconds_between,
     controller::satrak::GROUPS,
     driver::Command,
     ui::{
@@ -19,6 +20,8 @@ use crate::{
 /// Height of the head.
 pub(super) const HEIGHT: f32 = 56.0;
 const PADDING: f32 = 16.0;
+/// For so long it is said where a copy was saved, seconds.
+const SAVED_S: f64 = 30.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
@@ -49,11 +52,25 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     let up = room.translate(vec2(0.0, -9.0));
     paint::text_in(ui, up, Align2::LEFT_CENTER, &title, text::title(), t.t1);
     paint::name_text(ui, "settings title", up.with_max_y(rect.center().y), &title);
-    let words = format!("{}, {}", unit.antenna.config.connection.address(), read(unit));
+    let (words, colour) = match saved(unit) {
+        Some(Ok(words)) => (words, t.ok),
+        Some(Err(words)) => (words, t.bad),
+        None => (format!("{}, {}", unit.antenna.config.connection.address(), read(unit)), t.t2),
+    };
     let down = room.translate(vec2(0.0, 13.0));
-    paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), t.t2);
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), colour);
     let place = down.with_min_y(rect.center().y + 4.0).with_max_y(rect.bottom());
     paint::name_text(ui, "settings read", place, &words).on_hover_text(&words);
+}
+
+/// What came of the copy that was just saved.
+fn saved(unit: &Unit<'_>) -> Option<Result<String, String>> {
+    let saving = unit.model.copies.saved.as_ref()?;
+    let is_news = seconds_between(saving.at, unit.model.now) < SAVED_S;
+    (is_news && saving.antenna == unit.name()).then(|| match &saving.result {
+        Ok(path) => Ok(format!("Saved as {}", path.display())),
+        Err(why) => Err(format!("Not saved: {why}")),
+    })
 }
 
 /// How much of the unit is read.

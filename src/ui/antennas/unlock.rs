@@ -14,14 +14,12 @@ pub(super) struct Unlock {
     at: Instant,
     /// The link on which they were opened.
     link_since: Option<Instant>,
-    /// What the unit holds was given to be saved before the first change.
-    pub(super) is_saved: bool,
 }
 
 impl Unlock {
     pub(super) fn new(unit: &Unit<'_>) -> Self {
         let link_since = unit.antenna.snapshot.state.link_since;
-        Self { at: unit.model.steady, link_since, is_saved: false }
+        Self { at: unit.model.steady, link_since }
     }
 
     /// They stay open: for the time, on the same link, while nothing moves and
