@@ -53,7 +53,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 
 /// All keys, in the order of the list. STOP's key is taken by the app before
 /// anything else.
-pub const ALL: [Binding; 20] = [
+pub const ALL: [Binding; 21] = [
     row(Place::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -130,6 +130,10 @@ pub const ALL: [Binding; 20] = [
             &[(Key::F, Act::Search)],
             "filter the list of passes; search the catalogue",
         ),
+    ),
+    with(
+        Modifiers::COMMAND,
+        row(Place::Focus, &[(Key::Enter, Act::There)], "apply the settings of a unit, in Antennas"),
     ),
     row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use azel::{
     app::{UiCommand, View},
-    controller::{
-        Program,
-        settings::{Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value},
+    controller::settings::{
+        Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value,
     },
     driver::{Command, LinkLoss, LinkState, Snapshot},
 };
@@ -30,7 +29,7 @@ pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     commands.into_iter().map(change).collect()
 }
 
-fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mut GroupState {
+pub(crate) fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mut GroupState {
     Arc::make_mut(&mut snapshot.state.held).get_mut(key).unwrap()
 }
 
@@ -231,85 +230,6 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
         apply(&mut window);
         assert_eq!(asked(&mut window), []);
     }
-}
-
-#[test]
-fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
-    let mut window = desk(LARGE, read());
-    press(&mut window, "Take from pass");
-    assert_eq!(asked(&mut window), [], "filled in, not sent");
-    assert_eq!(state_of(&window, "Stop"), "Edited");
-    apply(&mut window);
-    let values = settles(asked(&mut window)).remove(0).values;
-    let stop = Value::Time("2026-08-12T11:21:27Z".parse().unwrap());
-    // The pass is under way, and its start on the unit already.
-    assert_eq!(values, [("stop", stop)].into());
-}
-
-#[test]
-fn automatic_tracking_is_switched_on_by_holding_and_off_at_once() {
-    for size in SIZES {
-        let mut window = desk(size, read());
-        hold(&mut window, "Hold 1 s to switch on");
-        let asked_for = |on| UiCommand::Antenna(0, Command::AutoTrack(on));
-        assert_eq!(asked(&mut window), [asked_for(true)]);
-        for (auto, wanted) in [(Some(true), "On"), (None, "Not told")] {
-            change(&mut window, 0, |snapshot| {
-                let program = snapshot.state.program.unwrap();
-                snapshot.state.program = Some(Program { auto, ..program });
-            });
-            assert!(says(&window, &format!("Automatic tracking, on the unit: {wanted}")));
-            if auto.is_some() {
-                press(&mut window, "Switch off");
-                assert_eq!(asked(&mut window), [asked_for(false)]);
-            }
-        }
-    }
-}
-
-#[test]
-fn the_clock_is_not_set_while_the_unit_tracks() {
-    let mut snapshot = states::tracking(0.0);
-    snapshot.state.link_since = read().state.link_since;
-    snapshot.state.held = read().state.held;
-    let mut window = desk(LARGE, snapshot);
-    assert!(says(&window, "Not while the unit tracks."));
-    press(&mut window, "Set from this PC");
-    assert_eq!(asked(&mut window), []);
-    // 3.0 s ahead is several beams of a low satellite.
-    assert!(
-        texts(&window)
-            .iter()
-            .any(|text| text.starts_with("Effect on") && text.ends_with("Outside beam"))
-    );
-}
-
-#[test]
-fn a_place_far_from_the_site_is_a_warning() {
-    let mut snapshot = read();
-    let mut window = desk(LARGE, snapshot.clone());
-    assert!(!says(&window, "Distance to site: Differs"));
-    let values = &mut group(&mut snapshot, "gps").held.as_mut().unwrap().values;
-    values.insert("latitude_deg", Value::Decimal(41.5));
-    change(&mut window, 0, |of| *of = snapshot);
-    assert!(says(&window, "Distance to site: Differs"));
-}
-
-#[test]
-fn faults_stand_with_what_to_do() {
-    let mut snapshot = read();
-    snapshot.state.satrak.faults = Some((states::faults(&[2, 10]), rig::now()));
-    let window = desk(LARGE, snapshot);
-    assert!(says(&window, "Faults, read 11:15:30Z"));
-    assert_eq!(state_of_check(&window, "Age of the elements"), "Caution");
-    assert_eq!(state_of_check(&window, "X position sensor"), "Fault");
-    assert!(says(&window, "The X angle cannot be trusted: check the sensor and its cable."));
-}
-
-fn state_of_check(window: &Window, name: &str) -> String {
-    let before = format!("{name}: ");
-    let told = texts(window).into_iter();
-    told.filter_map(|text| Some(text.strip_prefix(&before)?.to_owned())).next_back().unwrap()
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! Every settings form against a real unit: refused, verified, changed by
 //! another client meanwhile, and the link lost in the middle.
 
-use std::time::Duration;
-
 use azel::{
-    controller::settings::{SettleError, SettleStep, Settled},
+    controller::settings::{SettleError, Settled},
     driver::LinkState,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},
@@ -16,166 +14,8 @@ use tokio::io::{AsyncBufReadExt as _, AsyncWriteExt as _, BufReader};
 
 use crate::{
     settings_desk::{apply, choose, press, says, state_of, unlock, write},
+    settings_forms::{ANGLES, FILE, FTP, GENERAL, GPS, IMAGE, REDUCTION, Story, WEB, WINDOW},
     unit::{RealWindow, Unit, clock_from, open, step_until},
-};
-
-/// A form, and what is done with it.
-struct Story {
-    group: &'static str,
-    /// The tab under which it stands.
-    tab: Option<&'static str>,
-    is_service: bool,
-    /// What is chosen beforehand, and goes along with the first change.
-    choice: Option<(&'static str, &'static str)>,
-    /// Typed one after the other, with what the unit answers to `query` then;
-    /// the last is the field whose state is looked at.
-    rounds: [(&'static [(&'static str, &'static str)], &'static str); 3],
-    query: &'static str,
-    /// What another client sends meanwhile; `None` where the unit reports
-    /// nothing that could change.
-    foreign: Option<&'static str>,
-}
-
-const GENERAL: Story = Story {
-    group: "general",
-    tab: None,
-    is_service: false,
-    choice: Some(("Clock from GPS", "Off")),
-    rounds: [
-        (&[("Azimuth offset", "0.15"), ("Elevation threshold", "4")], "SETTINGS?,0,0,0.15,"),
-        (&[("Elevation threshold", "5")], ",0,5.0"),
-        (&[("Elevation threshold", "6.5")], ",0,6.5"),
-    ],
-    query: "SETTINGS?",
-    foreign: Some("SETTINGS=,?,?,?,?,?,?,7.5,?,?,?,?"),
-};
-
-const GPS: Story = Story {
-    group: "gps",
-    tab: None,
-    is_service: false,
-    choice: Some(("Position from GPS", "Off")),
-    rounds: [
-        (&[("Latitude", "41.5")], "GPS_SETTINGS?,0,41.50N,"),
-        (&[("Latitude", "33.86S")], ",33.86S,"),
-        (&[("Latitude", "1N")], ",1.00N,"),
-    ],
-    query: "GPS_SETTINGS?",
-    foreign: Some("GPS_SETTINGS=,0,41.50N,12.00W"),
-};
-
-const WINDOW: Story = Story {
-    group: "window",
-    tab: None,
-    is_service: false,
-    choice: None,
-    rounds: [
-        (
-            &[("Start", "2026-08-12 12:00:00"), ("Stop", "2026-08-12 12:10:00")],
-            "START_STOP_TIME?,12,0,0,12,8,2026,12,10,0,12,8,2026",
-        ),
-        (&[("Stop", "2026-08-12 12:11:30Z")], ",12,11,30,12,8,2026"),
-        (&[("Stop", "2026-08-12 12:12:00")], ",12,12,0,12,8,2026"),
-    ],
-    query: "START_STOP_TIME?",
-    foreign: Some("START_STOP_TIME=,11,59,0,12,8,2026,12,10,0,12,8,2026"),
-};
-
-const FILE: Story = Story {
-    group: "file",
-    tab: Some("File"),
-    is_service: false,
-    choice: Some(("Keep the present track", "On")),
-    rounds: [
-        (
-            &[("TLE file", "active.txt"), ("Satellite", "NOAA 20 (JPSS-1)")],
-            ",NOAA 20 (JPSS-1),1,43013",
-        ),
-        (&[("Satellite", "ISS (ZARYA)")], ",ISS (ZARYA),"),
-        (&[("Satellite", "SUOMI NPP")], ",SUOMI NPP,"),
-    ],
-    query: "SATELLITE?",
-    foreign: Some("SATELLITE=,active.txt,NOAA 20 (JPSS-1),9,1"),
-};
-
-const WEB: Story = Story {
-    group: "web",
-    tab: Some("Web"),
-    is_service: false,
-    choice: Some(("When a fetch fails", "Continue")),
-    rounds: [
-        (&[("Web address", "https://example.org/a?b=1,2")], "/a?b=1%2C2,1,1"),
-        (&[("Update period", "3")], ",3,1"),
-        (&[("Update period", "4")], ",4,1"),
-    ],
-    query: "SATELLITE_HTTP?",
-    foreign: Some("SATELLITE_HTTP=,https://example.org/b,1,1,0"),
-};
-
-const FTP: Story = Story {
-    group: "ftp",
-    tab: Some("FTP"),
-    is_service: false,
-    choice: Some(("When a fetch fails", "Continue")),
-    rounds: [
-        (
-            &[
-                ("Server address", "10.0.1.2"),
-                ("User", "username"),
-                ("Password", "hunter2"),
-                ("TLE file", "active.txt"),
-                ("Satellite", "ISS (ZARYA)"),
-                ("Port", "2121"),
-            ],
-            "SATELLITE_FTP?,10.0.1.2,username,hunter2,2121,active.txt,ISS (ZARYA),",
-        ),
-        (&[("Password", "hunter3")], ",hunter3,"),
-        (&[("Password", "hunter4")], ",hunter4,"),
-    ],
-    query: "SATELLITE_FTP?",
-    foreign: Some("SATELLITE_FTP=,10.9.9.9,username,hunter2,2121,active.txt,ISS (ZARYA),1,1"),
-};
-
-const ANGLES: Story = Story {
-    group: "angles",
-    tab: None,
-    is_service: true,
-    choice: None,
-    rounds: [
-        (&[("X sensor reference", "29130")], "ANGLE_SETTINGS?,29130,160.0,"),
-        (&[("X sensor reference", "29131")], ",29131,"),
-        (&[("X sensor reference", "29132")], ",29132,"),
-    ],
-    query: "ANGLE_SETTINGS?",
-    foreign: Some("ANGLE_SETTINGS=,0,29130,150.0,7282,40.0"),
-};
-
-const REDUCTION: Story = Story {
-    group: "reduction",
-    tab: None,
-    is_service: true,
-    choice: None,
-    rounds: [
-        (&[("X reduction", "4100")], "REDUCTION?,4100,4000"),
-        (&[("X reduction", "4200")], "REDUCTION?,4200,"),
-        (&[("X reduction", "4300")], "REDUCTION?,4300,"),
-    ],
-    query: "REDUCTION?",
-    foreign: Some("REDUCTION=,4100,3900"),
-};
-
-const IMAGE: Story = Story {
-    group: "image",
-    tab: None,
-    is_service: true,
-    choice: None,
-    rounds: [
-        (&[("Image file", "a.json")], "LOAD_IMAGE?,"),
-        (&[("Image file", "b.json")], "LOAD_IMAGE?,"),
-        (&[("Image file", "c.json")], "LOAD_IMAGE?,"),
-    ],
-    query: "LOAD_IMAGE?",
-    foreign: None,
 };
 
 /// What another client of the unit is answered.
@@ -203,9 +43,7 @@ pub(crate) struct Scene {
 impl Scene {
     pub(crate) fn open() -> Self {
         let utc = "2026-08-12T11:14:30Z".parse().unwrap();
-        // Slow enough to break the link in the middle of a change.
-        let delay = Duration::from_millis(100);
-        let (unit, folder) = (Unit::with_delay(utc, delay..=delay), tempfile::tempdir().unwrap());
+        let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
         let path = folder.path().join("station.toml");
         station::save(&unit.station(), &path).unwrap();
         let mut window = open(&path, clock_from(utc));
@@ -252,22 +90,25 @@ impl Scene {
         assert!(says(&self.window, "Open, locks in"));
     }
 
-    /// Ends the link before the answer to the command of a change.
-    fn lose_link_while_sending(&mut self, group: &str) {
-        let handle = &self.window.state().model().antennas[0].handle;
-        crate::unit::wait_until("it is sent", || {
-            let step = handle.snapshot().state.held.get(group).and_then(|state| state.step);
-            step == Some(SettleStep::Sending)
+    /// The unit takes the command of a change and hangs up, and is not to be
+    /// had until that is seen.
+    fn lose_link_while_sending(&mut self, group: &str, press: impl FnOnce(&mut RealWindow)) {
+        let control = self.unit.control.clone();
+        control.set_fault(Fault::HangUp, true);
+        press(&mut self.window);
+        crate::unit::wait_until("the link is lost", || {
+            let handle = &self.window.state().model().antennas[0].handle;
+            let is_lost = |settled: &Settled| settled.result == Err(SettleError::LinkLost);
+            let shown = handle.snapshot();
+            let state = shown.state.held.get(group);
+            if state.is_some_and(|state| state.settled.as_deref().is_some_and(is_lost)) {
+                control.drop_clients();
+            }
+            self.window.step();
+            let link = &self.window.state().model().antennas[0].snapshot.link;
+            !link.is_open() && says(&self.window, "the link was lost before it was read back")
         });
-        self.unit.control.drop_clients();
-        step_until(&mut self.window, "the change is over", |model| {
-            let antenna = &model.antennas[0].snapshot;
-            let settled = antenna.state.held.get(group).and_then(|state| state.settled.clone());
-            let lost = |settled: &Settled| settled.result == Err(SettleError::LinkLost);
-            !antenna.link.is_open() && settled.as_deref().is_some_and(lost)
-        });
-        self.window.run_steps(2);
-        assert!(says(&self.window, "the link was lost before it was read back"));
+        control.set_fault(Fault::HangUp, false);
     }
 
     fn link_is_back(&mut self) {
@@ -318,8 +159,7 @@ fn drive(story: &Story) {
     assert!(held.contains(second.1), "{held}");
 
     let field = scene.edit(third.0);
-    apply(&mut scene.window);
-    scene.lose_link_while_sending(story.group);
+    scene.lose_link_while_sending(story.group, |window| apply(window));
     let button = scene
         .window
         .get_all_by_role(Role::Button)
@@ -395,8 +235,7 @@ fn clock() {
     press(&mut scene.window, "Set from this PC");
     scene.until_said("Set and read again");
     assert!(ask(&control, "TIME?").contains(",12,8,2026"));
-    press(&mut scene.window, "Set from this PC");
-    scene.lose_link_while_sending("clock");
+    scene.lose_link_while_sending("clock", |window| press(window, "Set from this PC"));
     assert!(says(&scene.window, "There is no link."));
     scene.link_is_back();
     press(&mut scene.window, "Set from this PC");

@@ -100,6 +100,9 @@ impl<S: AsyncRead + AsyncWrite + Unpin> Connection<S> {
         while let Some((_, payload)) = self.waiting.pop_front_if(|(due, _)| *due <= Instant::now())
         {
             self.replies += 1;
+            if mood.faults.contains(&Fault::HangUp) && answers_a_command(&payload) {
+                return Err(io::ErrorKind::ConnectionAborted.into());
+            }
             bytes.extend(reply_bytes(&payload, self.replies, &mood));
             if !mood.faults.contains(&Fault::Merge) {
                 break;
@@ -122,6 +125,11 @@ impl<S: AsyncRead + AsyncWrite + Unpin> Connection<S> {
         }
         Ok(())
     }
+}
+
+/// A query is answered with a question mark behind its word.
+fn answers_a_command(payload: &str) -> bool {
+    payload.trim_start_matches(|sign| !matches!(sign, '?' | '=')).starts_with('=')
 }
 
 /// What goes out for the reply with this number, counted from 1.

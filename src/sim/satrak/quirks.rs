@@ -60,13 +60,16 @@ pub enum Fault {
     BadChecksum,
     /// Every setting is refused.
     RefuseSettings,
+    /// A command ends the connection instead of being answered; it was carried
+    /// out.
+    HangUp,
     /// The unit reports this fault, and suffers from it.
     Unit(FaultKind),
 }
 
 impl Fault {
     /// All faults with their names.
-    pub const ALL: [(Self, &'static str); 20] = [
+    pub const ALL: [(Self, &'static str); 21] = [
         (Self::Unsolicited, "unsolicited"),
         (Self::DropReply, "drop_reply"),
         (Self::Garbage, "garbage"),
@@ -75,6 +78,7 @@ impl Fault {
         (Self::Silence, "silence"),
         (Self::BadChecksum, "bad_checksum"),
         (Self::RefuseSettings, "refuse_settings"),
+        (Self::HangUp, "hang_up"),
         (Self::Unit(FaultKind::InternalLink), "internal_link"),
         (Self::Unit(FaultKind::TleOutdated), "tle_outdated"),
         (Self::Unit(FaultKind::TleMissing), "tle_missing"),

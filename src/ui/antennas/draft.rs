@@ -17,6 +17,8 @@ pub(super) struct Draft {
     seen: Option<Values>,
     sent: Option<Sent>,
     marks: BTreeMap<&'static str, Mark>,
+    /// What the unit held when it was proved.
+    proved: Values,
 }
 
 #[derive(Default)]
@@ -120,8 +122,16 @@ impl Draft {
         }
     }
 
-    pub(super) fn mark(&self, key: &str) -> Option<Mark> {
-        self.marks.get(key).copied()
+    /// What came of the last change of the field. What was proved is forgotten
+    /// when the unit holds something else.
+    pub(super) fn mark(&self, field: &Field, held: Option<&Values>) -> Option<Mark> {
+        let mark = self.marks.get(field.key).copied()?;
+        let now = held.and_then(|held| held.get(field.key));
+        let still = match (self.proved.get(field.key), now) {
+            (Some(proved), Some(now)) => field.kind.same(proved, now),
+            _ => false,
+        };
+        (still || !matches!(mark, Mark::Verified(_))).then_some(mark)
     }
 
     pub(super) fn seen(&self) -> Option<&Values> {
@@ -152,6 +162,8 @@ impl Draft {
                 (Ok(()), _) => Mark::Verified(settled.at),
             };
             self.marks.insert(field.key, mark);
+            let proved = held.and_then(|held| held.get(field.key)).cloned();
+            self.proved.extend(proved.map(|value| (field.key, value)));
             let still = self.edits.get(key).map(|edit| field.kind.read(&edit.text));
             if mark != Mark::Rejected && still == Some(Ok(value.clone())) {
                 self.edits.remove(key);
@@ -230,14 +242,16 @@ mod tests {
         send(&mut draft);
         assert!(draft.is_sending("low"));
         draft.end(&settled(Err(SettleError::NoLink)), &FIELDS, Some(&held(3.0)));
-        assert_eq!(draft.mark("low"), Some(Mark::Rejected));
+        assert_eq!(draft.mark(&FIELDS[0], Some(&held(3.0))), Some(Mark::Rejected));
         assert_eq!(draft.text(&FIELDS[0], Some(&held(3.0))), "5");
         send(&mut draft);
         draft.end(&settled(Ok(())), &FIELDS, Some(&held(5.0)));
-        assert_eq!(draft.mark("low"), Some(Mark::Verified(Timestamp::UNIX_EPOCH)));
+        let verified = Some(Mark::Verified(Timestamp::UNIX_EPOCH));
+        assert_eq!(draft.mark(&FIELDS[0], Some(&held(5.0))), verified);
+        assert_eq!(draft.mark(&FIELDS[0], Some(&held(7.5))), None, "changed by another");
         assert_eq!(draft.reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
         draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(5.0)));
-        assert_eq!(draft.mark("low"), None, "until it is edited again");
+        assert_eq!(draft.mark(&FIELDS[0], Some(&held(5.0))), None, "until it is edited again");
     }
 
     #[test]

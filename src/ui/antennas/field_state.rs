@@ -95,7 +95,7 @@ pub(super) fn of(
     }
     let state = match draft.reading(field, held) {
         Reading::Unfit(unfit) => FieldState::Invalid(unfit),
-        Reading::Same => match draft.mark(field.key) {
+        Reading::Same => match draft.mark(field, held) {
             Some(Mark::Verified(at)) => FieldState::Verified(at),
             Some(Mark::Taken(at)) => FieldState::Taken(at),
             Some(Mark::Rejected) | None => FieldState::Unchanged,
@@ -117,7 +117,7 @@ fn edited(
         (FieldState::NeedsService, None)
     } else if guard != Guard::Free && !draft.is_confirmed(field.key) {
         (FieldState::ConfirmFirst, None)
-    } else if draft.mark(field.key) == Some(Mark::Rejected) {
+    } else if draft.mark(field, unit.values(group.key)) == Some(Mark::Rejected) {
         (FieldState::Rejected, Some(value))
     } else {
         (FieldState::Edited, Some(value))

@@ -102,7 +102,9 @@ pub(super) fn show(
     if revert.show(ui, "revert settings", reverting).clicked() {
         form.revert();
     }
-    let key = ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
+    // Enter in a dialog is meant for it.
+    let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
+    let key = is_free && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
     let clicked = apply.show(ui, "apply settings", applying).clicked();
     if (clicked || key) && can_apply {
         form.apply(unit, commands);

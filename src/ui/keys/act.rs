@@ -43,7 +43,7 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => model.view != View::Preferences,
+            Self::Search => !matches!(model.view, View::Antennas | View::Preferences),
             _ => true,
         }
     }

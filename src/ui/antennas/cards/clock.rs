@@ -96,7 +96,8 @@ fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiComma
             form.send(unit, group, values, commands);
         }
     }
-    let said = match (refusal, form.draft(group.key).mark("set_from")) {
+    let mark = group.field("set_from").and_then(|field| form.draft(group.key).mark(field, None));
+    let said = match (refusal, mark) {
         (Some(refusal), _) => refusal.to_owned(),
         (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {
             format!("Set and read again {}", format::time_z(at))
