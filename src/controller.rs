@@ -8,14 +8,19 @@
 pub mod satrak;
 pub mod settings;
 mod state;
+mod wire;
 
 use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Program, Traffic};
+pub use wire::{Direction, Finding, WireLine};
 
-use crate::astro::{Angle, AzEl};
+use crate::{
+    astro::{Angle, AzEl},
+    protocol::satrak::Query,
+};
 use settings::{Change, Group};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
@@ -69,6 +74,13 @@ pub struct TrackTarget {
     pub from: Timestamp,
     /// When to end.
     pub until: Timestamp,
+}
+
+/// What the operator asks a device by hand; it changes nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Question {
+    /// To a Satrak.
+    Satrak(Query),
 }
 
 /// How much a halt ends.
@@ -152,6 +164,12 @@ pub trait Device: Send {
     /// The link is gone: nothing that was asked will be answered.
     fn link_down(&mut self, now: Moment);
 
+    /// Bytes that were written, for [`Self::next_wire_line`].
+    fn sent(&mut self, bytes: &[u8], now: Moment);
+
+    /// What went over the link and was not taken yet, oldest first.
+    fn next_wire_line(&mut self) -> Option<WireLine>;
+
     /// Takes bytes that came in. Any bytes are harmless.
     fn receive(&mut self, bytes: &[u8], now: Moment);
 
@@ -181,6 +199,10 @@ pub trait Device: Send {
     /// Puts new values of a group on the device and reads them back. How far it
     /// is, and what came of it, stands in [`AntennaState::held`].
     fn settle(&mut self, change: Change, now: Moment);
+
+    /// Asks this between its own questions. What is no question to this device
+    /// is dropped.
+    fn ask(&mut self, question: Question);
 
     /// The device no longer starts to follow by itself.
     fn disable_auto(&mut self);

@@ -10,6 +10,7 @@ mod link;
 mod session;
 mod snapshot;
 mod time_sync;
+mod wire_log;
 
 use std::{io, sync::Arc, thread, time::Duration};
 
@@ -22,6 +23,7 @@ pub use link::{Dial, Stream, dial_tcp};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{Event, Found, LinkLoss, LinkState, Snapshot, StopState};
 pub use time_sync::{TimeSync, time_sync};
+pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use crate::{
     controller::{Moves, satrak::Satrak},
@@ -47,6 +49,7 @@ pub struct AntennaHandle {
     stop: Arc<Notify>,
     snapshots: watch::Receiver<Arc<Snapshot>>,
     events: mpsc::Receiver<Event>,
+    wire: WireLog,
 }
 
 impl AntennaHandle {
@@ -57,7 +60,7 @@ impl AntennaHandle {
         snapshots: watch::Receiver<Arc<Snapshot>>,
         events: mpsc::Receiver<Event>,
     ) -> Self {
-        Self { commands, stop, snapshots, events }
+        Self { commands, stop, snapshots, events, wire: WireLog::default() }
     }
 
     /// Stops the antenna: past every queue, never refused.
@@ -79,6 +82,11 @@ impl AntennaHandle {
     /// The newest snapshot.
     pub fn snapshot(&self) -> Arc<Snapshot> {
         Arc::clone(&self.snapshots.borrow())
+    }
+
+    /// What went over the link.
+    pub fn wire(&self) -> &WireLog {
+        &self.wire
     }
 
     /// The oldest event that was not read yet.

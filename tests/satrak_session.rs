@@ -28,4 +28,5 @@ mod satrak_session {
     mod settings_refused;
     mod stop;
     mod track;
+    mod wire;
 }

@@ -336,3 +336,37 @@ fn a_word_of_another_product_is_data() {
     assert_eq!(frame.command(), None);
     assert_eq!(Reply::parse(&frame), Err(ReplyError::UnknownWord("DATETIMEG?=".into())));
 }
+
+#[test]
+fn every_vector_has_a_meaning_and_its_values_are_explained() {
+    for Vector { id, is_sent, bytes, tokens } in vectors() {
+        let frames = decode(&bytes, usize::MAX);
+        for (frame, (word, _)) in frames.into_iter().zip(tokens) {
+            let Ok(frame) = frame else {
+                assert_eq!(word, "DROP", "{id}");
+                continue;
+            };
+            let (meaning, values) = if is_sent {
+                (Meaning::of_request(&frame), explain_request(&frame))
+            } else {
+                (Meaning::of_reply(&frame), explain_reply(&frame))
+            };
+            assert!(!meaning.text.is_empty(), "{id}");
+            assert!(!meaning.text.contains("password"), "{id}");
+            // A question that a unit echoes, an unknown word, an error and a
+            // state with too few values.
+            let is_odd = match meaning.tone {
+                Tone::Plain | Tone::Change | Tone::Good => false,
+                Tone::Caution | Tone::Bad => true,
+            };
+            assert_eq!(is_odd, ["S01", "S30", "S40", "S47"].contains(&id.as_str()), "{id}");
+            let unknown = values.iter().filter(|value| value.name == "not in the document");
+            let expected = match id.as_str() {
+                "S01" => 7,
+                "S29" => 1,
+                _ => 0,
+            };
+            assert_eq!(unknown.count(), expected, "{id} {values:?}");
+        }
+    }
+}

@@ -4,6 +4,7 @@
 mod changes;
 mod exchange;
 mod prepare;
+mod record;
 mod schedule;
 mod settings;
 mod settle;
@@ -19,8 +20,9 @@ pub use state::{SatrakState, UnitClock};
 
 use super::{
     AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
-    TrackTarget,
+    Question, TrackTarget, WireLine,
     settings::{Change, Group, SettleError, SettleStep},
+    wire::WireQueue,
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -68,6 +70,11 @@ pub struct Satrak {
     /// A setting that takes the unit long; other questions go on meanwhile.
     slow: Option<Outstanding>,
     happenings: VecDeque<Happening>,
+    wire: WireQueue,
+    /// Something with a header has come over this link.
+    has_heard_frame: bool,
+    /// When bytes came in last.
+    heard_at: Option<Moment>,
 }
 
 impl Satrak {
@@ -93,6 +100,9 @@ impl Satrak {
             changes: VecDeque::new(),
             slow: None,
             happenings: VecDeque::new(),
+            wire: WireQueue::default(),
+            has_heard_frame: false,
+            heard_at: None,
         }
     }
 
@@ -145,7 +155,7 @@ impl Satrak {
                 return Some((request, Purpose::Settle));
             }
             if let Some(query) = self.wanted.pop_front() {
-                return Some((Request::Query(query), Purpose::Poll(query)));
+                return Some((Request::Query(query), Purpose::Asked(query)));
             }
         }
         due.map(|query| (Request::Query(query), Purpose::Poll(query)))
@@ -154,6 +164,13 @@ impl Satrak {
     fn fail_preparation(&mut self, reason: PrepareError) {
         if let Some(preparation) = self.preparation.take() {
             self.happenings.push_back(Happening::NotPrepared(preparation.target, reason));
+        }
+    }
+
+    /// The operator wants this answered; once is enough.
+    fn want(&mut self, query: Query) {
+        if self.schedule.is_some() && !self.wanted.contains(&query) {
+            self.wanted.push_back(query);
         }
     }
 
@@ -178,6 +195,8 @@ impl Device for Satrak {
     }
 
     fn link_down(&mut self, now: Moment) {
+        self.record_unfinished();
+        self.has_heard_frame = false;
         self.decoder = Decoder::new();
         self.schedule = None;
         self.outstanding = None;
@@ -191,11 +210,21 @@ impl Device for Satrak {
         self.abandon_changes(now);
     }
 
+    fn sent(&mut self, bytes: &[u8], now: Moment) {
+        self.record_sent(bytes, now);
+    }
+
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        self.wire.pop()
+    }
+
     fn receive(&mut self, bytes: &[u8], now: Moment) {
+        self.heard_at = Some(now);
         self.decoder.push(bytes);
         // Taken out one by one, because each one may change what is expected.
-        while let Some(line) = self.decoder.next() {
-            self.take_line(line, now);
+        while let Some(line) = self.decoder.next_line() {
+            self.record_received(&line, now);
+            self.take_line(line.frame, now);
         }
     }
 
@@ -267,11 +296,8 @@ impl Device for Satrak {
     }
 
     fn read_group(&mut self, group: &str) {
-        if let Some(Plan { query, .. }) = Plan::of(group)
-            && self.schedule.is_some()
-            && !self.wanted.contains(&query)
-        {
-            self.wanted.push_back(query);
+        if let Some(Plan { query, .. }) = Plan::of(group) {
+            self.want(query);
         }
     }
 
@@ -281,6 +307,11 @@ impl Device for Satrak {
         }
         self.state.group(change.group).step = Some(SettleStep::Waiting);
         self.changes.push_back(change);
+    }
+
+    fn ask(&mut self, question: Question) {
+        let Question::Satrak(query) = question;
+        self.want(query);
     }
 
     fn disable_auto(&mut self) {

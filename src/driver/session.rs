@@ -22,7 +22,7 @@ pub use command::Command;
 
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Snapshot, Wake,
-    gate::Gate,
+    WireLog, gate::Gate,
 };
 use crate::{
     astro::AzEl,
@@ -52,6 +52,7 @@ pub struct Session {
     dial: Dial,
     clock: Clock,
     wires: Wires,
+    wire_log: WireLog,
     link: LinkState,
     /// When the link went away while it had been up before.
     away_since: Option<Instant>,
@@ -105,6 +106,7 @@ impl Session {
             dial,
             clock,
             wires: Wires { commands, stop, snapshots, events, wake },
+            wire_log: handle.wire().clone(),
             link,
             away_since: None,
             told_lost: false,
@@ -157,6 +159,17 @@ impl Session {
             changed
         });
         if worth_a_look {
+            (self.wires.wake)();
+        }
+    }
+
+    /// Hands what went over the link to the log.
+    fn record(&mut self) {
+        let mut is_awaited = false;
+        while let Some(line) = self.gate.device().next_wire_line() {
+            is_awaited |= self.wire_log.push(line);
+        }
+        if is_awaited {
             (self.wires.wake)();
         }
     }

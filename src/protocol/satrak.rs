@@ -11,10 +11,12 @@
 
 mod clock;
 mod coded;
+mod explain;
 mod faults;
 mod fields;
 mod frame;
 mod gps;
+mod meaning;
 mod motion;
 mod number;
 mod reply;
@@ -28,10 +30,15 @@ mod text;
 mod word;
 
 pub use clock::{Clock, ClockTime, StartStopTime, TimedPosition, TrackWindow};
+pub use explain::{Value, explain_reply, explain_request};
 pub use faults::{FaultKind, FaultState, Faults};
 pub use fields::{FieldError, FieldProblem};
-pub use frame::{Decoder, Frame, FrameError, MAX_LINE_BYTES, Oddity, checksum, encode, redact};
+pub use frame::{
+    Decoder, Frame, FrameError, HIDDEN, Line, MAX_LINE_BYTES, Oddity, Shown, checksum, encode,
+    redact,
+};
 pub use gps::{GpsData, GpsSettings, GpsSettingsChange, Position};
+pub use meaning::{Meaning, Tone};
 pub use motion::{Goto, Motion, Move, Step};
 pub use number::ValueError;
 pub use reply::{Note, ParsedReply, Reply, ReplyError, Version};

@@ -10,7 +10,7 @@ use std::{
 };
 
 use azel::{
-    driver::{AntennaHandle, Command, Dial, Event, LinkState, Snapshot, Stream},
+    driver::{AntennaHandle, Command, Dial, Event, LinkState, Snapshot, Stream, WireLog},
     sim::satrak::{Control, Options},
     station::Antenna,
 };
@@ -83,6 +83,10 @@ impl Rig {
 
     pub(super) fn shown(&self) -> Arc<Snapshot> {
         self.handle.as_ref().unwrap().snapshot()
+    }
+
+    pub(super) fn wire(&self) -> &WireLog {
+        self.handle.as_ref().unwrap().wire()
     }
 
     pub(super) fn send(&self, command: Command) {

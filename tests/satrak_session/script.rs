@@ -34,6 +34,24 @@ impl Scripted {
         let (near, far) = tokio::io::duplex(4096);
         let received = Arc::new(Mutex::new(Vec::new()));
         tokio::spawn(serve(far, script, Arc::clone(&received)));
+        Self::over(near, received)
+    }
+
+    /// A session with a peer that says `bytes` to the first question, and no more.
+    pub(super) fn raw(bytes: Vec<u8>) -> Self {
+        let (near, mut far) = tokio::io::duplex(4096);
+        tokio::spawn(async move {
+            let mut buffer = [0; 1024];
+            if far.read(&mut buffer).await.is_ok() {
+                far.write_all(&bytes).await.unwrap();
+            }
+            // Holds the link open until the session leaves it.
+            while far.read(&mut buffer).await.is_ok_and(|count| count > 0) {}
+        });
+        Self::over(near, Arc::default())
+    }
+
+    fn over(near: DuplexStream, received: Arc<Mutex<Vec<String>>>) -> Self {
         let mut near = Some(near);
         let dial: Dial = Box::new(move || {
             let near = near.take();

@@ -17,6 +17,8 @@ use crate::{
 pub(super) enum Purpose {
     /// It was due.
     Poll(Query),
+    /// The operator wants to know.
+    Asked(Query),
     /// A step of putting a target on the unit.
     Prepare,
     /// A step of changing a group of settings.
@@ -69,12 +71,22 @@ impl Outstanding {
 
     /// A halt or a newer wish came after it. Settings move nothing.
     pub(super) fn disown(&mut self) {
-        if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Settle) {
+        if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::Settle) {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    fn answers(&self, command: (Word, Verb)) -> bool {
+    /// It is asked again and again, and not for the second time in a row.
+    pub(super) fn is_usual_poll(&self) -> bool {
+        !self.again && matches!(self.purpose, Purpose::Poll(_))
+    }
+
+    /// When the question went out for the first time.
+    pub(super) fn first_sent(&self) -> Instant {
+        self.first_sent.steady
+    }
+
+    pub(super) fn answers(&self, command: (Word, Verb)) -> bool {
         (self.request.word(), self.request.verb()) == command
     }
 }
@@ -167,7 +179,7 @@ impl Satrak {
         }
         match (parsed.reply, outstanding.purpose) {
             (Reply::Refused { code }, purpose) => self.take_refusal(code, purpose, now),
-            (reply, Purpose::Poll(query)) => {
+            (reply, Purpose::Poll(query) | Purpose::Asked(query)) => {
                 let fault_before = self.state.satrak.fault_flag;
                 self.state.take_satrak(reply, outstanding.first_sent, now);
                 self.polled(query, fault_before, now);
@@ -227,7 +239,9 @@ impl Satrak {
 
     fn take_refusal(&mut self, code: String, purpose: Purpose, now: Moment) {
         match purpose {
-            Purpose::Poll(query) => self.poll_failed(query, ReadFailure::Refused(code), now),
+            Purpose::Poll(query) | Purpose::Asked(query) => {
+                self.poll_failed(query, ReadFailure::Refused(code), now);
+            }
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
             Purpose::Settle => self.change_refused(code, now),
             Purpose::Motion(motion) => {
@@ -246,6 +260,7 @@ impl Satrak {
     pub(super) fn expire_slow(&mut self, now: Moment) {
         if let Some(late) = self.slow.take_if(|slow| now.steady >= slow.deadline()) {
             self.state.traffic.unanswered += 1;
+            self.record_no_reply(SLOW_REPLY, false, now);
             self.give_up(late.purpose, now);
         }
     }
@@ -263,7 +278,9 @@ impl Satrak {
             return None;
         }
         self.state.traffic.unanswered += 1;
-        if late.request.verb() == Verb::Query && !late.again {
+        let is_repeated = late.request.verb() == Verb::Query && !late.again;
+        self.record_no_reply(REPLY, is_repeated, now);
+        if is_repeated {
             late.again = true;
             late.sent = now;
             let bytes = late.request.to_bytes();
@@ -276,7 +293,9 @@ impl Satrak {
 
     fn give_up(&mut self, purpose: Purpose, now: Moment) {
         match purpose {
-            Purpose::Poll(query) => self.poll_failed(query, ReadFailure::Unanswered, now),
+            Purpose::Poll(query) | Purpose::Asked(query) => {
+                self.poll_failed(query, ReadFailure::Unanswered, now);
+            }
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
             Purpose::Settle => self.change_unanswered(now),
             Purpose::Motion(motion) => {

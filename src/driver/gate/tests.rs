@@ -11,7 +11,8 @@ use super::*;
 use crate::{
     astro::Angle,
     controller::{
-        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, TrackTarget,
+        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
+        WireLine,
         settings::{Change, Group},
     },
     station::Antenna,
@@ -30,6 +31,11 @@ impl Device for Metal {
     fn link_up(&mut self, _: Moment) {}
     fn link_down(&mut self, _: Moment) {}
     fn receive(&mut self, _: &[u8], _: Moment) {}
+    fn sent(&mut self, _: &[u8], _: Moment) {}
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        None
+    }
+    fn ask(&mut self, _: Question) {}
     fn poll(&mut self, _: Moment) -> Option<Vec<u8>> {
         None
     }

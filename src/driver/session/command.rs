@@ -3,7 +3,7 @@
 use super::{Event, Session};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, TrackTarget, settings::Change},
+    controller::{Moment, Motion, Question, TrackTarget, settings::Change},
     driver::{Intent, Refusal},
 };
 
@@ -47,6 +47,8 @@ pub enum Command {
     /// Put new values of a group of settings on the device. The outcome stands
     /// in the snapshot.
     Settle(Change),
+    /// Ask the device something; the answer is in the log of the link.
+    Ask(Question),
 }
 
 /// What is done as soon as the antenna stands.
@@ -89,6 +91,7 @@ impl Session {
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
             Command::Settle(change) => self.gate.device().settle(change, now),
+            Command::Ask(question) => self.gate.device().ask(question),
         }
     }
 
@@ -180,6 +183,7 @@ impl Session {
             Command::ReadGroup(_) => {}
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { .. } | Command::EndJog => self.jog = None,
+            Command::Ask(_) => {}
             Command::Standby => {
                 self.intent = Intent::Standby;
                 self.pending = None;

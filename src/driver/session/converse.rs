@@ -77,6 +77,7 @@ impl Session {
         }
         let now = self.now();
         self.gate.device().link_down(now);
+        self.record();
         end
     }
 
@@ -205,6 +206,7 @@ impl Session {
                 Turn::Bytes(count) => {
                     let now = self.now();
                     self.gate.device().receive(buffer.get(..count).unwrap_or_default(), now);
+                    self.record();
                 }
                 Turn::Time => {}
             }
@@ -219,11 +221,15 @@ impl Session {
         let urgent = std::mem::take(&mut self.urgent);
         if !urgent.is_empty() {
             write(writer, &urgent).await?;
+            let now = self.now();
+            self.gate.device().sent(&urgent, now);
         }
         let now = self.now();
         while let Some(bytes) = self.gate.device().poll(now) {
             write(writer, &bytes).await?;
+            self.gate.device().sent(&bytes, now);
         }
+        self.record();
         Ok(())
     }
 

@@ -44,6 +44,7 @@ impl Session {
                         let now = self.now();
                         let bytes = buffer.get(..count).unwrap_or_default();
                         self.gate.device().receive(bytes, now);
+                        self.record();
                         self.watch_halt(now);
                     }
                     _ => break,

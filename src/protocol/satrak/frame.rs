@@ -1,11 +1,13 @@
 //! Frames: `$` payload `*` checksum CR LF (document chapter "Message structure").
 
 mod decoder;
+mod shown;
 
 use std::borrow::Cow;
 use std::fmt;
 
-pub use decoder::{Decoder, FrameError, MAX_LINE_BYTES};
+pub use decoder::{Decoder, FrameError, Line, MAX_LINE_BYTES};
+pub use shown::{HIDDEN, Shown};
 
 use super::{Verb, Word};
 

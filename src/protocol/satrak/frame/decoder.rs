@@ -52,6 +52,29 @@ pub enum FrameError {
         /// The word of the line.
         excerpt: String,
     },
+    /// The link ended before the line did.
+    #[error("unfinished line: {excerpt}")]
+    Unfinished {
+        /// The word of the line.
+        excerpt: String,
+    },
+}
+
+/// One line of the stream.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// As it came, with its end; of an over-long one what was there when it was
+    /// given up. May hold the FTP password: show [`Self::without_secrets`].
+    pub(super) bytes: Vec<u8>,
+    /// What it is.
+    pub frame: Result<Frame, FrameError>,
+}
+
+impl Line {
+    /// How many bytes the line has.
+    pub fn length(&self) -> usize {
+        self.bytes.len()
+    }
 }
 
 /// Cuts a byte stream into frames.
@@ -84,8 +107,41 @@ impl Decoder {
         self.pending.extend(bytes.iter().take(room));
     }
 
+    /// The next line, good or not; lines without a byte are left out.
+    pub fn next_line(&mut self) -> Option<Line> {
+        loop {
+            let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
+                return self.give_up_unfinished();
+            };
+            let bytes: Vec<u8> = self.pending.drain(..=end).collect();
+            if std::mem::take(&mut self.skipping) {
+                continue;
+            }
+            let line = bytes.strip_suffix(b"\n").unwrap_or(&bytes);
+            if line.len() > MAX_LINE_BYTES {
+                let error = FrameError::TooLong { excerpt: excerpt(line) };
+                return Some(Line { bytes, frame: Err(error) });
+            }
+            let ended_with_cr = line.last() == Some(&b'\r');
+            let content = without_cr(line);
+            if !content.is_empty() {
+                let frame = read_line(content, ended_with_cr);
+                return Some(Line { bytes, frame });
+            }
+        }
+    }
+
+    /// What has come of a line that will not end any more.
+    pub fn take_unfinished(&mut self) -> Option<Line> {
+        let bytes: Vec<u8> = self.pending.drain(..).collect();
+        let is_skipped = std::mem::take(&mut self.skipping);
+        let excerpt = excerpt(&bytes);
+        (!bytes.is_empty() && !is_skipped)
+            .then_some(Line { bytes, frame: Err(FrameError::Unfinished { excerpt }) })
+    }
+
     /// Ends an unfinished line that cannot become a frame any more.
-    fn give_up_unfinished(&mut self) -> Option<FrameError> {
+    fn give_up_unfinished(&mut self) -> Option<Line> {
         if self.skipping {
             self.pending.clear();
             self.overflowed = false;
@@ -94,10 +150,11 @@ impl Decoder {
         if self.pending.len() <= MAX_LINE_BYTES && !self.overflowed {
             return None;
         }
-        let line: Vec<u8> = self.pending.drain(..).collect();
+        let bytes: Vec<u8> = self.pending.drain(..).collect();
         self.skipping = true;
         self.overflowed = false;
-        Some(FrameError::TooLong { excerpt: excerpt(&line) })
+        let error = FrameError::TooLong { excerpt: excerpt(&bytes) };
+        Some(Line { bytes, frame: Err(error) })
     }
 }
 
@@ -105,27 +162,16 @@ impl Iterator for Decoder {
     type Item = Result<Frame, FrameError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
-                return self.give_up_unfinished().map(Err);
-            };
-            let mut line: Vec<u8> = self.pending.drain(..=end).collect();
-            line.pop();
-            if std::mem::take(&mut self.skipping) {
-                continue;
-            }
-            if line.len() > MAX_LINE_BYTES {
-                return Some(Err(FrameError::TooLong { excerpt: excerpt(&line) }));
-            }
-            let ended_with_cr = line.last() == Some(&b'\r');
-            while line.last() == Some(&b'\r') {
-                line.pop();
-            }
-            if !line.is_empty() {
-                return Some(read_line(&line, ended_with_cr));
-            }
-        }
+        self.next_line().map(|line| line.frame)
     }
+}
+
+/// The line without the carriage returns at its end.
+fn without_cr(mut line: &[u8]) -> &[u8] {
+    while let Some(shorter) = line.strip_suffix(b"\r") {
+        line = shorter;
+    }
+    line
 }
 
 /// Reads one line without its end.

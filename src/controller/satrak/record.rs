@@ -1,0 +1,118 @@
+//! Tells what goes over the link: lines as the decoder cuts them, each with
+//! what it answers.
+
+use std::time::{Duration, Instant};
+
+use super::{REPLY, Satrak, exchange::Outstanding};
+use crate::{
+    controller::{Direction, Finding, Moment, WireLine},
+    protocol::satrak::{Decoder, FrameError, Halt, Line, Verb, Word},
+};
+
+impl Satrak {
+    /// Frames that were written; several may stand in `bytes`.
+    pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
+        let mut decoder = Decoder::new();
+        decoder.push(bytes);
+        while let Some(line) = decoder.next_line() {
+            let is_poll = self.polls(&line);
+            let shown = line.without_secrets(false);
+            self.wire.push(WireLine {
+                direction: Direction::Sent,
+                is_shortened: !shown.is_whole,
+                bytes: shown.bytes.into(),
+                is_poll,
+                ..blank(&line, now)
+            });
+        }
+    }
+
+    /// A line that came in and has not been acted upon yet.
+    pub(super) fn record_received(&mut self, line: &Line, now: Moment) {
+        let shown = line.without_secrets(!self.has_heard_frame);
+        self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
+        self.wire.push(WireLine {
+            is_shortened: !shown.is_whole,
+            bytes: shown.bytes.into(),
+            reply_after: self.reply_after(line, now),
+            is_poll: self.polls(line),
+            ..blank(line, now)
+        });
+    }
+
+    /// What is left of a line when its link is gone.
+    pub(super) fn record_unfinished(&mut self) {
+        if let (Some(line), Some(heard)) = (self.decoder.take_unfinished(), self.heard_at) {
+            self.record_received(&line, heard);
+        }
+    }
+
+    /// A reply is missing, and the question goes out again or is given up.
+    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
+        let finding = Finding::NoReply { waited, is_repeated };
+        self.wire.push(WireLine {
+            at: now.utc,
+            direction: Direction::Received,
+            bytes: Box::default(),
+            length: 0,
+            is_shortened: false,
+            finding,
+            reply_after: None,
+            is_poll: false,
+        });
+    }
+
+    /// Whether the line is a question that comes by itself, or its answer.
+    fn polls(&self, line: &Line) -> bool {
+        let Some(command) = command(line) else { return false };
+        let outstanding = self.outstanding.as_ref();
+        outstanding.is_some_and(|sent| sent.answers(command) && sent.is_usual_poll())
+    }
+
+    fn reply_after(&self, line: &Line, now: Moment) -> Option<Duration> {
+        let command = command(line)?;
+        let requests = [&self.outstanding, &self.slow].into_iter().flatten();
+        let request = requests.into_iter().find(|sent| sent.answers(command));
+        let asked = request.map(Outstanding::first_sent).or_else(|| self.halted(command))?;
+        Some(now.steady.saturating_duration_since(asked))
+    }
+
+    /// When the halt went out that this answers.
+    fn halted(&self, (word, verb): (Word, Verb)) -> Option<Instant> {
+        let is_answered = |halt: &&(Halt, Instant)| halt.0.word() == word && verb == Verb::Set;
+        let (_, until) = self.halts.iter().find(is_answered)?;
+        until.checked_sub(REPLY)
+    }
+}
+
+fn command(line: &Line) -> Option<(Word, Verb)> {
+    line.frame.as_ref().ok()?.command()
+}
+
+/// A received line of which no bytes are shown.
+fn blank(line: &Line, now: Moment) -> WireLine {
+    WireLine {
+        at: now.utc,
+        direction: Direction::Received,
+        bytes: Box::default(),
+        length: line.length(),
+        is_shortened: false,
+        finding: finding(line),
+        reply_after: None,
+        is_poll: false,
+    }
+}
+
+fn finding(line: &Line) -> Finding {
+    match &line.frame {
+        Ok(_) => Finding::Good,
+        Err(FrameError::BadChecksum { received, computed, .. }) => {
+            Finding::BadChecksum { received: *received, computed: *computed }
+        }
+        Err(FrameError::NoChecksum { .. }) => Finding::NoChecksum,
+        Err(FrameError::NoHeader { .. }) => Finding::NoHeader,
+        Err(FrameError::TooLong { .. }) => Finding::TooLong,
+        Err(FrameError::NotText { .. }) => Finding::NotText,
+        Err(FrameError::Unfinished { .. }) => Finding::Unfinished,
+    }
+}

@@ -1,0 +1,154 @@
+//! The last lines that went over one antenna's link. The session writes, the
+//! window reads what is new to it; neither waits for longer than it takes to
+//! move a few pointers.
+
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use crate::controller::WireLine;
+
+/// How many lines are kept.
+pub const MOST_LINES: usize = 20_000;
+/// How many bytes all lines together have at most.
+const MOST_BYTES: usize = 4 * 1024 * 1024;
+/// How many lines are read at once, so that the lock is short.
+const MOST_READ: usize = 1000;
+
+/// A line with its place in the log. Numbers count from 0 and leave none out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recorded {
+    /// Its place among all lines since the start.
+    pub number: u64,
+    /// The line.
+    pub line: WireLine,
+}
+
+/// The log of one antenna, shared by its session and the window.
+#[derive(Debug, Clone, Default)]
+pub struct WireLog(Arc<Mutex<Ring>>);
+
+#[derive(Debug, Default)]
+struct Ring {
+    lines: VecDeque<Arc<Recorded>>,
+    bytes: usize,
+    next: u64,
+    /// Somebody has read everything and waits for more.
+    is_watched: bool,
+}
+
+impl WireLog {
+    /// Adds a line; the oldest go when there are too many. True when somebody
+    /// waits for it.
+    pub fn push(&self, line: WireLine) -> bool {
+        let mut ring = self.ring();
+        ring.bytes += line.bytes.len();
+        let number = ring.next;
+        ring.next += 1;
+        ring.lines.push_back(Arc::new(Recorded { number, line }));
+        while ring.lines.len() > MOST_LINES || ring.bytes > MOST_BYTES {
+            let Some(oldest) = ring.lines.pop_front() else { break };
+            ring.bytes -= oldest.line.bytes.len();
+        }
+        std::mem::take(&mut ring.is_watched)
+    }
+
+    /// The lines from `number` on, oldest first, at most 1,000; empty when
+    /// there are no newer ones.
+    pub fn read_from(&self, number: u64) -> Vec<Arc<Recorded>> {
+        let mut ring = self.ring();
+        let first = ring.next - ring.lines.len() as u64;
+        let skip = usize::try_from(number.saturating_sub(first)).unwrap_or(usize::MAX);
+        let lines: Vec<_> = ring.lines.iter().skip(skip).take(MOST_READ).cloned().collect();
+        ring.is_watched = lines.len() < MOST_READ;
+        lines
+    }
+
+    /// The number that the next line will have.
+    pub fn next_number(&self) -> u64 {
+        self.ring().next
+    }
+
+    /// Whether both are the log of the same session.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
+    fn ring(&self) -> MutexGuard<'_, Ring> {
+        // A line is whole or not there, whoever broke off.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::controller::{Direction, Finding};
+
+    fn line(length: usize) -> WireLine {
+        WireLine {
+            at: jiff::Timestamp::UNIX_EPOCH,
+            direction: Direction::Sent,
+            bytes: vec![b'x'; length].into(),
+            length,
+            is_shortened: false,
+            finding: Finding::Good,
+            reply_after: None,
+            is_poll: false,
+        }
+    }
+
+    fn numbers(log: &WireLog, from: u64) -> Vec<u64> {
+        log.read_from(from).iter().map(|recorded| recorded.number).collect()
+    }
+
+    #[test]
+    fn a_reader_gets_each_line_once_and_in_order() {
+        let log = WireLog::default();
+        for _ in 0..3 {
+            log.push(line(1));
+        }
+        assert_eq!(numbers(&log, 0), [0, 1, 2]);
+        assert_eq!(numbers(&log, 2), [2]);
+        assert_eq!(numbers(&log, 3), [0; 0]);
+        log.push(line(1));
+        assert_eq!(numbers(&log, 3), [3]);
+        assert_eq!(numbers(&log, 99), [0; 0]);
+    }
+
+    #[test]
+    fn the_oldest_lines_go_when_there_are_too_many() {
+        let log = WireLog::default();
+        for _ in 0..MOST_LINES + 5 {
+            log.push(line(1));
+        }
+        assert_eq!(numbers(&log, 0).first(), Some(&5));
+        let mut next = 0;
+        let mut count = 0;
+        while let Some(last) = log.read_from(next).last() {
+            count += numbers(&log, next).len();
+            next = last.number + 1;
+        }
+        assert_eq!((count, next), (MOST_LINES, MOST_LINES as u64 + 5));
+    }
+
+    #[test]
+    fn the_oldest_lines_go_when_they_are_too_long() {
+        let log = WireLog::default();
+        let long = MOST_BYTES / 4;
+        for _ in 0..5 {
+            log.push(line(long));
+        }
+        assert_eq!(numbers(&log, 0), [1, 2, 3, 4]);
+    }
+
+    #[test]
+    fn only_a_reader_who_has_read_everything_is_woken_and_once() {
+        let log = WireLog::default();
+        assert!(!log.push(line(1)), "nobody looks");
+        log.read_from(0);
+        assert!(log.push(line(1)));
+        assert!(!log.push(line(1)));
+    }
+}

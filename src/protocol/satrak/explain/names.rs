@@ -1,0 +1,320 @@
+//! The names of the values, in the order of the document.
+
+use crate::protocol::satrak::Word;
+
+/// A value that the document does not list.
+pub(super) const UNKNOWN: &str = "not in the document";
+
+/// What the document says of one value.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Named {
+    pub(super) name: &'static str,
+    /// With the space in front of it, where there is one.
+    pub(super) unit: &'static str,
+    /// Texts that stand for something.
+    pub(super) codes: &'static [(&'static str, &'static str)],
+}
+
+impl Named {
+    pub(super) const fn new(name: &'static str) -> Self {
+        Self { name, unit: "", codes: &[] }
+    }
+}
+
+/// The values of one kind of frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Names {
+    pub(super) named: &'static [Named],
+    /// Place of the one value that may hold commas, counted from 0.
+    pub(super) text_at: Option<usize>,
+}
+
+impl Names {
+    pub(super) const NONE: Self = Self::of(&[]);
+
+    const fn of(named: &'static [Named]) -> Self {
+        Self { named, text_at: None }
+    }
+
+    const fn with_text(named: &'static [Named], at: usize) -> Self {
+        Self { named, text_at: Some(at) }
+    }
+}
+
+const fn text(name: &'static str) -> Named {
+    Named::new(name)
+}
+
+const fn number(name: &'static str, unit: &'static str) -> Named {
+    Named { unit, ..Named::new(name) }
+}
+
+const fn code(name: &'static str, codes: &'static [(&'static str, &'static str)]) -> Named {
+    Named { codes, ..Named::new(name) }
+}
+
+/// A value of a setting that a `?` leaves as it is.
+const fn kept(named: Named) -> Named {
+    if named.codes.is_empty() { Named { codes: KEEP, ..named } } else { named }
+}
+
+type Codes = &'static [(&'static str, &'static str)];
+
+const KEEP: Codes = &[("?", "stays as it is")];
+const NO_YES: Codes = &[("0", "no"), ("1", "yes"), ("?", "stays as it is")];
+const OFF_ON: Codes = &[("0", "off"), ("1", "on")];
+const LIMIT: Codes = &[("0", "clear"), ("1", "set")];
+const FAULT: Codes = &[("0", "none"), ("1", "set")];
+const SENSOR: Codes = &[("0", "none"), ("1", "set wrongly"), ("2", "not connected")];
+const MOTION: Codes =
+    &[("-1", "toward smaller angles"), ("0", "standing"), ("1", "toward larger angles")];
+const TRACK_STATE: Codes = &[
+    ("0", "outside the window"),
+    ("1", "inside the window"),
+    ("2", "the window is over"),
+    ("3", "before the start"),
+];
+const BASE: Codes = &[("0", "resolver and encoder"), ("1", "resolver"), ("?", "stays as it is")];
+const SSPA: Codes = &[("0", "off"), ("1", "on"), ("2", "by its own rule"), ("?", "stays as it is")];
+const SSPA_RULE: Codes = &[
+    ("0", "while tracking"),
+    ("1", "while the carrier is locked"),
+    ("2", "while both"),
+    ("3", "while either"),
+    ("?", "stays as it is"),
+];
+const TLE_MODE: Codes = &[("0", "file"), ("1", "web"), ("2", "FTP")];
+const ON_ERROR: Codes = &[("0", "stops tracking"), ("1", "goes on with the last elements")];
+const NONE: Codes = &[("NONE", "stays as it is")];
+
+pub(super) const ANSWER: Names =
+    Names::of(&[code("answer", &[("OK", "accepted"), ("ERR", "refused")])]);
+pub(super) const REFUSAL: Names =
+    Names::with_text(&[code("answer", &[("ERR", "refused")]), text("code")], 1);
+
+const STATUS: Names = Names::of(&[
+    code("fault or warning", FAULT),
+    number("azimuth", "°"),
+    number("elevation", "°"),
+    code("limit X+", LIMIT),
+    code("limit X\u{2212}", LIMIT),
+    code("limit Y+", LIMIT),
+    code("limit Y\u{2212}", LIMIT),
+    code("tracking", OFF_ON),
+    code("tracking state", TRACK_STATE),
+    code("clock set from GPS", NO_YES),
+    number("GPS lock delay", " s"),
+    code("motion of X", MOTION),
+    code("motion of Y", MOTION),
+    number("angle of X", "°"),
+    number("angle of Y", "°"),
+    code("auto-track", OFF_ON),
+]);
+const FAULTS: Names = Names::of(&[
+    code("link between control and drive unit", FAULT),
+    code("elements out of date", FAULT),
+    code("element file missing", FAULT),
+    code("satellite missing in the file", FAULT),
+    code("elements from the web", FAULT),
+    code("tracking stopped by an error", FAULT),
+    code("setup", FAULT),
+    code("motor of X", FAULT),
+    code("motor of Y", FAULT),
+    code("sensor of X", SENSOR),
+    code("sensor of Y", SENSOR),
+    code("link to the GPS receiver", FAULT),
+]);
+const TIME: Names = Names::of(&[
+    text("hour"),
+    text("minute"),
+    text("second"),
+    text("day"),
+    text("month"),
+    text("year"),
+    number("milliseconds", " ms"),
+]);
+const WINDOW: Names = Names::of(&[
+    text("start, hour"),
+    text("start, minute"),
+    text("start, second"),
+    text("start, day"),
+    text("start, month"),
+    text("start, year"),
+    text("stop, hour"),
+    text("stop, minute"),
+    text("stop, second"),
+    text("stop, day"),
+    text("stop, month"),
+    text("stop, year"),
+]);
+const FROM_GPS: Named = code("clock from GPS", NO_YES);
+const TIME_OFFSET: Named = kept(number("tracking time offset", " ms"));
+const AZ_OFFSET: Named = kept(number("azimuth offset", "°"));
+const EL_OFFSET: Named = kept(number("elevation offset", "°"));
+const LEAD: Named = kept(number("go to start before", " ms"));
+const POSITION_BASE: Named = code("position base", BASE);
+const MINIMUM: Named = kept(number("minimum elevation", "°"));
+const NORTH: Named = kept(number("north offset", "°"));
+const AMPLIFIER: Named = code("SSPA", SSPA);
+const RULE: Named = code("SSPA rule", SSPA_RULE);
+const THRESHOLD: Named = kept(number("elevation threshold", "°"));
+const SETTINGS: Names = Names::of(&[
+    FROM_GPS,
+    TIME_OFFSET,
+    AZ_OFFSET,
+    EL_OFFSET,
+    LEAD,
+    POSITION_BASE,
+    MINIMUM,
+    NORTH,
+    AMPLIFIER,
+    RULE,
+    code("source of the elements", TLE_MODE),
+    THRESHOLD,
+]);
+const SET_SETTINGS: Names = Names::of(&[
+    FROM_GPS,
+    TIME_OFFSET,
+    AZ_OFFSET,
+    EL_OFFSET,
+    LEAD,
+    POSITION_BASE,
+    MINIMUM,
+    NORTH,
+    AMPLIFIER,
+    RULE,
+    THRESHOLD,
+]);
+const ANGLES: Names = Names::of(&[
+    number("sensor of X", " counts"),
+    number("angle of X there", "°"),
+    number("sensor of Y", " counts"),
+    number("angle of Y there", "°"),
+]);
+const SET_ANGLES: Names = Names::of(&[
+    code("present position", NO_YES),
+    number("sensor of X", " counts"),
+    number("angle of X there", "°"),
+    number("sensor of Y", " counts"),
+    number("angle of Y there", "°"),
+]);
+const GPS: Names = Names::of(&[
+    text("latitude"),
+    text("longitude"),
+    code("fix", NO_YES),
+    text("hour"),
+    text("minute"),
+    text("second"),
+    text("day"),
+    text("month"),
+    text("year of the century"),
+]);
+const POSITION: Names = Names::of(&[
+    number("first angle", "°"),
+    number("second angle", "°"),
+    text("hour"),
+    text("minute"),
+    text("second"),
+    text("day"),
+    text("month"),
+    text("year"),
+    number("milliseconds", " ms"),
+]);
+const PLACE: Names =
+    Names::of(&[code("place from GPS", NO_YES), text("latitude"), text("longitude")]);
+const SATELLITE: Names = Names::with_text(
+    &[
+        text("element file"),
+        text("satellite"),
+        text("update period"),
+        text("catalogue number"),
+        number("maximum elevation", "°"),
+    ],
+    1,
+);
+const SET_SATELLITE: Names = Names::of(&[
+    text("element file"),
+    text("satellite"),
+    text("update period"),
+    code("present track goes on", NO_YES),
+]);
+const WEB: Names = Names::with_text(
+    &[text("address"), number("update period", " d"), code("when an update fails", ON_ERROR)],
+    0,
+);
+const SET_WEB: Names = Names::of(&[
+    text("address"),
+    number("update period", " d"),
+    code("when an update fails", ON_ERROR),
+    code("present track goes on", NO_YES),
+]);
+const VERSION: Names = Names::of(&[text("control unit"), text("drive unit")]);
+const SCALES: Names = Names::of(&[number("scale of X", ""), number("scale of Y", "")]);
+const IMAGE_STATE: Names = Names::with_text(&[text("state")], 0);
+const IMAGE_FILE: Names = Names::of(&[text("image file")]);
+const MOVE: Names = Names::of(&[number("rate of X", " °/s"), number("rate of Y", " °/s")]);
+const STEP: Names = Names::of(&[number("step of X", "°"), number("step of Y", "°")]);
+const GOTO: Names = Names::of(&[
+    Named { unit: "°", ..code("azimuth", NONE) },
+    Named { unit: "°", ..code("elevation", NONE) },
+]);
+const TRACK: Names = Names::of(&[code("tracking", OFF_ON)]);
+const AUTO_TRACK: Names = Names::of(&[code("auto-track", OFF_ON)]);
+
+/// What stands behind a word that ends in `?` when the unit says it.
+pub(super) const fn of_reply(word: Word) -> Names {
+    match word {
+        Word::Version => VERSION,
+        Word::Status => STATUS,
+        Word::ErrStatus => FAULTS,
+        Word::Time => TIME,
+        Word::StartStopTime => WINDOW,
+        Word::Settings => SETTINGS,
+        Word::AngleSettings => ANGLES,
+        Word::GpsData => GPS,
+        Word::Tpos => POSITION,
+        Word::GpsSettings => PLACE,
+        Word::Satellite => SATELLITE,
+        Word::SatelliteHttp => WEB,
+        Word::LoadImage => IMAGE_STATE,
+        Word::Reduction => SCALES,
+        // Never explained value by value.
+        Word::SatelliteFtp
+        | Word::Move
+        | Word::Step
+        | Word::Goto
+        | Word::Stop
+        | Word::Track
+        | Word::TrackAutoEnable
+        | Word::RtcReupdate => Names::NONE,
+    }
+}
+
+/// What stands behind a word that ends in `=` when it is sent to the unit.
+pub(super) const fn of_setting(word: Word) -> Names {
+    match word {
+        Word::Move => MOVE,
+        Word::Step => STEP,
+        Word::Goto => GOTO,
+        Word::Track => TRACK,
+        Word::TrackAutoEnable => AUTO_TRACK,
+        Word::Settings => SET_SETTINGS,
+        Word::AngleSettings => SET_ANGLES,
+        Word::Satellite => SET_SATELLITE,
+        Word::SatelliteHttp => SET_WEB,
+        Word::LoadImage => IMAGE_FILE,
+        // As in the answer to the question.
+        Word::Time
+        | Word::StartStopTime
+        | Word::GpsSettings
+        | Word::SatelliteFtp
+        | Word::Reduction => of_reply(word),
+        Word::Version
+        | Word::Stop
+        | Word::Status
+        | Word::ErrStatus
+        | Word::GpsData
+        | Word::Tpos
+        | Word::RtcReupdate => Names::NONE,
+    }
+}
