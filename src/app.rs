@@ -16,6 +16,7 @@ pub mod daylight;
 mod demo;
 pub mod forecast;
 mod job;
+mod log_file;
 mod logic;
 mod memory;
 pub mod model;
@@ -33,6 +34,7 @@ use self::{
     copies::CopyWork,
     demo::Demo,
     job::Job,
+    log_file::LogWork,
     memory::Keeper,
     model::CatalogState,
     sources::{Outcome, Places, SourceWork, Sources, Task},
@@ -66,6 +68,7 @@ pub struct App {
     places: Places,
     elements_job: Option<Job<Outcome>>,
     copy_work: CopyWork,
+    log_work: LogWork,
     keeper: Keeper,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
@@ -101,6 +104,7 @@ impl App {
         close_on_signals(&driver, ctx.clone());
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
+        let log_work = LogWork::beside(places.library().map(PathBuf::from));
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
         let mut app = Self {
@@ -115,6 +119,7 @@ impl App {
             places,
             elements_job: Some(elements_job),
             copy_work,
+            log_work,
             keeper,
             settings_unread: false,
             drawn: false,

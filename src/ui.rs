@@ -5,6 +5,7 @@ pub mod antennas;
 pub mod banner;
 pub mod bar;
 pub mod confirm;
+pub mod console;
 pub mod copies;
 pub mod elements;
 pub mod format;

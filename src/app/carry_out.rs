@@ -73,6 +73,7 @@ impl App {
             UiCommand::RefreshSources { names, forced } => {
                 self.begin_elements(Task { list: None, ask: names, forced });
             }
+            UiCommand::SaveLog(lines) => self.save_log(lines),
             UiCommand::Show(view) => model.view = view,
             UiCommand::SetTheme(name) => {
                 theme::set(ctx, name);

@@ -1,12 +1,17 @@
 //! What a view asks for. Carried out once a frame, after everything is drawn.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
 };
-use crate::{driver, orbit::Source, station::Station, ui::tokens::ThemeName};
+use crate::{
+    driver,
+    orbit::Source,
+    station::Station,
+    ui::{console::Line, tokens::ThemeName},
+};
 
 /// What a view asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +89,8 @@ pub enum UiCommand {
     },
     /// End the comparison.
     CloseCopy,
+    /// Write these lines of the console to a file.
+    SaveLog(Vec<Arc<Line>>),
     /// Save these settings and use them.
     SaveStation(Box<Station>),
 }

@@ -29,6 +29,7 @@ impl App {
         self.model.time_sync = time_sync.unwrap_or(self.model.time_sync);
         self.take_catalog();
         self.take_copies();
+        self.take_log_file();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);
             let renewed = self.model.forecasts.refresh(

@@ -34,6 +34,8 @@ pub enum View {
     Elements,
     /// The settings of the units.
     Antennas,
+    /// What goes over the links.
+    Console,
     /// The station's settings.
     Preferences,
 }

@@ -62,6 +62,11 @@ impl Places {
             library: library.or_else(library::library_folder),
         }
     }
+
+    /// The folder of the library.
+    pub(super) fn library(&self) -> Option<&Path> {
+        self.library.as_deref()
+    }
 }
 
 /// What is to be done before everything is read anew.

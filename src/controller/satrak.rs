@@ -73,8 +73,6 @@ pub struct Satrak {
     wire: WireQueue,
     /// Something with a header has come over this link.
     has_heard_frame: bool,
-    /// When bytes came in last.
-    heard_at: Option<Moment>,
 }
 
 impl Satrak {
@@ -102,7 +100,6 @@ impl Satrak {
             happenings: VecDeque::new(),
             wire: WireQueue::default(),
             has_heard_frame: false,
-            heard_at: None,
         }
     }
 
@@ -195,7 +192,7 @@ impl Device for Satrak {
     }
 
     fn link_down(&mut self, now: Moment) {
-        self.record_unfinished();
+        self.record_unfinished(now);
         self.has_heard_frame = false;
         self.decoder = Decoder::new();
         self.schedule = None;
@@ -219,7 +216,6 @@ impl Device for Satrak {
     }
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
-        self.heard_at = Some(now);
         self.decoder.push(bytes);
         // Taken out one by one, because each one may change what is expected.
         while let Some(line) = self.decoder.next_line() {

@@ -26,14 +26,18 @@ pub enum Icon {
     Lock,
     /// Opens below; an open fold.
     ChevronDown,
-    /// Opens beside; a closed fold.
+    /// Opens beside; a closed fold; sent.
     ChevronRight,
+    /// Received.
+    ChevronLeft,
     /// View: Operate.
     CrossHair,
     /// View: Elements.
     Orbit,
     /// View: Antennas.
     Antenna,
+    /// View: Console.
+    Prompt,
     /// View: Preferences.
     Sliders,
     /// The sign of the program.
@@ -62,7 +66,7 @@ pub enum Icon {
 
 impl Icon {
     /// All icons.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 26] = [
         Self::Octagon,
         Self::Bell,
         Self::Warning,
@@ -72,9 +76,11 @@ impl Icon {
         Self::Lock,
         Self::ChevronDown,
         Self::ChevronRight,
+        Self::ChevronLeft,
         Self::CrossHair,
         Self::Orbit,
         Self::Antenna,
+        Self::Prompt,
         Self::Sliders,
         Self::Dish,
         Self::Disc,

@@ -6,7 +6,9 @@ pub mod list;
 
 use egui::{Key, Modifiers, Ui};
 
-use super::{confirm::Question, elements::ElementsState, operate::OperateState};
+use super::{
+    confirm::Question, console::ConsoleState, elements::ElementsState, operate::OperateState,
+};
 use crate::app::{Model, UiCommand, View};
 use act::Act;
 
@@ -63,9 +65,10 @@ pub const ALL: [Binding; 21] = [
                 (Key::Num1, Act::Show(View::Operate)),
                 (Key::Num3, Act::Show(View::Elements)),
                 (Key::Num4, Act::Show(View::Antennas)),
+                (Key::Num5, Act::Show(View::Console)),
                 (Key::Num6, Act::Show(View::Preferences)),
             ],
-            "Operate, Elements, Antennas, Preferences",
+            "Operate, Elements, Antennas, Console, Preferences",
         ),
     ),
     row(
@@ -128,7 +131,7 @@ pub const ALL: [Binding; 21] = [
         row(
             Place::Everywhere,
             &[(Key::F, Act::Search)],
-            "filter the list of passes; search the catalogue",
+            "filter the list of passes or the log; search the catalogue",
         ),
     ),
     with(
@@ -152,6 +155,8 @@ pub struct Desk<'a> {
     pub operate: &'a mut OperateState,
     /// The Elements view.
     pub elements: &'a mut ElementsState,
+    /// The Console view.
+    pub console: &'a mut ConsoleState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }

@@ -1,12 +1,14 @@
 //! The whole window: what is always there, and the view that fills the rest.
 
+use std::path::PathBuf;
+
 use egui::{Rect, Ui, pos2};
 use jiff::Timestamp;
 
 use super::{
     antennas, banner, bar,
     confirm::Question,
-    elements,
+    console, elements,
     icons::Icon,
     keys::{self, Desk},
     operate, preferences, rail,
@@ -23,6 +25,7 @@ pub struct Views {
     operate: operate::OperateState,
     elements: elements::ElementsState,
     antennas: antennas::AntennasState,
+    console: console::ConsoleState,
     preferences: preferences::PreferencesState,
     question: Option<Question>,
     keys_open: bool,
@@ -76,6 +79,7 @@ impl Views {
             question: &mut self.question,
             operate: &mut self.operate,
             elements: &mut self.elements,
+            console: &mut self.console,
             list_open: &mut self.keys_open,
         };
         keys::take(ui, model, &mut desk, commands);
@@ -107,6 +111,10 @@ impl Views {
                 self.operate.leave_card(commands);
                 antennas::show(ui, rest, model, &mut self.antennas, commands);
             }
+            View::Console => {
+                self.operate.leave_card(commands);
+                console::show(ui, window, rest, model, &mut self.console, commands);
+            }
             View::Preferences => {
                 self.operate.leave_card(commands);
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
@@ -126,6 +134,11 @@ impl Views {
         self.preferences.forget();
     }
 
+    /// The lines of the console were saved here, or not, and why.
+    pub fn log_saved(&mut self, result: Result<PathBuf, String>) {
+        self.console.saved(result);
+    }
+
     /// The settings were saved at this time, or not, and why.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         self.preferences.saved(result);
@@ -137,6 +150,7 @@ fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComman
         (View::Operate, Icon::CrossHair, "Operate"),
         (View::Elements, Icon::Orbit, "Elements"),
         (View::Antennas, Icon::Antenna, "Antennas"),
+        (View::Console, Icon::Prompt, "Console"),
         (View::Preferences, Icon::Sliders, "Preferences"),
     ];
     let entries =

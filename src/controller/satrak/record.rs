@@ -41,9 +41,9 @@ impl Satrak {
     }
 
     /// What is left of a line when its link is gone.
-    pub(super) fn record_unfinished(&mut self) {
-        if let (Some(line), Some(heard)) = (self.decoder.take_unfinished(), self.heard_at) {
-            self.record_received(&line, heard);
+    pub(super) fn record_unfinished(&mut self, now: Moment) {
+        if let Some(line) = self.decoder.take_unfinished() {
+            self.record_received(&line, now);
         }
     }
 

@@ -179,11 +179,11 @@ impl Session {
     pub(super) fn turn_down(&mut self, command: Command, now: Moment) {
         match command {
             Command::Settle(change) => self.gate.device().settle(change, now),
-            // It is read when the link is back and somebody looks.
-            Command::ReadGroup(_) => {}
+            // A group is read when the link is back and somebody looks; that
+            // nothing can be asked is told by the link itself.
+            Command::ReadGroup(_) | Command::Ask(_) => {}
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { .. } | Command::EndJog => self.jog = None,
-            Command::Ask(_) => {}
             Command::Standby => {
                 self.intent = Intent::Standby;
                 self.pending = None;

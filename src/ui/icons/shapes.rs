@@ -42,6 +42,7 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
         }
         Icon::ChevronDown => pen.line(&[(5.0, 7.5), (10.0, 12.5), (15.0, 7.5)]),
         Icon::ChevronRight => pen.line(&[(7.5, 5.0), (12.5, 10.0), (7.5, 15.0)]),
+        Icon::ChevronLeft => pen.line(&[(12.5, 5.0), (7.5, 10.0), (12.5, 15.0)]),
         Icon::CrossHair => {
             pen.ring((10.0, 10.0), 5.5);
             pen.line(&[(10.0, 1.8), (10.0, 7.2)]);
@@ -57,6 +58,11 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
         Icon::Search => {
             pen.ring((8.5, 8.5), 5.5);
             pen.line(&[(12.6, 12.6), (17.5, 17.5)]);
+        }
+        Icon::Prompt => {
+            pen.line(&[(2.0, 3.5), (18.0, 3.5), (18.0, 16.5), (2.0, 16.5), (2.0, 3.5)]);
+            pen.line(&[(5.0, 7.5), (8.0, 10.2), (5.0, 13.0)]);
+            pen.line(&[(10.0, 13.0), (14.0, 13.0)]);
         }
         Icon::Sliders => sliders(pen),
         Icon::Antenna => antenna(pen),

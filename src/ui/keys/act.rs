@@ -81,6 +81,7 @@ impl Act {
             Self::UsualZoom => desk.operate.zoom.reset(),
             Self::Search => match model.view {
                 View::Elements => desk.elements.focus_search(),
+                View::Console => desk.console.focus_filter(),
                 _ => desk.operate.filter_list(),
             },
             Self::Acknowledge => {

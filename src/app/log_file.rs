@@ -1,0 +1,69 @@
+//! Lines of the console as a file of their own, written on a thread.
+
+use std::{path::PathBuf, sync::Arc};
+
+use jiff::Timestamp;
+
+use super::{App, job::Job};
+use crate::{ui::console::Line, whole_file};
+
+/// Writes logs into one folder, one after the other.
+#[derive(Default)]
+pub(super) struct LogWork {
+    folder: Option<PathBuf>,
+    job: Option<Job<Result<PathBuf, String>>>,
+}
+
+impl LogWork {
+    /// The folder stands beside that of the elements.
+    pub(super) fn beside(library: Option<PathBuf>) -> Self {
+        Self { folder: library.map(|library| library.with_file_name("console")), job: None }
+    }
+}
+
+impl App {
+    /// Begins to write `lines`, or says why not.
+    pub(super) fn save_log(&mut self, lines: Vec<Arc<Line>>) {
+        if self.log_work.job.is_some() {
+            return self.views.log_saved(Err("the last file is still being written".to_owned()));
+        }
+        let Some(folder) = &self.log_work.folder else {
+            return self.views.log_saved(Err("this user has no folder for data".to_owned()));
+        };
+        let now = self.model.now;
+        let path = folder.join(format!("console-{}.txt", now.strftime("%Y%m%dT%H%M%S%.3fZ")));
+        let write = move |_: &(dyn Fn() -> bool + Sync)| {
+            let text = text(&lines, now);
+            match whole_file::replace(&path, text.as_bytes()) {
+                Ok(()) => Ok(path),
+                Err(error) => Err(format!("{error}: {}", path.display())),
+            }
+        };
+        match Job::start("azel-log-file", Arc::clone(&self.wake), write) {
+            Ok(job) => self.log_work.job = Some(job),
+            Err(error) => self.views.log_saved(Err(format!("no thread for the file: {error}"))),
+        }
+    }
+
+    /// Takes what the thread has done.
+    pub(super) fn take_log_file(&mut self) {
+        if let Some(result) = self.log_work.job.as_ref().and_then(Job::poll) {
+            self.log_work.job = None;
+            self.views.log_saved(result);
+        }
+    }
+}
+
+fn text(lines: &[Arc<Line>], now: Timestamp) -> String {
+    let saved = now.strftime("%FT%TZ");
+    let mut text = format!(
+        "# Azel console, saved {saved}, {} lines, times in UTC\n\
+         # time\tantenna\tdirection\tframe\treply after\tmeaning\n",
+        lines.len()
+    );
+    for line in lines {
+        text.push_str(&line.report());
+        text.push('\n');
+    }
+    text
+}

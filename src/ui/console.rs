@@ -1,0 +1,119 @@
+//! The Console view: what goes over the links, line by line, with its meaning,
+//! and a line from which questions can be sent.
+
+mod bar;
+mod inspector;
+mod line;
+mod log;
+mod raw;
+mod selection;
+mod send;
+mod table;
+mod typed;
+
+use std::{path::PathBuf, sync::Arc, time::Duration};
+
+use egui::{Rect, Ui, ViewportId, pos2};
+
+use super::{theme, widgets::paint};
+use crate::app::{Model, UiCommand};
+pub use line::Line;
+use log::{Filter, Log};
+use selection::Selection;
+
+/// Below this width of the window the inspector is a drawer.
+const DRAWER_BELOW: f32 = 1100.0;
+const INSPECTOR: f32 = 344.0;
+const PADDING: f32 = 16.0;
+
+/// What the operator sees, typed and selected.
+#[derive(Default)]
+pub struct ConsoleState {
+    log: Log,
+    filter: Filter,
+    filter_wants_focus: bool,
+    selection: Selection,
+    table: table::TableState,
+    is_paused: bool,
+    inspector_is_open: bool,
+    typed: String,
+    /// What came of the last saving.
+    saved: Option<Result<PathBuf, String>>,
+}
+
+impl ConsoleState {
+    /// The next text that is typed is a filter.
+    pub fn focus_filter(&mut self) {
+        self.filter_wants_focus = true;
+    }
+
+    /// The shown lines were saved here, or not, and why.
+    pub fn saved(&mut self, result: Result<PathBuf, String>) {
+        self.saved = Some(result);
+    }
+
+    fn selected(&self) -> Option<&Arc<Line>> {
+        self.log.line(self.selection.cursor()?)
+    }
+
+    /// The selected lines as text; nothing when none is selected.
+    fn copy(&self, ui: &Ui) {
+        let chosen = self.selection.among(self.log.shown());
+        let lines: Vec<String> =
+            chosen.filter_map(|position| Some(self.log.line(position)?.report())).collect();
+        if !lines.is_empty() {
+            ui.copy_text(lines.join("\n"));
+        }
+    }
+}
+
+/// Draws the view. `window` decides whether there is room for the inspector.
+pub fn show(
+    ui: &mut Ui,
+    window: Rect,
+    rect: Rect,
+    model: &Model,
+    state: &mut ConsoleState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    take_new_lines(ui, model, state);
+    let has_drawer = window.width() < DRAWER_BELOW;
+    let side = if has_drawer { 0.0 } else { INSPECTOR };
+    let (left, right) = rect.split_left_right_at_x(rect.right() - side);
+
+    let (head, left) = left.split_top_bottom_at_y(left.top() + bar::HEIGHT);
+    bar::show(ui, head.with_max_x(rect.right()), model, has_drawer, state, commands);
+    let (left, send) = left.split_top_bottom_at_y(left.bottom() - send::HEIGHT);
+    let (list, strip) = left.split_top_bottom_at_y(left.bottom() - bar::STRIP);
+    table::show(ui, list, model.antennas.len() > 1, state);
+    bar::show_strip(ui, strip, state);
+    send::show(ui, send, model, &mut state.typed, commands);
+
+    if has_drawer {
+        if state.inspector_is_open {
+            let drawer = Rect::from_min_max(pos2(list.right() - INSPECTOR, list.top()), list.max);
+            // Nothing below it is to be reached through it.
+            paint::name_text(ui, "drawer", drawer, "Details of the selected line");
+            inspector::show(ui, drawer, state, true);
+        }
+    } else {
+        inspector::show(ui, right.with_min_y(head.bottom()), state, false);
+    }
+}
+
+/// While it is paused nothing is taken; it is recorded all the same.
+fn take_new_lines(ui: &Ui, model: &Model, state: &mut ConsoleState) {
+    state.log.set_filter(&state.filter);
+    if state.is_paused {
+        return;
+    }
+    let logs = model.antennas.iter().map(|antenna| {
+        let name = antenna.config.name.as_str();
+        (name, antenna.handle.wire())
+    });
+    if state.log.pull(logs) {
+        ui.request_repaint_after_for(Duration::from_millis(5), ViewportId::ROOT);
+    }
+}

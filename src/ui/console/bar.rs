@@ -1,0 +1,156 @@
+//! The controls above the log, and what is said below it.
+
+use egui::{
+    Align, Align2, ComboBox, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder, WidgetInfo,
+    pos2, vec2,
+};
+
+use super::{ConsoleState, PADDING};
+use crate::{
+    app::{Model, UiCommand},
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            paint,
+        },
+    },
+};
+
+/// Height of the bar above the log.
+pub(super) const HEIGHT: f32 = 56.0;
+/// Height of the line below the log.
+pub(super) const STRIP: f32 = 28.0;
+const GAP: f32 = 8.0;
+const TITLE: f32 = 88.0;
+const ANTENNA: f32 = 128.0;
+const POLLS: f32 = 100.0;
+/// The chosen antenna is none in particular.
+const ALL: &str = "All antennas";
+
+/// Draws the controls. `has_drawer`: the inspector opens with a button.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    has_drawer: bool,
+    state: &mut ConsoleState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    paint::text_in(ui, inner, Align2::LEFT_CENTER, "Console", text::title(), t.t1);
+    let right = buttons(ui, inner, has_drawer, state, commands);
+    let room = inner.with_min_x(inner.left() + TITLE).with_max_x(right - GAP);
+    let layout = Layout::left_to_right(Align::Center);
+    ui.scope_builder(UiBuilder::new().id_salt("console bar").max_rect(room).layout(layout), |ui| {
+        antenna(ui, model, state);
+        let polls = vec2(POLLS, BUTTON);
+        let is_hidden = &mut state.filter.hides_polls;
+        ui.add_sized(polls, egui::Checkbox::new(is_hidden, "Hide polls"));
+        let hint = RichText::new("Filter by text").color(t.t3);
+        let needle = &mut state.filter.needle;
+        let edit = TextEdit::singleline(needle).hint_text(hint).id_salt("filter");
+        let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
+        edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Filter the log"));
+        if std::mem::take(&mut state.filter_wants_focus) {
+            edit.request_focus();
+        }
+    });
+}
+
+fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
+    let chosen = &mut state.filter.antenna;
+    let shown = chosen.clone().unwrap_or_else(|| ALL.to_owned());
+    let combo = ComboBox::from_id_salt("console antenna").selected_text(&shown).truncate();
+    let opened = combo.width(ANTENNA).show_ui(ui, |ui| {
+        ui.selectable_value(chosen, None, ALL);
+        for antenna in &model.antennas {
+            let name = &antenna.config.name;
+            ui.selectable_value(chosen, Some(name.clone()), name);
+        }
+    });
+    let name = format!("Log of {shown}");
+    opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+}
+
+/// Draws the buttons from the right end and returns where they begin.
+fn buttons(
+    ui: &Ui,
+    inner: Rect,
+    has_drawer: bool,
+    state: &mut ConsoleState,
+    commands: &mut Vec<UiCommand>,
+) -> f32 {
+    let mut right = inner.right();
+    let mut button = |button: Button<'_>, salt: &str| {
+        let width = button.width(ui);
+        let min = pos2(right - width, inner.center().y - BUTTON / 2.0);
+        right = min.x - GAP;
+        button.show(ui, salt, Rect::from_min_size(min, vec2(width, BUTTON))).clicked()
+    };
+    let nothing_chosen = state.selection.among(state.log.shown()).next().is_none();
+    if has_drawer {
+        let word = if state.inspector_is_open { "Close details" } else { "Details" };
+        if button(Button::normal(word), "details") {
+            state.inspector_is_open = !state.inspector_is_open;
+        }
+    }
+    let nothing_shown = state.log.shown().is_empty();
+    if button(Button::normal("Save").locked(nothing_shown), "save log") {
+        let lines = state.log.all_shown().cloned().collect();
+        commands.push(UiCommand::SaveLog(lines));
+    }
+    if button(Button::normal("Copy").locked(nothing_chosen), "copy lines") {
+        state.copy(ui);
+    }
+    if button(Button::normal("Newest").locked(state.table.follows()), "newest") {
+        state.table.follow();
+    }
+    let word = if state.is_paused { "Resume" } else { "Pause" };
+    let pause = if state.is_paused { Button::primary(word) } else { Button::normal(word) };
+    if button(pause, "pause") {
+        state.is_paused = !state.is_paused;
+    }
+    right
+}
+
+/// Says how many lines there are, and what came of the last saving.
+pub(super) fn show_strip(ui: &Ui, rect: Rect, state: &ConsoleState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let words = counts(state);
+    let colour = if state.is_paused { t.warn } else { t.t2 };
+    let width = paint::text_in(ui, inner, Align2::LEFT_CENTER, &words, text::small(), colour);
+    paint::name_text(ui, "counts", width, &words);
+    if let Some(saved) = &state.saved {
+        let (words, colour) = match saved {
+            Ok(path) => (format!("Saved to {}", path.display()), t.ok),
+            Err(why) => (format!("Not saved: {why}"), t.bad),
+        };
+        let room = inner.with_min_x(width.right() + PADDING);
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), colour);
+        paint::name_text(ui, "saved log", room, &words).on_hover_text(&words);
+    }
+}
+
+fn counts(state: &ConsoleState) -> String {
+    let number = |count: usize| format::number(count as f64, 0);
+    let shown = state.log.shown().len();
+    let plural = if shown == 1 { "line" } else { "lines" };
+    let mut words = vec![format!("{} {plural}", number(shown))];
+    let polls = state.log.hidden_polls();
+    if polls > 0 {
+        let plural = if polls == 1 { "poll" } else { "polls" };
+        words.push(format!("{} {plural} hidden", number(polls)));
+    }
+    if state.is_paused {
+        let waiting = usize::try_from(state.log.waiting()).unwrap_or(usize::MAX);
+        words.push(format!("paused, {} recorded since", number(waiting)));
+    }
+    words.join(", ")
+}

@@ -1,0 +1,263 @@
+//! The lines of all antennas in the order of time, and those of them that are
+//! shown.
+
+use std::{collections::VecDeque, sync::Arc};
+
+use super::line::Line;
+use crate::driver::{MOST_LINES, WireLog};
+
+/// What is shown of the log.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Filter {
+    /// Only this antenna.
+    pub(super) antenna: Option<String>,
+    /// Only lines with this text.
+    pub(super) needle: String,
+    /// Without the questions that are asked again and again.
+    pub(super) hides_polls: bool,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { antenna: None, needle: String::new(), hides_polls: true }
+    }
+}
+
+impl Filter {
+    /// Whether the line is shown, and whether it is left out only as a poll.
+    fn judge(&self, line: &Line, needle: &str) -> Verdict {
+        let is_other = self.antenna.as_ref().is_some_and(|name| **name != *line.antenna);
+        if is_other || !(needle.is_empty() || line.has(needle)) {
+            Verdict::Other
+        } else if self.hides_polls && line.is_usual_poll() {
+            Verdict::Poll
+        } else {
+            Verdict::Shown
+        }
+    }
+}
+
+enum Verdict {
+    Shown,
+    Poll,
+    Other,
+}
+
+/// All lines, and those that are shown.
+#[derive(Debug, Default)]
+pub(super) struct Log {
+    lines: VecDeque<Arc<Line>>,
+    /// Position of the first line that is kept.
+    first: u64,
+    sources: Vec<Source>,
+    filter: Filter,
+    /// Positions of the lines that are shown, in order.
+    shown: VecDeque<u64>,
+    /// Positions of the polls that are left out, in order.
+    polls: VecDeque<u64>,
+    /// How many shown lines have gone from the front.
+    gone: u64,
+}
+
+/// The log of one antenna and how far it was read.
+#[derive(Debug)]
+struct Source {
+    antenna: Arc<str>,
+    log: WireLog,
+    next: u64,
+}
+
+impl Log {
+    /// Takes what is new in the logs of the antennas with these names. True
+    /// when there may be more.
+    pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
+        self.take_up(logs);
+        let mut batch = Vec::new();
+        for source in &mut self.sources {
+            for recorded in source.log.read_from(source.next) {
+                source.next = recorded.number + 1;
+                batch.push((Arc::clone(&source.antenna), recorded));
+            }
+        }
+        // Each antenna's lines are in order; a clock that was set back keeps
+        // them so.
+        batch.sort_by_key(|(_, recorded)| recorded.line.at);
+        for (antenna, recorded) in batch {
+            let position = self.first + self.lines.len() as u64;
+            let line = Line::new(position, antenna, recorded);
+            self.list(&line, &self.filter.needle.to_lowercase());
+            self.lines.push_back(Arc::new(line));
+        }
+        self.drop_oldest(MOST_LINES * self.sources.len().max(1));
+        self.waiting() > 0
+    }
+
+    /// Follows the antennas that there are; lines of former ones stay.
+    fn take_up<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) {
+        let mut before = std::mem::take(&mut self.sources);
+        for (antenna, log) in logs {
+            let known = before.iter().position(|source| source.log.is_same(log));
+            let next = known.map_or(0, |at| before.swap_remove(at).next);
+            self.sources.push(Source { antenna: antenna.into(), log: log.clone(), next });
+        }
+    }
+
+    fn list(&mut self, line: &Line, needle: &str) {
+        match self.filter.judge(line, needle) {
+            Verdict::Shown => self.shown.push_back(line.position),
+            Verdict::Poll => self.polls.push_back(line.position),
+            Verdict::Other => {}
+        }
+    }
+
+    fn drop_oldest(&mut self, most: usize) {
+        let surplus = self.lines.len().saturating_sub(most);
+        self.lines.drain(..surplus);
+        self.first += surplus as u64;
+        while self.shown.front().is_some_and(|position| *position < self.first) {
+            self.shown.pop_front();
+            self.gone += 1;
+        }
+        while self.polls.front().is_some_and(|position| *position < self.first) {
+            self.polls.pop_front();
+        }
+    }
+
+    /// How many lines have come since the last [`Self::pull`].
+    pub(super) fn waiting(&self) -> u64 {
+        let ahead = |source: &Source| source.log.next_number().saturating_sub(source.next);
+        self.sources.iter().map(ahead).sum()
+    }
+
+    /// Shows other lines.
+    pub(super) fn set_filter(&mut self, filter: &Filter) {
+        if self.filter == *filter {
+            return;
+        }
+        self.filter = filter.clone();
+        self.shown.clear();
+        self.polls.clear();
+        let needle = self.filter.needle.to_lowercase();
+        let lines = std::mem::take(&mut self.lines);
+        for line in &lines {
+            self.list(line, &needle);
+        }
+        self.lines = lines;
+    }
+
+    /// The lines that are shown, by position.
+    pub(super) fn shown(&self) -> &VecDeque<u64> {
+        &self.shown
+    }
+
+    /// How many polls are left out.
+    pub(super) fn hidden_polls(&self) -> usize {
+        self.polls.len()
+    }
+
+    /// How many shown lines have gone from the front since the last call.
+    pub(super) fn take_gone(&mut self) -> u64 {
+        std::mem::take(&mut self.gone)
+    }
+
+    /// The line at a position, as long as it is kept.
+    pub(super) fn line(&self, position: u64) -> Option<&Arc<Line>> {
+        let at = usize::try_from(position.checked_sub(self.first)?).ok()?;
+        self.lines.get(at)
+    }
+
+    /// All lines that are shown.
+    pub(super) fn all_shown(&self) -> impl Iterator<Item = &Arc<Line>> {
+        self.shown.iter().filter_map(|position| self.line(*position))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::line::testing::wire, *};
+    use crate::controller::{Direction, WireLine};
+
+    fn sent(second: i64, text: &str) -> WireLine {
+        wire(second, Direction::Sent, text)
+    }
+
+    fn poll(second: i64) -> WireLine {
+        WireLine { is_poll: true, ..sent(second, "$STATUS?*2B") }
+    }
+
+    fn texts(log: &Log) -> Vec<&str> {
+        log.all_shown().map(|line| line.raw.as_str()).collect()
+    }
+
+    fn filter(needle: &str, hides_polls: bool) -> Filter {
+        Filter { antenna: None, needle: needle.to_owned(), hides_polls }
+    }
+
+    #[test]
+    fn lines_of_several_antennas_stand_in_the_order_of_time() {
+        let (dish, mast) = (WireLog::default(), WireLog::default());
+        dish.push(sent(1, "$A?*41"));
+        dish.push(sent(3, "$C?*41"));
+        mast.push(sent(2, "$B?*41"));
+        let mut log = Log::default();
+        let both = [("Dish", &dish), ("Mast", &mast)];
+        assert!(!log.pull(both.into_iter()));
+        dish.push(sent(4, "$D?*41"));
+        assert_eq!(log.waiting(), 1);
+        log.pull(both.into_iter());
+        assert_eq!(log.waiting(), 0);
+        let order: String = texts(&log).iter().map(|text| &text[1..2]).collect();
+        assert_eq!(order, "ABCD");
+        let only = Filter { antenna: Some("Mast".to_owned()), ..Filter::default() };
+        log.set_filter(&only);
+        assert_eq!(texts(&log), ["$B?*41<CR><LF>"]);
+    }
+
+    #[test]
+    fn polls_are_hidden_and_counted_and_shown_again() {
+        let wires = WireLog::default();
+        for second in 0..5 {
+            wires.push(poll(second));
+        }
+        wires.push(sent(9, "$STOP=*25"));
+        let mut log = Log::default();
+        log.pull([("Dish", &wires)].into_iter());
+        assert_eq!((log.shown().len(), log.hidden_polls()), (1, 5));
+        log.set_filter(&filter("", false));
+        assert_eq!((log.shown().len(), log.hidden_polls()), (6, 0));
+        log.set_filter(&filter("all motion", true));
+        assert_eq!((log.shown().len(), log.hidden_polls()), (1, 0));
+        wires.push(sent(10, "$STOP=*25"));
+        wires.push(sent(11, "$TIME?*2A"));
+        log.pull([("Dish", &wires)].into_iter());
+        assert_eq!(log.shown().len(), 2, "the filter holds for new lines");
+    }
+
+    #[test]
+    fn a_new_session_of_an_antenna_is_read_from_its_start() {
+        let (old, new) = (WireLog::default(), WireLog::default());
+        old.push(sent(1, "$STOP=*25"));
+        new.push(sent(2, "$TIME?*2A"));
+        let mut log = Log::default();
+        log.pull([("Dish", &old)].into_iter());
+        log.pull([("Dish", &new)].into_iter());
+        assert_eq!(texts(&log), ["$STOP=*25<CR><LF>", "$TIME?*2A<CR><LF>"]);
+    }
+
+    #[test]
+    fn a_full_log_loses_its_oldest_lines() {
+        let wires = WireLog::default();
+        let mut log = Log::default();
+        for second in 0..i64::try_from(MOST_LINES).unwrap() + 7 {
+            wires.push(sent(second, "$STOP=*25"));
+            if second % 900 == 0 {
+                log.pull([("Dish", &wires)].into_iter());
+            }
+        }
+        while log.pull([("Dish", &wires)].into_iter()) {}
+        assert_eq!(log.shown().len(), MOST_LINES);
+        assert_eq!(log.take_gone(), 7);
+        assert_eq!(log.take_gone(), 0);
+        assert!(log.line(6).is_none() && log.line(7).is_some());
+    }
+}

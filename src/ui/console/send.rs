@@ -1,0 +1,142 @@
+//! The line from which questions are sent: the finished frame stands there
+//! before anything goes out, and nothing but questions goes out.
+
+use egui::{
+    Align, Align2, ComboBox, Key, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder,
+    WidgetInfo, pos2, vec2,
+};
+
+use super::{PADDING, raw, typed};
+use crate::{
+    app::{Model, UiCommand},
+    controller::Question,
+    driver,
+    protocol::satrak::{Frame, Meaning, Query, Request},
+    ui::{
+        bar::glyph,
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            paint,
+        },
+    },
+};
+
+/// Height of the line with what is said below it.
+pub(super) const HEIGHT: f32 = 88.0;
+const GAP: f32 = 8.0;
+const ANTENNA: f32 = 112.0;
+const PICK: f32 = 96.0;
+const SEND: f32 = 72.0;
+const FRAME: f32 = 240.0;
+
+/// Draws the line for the selected antenna.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    typed: &mut String,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 12.0));
+    let (line, below) = inner.split_top_bottom_at_y(inner.top() + BUTTON);
+    antenna(ui, line.with_max_x(line.left() + ANTENNA), model);
+    let send = line.with_min_x(line.right() - SEND);
+    let frame = line.with_min_x(send.left() - GAP - FRAME).with_max_x(send.left() - GAP);
+    let field = line.with_min_x(line.left() + ANTENNA + GAP).with_max_x(frame.left() - GAP);
+    let is_entered = fields(ui, field, typed);
+
+    let read = typed::read(typed);
+    let link = model.antenna().is_some_and(|antenna| antenna.snapshot.link.is_open());
+    let ready = match &read {
+        Some(Ok(query)) if link => Some(*query),
+        _ => None,
+    };
+    if let Some(Ok(query)) = &read {
+        finished(ui, frame, *query);
+    }
+    let (icon, words, colour) = match (&read, ready) {
+        (Some(Err(reason)), _) => (Icon::Lock, format!("Not sent. {reason}"), t.warn),
+        (_, Some(query)) => {
+            let payload = Request::Query(query).payload();
+            let meaning = Meaning::of_request(&Frame::from_payload(&payload)).text;
+            (Icon::Check, format!("{meaning}. The answer comes in the log."), t.t2)
+        }
+        (None, _) => {
+            let words = "Questions can be sent, such as STATUS?. Settings and motion cannot.";
+            (Icon::Info, words.to_owned(), t.t2)
+        }
+        (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),
+    };
+    let at = pos2(below.left() + 7.0, below.bottom() - 10.0);
+    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
+    let room = below.with_min_x(below.left() + 22.0).with_min_y(below.bottom() - 20.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
+    paint::name_text(ui, "send line", room, &words);
+
+    let button = Button::primary("Send").locked(ready.is_none());
+    let is_clicked = button.show(ui, "send query", send).clicked();
+    if let Some(query) = ready.filter(|_| is_clicked || is_entered) {
+        let command = driver::Command::Ask(Question::Satrak(query));
+        commands.push(UiCommand::Antenna(model.selected_antenna, command));
+    }
+}
+
+/// Which antenna is asked: the one that is selected everywhere.
+fn antenna(ui: &Ui, rect: Rect, model: &Model) {
+    let t = theme::tokens(ui);
+    let Some(antenna) = model.antenna() else {
+        paint::text_in(ui, rect, Align2::LEFT_CENTER, "No antenna", text::body(), t.t3);
+        return;
+    };
+    let link = glyph(antenna);
+    let (icon, colour) = link.look(t);
+    let at = pos2(rect.left() + 7.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
+    let name = &antenna.config.name;
+    let room = rect.with_min_x(rect.left() + 22.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, name, text::body_medium(), t.t1);
+    let words = format!("Asks {name}, link {}", link.word());
+    paint::name_text(ui, "asked antenna", rect, &words).on_hover_text(words);
+}
+
+/// The list of questions and the field. True when Enter was pressed in it.
+fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
+    let t = theme::tokens(ui);
+    let layout = Layout::left_to_right(Align::Center);
+    let builder = UiBuilder::new().id_salt("send fields").max_rect(rect).layout(layout);
+    let shown = ui.scope_builder(builder, |ui| {
+        let combo = ComboBox::from_id_salt("queries").selected_text("Query").width(PICK);
+        let opened = combo.height(400.0).show_ui(ui, |ui| {
+            for (_, word) in Query::ALL {
+                let payload = format!("{word}?");
+                let asks = Meaning::of_request(&Frame::from_payload(&payload)).text;
+                let words = RichText::new(format!("{payload}  {asks}")).font(text::small());
+                if ui.selectable_label(false, words).clicked() {
+                    *typed = payload;
+                }
+            }
+        });
+        opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Pick a query"));
+        let hint = RichText::new("STATUS?").color(t.t3);
+        let edit = TextEdit::singleline(typed).id_salt("send").font(text::raw()).hint_text(hint);
+        let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
+        edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Query to send"));
+        edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+    });
+    shown.inner
+}
+
+/// The frame as it will go out.
+fn finished(ui: &Ui, rect: Rect, query: Query) {
+    let t = theme::tokens(ui);
+    let bytes = Request::Query(query).to_bytes();
+    let word = paint::text_in(ui, rect, Align2::LEFT_CENTER, "sends", text::small(), t.t3);
+    raw::show(ui, rect.with_min_x(word.right() + 6.0), &bytes, t.sat);
+    let text = String::from_utf8_lossy(&bytes);
+    paint::name_text(ui, "frame", rect, &format!("sends {}", text.trim_end()));
+}
