@@ -10,6 +10,7 @@
 
 mod bar;
 mod clock;
+mod console;
 mod drive;
 mod elements;
 mod extremes;

@@ -32,13 +32,15 @@ const RAW_PART: f32 = 0.56;
 pub(super) struct TableState {
     follows: bool,
     offset: f32,
+    /// The offset at which the newest line was in view.
+    most: f32,
     /// A row to bring into view.
     wanted: Option<usize>,
 }
 
 impl Default for TableState {
     fn default() -> Self {
-        Self { follows: true, offset: 0.0, wanted: None }
+        Self { follows: true, offset: 0.0, most: 0.0, wanted: None }
     }
 }
 
@@ -120,7 +122,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut Con
         });
         let offset = output.state.clamped_offset().y;
         state.table.offset = offset;
-        state.table.follows = offset >= most - 0.5;
+        // While lines are added the area springs back to its former end.
+        state.table.follows = offset >= most.min(state.table.most) - 0.5;
+        state.table.most = most;
     });
     if list.has_focus() {
         ui.painter().rect_stroke(
@@ -190,12 +194,12 @@ fn show_row(
 }
 
 fn spoken(line: &Line) -> String {
-    let direction = match line.direction() {
-        "" => String::new(),
-        direction => format!(" {direction}"),
-    };
     let raw = line.raw.trim_end_matches("<CR><LF>");
-    format!("{} {}{direction} {raw}: {}", line.time(), line.antenna, line.meaning.text)
+    let went = match line.direction() {
+        "" => String::new(),
+        direction => format!(" {direction} {raw}"),
+    };
+    format!("{} {}{went}: {}", line.time(), line.antenna, line.meaning.text)
 }
 
 fn way(modifiers: Modifiers) -> Way {

@@ -51,6 +51,7 @@ fn reply(reply: &Reply) -> Meaning {
             let never = if clock.is_set() { "" } else { ", never set" };
             format!("Clock {}{never}", date_time(clock.time))
         }
+        Reply::StartStopTime(window) if !window.is_ordered() => "No tracking window".to_owned(),
         Reply::StartStopTime(window) => {
             format!("Tracks from {} to {}", date_time(window.start), date_time(window.stop))
         }
@@ -79,6 +80,7 @@ fn reply(reply: &Reply) -> Meaning {
             Some(position) => format!("Place by hand: {}", place(position)),
             None => "Place by hand".to_owned(),
         },
+        Reply::Satellite(satellite) if satellite.name.is_empty() => "Holds no satellite".to_owned(),
         Reply::Satellite(satellite) => format!(
             "Holds {} ({}) from {}",
             satellite.name, satellite.catalog_number, satellite.file
@@ -203,6 +205,8 @@ mod tests {
                 "GPS fix 41.01° N, 29.17° W at 2017-10-19 06:00:02"
             }),
             ("GPS_DATA?,,,0,0,0,0,0,0,0", "No GPS fix"),
+            ("SATELLITE?,,,1,0,0.0", "Holds no satellite"),
+            ("START_STOP_TIME?,0,0,0,1,1,2000,0,0,0,1,1,2000", "No tracking window"),
             ("SATELLITE?,a.txt,AO-7, OSCAR 7,1,7530,78.4", "Holds AO-7, OSCAR 7 (7530) from a.txt"),
             ("SATELLITE_FTP?(hidden)", "FTP source of the elements, values hidden"),
             ("SATELLITE_FTP?,h,u,hunter2,22,f,s,1,1", "FTP source of the elements, values hidden"),
