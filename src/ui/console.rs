@@ -4,11 +4,13 @@
 mod bar;
 mod inspector;
 mod line;
+mod links;
 mod log;
 mod raw;
 mod selection;
 mod send;
 mod table;
+mod tally;
 mod typed;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -34,6 +36,7 @@ pub struct ConsoleState {
     filter_wants_focus: bool,
     selection: Selection,
     table: table::TableState,
+    tallies: tally::Tallies,
     is_paused: bool,
     inspector_is_open: bool,
     typed: String,
@@ -99,7 +102,12 @@ pub fn show(
             inspector::show(ui, drawer, state, true);
         }
     } else {
-        inspector::show(ui, right.with_min_y(head.bottom()), state, false);
+        let tallies = state.tallies.all();
+        let height = links::height(tallies.len());
+        let right = right.with_min_y(head.bottom());
+        let (right, foot) = right.split_top_bottom_at_y(right.bottom() - height);
+        links::show(ui, foot, tallies);
+        inspector::show(ui, right, state, false);
     }
 }
 
@@ -116,4 +124,5 @@ fn take_new_lines(ui: &Ui, model: &Model, state: &mut ConsoleState) {
     if state.log.pull(logs) {
         ui.request_repaint_after_for(Duration::from_millis(5), ViewportId::ROOT);
     }
+    state.tallies.refresh(model.now, &state.log);
 }

@@ -158,6 +158,12 @@ fn each_line_says_when_which_way_and_what_it_means() {
 }
 
 #[test]
+fn each_link_is_summed_up() {
+    let window = view(rig::LARGE);
+    assert!(says(&window, "Satrak, last 10 min: 7 lines, 2 bad, 1 missing, median 34 ms"));
+}
+
+#[test]
 fn a_filter_shows_what_has_its_text() {
     for size in SIZES {
         let mut window = view(size);

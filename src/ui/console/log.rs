@@ -166,6 +166,16 @@ impl Log {
         self.lines.get(at)
     }
 
+    /// The names of the antennas that are followed.
+    pub(super) fn antennas(&self) -> impl Iterator<Item = &Arc<str>> {
+        self.sources.iter().map(|source| &source.antenna)
+    }
+
+    /// All lines, shown or not, the newest first.
+    pub(super) fn newest_first(&self) -> impl Iterator<Item = &Arc<Line>> {
+        self.lines.iter().rev()
+    }
+
     /// All lines that are shown.
     pub(super) fn all_shown(&self) -> impl Iterator<Item = &Arc<Line>> {
         self.shown.iter().filter_map(|position| self.line(*position))
