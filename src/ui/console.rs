@@ -7,6 +7,7 @@ mod line;
 mod links;
 mod log;
 mod raw;
+mod row;
 mod selection;
 mod send;
 mod table;
@@ -15,15 +16,15 @@ mod typed;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-use egui::{Rect, Ui, ViewportId, pos2};
+use egui::{Rect, Ui, ViewportId};
 
-use super::{theme, widgets::paint};
+use super::theme;
 use crate::app::{Model, UiCommand};
 pub use line::Line;
 use log::{Filter, Log};
 use selection::Selection;
 
-/// Below this width of the window the inspector is a drawer.
+/// Below this width of the window the inspector is there when asked for.
 const DRAWER_BELOW: f32 = 1100.0;
 const INSPECTOR: f32 = 344.0;
 const PADDING: f32 = 16.0;
@@ -90,24 +91,24 @@ pub fn show(
     bar::show(ui, head.with_max_x(rect.right()), model, has_drawer, state, commands);
     let (left, send) = left.split_top_bottom_at_y(left.bottom() - send::HEIGHT);
     let (list, strip) = left.split_top_bottom_at_y(left.bottom() - bar::STRIP);
+    let (list, drawer) = if has_drawer && state.inspector_is_open {
+        list.split_left_right_at_x(list.right() - INSPECTOR)
+    } else {
+        (list, Rect::NOTHING)
+    };
     table::show(ui, list, model.antennas.len() > 1, state);
     bar::show_strip(ui, strip, state);
     send::show(ui, send, model, &mut state.typed, commands);
 
-    if has_drawer {
-        if state.inspector_is_open {
-            let drawer = Rect::from_min_max(pos2(list.right() - INSPECTOR, list.top()), list.max);
-            // Nothing below it is to be reached through it.
-            paint::name_text(ui, "drawer", drawer, "Details of the selected line");
-            inspector::show(ui, drawer, state, true);
-        }
-    } else {
+    if !has_drawer {
         let tallies = state.tallies.all();
-        let height = links::height(tallies.len());
         let right = right.with_min_y(head.bottom());
-        let (right, foot) = right.split_top_bottom_at_y(right.bottom() - height);
+        let foot = right.bottom() - links::height(tallies.len());
+        let (right, foot) = right.split_top_bottom_at_y(foot);
         links::show(ui, foot, tallies);
         inspector::show(ui, right, state, false);
+    } else if state.inspector_is_open {
+        inspector::show(ui, drawer, state, true);
     }
 }
 

@@ -18,6 +18,7 @@ use tracing_subscriber::fmt::MakeWriter;
 use super::{
     rig::Rig,
     settings::{change, read, settle, text},
+    wire::{all, line_text},
 };
 
 const PASSWORD: &str = "hunter2-of-the-ftp";
@@ -83,6 +84,8 @@ async fn no_password_is_left_behind() {
     };
     let copy = SettingsCopy::text(&head, GROUPS, &shown.state.held);
     drop(guard);
+    let wire: String = all(|from| rig.wire().read_from(from)).iter().map(line_text).collect();
+    assert!(wire.contains("$SATELLITE_FTP=(hidden)") && wire.contains("$SATELLITE_FTP?(hidden)"));
     let logged = String::from_utf8(log.0.lock().unwrap().clone()).unwrap();
     assert!(logged.contains("settings group=\"ftp\""), "the log is not empty: {logged}");
     assert!(copy.contains("10.0.1.2"), "{copy}");
@@ -92,6 +95,7 @@ async fn no_password_is_left_behind() {
         ("shown", format!("{shown:#?}")),
         ("events", format!("{:?}", rig.events())),
         ("record", format!("{:?}", rig.payloads())),
+        ("wire", wire),
     ] {
         assert!(!left.contains(PASSWORD), "{what}");
     }

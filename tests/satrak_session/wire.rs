@@ -17,7 +17,8 @@ use super::{
 
 const FTP: &str = "SATELLITE_FTP?,10.0.1.2,user,hunter2,22,f.txt,AO-7,1,1";
 
-fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
+/// Everything that was recorded.
+pub(super) fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     let mut lines = Vec::new();
     loop {
         let more = read(lines.len() as u64);
@@ -28,13 +29,14 @@ fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     }
 }
 
-fn text(line: &WireLine) -> String {
+/// The bytes of a line without its end.
+pub(super) fn line_text(line: &WireLine) -> String {
     String::from_utf8_lossy(&line.bytes).trim_end().to_owned()
 }
 
 /// The lines with this word.
 fn with(lines: &[WireLine], word: &str) -> Vec<WireLine> {
-    lines.iter().filter(|line| text(line).starts_with(word)).cloned().collect()
+    lines.iter().filter(|line| line_text(line).starts_with(word)).cloned().collect()
 }
 
 async fn rig_with(fault: Fault) -> Rig {
@@ -52,17 +54,17 @@ async fn both_directions_are_recorded_in_order_with_time_and_round_trip() {
     rig.seconds(1.0).await;
     let lines = all(|from| rig.wire().read_from(from));
     let sent: Vec<String> =
-        lines.iter().filter(|line| line.direction == Direction::Sent).map(text).collect();
+        lines.iter().filter(|line| line.direction == Direction::Sent).map(line_text).collect();
     let received: Vec<String> = rig.payloads();
     let payload = |frame: &String| frame[1..frame.len() - 3].to_owned();
     assert_eq!(sent.iter().map(payload).collect::<Vec<_>>(), received);
     assert!(lines.windows(2).all(|pair| pair[0].at <= pair[1].at));
     for line in &lines {
-        assert_eq!(line.finding, Finding::Good, "{}", text(line));
+        assert_eq!(line.finding, Finding::Good, "{}", line_text(line));
         assert_eq!(line.length, line.bytes.len());
         assert_eq!(line.reply_after.is_some(), line.direction == Direction::Received);
         assert!(line.reply_after.is_none_or(|after| after < Duration::from_millis(500)));
-        assert_eq!(line.is_poll, text(line).contains('?'), "{}", text(line));
+        assert_eq!(line.is_poll, line_text(line).contains('?'), "{}", line_text(line));
     }
     for word in ["$STOP=*25", "$STOP=,OK*0D", "$TRACK=,0*6E"] {
         assert_eq!(with(&lines, word).len(), 1, "{word}");
@@ -76,7 +78,7 @@ async fn damaged_lines_are_recorded_with_what_is_wrong() {
     let bad: Vec<_> =
         lines.iter().filter(|l| matches!(l.finding, Finding::BadChecksum { .. })).collect();
     assert_eq!(bad.len() as u64, rig.shown().state.traffic.damaged);
-    assert!(bad.iter().any(|line| text(line).starts_with("$STATUS?,0,")), "numbers are shown");
+    assert!(bad.iter().any(|line| line_text(line).starts_with("$STATUS?,0,")), "numbers are shown");
     let no_reply = |line: &&WireLine| matches!(line.finding, Finding::NoReply { .. });
     let missing = lines.iter().filter(no_reply).count();
     assert_eq!(missing as u64, rig.shown().state.traffic.unanswered);
@@ -126,7 +128,7 @@ async fn only_one_request_is_outstanding_and_a_flood_is_cut() {
     let mut waits = false;
     for line in lines {
         let is_sent = line.direction == Direction::Sent;
-        assert_ne!(waits, is_sent, "{}", text(&line));
+        assert_ne!(waits, is_sent, "{}", line_text(&line));
         waits = is_sent;
     }
 }
@@ -192,7 +194,7 @@ async fn no_piece_of_the_password_is_recorded_however_the_line_is_cut() {
             assert!(is_shortened || !holds_some, "{name} {at}");
             let leak = lines
                 .iter()
-                .map(text)
+                .map(line_text)
                 .find(|text| (0..4).any(|from| text.contains(&"hunter2"[from..from + 4])));
             assert_eq!(leak, None, "{name} {at}");
         }
@@ -205,6 +207,6 @@ async fn what_has_come_without_an_end_is_recorded_when_the_link_goes() {
     unit.seconds(10.0).await;
     let lines = all(|from| unit.handle.wire().read_from(from));
     let unfinished: Vec<_> =
-        lines.iter().filter(|line| line.finding == Finding::Unfinished).map(text).collect();
+        lines.iter().filter(|line| line.finding == Finding::Unfinished).map(line_text).collect();
     assert_eq!(unfinished, ["$STATUS?,0,299.49"]);
 }

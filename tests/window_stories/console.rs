@@ -1,30 +1,26 @@
-//! The log of the links: read, filtered, frozen, selected, copied, saved, and
-//! questions sent from it.
+//! The log of the links: read, filtered, frozen, selected and copied.
 
-use std::{fs, time::Duration};
+use std::time::Duration;
 
 use azel::{
-    app::{Model, UiCommand, View},
+    app::{UiCommand, View},
     astro::time::add_seconds,
-    controller::{Direction, Finding, Question, WireLine},
-    driver::{Command, LinkLoss, LinkState, WireLog},
-    protocol::satrak::{Query, encode},
-    station,
-    ui::{theme, tokens::ThemeName},
+    controller::{Direction, Finding, WireLine},
+    driver::WireLog,
+    protocol::satrak::encode,
 };
-use egui::{Event, Key, Modifiers, OutputCommand, Rect, Role, pos2, vec2};
+use egui::{Event, Key, Modifiers, OutputCommand, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
     rig::{self, SIZES, SMALL, Window, asked, says, settle},
     states,
-    unit::{Unit, clock_from, open, step_until, wait_until},
 };
 
 const STATE: &str = "STATUS?,0,299.49,34.35,1,0,0,0,0,0,0,0,0,0,80.0,35.0,1";
 
 /// A frame that went over the link so many seconds after the start of a story.
-fn wire(second: f64, direction: Direction, payload: &str) -> WireLine {
+pub(crate) fn wire(second: f64, direction: Direction, payload: &str) -> WireLine {
     let bytes = encode(payload);
     let is_reply = direction == Direction::Received;
     WireLine {
@@ -60,7 +56,7 @@ fn conversation(log: &WireLog) {
     log.push(wire(5.1, Direction::Received, "TIME?,11,15,35,12,8,2026,250"));
 }
 
-fn view(size: [f32; 2]) -> Window {
+pub(crate) fn view(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Console;
     conversation(model.antennas[0].handle.wire());
@@ -81,18 +77,18 @@ fn rows(window: &Window) -> Vec<String> {
     rows.into_iter().map(|(_, words)| words).collect()
 }
 
-fn click(window: &mut Window, button: &str) {
+pub(crate) fn click(window: &mut Window, button: &str) {
     window.get_by_role_and_label(Role::Button, button).click();
     settle(window);
 }
 
-fn row(window: &mut Window, words: &str, modifiers: Modifiers) {
+pub(crate) fn row(window: &mut Window, words: &str, modifiers: Modifiers) {
     let node = window.get_by_label_contains(words);
     node.click_modifiers(modifiers);
     settle(window);
 }
 
-fn write(window: &mut Window, field: &str, words: &str) {
+pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
     window.get_by_role_and_label(Role::TextInput, field).focus();
     settle(window);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -116,7 +112,7 @@ fn copied(window: &mut Window, act: impl FnOnce(&mut Window)) -> Vec<String> {
     Vec::new()
 }
 
-fn is_disabled(window: &Window, button: &str) -> bool {
+pub(crate) fn is_disabled(window: &Window, button: &str) -> bool {
     window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
 }
 
@@ -210,7 +206,12 @@ fn the_newest_line_is_followed_until_the_operator_scrolls_away() {
         assert!(shown.len() < 60, "only rows in view are drawn");
         assert!(shown.last().unwrap().starts_with("11:18:59.000"), "{shown:?}");
         assert!(is_disabled(&window, "Newest"));
-        row(&mut window, "11:18:59.000", Modifiers::NONE);
+        for second in 220..240 {
+            log(&window).push(wire(f64::from(second), Direction::Sent, "VERSION?"));
+            window.step();
+        }
+        assert!(rows(&window).last().unwrap().starts_with("11:19:29.000"));
+        row(&mut window, "11:19:29.000", Modifiers::NONE);
         window.key_press(Key::Home);
         settle(&mut window);
         assert!(rows(&window)[0].contains("$MOVE="));
@@ -263,12 +264,7 @@ fn the_values_and_bytes_of_the_selected_line_are_shown() {
             click(&mut window, "Details");
         }
         assert!(says(&window, "No line selected"));
-        // In the drawer's way lies only the right end of a row.
-        let place = window.get_by_label_contains("$STATUS?,0").rect();
-        window.hover_at(place.left_center() + vec2(40.0, 0.0));
-        window.drag_at(place.left_center() + vec2(40.0, 0.0));
-        window.drop_at(place.left_center() + vec2(40.0, 0.0));
-        settle(&mut window);
+        row(&mut window, "$STATUS?,0", Modifiers::NONE);
         for words in [
             "STATUS reply",
             "Satrak, 11:15:31.000Z, 34 ms after the request",
@@ -307,87 +303,6 @@ fn hidden_values_are_said_to_be_hidden() {
 }
 
 #[test]
-fn the_shown_lines_are_saved_and_it_is_said_where() {
-    for size in SIZES {
-        let mut window = view(size);
-        click(&mut window, "Save");
-        let commands = asked(&mut window);
-        let [UiCommand::SaveLog(lines)] = commands.as_slice() else { panic!("{commands:?}") };
-        assert_eq!(lines.len(), 6);
-        window.state_mut().views.log_saved(Ok("/data/console/a.txt".into()));
-        settle(&mut window);
-        assert!(says(&window, "Saved to /data/console/a.txt"));
-        window.state_mut().views.log_saved(Err("the disk is full".to_owned()));
-        settle(&mut window);
-        assert!(says(&window, "Not saved: the disk is full"));
-    }
-}
-
-#[test]
-fn a_query_is_sent_once_its_frame_stands_there() {
-    let ask = |query| {
-        let command = Command::Ask(Question::Satrak(query));
-        UiCommand::Antenna(0, command)
-    };
-    for size in SIZES {
-        let mut window = view(size);
-        assert!(is_disabled(&window, "Send"));
-        assert!(says(&window, "Questions can be sent"));
-        write(&mut window, "Query to send", "tpos?");
-        let frame = String::from_utf8(encode("TPOS?")).unwrap();
-        assert!(says(&window, &format!("sends {}", frame.trim_end())));
-        assert!(says(&window, "Asks for the position with its time. The answer comes in the log."));
-        click(&mut window, "Send");
-        assert_eq!(asked(&mut window), [ask(Query::TimedPosition)]);
-        write(&mut window, "Query to send", "REDUCTION");
-        window.key_press(Key::Enter);
-        assert_eq!(asked(&mut window), [ask(Query::Reduction)]);
-        window.get_by_role_and_label(Role::ComboBox, "Pick a query").click();
-        settle(&mut window);
-        window.get_by_label("ERRSTATUS?  Asks for the faults").click();
-        settle(&mut window);
-        click(&mut window, "Send");
-        assert_eq!(asked(&mut window), [ask(Query::Faults)]);
-    }
-}
-
-#[test]
-fn nothing_but_queries_is_sent_and_the_reason_stands_there() {
-    for size in SIZES {
-        let mut window = view(size);
-        for (typed, reason) in [
-            ("TRACK=,1", "Not sent. This moves the antenna"),
-            ("SETTINGS=,?", "Not sent. This changes the unit: settings belong to the Antennas"),
-            ("LOAD_IMAGE=,x", "Not sent. This is a service function"),
-            ("STOP=", "Not sent. STOP has its own button"),
-            ("HELLO?", "Not sent. Not a word of the Satrak document."),
-        ] {
-            write(&mut window, "Query to send", typed);
-            assert!(says(&window, reason), "{typed}");
-            assert!(is_disabled(&window, "Send"));
-            window.key_press(Key::Enter);
-            assert_eq!(asked(&mut window), [], "{typed}");
-        }
-    }
-}
-
-#[test]
-fn without_a_link_nothing_is_sent() {
-    let since = std::time::Instant::now();
-    let reason = LinkLoss::Silent;
-    let mut snapshot = states::holding();
-    snapshot.link = LinkState::Lost { since, reason, retry_at: since };
-    let mut model = rig::model(snapshot);
-    model.view = View::Console;
-    let mut window = rig::window(SMALL, model);
-    write(&mut window, "Query to send", "STATUS?");
-    assert!(says(&window, "Not sent. There is no link."));
-    window.key_press(Key::Enter);
-    assert_eq!(asked(&mut window), []);
-    assert!(says(&window, "Nothing has gone over a link yet."));
-}
-
-#[test]
 fn the_log_of_one_antenna_can_be_chosen() {
     for size in SIZES {
         let mut window = view(size);
@@ -405,70 +320,4 @@ fn the_log_of_one_antenna_can_be_chosen() {
         settle(&mut window);
         assert_eq!(rows(&window), ["11:15:32.050 Mast sent $VERSION?*65: Asks for the firmware"]);
     }
-}
-
-#[test]
-fn every_control_is_whole_and_named_in_every_window_and_theme() {
-    for size in SIZES {
-        for name in [ThemeName::Dark, ThemeName::Light, ThemeName::Night] {
-            for demo in [false, true] {
-                let mut window = view(size);
-                window.state_mut().model.demo = demo;
-                theme::set(&window.ctx, name);
-                write(&mut window, "Query to send", "SATELLITE_HTTP?");
-                row(&mut window, "ERR,7*5E", Modifiers::NONE);
-                if size == SMALL {
-                    click(&mut window, "Details");
-                }
-                let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
-                let roles = [Role::Button, Role::TextInput, Role::ComboBox, Role::CheckBox];
-                let mut places: Vec<(String, Rect)> = Vec::new();
-                for node in roles.into_iter().flat_map(|role| window.query_all_by_role(role)) {
-                    let label = node.accesskit_node().label().unwrap_or_default();
-                    assert!(!label.is_empty(), "a control without a name at {:?}", node.rect());
-                    assert!(whole.contains_rect(node.rect()), "{label} at {:?}", node.rect());
-                    for (other, place) in &places {
-                        let common = place.intersect(node.rect());
-                        let touch = common.width() <= 1.0 || common.height() <= 1.0;
-                        assert!(touch, "{label} and {other} at {common:?}");
-                    }
-                    places.push((label, node.rect()));
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn the_app_records_asks_and_saves() {
-    let folder = tempfile::tempdir().unwrap();
-    let settings = folder.path().join("station.toml");
-    let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &settings).unwrap();
-    let mut window = open(&settings, clock_from(rig::now()));
-    window.key_press_modifiers(Modifiers::COMMAND, Key::Num5);
-    let is_read = |model: &Model| {
-        let settings = model.antennas.first().map(|one| one.snapshot.state.satrak.settings);
-        model.view == View::Console && settings.flatten().is_some()
-    };
-    step_until(&mut window, "the unit is read", is_read);
-    window.get_by_role_and_label(Role::TextInput, "Query to send").focus();
-    window.run_steps(2);
-    window.event(Event::Text("REDUCTION?".to_owned()));
-    window.run_steps(2);
-    window.key_press(Key::Enter);
-    wait_until("the answer", || {
-        window.step();
-        window.query_by_label_contains("Scales of the drives").is_some()
-    });
-    window.get_by_role_and_label(Role::Button, "Save").click();
-    wait_until("the file", || {
-        window.step();
-        window.query_by_label_contains("Saved to ").is_some()
-    });
-    let files: Vec<_> = fs::read_dir(folder.path().join("console")).unwrap().collect();
-    let text = fs::read_to_string(files[0].as_ref().unwrap().path()).unwrap();
-    assert!(text.starts_with("# Azel console, saved 2026-08-12T"), "{text}");
-    assert!(text.contains("\tSatrak\tsent\t$REDUCTION?*"), "{text}");
-    assert!(!text.contains("$STATUS?*"), "only what is shown");
 }

@@ -11,6 +11,7 @@
 mod bar;
 mod clock;
 mod console;
+mod console_send;
 mod drive;
 mod elements;
 mod extremes;

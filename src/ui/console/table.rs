@@ -1,46 +1,28 @@
 //! The log as a table: only the rows in view are drawn.
 
 use egui::{
-    Align2, Color32, Event, EventFilter, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
-    Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Event, EventFilter, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, StrokeKind,
+    Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{ConsoleState, PADDING, line::Line, raw, selection::Way};
-use crate::{
-    controller::{Direction, Finding},
-    protocol::satrak::Tone,
-    ui::{
-        icons::{self, Icon},
-        text, theme,
-        tokens::Tokens,
-        widgets::paint,
-    },
-};
+use super::{ConsoleState, PADDING, row, selection::Way};
+use crate::ui::{text, theme, widgets::paint};
 
 const HEAD: f32 = 26.0;
 const ROW: f32 = 25.0;
-const TIME: f32 = 104.0;
-const ANTENNA: f32 = 92.0;
-const ARROW: f32 = 24.0;
-const ROUND_TRIP: f32 = 64.0;
-const GAP: f32 = 8.0;
-/// Part of the rest for the bytes; the meaning has the other.
-const RAW_PART: f32 = 0.56;
 
 /// Where the table stands.
 #[derive(Debug)]
 pub(super) struct TableState {
     follows: bool,
     offset: f32,
-    /// The offset at which the newest line was in view.
-    most: f32,
     /// A row to bring into view.
     wanted: Option<usize>,
 }
 
 impl Default for TableState {
     fn default() -> Self {
-        Self { follows: true, offset: 0.0, most: 0.0, wanted: None }
+        Self { follows: true, offset: 0.0, wanted: None }
     }
 }
 
@@ -56,41 +38,10 @@ impl TableState {
     }
 }
 
-/// The columns of a row.
-struct Columns {
-    time: Rect,
-    antenna: Option<Rect>,
-    arrow: Rect,
-    raw: Rect,
-    meaning: Rect,
-    round_trip: Rect,
-}
-
-impl Columns {
-    fn of(row: Rect, names_antenna: bool) -> Self {
-        let mut left = row.left() + PADDING;
-        let mut take = |width: f32| {
-            let column = row.with_min_x(left).with_max_x(left + width);
-            left += width;
-            column
-        };
-        let time = take(TIME);
-        let antenna = names_antenna.then(|| take(ANTENNA - GAP));
-        take(if names_antenna { GAP } else { 0.0 });
-        let arrow = take(ARROW);
-        let rest = row.right() - PADDING - ROUND_TRIP - arrow.right();
-        let raw = take(rest * RAW_PART - GAP);
-        take(GAP);
-        let meaning = take(rest * (1.0 - RAW_PART));
-        let round_trip = take(ROUND_TRIP);
-        Self { time, antenna, arrow, raw, meaning, round_trip }
-    }
-}
-
 /// Draws the head and the rows.
 pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut ConsoleState) {
     let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
-    head(ui, top, names_antenna);
+    row::head(ui, top, names_antenna);
     let id = ui.make_persistent_id("log");
     let sense = Sense::CLICK | Sense::FOCUSABLE;
     let list = ui.interact(body, id, sense);
@@ -110,47 +61,31 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut Con
     ui.scope_builder(UiBuilder::new().id_salt("log rows").max_rect(body), |ui| {
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        // A new line lies beyond the end of the last frame; the area would
+        // spring back from it.
+        ui.spacing_mut().scroll.kinetic.rubber_band = false;
         let area = ScrollArea::vertical().id_salt("log").auto_shrink(false);
         let area = area.vertical_scroll_offset(offset);
         let output = area.show_rows(ui, ROW, rows, |ui, range| {
             let top = ui.max_rect().top();
             for (place, index) in range.enumerate() {
                 let min = pos2(body.left(), top + place as f32 * ROW);
-                let row = Rect::from_min_size(min, vec2(body.width(), ROW));
-                show_row(ui, id, row, names_antenna, index, state);
+                let place = Rect::from_min_size(min, vec2(body.width(), ROW));
+                show_row(ui, id, place, names_antenna, index, state);
             }
         });
         let offset = output.state.clamped_offset().y;
         state.table.offset = offset;
-        // While lines are added the area springs back to its former end.
-        state.table.follows = offset >= most.min(state.table.most) - 0.5;
-        state.table.most = most;
+        state.table.follows = offset >= most - 0.5;
     });
     if list.has_focus() {
         ui.painter().rect_stroke(
             body.shrink(1.0),
             0.0,
             (2.0, theme::tokens(ui).sat),
-            egui::StrokeKind::Inside,
+            StrokeKind::Inside,
         );
     }
-}
-
-fn head(ui: &Ui, rect: Rect, names_antenna: bool) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.bg2);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let columns = Columns::of(rect, names_antenna);
-    let word = |place: Rect, anchor, word: &str| {
-        paint::text_in(ui, place, anchor, word, text::caption(), t.t3);
-    };
-    word(columns.time, Align2::LEFT_CENTER, "Time UTC");
-    if let Some(antenna) = columns.antenna {
-        word(antenna, Align2::LEFT_CENTER, "Antenna");
-    }
-    word(columns.raw, Align2::LEFT_CENTER, "Raw");
-    word(columns.meaning, Align2::LEFT_CENTER, "Decoded");
-    word(columns.round_trip, Align2::RIGHT_CENTER, "Reply after");
 }
 
 fn nothing(ui: &Ui, rect: Rect, state: &ConsoleState) {
@@ -181,10 +116,11 @@ fn show_row(
     let is_selected = state.selection.holds(line.position);
     // The whole list is one stop of the Tab key.
     let response = ui.interact(rect, id.with(line.position), Sense::CLICK);
-    response
-        .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, spoken(line)));
+    response.widget_info(|| {
+        WidgetInfo::selected(Role::ListBoxOption, true, is_selected, row::spoken(line))
+    });
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
-    paint_row(ui, rect, names_antenna, line, is_selected, response.hovered());
+    row::show(ui, rect, names_antenna, line, is_selected, response.hovered());
     if response.clicked() {
         let position = line.position;
         let way = way(ui.input(|input| input.modifiers));
@@ -193,78 +129,11 @@ fn show_row(
     }
 }
 
-fn spoken(line: &Line) -> String {
-    let raw = line.raw.trim_end_matches("<CR><LF>");
-    let went = match line.direction() {
-        "" => String::new(),
-        direction => format!(" {direction} {raw}"),
-    };
-    format!("{} {}{went}: {}", line.time(), line.antenna, line.meaning.text)
-}
-
 fn way(modifiers: Modifiers) -> Way {
     match modifiers {
         Modifiers { shift: true, .. } => Way::Range,
         Modifiers { command: true, .. } => Way::Toggle,
         _ => Way::Alone,
-    }
-}
-
-fn paint_row(
-    ui: &Ui,
-    rect: Rect,
-    names_antenna: bool,
-    line: &Line,
-    is_selected: bool,
-    is_hovered: bool,
-) {
-    let t = theme::tokens(ui);
-    let ground = match line.meaning.tone {
-        _ if is_selected => t.bgsel,
-        Tone::Bad => t.badbg,
-        Tone::Caution => t.warnbg,
-        _ if is_hovered => t.bg3,
-        _ => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, 0.0, ground);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    if is_selected {
-        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
-    }
-    let columns = Columns::of(rect, names_antenna);
-    let left = Align2::LEFT_CENTER;
-    paint::text_in(ui, columns.time, left, &line.time(), text::raw(), t.t2);
-    if let Some(place) = columns.antenna {
-        paint::text_in(ui, place, left, &line.antenna, text::small_strong(), t.t1);
-    }
-    let (mark, colour) = match (line.wire().finding, line.wire().direction) {
-        (Finding::NoReply { .. }, _) => (Icon::Warning, t.warn),
-        (_, Direction::Sent) => (Icon::ChevronRight, t.sat),
-        (_, Direction::Received) => (Icon::ChevronLeft, t.t1),
-    };
-    let at = pos2(columns.arrow.left() + 6.0, rect.center().y);
-    icons::paint(ui.painter(), paint::square(at, 12.0), mark, colour);
-    let colour = if line.wire().direction == Direction::Sent { t.sat } else { t.t1 };
-    raw::show(ui, columns.raw, &line.wire().bytes, colour);
-    let mut place = columns.meaning;
-    if let Some((icon, colour)) = mark_of(line.meaning.tone, t) {
-        let at = pos2(place.left() + 6.0, rect.center().y);
-        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
-        place = place.with_min_x(place.left() + 18.0);
-    }
-    paint::text_in(ui, place, left, &line.meaning.text, text::small(), t.t1);
-    if let Some(after) = line.round_trip() {
-        paint::text_in(ui, columns.round_trip, Align2::RIGHT_CENTER, &after, text::small(), t.t2);
-    }
-}
-
-fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
-    match tone {
-        Tone::Plain => None,
-        Tone::Change => Some((Icon::Sliders, t.cmd)),
-        Tone::Good => Some((Icon::Check, t.ok)),
-        Tone::Caution => Some((Icon::Warning, t.warn)),
-        Tone::Bad => Some((Icon::Cross, t.bad)),
     }
 }
 
