@@ -1,3 +1,4 @@
 //! Pure codecs of the controllers: typed requests and replies, bytes in and out.
 
+pub mod rotator_genius;
 pub mod satrak;

@@ -1,0 +1,125 @@
+//! Whole degrees, and numbers that are filled up with blanks.
+
+use std::fmt;
+
+use super::ValueError;
+
+/// An angle as the protocol carries it: whole degrees, 0 to 360.
+///
+/// 360 is not folded into 0: on a mount with its stop in the north they can be
+/// opposite ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct WholeDegrees(u16);
+
+impl WholeDegrees {
+    /// The largest.
+    pub const MAX: Self = Self(360);
+
+    /// `degrees` from 0 to 360.
+    pub fn new(degrees: u16) -> Result<Self, ValueError> {
+        Self::nearest(f64::from(degrees))
+    }
+
+    /// The nearest to `degrees`, which must lie between 0 and 360.
+    pub fn nearest(degrees: f64) -> Result<Self, ValueError> {
+        // Written so that NaN falls out as well.
+        if (0.0..=f64::from(Self::MAX.0)).contains(&degrees) {
+            Ok(Self(degrees.round() as u16))
+        } else {
+            Err(ValueError::Degrees(degrees))
+        }
+    }
+
+    /// The number.
+    pub const fn degrees(self) -> u16 {
+        self.0
+    }
+
+    /// Three digits, zeros in front, as the document's examples of commands.
+    pub(super) fn digits(self) -> String {
+        format!("{:03}", self.0)
+    }
+
+    /// From a field of a message.
+    pub(super) fn parse(field: &[u8]) -> Option<Self> {
+        let degrees = whole_number(field).and_then(|number| u16::try_from(number).ok())?;
+        Self::new(degrees).ok()
+    }
+}
+
+impl fmt::Display for WholeDegrees {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// `field` without the blanks on either side.
+pub(super) fn without_blanks(field: &[u8]) -> &[u8] {
+    let is_blank = |byte: &u8| *byte == b' ';
+    let from = field.iter().position(|byte| !is_blank(byte)).unwrap_or(field.len());
+    let until = field.iter().rposition(|byte| !is_blank(byte)).map_or(from, |last| last + 1);
+    field.get(from..until).unwrap_or_default()
+}
+
+/// The digits of a field with blanks on either side, at most four of them.
+pub(super) fn whole_number(field: &[u8]) -> Option<i16> {
+    let digits = without_blanks(field);
+    if !(1..=4).contains(&digits.len()) || !digits.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    Some(digits.iter().fold(0, |number, digit| number * 10 + i16::from(digit - b'0')))
+}
+
+/// As [`whole_number`], with a sign in front, blanks on either side of it.
+pub(super) fn signed_number(field: &[u8]) -> Option<i16> {
+    match without_blanks(field) {
+        [b'-', digits @ ..] => whole_number(digits).map(|number| -number),
+        [b'+', digits @ ..] | digits => whole_number(digits),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_angles_of_the_protocol_are_built() {
+        for (given, kept) in [(0.0, 0), (-0.0, 0), (41.6, 42), (359.5, 360), (360.0, 360)] {
+            assert_eq!(WholeDegrees::nearest(given).unwrap().degrees(), kept, "{given}");
+        }
+        for bad in [-1.0, -0.1, 360.1, 361.0, 999.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(WholeDegrees::nearest(bad).is_err(), "{bad}");
+        }
+        assert!(WholeDegrees::new(361).is_err());
+        assert_eq!(WholeDegrees::new(5).unwrap().digits(), "005");
+    }
+
+    #[test]
+    fn blanks_may_stand_on_either_side() {
+        for (field, number) in [
+            (&b"  5"[..], Some(5)),
+            (b"5  ", Some(5)),
+            (b"005", Some(5)),
+            (b" 43 ", Some(43)),
+            (b"   ", None),
+            (b"", None),
+            (b"4 3", None),
+            (b"-10", None),
+            (b"4x", None),
+            (b"\x0012", None),
+        ] {
+            assert_eq!(whole_number(field), number, "{field:?}");
+        }
+        for (field, number) in [
+            (&b" -10"[..], Some(-10)),
+            (b"-  5", Some(-5)),
+            (b"  +7", Some(7)),
+            (b"-180", Some(-180)),
+            (b"9999", Some(9999)),
+            (b"   -", None),
+            (b"--10", None),
+        ] {
+            assert_eq!(signed_number(field), number, "{field:?}");
+        }
+    }
+}

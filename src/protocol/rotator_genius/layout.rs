@@ -1,0 +1,97 @@
+//! Where the fields of a status stand.
+
+use super::RotatorKind;
+use super::reply::Start;
+
+/// The two forms of a status.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Layout {
+    /// 72 bytes, by the list of fields in section 1.0: what devices send.
+    Wide,
+    /// 64 bytes, by the worked example in section 1.0: offsets of 2 and names of
+    /// 10 characters.
+    Narrow,
+}
+
+impl Layout {
+    /// Length of the field "Offset".
+    pub(super) const fn offset_length(self) -> usize {
+        match self {
+            Self::Wide => 4,
+            Self::Narrow => 2,
+        }
+    }
+
+    /// Length of the field "Name", the last of a rotator.
+    pub(super) const fn name_length(self) -> usize {
+        match self {
+            Self::Wide => 12,
+            Self::Narrow => 10,
+        }
+    }
+
+    /// All fields of one rotator together.
+    pub(super) const fn rotator_length(self) -> usize {
+        18 + self.offset_length() + self.name_length()
+    }
+}
+
+/// `|h`, then the bytes "Active" and "Panic".
+const HEADER_LENGTH: usize = 4;
+/// Where "Configuration" stands among the fields of a rotator; "Moving" follows.
+const KIND_AT: usize = 9;
+
+/// Which form a status has and how long its header is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    pub(super) layout: Layout,
+    pub(super) has_panic_byte: bool,
+}
+
+impl Shape {
+    /// Bytes in front of the first rotator.
+    pub(super) const fn header_length(self) -> usize {
+        if self.has_panic_byte { HEADER_LENGTH } else { HEADER_LENGTH - 1 }
+    }
+
+    /// All bytes of the status.
+    pub(super) const fn length(self) -> usize {
+        self.header_length() + 2 * self.layout.rotator_length()
+    }
+
+    /// The shape of the status at the beginning of `bytes`, which begin with `|h`.
+    ///
+    /// No length and no version says it, so it is decided by the letters that
+    /// stand where a form has the kind of its rotators. Digits and blanks stand
+    /// there in the other form, names never do. A text layer on the way may have
+    /// swallowed the zero byte of "Panic": then all places are one lower.
+    pub(super) fn decide(bytes: &[u8]) -> Start<Self> {
+        for has_panic_byte in [true, false] {
+            let start = |layout| Self { layout, has_panic_byte }.header_length();
+            match has_rotator(bytes, start(Layout::Wide)) {
+                None => return Start::Unfinished,
+                Some(false) => continue,
+                Some(true) => {}
+            }
+            for layout in [Layout::Narrow, Layout::Wide] {
+                match has_rotator(bytes, start(layout) + layout.rotator_length()) {
+                    None => return Start::Unfinished,
+                    Some(false) => {}
+                    Some(true) => {
+                        let shape = Self { layout, has_panic_byte };
+                        return Start::Whole(shape, shape.length());
+                    }
+                }
+            }
+        }
+        Start::Unknown
+    }
+}
+
+/// Whether kind and motion of a rotator stand where they do when its fields
+/// begin at `at`; `None` when that is not known yet.
+fn has_rotator(bytes: &[u8], at: usize) -> Option<bool> {
+    let kind = bytes.get(at + KIND_AT)?;
+    let moving = bytes.get(at + KIND_AT + 1)?;
+    Some(RotatorKind::from_letter(*kind).is_some() && matches!(moving, b'0'..=b'2'))
+}

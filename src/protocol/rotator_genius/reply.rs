@@ -1,0 +1,118 @@
+//! Replies of the device.
+
+use super::{Status, WholeDegrees};
+
+/// Anything the device answers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Reply {
+    /// To `|h`.
+    Status(Status),
+    /// To a command.
+    Acknowledgement {
+        /// Which command.
+        to: Acknowledgement,
+        /// `K` and not `F`. An `F` never says why.
+        is_accepted: bool,
+    },
+}
+
+/// The command that is acknowledged. Its rotator is not named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Acknowledgement {
+    /// `|A`.
+    GoTo {
+        /// The target, when the reply has the longer form of the document's list
+        /// and repeats one that the protocol has.
+        target: Option<WholeDegrees>,
+    },
+    /// `|P`.
+    RotateClockwise,
+    /// `|M`.
+    RotateCounterClockwise,
+    /// `|S`.
+    Stop,
+    /// `|c`.
+    Configure,
+}
+
+/// What the beginning of a stream is.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Start<T> {
+    /// This, made of so many bytes.
+    Whole(T, usize),
+    /// Nothing that is known.
+    Unknown,
+    /// More bytes are needed to tell.
+    Unfinished,
+}
+
+/// The acknowledgement at the beginning of `bytes`.
+pub(super) fn acknowledgement(bytes: &[u8]) -> Start<Reply> {
+    let short = match bytes {
+        [] | [b'|'] => return Start::Unfinished,
+        [b'|', b'A', ..] => return go_to(bytes),
+        [b'|', b'P', ..] => Acknowledgement::RotateClockwise,
+        [b'|', b'M', ..] => Acknowledgement::RotateCounterClockwise,
+        [b'|', b'S', ..] => Acknowledgement::Stop,
+        [b'|', b'c', ..] => Acknowledgement::Configure,
+        _ => return Start::Unknown,
+    };
+    ended_by(bytes.get(2), short, 3)
+}
+
+/// Both forms: the document's list has 6 bytes, its example 3.
+fn go_to(bytes: &[u8]) -> Start<Reply> {
+    let is_filler = |byte: &u8| byte.is_ascii_digit() || *byte == b' ';
+    let field = bytes.get(2..5.min(bytes.len())).unwrap_or_default();
+    match field {
+        [] => Start::Unfinished,
+        [first, ..] if !is_filler(first) => {
+            ended_by(Some(first), Acknowledgement::GoTo { target: None }, 3)
+        }
+        _ if !field.iter().all(is_filler) => Start::Unknown,
+        _ => {
+            let target = WholeDegrees::parse(field);
+            ended_by(bytes.get(5), Acknowledgement::GoTo { target }, 6)
+        }
+    }
+}
+
+fn ended_by(last: Option<&u8>, to: Acknowledgement, length: usize) -> Start<Reply> {
+    let is_accepted = match last {
+        None => return Start::Unfinished,
+        Some(b'K') => true,
+        Some(b'F') => false,
+        Some(_) => return Start::Unknown,
+    };
+    Start::Whole(Reply::Acknowledgement { to, is_accepted }, length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_acknowledgement_ends_with_its_verdict() {
+        let accepted =
+            |to, length| Start::Whole(Reply::Acknowledgement { to, is_accepted: true }, length);
+        let target = |degrees| WholeDegrees::new(degrees).ok();
+        let go_to = |target| Acknowledgement::GoTo { target };
+        for (bytes, expected) in [
+            (&b"|SK|h"[..], accepted(Acknowledgement::Stop, 3)),
+            (b"|AK15", accepted(go_to(None), 3)),
+            (b"|A158K", accepted(go_to(target(158)), 6)),
+            (b"|A   K", accepted(go_to(None), 6)),
+            (b"|A999K", accepted(go_to(None), 6)),
+            (b"|A15", Start::Unfinished),
+            (b"|A", Start::Unfinished),
+            (b"|", Start::Unfinished),
+            (b"|M", Start::Unfinished),
+            (b"|A1K", Start::Unknown),
+            (b"|A158X", Start::Unknown),
+            (b"|M1", Start::Unknown),
+            (b"|XK", Start::Unknown),
+        ] {
+            assert_eq!(acknowledgement(bytes), expected, "{bytes:?}");
+        }
+    }
+}
