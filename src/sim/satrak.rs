@@ -10,7 +10,6 @@ mod answer;
 mod connection;
 mod control;
 mod mount;
-mod prng;
 mod quirks;
 mod server;
 mod tracking;
@@ -18,5 +17,5 @@ mod unit;
 
 pub use answer::ErrorCode;
 pub use control::{Control, Snapshot};
-pub use quirks::{Fault, Quirk, UnknownName};
+pub use quirks::{Fault, Quirk};
 pub use server::{Options, Simulator};

@@ -20,6 +20,11 @@ impl WholeDegrees {
         Self::nearest(f64::from(degrees))
     }
 
+    /// `degrees`, or 360 when they are more.
+    pub const fn saturating(degrees: u16) -> Self {
+        if degrees > Self::MAX.0 { Self::MAX } else { Self(degrees) }
+    }
+
     /// The nearest to `degrees`, which must lie between 0 and 360.
     pub fn nearest(degrees: f64) -> Result<Self, ValueError> {
         // Written so that NaN falls out as well.
@@ -91,6 +96,7 @@ mod tests {
             assert!(WholeDegrees::nearest(bad).is_err(), "{bad}");
         }
         assert!(WholeDegrees::new(361).is_err());
+        assert_eq!(WholeDegrees::saturating(361), WholeDegrees::MAX);
         assert_eq!(WholeDegrees::new(5).unwrap().digits(), "005");
     }
 

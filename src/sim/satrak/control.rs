@@ -7,10 +7,10 @@ use std::time::Duration;
 use tokio::sync::watch;
 use tokio::time::Instant;
 
-use super::prng::Prng;
 use super::unit::Unit;
 use super::{Fault, Options, Quirk};
 use crate::protocol::satrak::Frame;
+use crate::sim::prng::Prng;
 
 /// How many received frames are remembered.
 const REMEMBERED_FRAMES: usize = 10_000;

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::protocol::satrak::FaultKind;
+use crate::sim::names::{UnknownName, find, name_of};
 
 /// A way in which firmware may deviate from the document, or the document from
 /// itself.
@@ -92,35 +93,6 @@ impl Fault {
         (Self::Unit(FaultKind::YSensor), "y_sensor"),
         (Self::Unit(FaultKind::GpsLink), "gps"),
     ];
-}
-
-/// A name that stands for nothing.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown {what} {name:?}; known are {}", known.join(", "))]
-pub struct UnknownName {
-    /// What was looked for.
-    pub what: &'static str,
-    /// As given.
-    pub name: String,
-    /// The names that stand for something.
-    pub known: Vec<&'static str>,
-}
-
-fn find<T: Copy>(
-    what: &'static str,
-    all: &[(T, &'static str)],
-    name: &str,
-) -> Result<T, UnknownName> {
-    let found = all.iter().find(|(_, known)| *known == name).map(|(value, _)| *value);
-    found.ok_or_else(|| UnknownName {
-        what,
-        name: name.to_owned(),
-        known: all.iter().map(|(_, known)| *known).collect(),
-    })
-}
-
-fn name_of<T: PartialEq>(all: &[(T, &'static str)], value: &T) -> &'static str {
-    all.iter().find(|(known, _)| known == value).map_or("", |(_, name)| name)
 }
 
 impl FromStr for Quirk {

@@ -4,20 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::net::SocketAddr;
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 use std::time::Duration;
 
 use jiff::Timestamp;
-use tokio::net::TcpListener;
-use tokio::sync::Semaphore;
-use tokio::task::JoinSet;
+use tokio::net::TcpStream;
 
 use super::{Control, Fault, Quirk};
 use crate::astro::{Angle, Site};
 use crate::orbit::Elements;
-
-/// How often the unit lives on while nobody asks.
-const HEARTBEAT: Duration = Duration::from_millis(250);
+use crate::sim::port::{Port, Unit};
 
 /// How a simulated unit is made.
 #[derive(Debug, Clone)]
@@ -69,72 +64,44 @@ impl Options {
 
 /// A unit that listens on a TCP port.
 #[derive(Debug)]
-pub struct Simulator {
-    listener: TcpListener,
-    control: Control,
-    places: Arc<Semaphore>,
-}
+pub struct Simulator(Port<Control>);
 
 impl Simulator {
     /// Starts a unit and listens; port 0 takes a free one, a real unit has 4001.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
-        Ok(Self {
-            listener: TcpListener::bind(address).await?,
-            control: Control::new(&options),
-            places: Arc::new(Semaphore::new(options.max_clients.min(Semaphore::MAX_PERMITS))),
-        })
+        let max_clients = options.max_clients;
+        Port::bind(address, Control::new(&options), max_clients).await.map(Self)
     }
 
     /// Where it listens.
     pub fn local_addr(&self) -> io::Result<SocketAddr> {
-        self.listener.local_addr()
+        self.0.local_addr()
     }
 
     /// A handle to watch and disturb the unit.
     pub fn control(&self) -> Control {
-        self.control.clone()
+        self.0.unit().clone()
     }
 
     /// Serves clients. Dropping the future ends the unit and its connections.
     pub async fn run(self) {
-        let mut heartbeat = tokio::time::interval(HEARTBEAT);
-        let mut clients = JoinSet::new();
-        loop {
-            tokio::select! {
-                accepted = self.listener.accept() => match accepted {
-                    Ok((stream, peer)) => {
-                        let Ok(place) = Arc::clone(&self.places).try_acquire_owned() else {
-                            tracing::info!(target: "azel::sim", %peer, "one client too many");
-                            continue;
-                        };
-                        tracing::info!(target: "azel::sim", %peer, "client");
-                        let control = self.control.clone();
-                        clients.spawn(async move {
-                            let _place = place;
-                            // Small frames are to leave at once; without it they leave too.
-                            stream.set_nodelay(true).ok();
-                            let result = control.serve(stream).await;
-                            tracing::info!(target: "azel::sim", ?result, %peer, "client left");
-                        });
-                    }
-                    // Out of handles, or the client is gone again: the next heartbeat
-                    // comes before the next try.
-                    Err(error) => {
-                        tracing::warn!(target: "azel::sim", %error, "no client accepted");
-                        heartbeat.tick().await;
-                    }
-                },
-                Some(_) = clients.join_next() => {}
-                _ = heartbeat.tick() => self.control.live(),
-            }
-        }
+        self.0.run().await;
+    }
+}
+
+impl Unit for Control {
+    fn live_on(&self) {
+        self.live();
+    }
+
+    async fn serve_client(&self, stream: TcpStream) -> io::Result<()> {
+        self.serve(stream).await
     }
 }
 
 #[cfg(test)]
 mod tests {
     use tokio::io::{AsyncReadExt, AsyncWriteExt};
-    use tokio::net::TcpStream;
 
     use super::*;
 

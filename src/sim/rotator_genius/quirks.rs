@@ -1,0 +1,133 @@
+//! Oddities of devices and failures that can be switched on.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::protocol::rotator_genius::RotatorNumber;
+use crate::sim::names::{UnknownName, find, name_of};
+
+/// A way in which a device may deviate from those that were recorded, or the
+/// document from itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quirk {
+    /// A status of 64 bytes with zeros in front, as the document's example.
+    Narrow,
+    /// The limit byte is `0` or `1`, as the document says. Recorded devices send
+    /// a zero byte inside.
+    LimitAscii,
+    /// The limit byte is 0x01 outside; nobody has recorded it.
+    LimitBinary,
+    /// "Active" is `0`, as in the document's example.
+    Active0,
+    /// The reply to a go-to repeats the target, as the document's list.
+    GoToReply6,
+    /// Each segment is taken by itself: numbers may be short, and what is
+    /// incomplete is forgotten.
+    Segment,
+    /// A configuration may come without the name, as the document's example.
+    Config12,
+    /// An unknown command is answered with its letter and `F`.
+    UnknownFails,
+}
+
+impl Quirk {
+    /// All quirks with their names.
+    pub const ALL: [(Self, &'static str); 8] = [
+        (Self::Narrow, "narrow"),
+        (Self::LimitAscii, "limit_ascii"),
+        (Self::LimitBinary, "limit_binary"),
+        (Self::Active0, "active=0"),
+        (Self::GoToReply6, "goto_reply=6"),
+        (Self::Segment, "segment"),
+        (Self::Config12, "config=12"),
+        (Self::UnknownFails, "unknown_fails"),
+    ];
+}
+
+/// Something that goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Fault {
+    /// No reply comes; requests are carried out.
+    Silence,
+    /// Every third reply is lost; its request was carried out.
+    DropReply,
+    /// Instead of every third reply the connection ends.
+    HangUp,
+    /// Noise stands in front of each reply.
+    Garbage,
+    /// Replies come in pieces.
+    Split,
+    /// Replies are gathered and come together.
+    Merge,
+    /// Every command but reading and stopping is refused.
+    Refuse,
+    /// "Panic" is 0x07. The codes are not documented.
+    Panic,
+    /// The sensor of this rotator is not connected.
+    NoSensor(RotatorNumber),
+    /// This rotator is driven but does not turn.
+    Stuck(RotatorNumber),
+}
+
+impl Fault {
+    /// All faults with their names.
+    pub const ALL: [(Self, &'static str); 12] = [
+        (Self::Silence, "silence"),
+        (Self::DropReply, "drop_reply"),
+        (Self::HangUp, "hang_up"),
+        (Self::Garbage, "garbage"),
+        (Self::Split, "split"),
+        (Self::Merge, "merge"),
+        (Self::Refuse, "refuse"),
+        (Self::Panic, "panic"),
+        (Self::NoSensor(RotatorNumber::One), "no_sensor_1"),
+        (Self::NoSensor(RotatorNumber::Two), "no_sensor_2"),
+        (Self::Stuck(RotatorNumber::One), "stuck_1"),
+        (Self::Stuck(RotatorNumber::Two), "stuck_2"),
+    ];
+}
+
+impl FromStr for Quirk {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("quirk", &Self::ALL, name)
+    }
+}
+
+impl FromStr for Fault {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("fault", &Self::ALL, name)
+    }
+}
+
+impl fmt::Display for Quirk {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back_and_wrong_ones_are_answered_with_the_list() {
+        for (quirk, name) in Quirk::ALL {
+            assert_eq!(name.parse(), Ok(quirk));
+            assert_eq!(quirk.to_string(), name);
+        }
+        for (fault, name) in Fault::ALL {
+            assert_eq!(name.parse(), Ok(fault));
+            assert_eq!(fault.to_string(), name);
+        }
+        let error = "stuck".parse::<Fault>().unwrap_err().to_string();
+        assert!(error.contains("stuck_1, stuck_2"), "{error}");
+    }
+}

@@ -1,0 +1,207 @@
+//! The device on a TCP port.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::net::SocketAddr;
+use std::ops::RangeInclusive;
+use std::time::Duration;
+
+use tokio::net::TcpStream;
+
+use super::{Control, Fault, Quirk};
+use crate::protocol::rotator_genius::{RotatorKind, WholeDegrees};
+use crate::sim::port::{Port, Unit};
+
+/// How a simulated device is made.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Both rotators.
+    pub rotators: [RotatorOptions; 2],
+    /// Oddities of the device.
+    pub quirks: BTreeSet<Quirk>,
+    /// What goes wrong.
+    pub faults: BTreeSet<Fault>,
+    /// Between a command and its reply, evenly spread.
+    pub reply_delay: RangeInclusive<Duration>,
+    /// Further clients are closed at once.
+    pub max_clients: usize,
+    /// Seed of all randomness.
+    pub seed: u64,
+}
+
+/// One rotator at the start.
+#[derive(Debug, Clone)]
+pub struct RotatorOptions {
+    /// Its name; 12 characters of Latin-1 are sent.
+    pub name: String,
+    /// Azimuth or elevation.
+    pub kind: RotatorKind,
+    /// Where it points.
+    pub position: WholeDegrees,
+    /// The end of the travel clockwise.
+    pub limit_cw: WholeDegrees,
+    /// The end of the travel counter-clockwise.
+    pub limit_ccw: WholeDegrees,
+    /// Reported "Offset", degrees, -180 to 180. The position includes it already.
+    pub offset_deg: i16,
+    /// How many degrees before a target the drive is cut off. From its full rate
+    /// the rotator coasts 2 degrees.
+    pub stop_offset_deg: u8,
+    /// Whether it has a sensor, and so can be moved.
+    pub has_sensor: bool,
+}
+
+impl Default for Options {
+    /// As the recorded devices: an azimuth rotator at 173 degrees, and a second
+    /// one without a sensor. One client, replies after 5 to 30 ms.
+    fn default() -> Self {
+        let name = "Rotator 2".to_owned();
+        let second = RotatorOptions { name, has_sensor: false, ..RotatorOptions::default() };
+        Self {
+            rotators: [RotatorOptions::default(), second],
+            quirks: BTreeSet::new(),
+            faults: BTreeSet::new(),
+            reply_delay: Duration::from_millis(5)..=Duration::from_millis(30),
+            max_clients: 1,
+            seed: 1,
+        }
+    }
+}
+
+impl Default for RotatorOptions {
+    /// An azimuth rotator at 173 degrees, with limits at 0 and 359.
+    fn default() -> Self {
+        Self {
+            name: "Tower".to_owned(),
+            kind: RotatorKind::Azimuth,
+            position: WholeDegrees::saturating(173),
+            limit_cw: WholeDegrees::saturating(359),
+            limit_ccw: WholeDegrees::saturating(0),
+            offset_deg: 0,
+            stop_offset_deg: 2,
+            has_sensor: true,
+        }
+    }
+}
+
+impl RotatorOptions {
+    /// An elevation rotator at the horizon, with limits at 0 and 90 degrees.
+    pub fn elevation() -> Self {
+        Self {
+            name: "Elevation".to_owned(),
+            kind: RotatorKind::Elevation,
+            position: WholeDegrees::saturating(0),
+            limit_cw: WholeDegrees::saturating(90),
+            ..Self::default()
+        }
+    }
+}
+
+/// A device that listens on a TCP port.
+#[derive(Debug)]
+pub struct Simulator(Port<Control>);
+
+impl Simulator {
+    /// Starts a device and listens; port 0 takes a free one, a real device has 9006.
+    pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
+        let max_clients = options.max_clients;
+        Port::bind(address, Control::new(&options), max_clients).await.map(Self)
+    }
+
+    /// Where it listens.
+    pub fn local_addr(&self) -> io::Result<SocketAddr> {
+        self.0.local_addr()
+    }
+
+    /// A handle to watch and disturb the device.
+    pub fn control(&self) -> Control {
+        self.0.unit().clone()
+    }
+
+    /// Serves clients. Dropping the future ends the device and its connections.
+    pub async fn run(self) {
+        self.0.run().await;
+    }
+}
+
+impl Unit for Control {
+    fn live_on(&self) {
+        self.live();
+    }
+
+    async fn serve_client(&self, stream: TcpStream) -> io::Result<()> {
+        self.serve(stream).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tokio::io::{AsyncReadExt, AsyncWriteExt};
+
+    use super::*;
+    use crate::protocol::rotator_genius::{
+        Acknowledgement, Decoder, Motion, Received, Reply, Request, RotatorNumber, Status,
+    };
+
+    /// The reply to a request, or `None` when the connection is closed instead.
+    async fn ask(stream: &mut TcpStream, request: Request) -> Option<Reply> {
+        stream.write_all(&request.to_bytes()).await.ok()?;
+        let mut decoder = Decoder::new();
+        let mut buffer = [0; 256];
+        loop {
+            match decoder.next() {
+                Some(Received::Reply(reply)) => return Some(reply),
+                Some(other) => panic!("{other:?}"),
+                None => {}
+            }
+            let count = stream.read(&mut buffer).await.ok().filter(|count| *count > 0)?;
+            decoder.push(&buffer[..count]);
+        }
+    }
+
+    async fn status(stream: &mut TcpStream) -> Option<Status> {
+        match ask(stream, Request::Read).await? {
+            Reply::Status(status) => Some(status),
+            other @ Reply::Acknowledgement { .. } => panic!("{other:?}"),
+        }
+    }
+
+    #[tokio::test]
+    async fn a_device_on_a_socket_outlives_its_clients() {
+        let no_delay = Duration::ZERO..=Duration::ZERO;
+        let options = Options { reply_delay: no_delay, ..Options::default() };
+        let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), options).await.unwrap();
+        let address = simulator.local_addr().unwrap();
+        let control = simulator.control();
+        let server = tokio::spawn(simulator.run());
+
+        let mut first = TcpStream::connect(address).await.unwrap();
+        assert_eq!(status(&mut first).await.unwrap().rotators[0].name, "Tower");
+        let mut second = TcpStream::connect(address).await.unwrap();
+        assert_eq!(status(&mut second).await, None);
+
+        let rotator = RotatorNumber::One;
+        let target = WholeDegrees::saturating(300);
+        let go_to = Request::Motion(Motion::GoTo { rotator, target });
+        let to = Acknowledgement::GoTo { target: None };
+        let accepted = Reply::Acknowledgement { to, is_accepted: true };
+        assert_eq!(ask(&mut first, go_to).await, Some(accepted));
+        drop(first);
+        let served_again = async {
+            loop {
+                let mut client = TcpStream::connect(address).await.unwrap();
+                if let Some(status) = status(&mut client).await {
+                    return status;
+                }
+                tokio::task::yield_now().await;
+            }
+        };
+        let status = tokio::time::timeout(Duration::from_secs(10), served_again).await.unwrap();
+        assert_eq!(status.rotator(rotator).target, Some(target));
+        assert_eq!(control.state().rotator(rotator).target, Some(target));
+
+        server.abort();
+        assert!(server.await.unwrap_err().is_cancelled());
+        assert!(TcpStream::connect(address).await.is_err());
+    }
+}

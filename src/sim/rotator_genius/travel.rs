@@ -1,0 +1,87 @@
+//! The arc between the limits of a rotator.
+
+/// Where a rotator may turn: clockwise from its counter-clockwise limit to its
+/// clockwise one, the natural meaning, which recorded devices fit.
+///
+/// A place on it is counted in degrees clockwise from the counter-clockwise limit.
+/// Equal limits leave a whole turn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Travel {
+    ccw_deg: f64,
+    span_deg: f64,
+}
+
+impl Travel {
+    pub(super) fn new(cw_deg: f64, ccw_deg: f64) -> Self {
+        let span = cw_deg - ccw_deg;
+        Self { ccw_deg, span_deg: if span > 0.0 { span } else { span + 360.0 } }
+    }
+
+    /// The place of an azimuth or elevation, 0 to 360 degrees.
+    pub(super) fn place(&self, angle_deg: f64) -> f64 {
+        let clockwise = angle_deg - self.ccw_deg;
+        self.nearest(if clockwise < 0.0 { clockwise + 360.0 } else { clockwise })
+    }
+
+    /// The same direction as `place`, on the arc or as near to one of its ends as
+    /// can be.
+    pub(super) fn nearest(&self, place: f64) -> f64 {
+        let most = self.span_deg + (360.0 - self.span_deg) / 2.0;
+        if (most - 360.0..=most).contains(&place) {
+            return place;
+        }
+        let clockwise = place.rem_euclid(360.0);
+        if clockwise > most { clockwise - 360.0 } else { clockwise }
+    }
+
+    /// Azimuth or elevation at a place, 0 to 360 degrees.
+    pub(super) fn angle_deg(&self, place: f64) -> f64 {
+        let angle = self.ccw_deg + place;
+        if (0.0..=360.0).contains(&angle) { angle } else { angle.rem_euclid(360.0) }
+    }
+
+    /// Whether a place lies on the arc, to the whole degree, as a status can tell.
+    pub(super) fn contains(&self, place: f64) -> bool {
+        (0.0..=self.span_deg).contains(&self.nearest(place).round())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_runs_clockwise_over_north_too() {
+        for (cw, ccw, inside, outside) in [
+            (359.0, 0.0, vec![0.0, 180.0, 359.0, 359.6], vec![]),
+            (350.0, 10.0, vec![10.0, 180.0, 350.0], vec![0.0, 9.0, 351.0, 360.0]),
+            (360.0, 0.0, vec![0.0, 180.0, 360.0], vec![]),
+            (30.0, 300.0, vec![300.0, 0.0, 360.0, 30.0], vec![31.0, 180.0, 299.0]),
+            (90.0, 0.0, vec![0.0, 90.0], vec![91.0, 180.0, 355.0]),
+            (270.0, 90.0, vec![90.0, 180.0, 270.0], vec![0.0, 89.0, 271.0]),
+        ] {
+            let travel = Travel::new(cw, ccw);
+            for angle in inside {
+                assert!(travel.contains(travel.place(angle)), "{cw} {ccw} {angle}");
+            }
+            for angle in outside {
+                assert!(!travel.contains(travel.place(angle)), "{cw} {ccw} {angle}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_place_is_an_angle_again() {
+        for (cw, ccw) in [(359.0, 0.0), (360.0, 0.0), (30.0, 300.0), (0.0, 0.0)] {
+            let travel = Travel::new(cw, ccw);
+            for angle in [0.0, 12.5, 180.0, 359.5] {
+                let turned = travel.angle_deg(travel.place(angle)) - angle;
+                assert!(turned.rem_euclid(360.0) < 1e-9, "{cw} {ccw} {angle} {turned}");
+            }
+        }
+        // On a mount with its stop in the north both are ends.
+        let travel = Travel::new(360.0, 0.0);
+        assert!(travel.place(360.0) - travel.place(0.0) > 359.0);
+        assert!((travel.angle_deg(travel.place(360.0)) - 360.0).abs() < 1e-9);
+    }
+}

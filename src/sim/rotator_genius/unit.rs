@@ -1,0 +1,200 @@
+//! The device itself: what it remembers and does. No I/O and no clock: the time
+//! since its start comes in as an argument.
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use super::command::SHORT_CONFIGURATION_BYTES;
+use super::rotor::Rotor;
+use super::{Fault, Options, Quirk, RotatorState, Snapshot, report};
+use crate::protocol::rotator_genius::{
+    Configuration, Motion, Request, RequestError, RotatorNumber,
+};
+
+/// Time between two steps of the rotators.
+const STEP: Duration = Duration::from_millis(50);
+/// A longer absence than this is not lived through but skipped.
+const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
+/// What [`Fault::Panic`] reports.
+const PANIC_CODE: u8 = 0x07;
+
+/// State of one simulated device.
+#[derive(Debug)]
+pub(super) struct Unit {
+    rotors: [Rotor; 2],
+    panic: u8,
+    refuses: bool,
+    /// Since the start of the device, in whole steps.
+    elapsed: Duration,
+}
+
+impl Unit {
+    pub(super) fn new(options: &Options) -> Self {
+        let mut unit = Self {
+            rotors: options.rotators.each_ref().map(Rotor::new),
+            panic: 0,
+            refuses: false,
+            elapsed: Duration::ZERO,
+        };
+        unit.inject(&options.faults);
+        unit
+    }
+
+    /// Lives until `elapsed` after the start. Earlier times change nothing.
+    pub(super) fn advance(&mut self, elapsed: Duration) {
+        self.elapsed = self.elapsed.max(elapsed.saturating_sub(LONGEST_CATCH_UP));
+        // Whole steps alone, so that asking more often changes nothing.
+        while self.elapsed + STEP <= elapsed {
+            self.elapsed += STEP;
+            for rotor in &mut self.rotors {
+                rotor.advance(STEP.as_secs_f64());
+            }
+        }
+    }
+
+    /// Switches the faults of the device among `faults` on and all others off.
+    pub(super) fn inject(&mut self, faults: &BTreeSet<Fault>) {
+        self.panic = if faults.contains(&Fault::Panic) { PANIC_CODE } else { 0 };
+        self.refuses = faults.contains(&Fault::Refuse);
+        for number in RotatorNumber::ALL {
+            let has_no_sensor = faults.contains(&Fault::NoSensor(number));
+            let is_stuck = faults.contains(&Fault::Stuck(number));
+            number.of_mut(&mut self.rotors).set_faults(has_no_sensor, is_stuck);
+        }
+    }
+
+    pub(super) fn snapshot(&self) -> Snapshot {
+        let rotators = self.rotors.each_ref().map(|rotor| RotatorState {
+            angle_deg: rotor.angle_deg(),
+            moving: rotor.moving(),
+            is_turning: rotor.is_turning(),
+            is_outside_limits: rotor.is_outside_limits(),
+            target: rotor.journey().map(|(target, _)| target),
+        });
+        Snapshot { rotators }
+    }
+
+    /// Carries a command out and gives the reply; `None` when there is none. Call
+    /// `advance` first.
+    pub(super) fn answer(&mut self, command: &[u8], quirks: &BTreeSet<Quirk>) -> Option<Vec<u8>> {
+        let letter = *command.get(1)?;
+        let is_short = letter == b'c' && command.len() == SHORT_CONFIGURATION_BYTES;
+        let request = if is_short && quirks.contains(&Quirk::Config12) {
+            Request::parse(&[command, &[b' '; 10]].concat())
+        } else {
+            Request::parse(command)
+        };
+        let is_accepted = match request {
+            Ok(Request::Read) => return Some(report::status(&self.rotors, self.panic, quirks)),
+            Ok(Request::Stop) => {
+                self.rotors.iter_mut().for_each(Rotor::stop);
+                true
+            }
+            Ok(Request::Motion(_) | Request::Configure(_)) if self.refuses => false,
+            Ok(Request::Motion(motion)) => self.start(motion),
+            Ok(Request::Configure(configuration)) => {
+                self.configure(&configuration, is_short);
+                true
+            }
+            Err(RequestError::Unknown) if !quirks.contains(&Quirk::UnknownFails) => return None,
+            Err(_) => false,
+        };
+        Some(match letter {
+            b'A' => report::go_to(command, is_accepted, quirks),
+            _ => report::acknowledgement(letter, is_accepted),
+        })
+    }
+
+    fn start(&mut self, motion: Motion) -> bool {
+        match motion {
+            Motion::GoTo { rotator, target } => rotator.of_mut(&mut self.rotors).go_to(target),
+            Motion::Rotate { rotator, direction } => {
+                rotator.of_mut(&mut self.rotors).rotate(direction)
+            }
+        }
+    }
+
+    fn configure(&mut self, configuration: &Configuration, keeps_name: bool) {
+        let rotor = configuration.rotator().of_mut(&mut self.rotors);
+        rotor.configure(configuration);
+        if !keeps_name {
+            configuration.name().as_str().clone_into(&mut rotor.name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(faults: &[Fault]) -> Unit {
+        let faults = faults.iter().copied().collect();
+        Unit::new(&Options { faults, ..Options::default() })
+    }
+
+    fn answer(unit: &mut Unit, command: &str, quirks: &[Quirk]) -> Option<String> {
+        let quirks = quirks.iter().copied().collect();
+        let reply = unit.answer(command.as_bytes(), &quirks)?;
+        Some(reply.into_iter().map(char::from).collect())
+    }
+
+    #[test]
+    fn commands_are_accepted_or_refused_as_documented() {
+        let mut unit = unit(&[]);
+        for (command, reply) in [
+            ("|A1200", Some("|AK")),
+            ("|A1361", Some("|AF")),
+            ("|A3090", Some("|AF")),
+            // Its sensor is not connected.
+            ("|A2090", Some("|AF")),
+            ("|P2", Some("|PF")),
+            ("|M1", Some("|MK")),
+            ("|S", Some("|SK")),
+            ("|c1270090A00TOW1      ", Some("|cK")),
+            ("|A1000", Some("|AF")),
+            ("|c1270090X00TOW1      ", Some("|cF")),
+            ("|c1270090A00", Some("|cF")),
+            ("|X", None),
+        ] {
+            assert_eq!(answer(&mut unit, command, &[]).as_deref(), reply, "{command}");
+        }
+        let failed = answer(&mut unit, "|X", &[Quirk::UnknownFails]);
+        assert_eq!(failed.as_deref(), Some("|XF"));
+    }
+
+    #[test]
+    fn a_configuration_without_a_name_keeps_the_old_one() {
+        let mut unit = unit(&[]);
+        assert_eq!(answer(&mut unit, "|c1270090E05", &[Quirk::Config12]).as_deref(), Some("|cK"));
+        let status = answer(&mut unit, "|h", &[]).unwrap();
+        assert!(status.starts_with("|h2\x00173270 90E0   0999999\0Tower "), "{status:?}");
+    }
+
+    #[test]
+    fn faults_of_the_device_are_reported_and_felt() {
+        let mut unit = unit(&[Fault::Panic, Fault::Refuse, Fault::NoSensor(RotatorNumber::One)]);
+        assert!(answer(&mut unit, "|h", &[]).unwrap().starts_with("|h2\x07999359"));
+        assert_eq!(answer(&mut unit, "|S", &[]).as_deref(), Some("|SK"));
+        unit.inject(&[Fault::Refuse].into());
+        assert_eq!(answer(&mut unit, "|P1", &[]).as_deref(), Some("|PF"));
+        unit.inject(&[Fault::Stuck(RotatorNumber::One)].into());
+        assert_eq!(answer(&mut unit, "|A1200", &[]).as_deref(), Some("|AK"));
+        unit.advance(Duration::from_secs(5));
+        let status = answer(&mut unit, "|h", &[]).unwrap();
+        assert!(status.starts_with("|h2\x00173359  0A1   0200173\0"), "{status:?}");
+    }
+
+    #[test]
+    fn asking_more_often_changes_nothing() {
+        let run = |pause_ms| {
+            let mut unit = unit(&[]);
+            answer(&mut unit, "|A1300", &[]);
+            for now in (0..=9990).step_by(pause_ms) {
+                unit.advance(Duration::from_millis(now));
+            }
+            unit.snapshot()
+        };
+        assert_eq!(run(10), run(9990));
+        assert!(run(10).rotators[0].angle_deg > 200.0);
+    }
+}
