@@ -56,3 +56,10 @@ fn an_address_that_is_taken_is_said() {
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains(&address), "{}", text(&output.stderr));
 }
+
+#[test]
+fn every_simulator_names_its_faults() {
+    let output = azel(&["simulate", "genius", "--fault", "stuck"]);
+    assert!(!output.status.success());
+    assert!(text(&output.stderr).contains("stuck_1"), "{}", text(&output.stderr));
+}

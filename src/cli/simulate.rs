@@ -8,7 +8,7 @@ use jiff::Timestamp;
 
 use crate::{
     driver, orbit,
-    sim::satrak::{Fault, Options, Quirk, Simulator},
+    sim::{rotator_genius, satrak},
     station::{DEMO_ELEMENT_FILE, Station},
 };
 
@@ -21,34 +21,85 @@ pub(super) enum Controller {
         listen: SocketAddr,
         /// Way in which the unit differs from its document; may be repeated
         #[arg(long = "quirk", value_name = "QUIRK")]
-        quirks: Vec<Quirk>,
+        quirks: Vec<satrak::Quirk>,
         /// Trouble to make; may be repeated
         #[arg(long = "fault", value_name = "FAULT")]
-        faults: Vec<Fault>,
+        faults: Vec<satrak::Fault>,
+    },
+    /// 4O3A Rotator Genius on TCP, with two rotators
+    Genius {
+        /// Where to listen
+        #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:9006")]
+        listen: SocketAddr,
+        /// Let the second rotator turn the elevation; without it, it has no sensor
+        #[arg(long)]
+        elevation: bool,
+        /// Way in which the device differs from recorded ones; may be repeated
+        #[arg(long = "quirk", value_name = "QUIRK")]
+        quirks: Vec<rotator_genius::Quirk>,
+        /// Trouble to make; may be repeated
+        #[arg(long = "fault", value_name = "FAULT")]
+        faults: Vec<rotator_genius::Fault>,
     },
 }
 
 pub(super) fn run(controller: Controller) -> anyhow::Result<()> {
-    let Controller::Satrak { listen, quirks, faults } = controller;
-    let station = Station::default();
-    let catalog = orbit::bundled()?;
-    let elements = catalog.iter().cloned().collect();
-    let options = Options {
-        elements: [(DEMO_ELEMENT_FILE.to_owned(), elements)].into(),
-        quirks: quirks.into_iter().collect(),
-        faults: faults.into_iter().collect(),
-        ..Options::new(station.site, Timestamp::now())
-    };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
-        let simulator = Simulator::bind(listen, options)
-            .await
-            .with_context(|| format!("The simulator cannot listen on {listen}"))?;
-        let address = simulator.local_addr()?;
-        tracing::info!(%address, "a simulated Satrak listens");
-        tokio::select! {
-            () = simulator.run() => Ok(()),
-            told = driver::told_to_end() => Ok(told?),
+        match controller {
+            Controller::Satrak { listen, quirks, faults } => {
+                let options = satrak::Options {
+                    quirks: quirks.into_iter().collect(),
+                    faults: faults.into_iter().collect(),
+                    ..demo_satrak()?
+                };
+                let simulator = satrak::Simulator::bind(listen, options)
+                    .await
+                    .with_context(|| taken(listen))?;
+                announce("a simulated Satrak listens", simulator.local_addr()?);
+                until_told(simulator.run()).await
+            }
+            Controller::Genius { listen, elevation, quirks, faults } => {
+                let mut options = rotator_genius::Options {
+                    quirks: quirks.into_iter().collect(),
+                    faults: faults.into_iter().collect(),
+                    ..rotator_genius::Options::default()
+                };
+                if elevation {
+                    let [_, second] = &mut options.rotators;
+                    *second = rotator_genius::RotatorOptions::elevation();
+                }
+                let simulator = rotator_genius::Simulator::bind(listen, options)
+                    .await
+                    .with_context(|| taken(listen))?;
+                announce("a simulated Rotator Genius listens", simulator.local_addr()?);
+                until_told(simulator.run()).await
+            }
         }
     })
+}
+
+/// At the demo station, with the bundled elements.
+fn demo_satrak() -> anyhow::Result<satrak::Options> {
+    let elements = orbit::bundled()?.iter().cloned().collect();
+    Ok(satrak::Options {
+        elements: [(DEMO_ELEMENT_FILE.to_owned(), elements)].into(),
+        ..satrak::Options::new(Station::default().site, Timestamp::now())
+    })
+}
+
+fn taken(listen: SocketAddr) -> String {
+    format!("The simulator cannot listen on {listen}")
+}
+
+fn announce(what: &str, address: SocketAddr) {
+    tracing::info!(%address, "{what}");
+}
+
+/// Serves until the user or the system asks for an end.
+async fn until_told(serving: impl Future<Output = ()>) -> anyhow::Result<()> {
+    tokio::select! {
+        () = serving => Ok(()),
+        told = driver::told_to_end() => Ok(told?),
+    }
 }
