@@ -1,0 +1,132 @@
+//! Turning in steps of 50 ms.
+
+use super::*;
+use crate::protocol::rotator_genius::{RotatorName, RotatorNumber};
+
+const STEP_S: f64 = 0.05;
+
+fn angle(degrees: u16) -> WholeDegrees {
+    WholeDegrees::new(degrees).unwrap()
+}
+
+fn rotor(position: u16, [cw, ccw]: [u16; 2]) -> Rotor {
+    Rotor::new(&RotatorOptions {
+        position: angle(position),
+        limit_cw: angle(cw),
+        limit_ccw: angle(ccw),
+        ..RotatorOptions::default()
+    })
+}
+
+/// Turns for a time and gives all angles on the way.
+fn run(rotor: &mut Rotor, seconds: f64) -> Vec<f64> {
+    let steps = (seconds / STEP_S).round() as usize;
+    let mut angles = Vec::new();
+    for _ in 0..steps {
+        rotor.advance(STEP_S);
+        angles.push(rotor.angle_deg());
+    }
+    angles
+}
+
+#[test]
+fn the_coast_ends_on_the_target() {
+    for target in [359, 100, 0, 173] {
+        let mut rotor = rotor(173, [359, 0]);
+        assert!(rotor.go_to(angle(target)));
+        assert_eq!(rotor.journey(), Some((angle(target), angle(173))));
+        run(&mut rotor, 60.0);
+        assert_eq!(rotor.measured(), Some(angle(target)));
+        assert!(!rotor.is_turning() && !rotor.is_outside_limits());
+        assert_eq!((rotor.journey(), rotor.moving()), (None, Moving::Stopped));
+    }
+}
+
+#[test]
+fn without_a_stop_offset_it_slips_past_the_limit() {
+    let mut rotor = rotor(260, [270, 90]);
+    rotor.stop_offset_deg = 0;
+    assert!(rotor.rotate(Direction::Clockwise));
+    run(&mut rotor, 10.0);
+    assert_eq!(rotor.measured(), Some(angle(272)));
+    assert!(rotor.is_outside_limits() && !rotor.is_turning());
+    // From there it goes on without a target, over north and through the arc.
+    assert!(rotor.rotate(Direction::Clockwise));
+    run(&mut rotor, 60.0);
+    assert_eq!((rotor.moving(), rotor.journey()), (Moving::Clockwise, None));
+    assert!(!rotor.is_outside_limits() && rotor.is_turning());
+    rotor.stop();
+    assert_eq!(rotor.moving(), Moving::Stopped);
+    let before = rotor.angle_deg();
+    run(&mut rotor, 2.0);
+    assert!(!rotor.is_turning() && (rotor.angle_deg() - before - 1.9).abs() < 0.01);
+    // It has made more than a turn; the way back is that of the arc.
+    assert!(rotor.go_to(angle(200)));
+    assert_eq!(rotor.moving(), Moving::Clockwise);
+}
+
+#[test]
+fn a_turn_over_north_takes_the_arc_between_the_limits() {
+    let mut rotor = rotor(310, [30, 300]);
+    assert!(rotor.go_to(angle(20)));
+    assert_eq!(rotor.moving(), Moving::Clockwise);
+    let angles = run(&mut rotor, 30.0);
+    assert!(angles.iter().all(|angle| !(21.0..309.0).contains(angle)));
+    assert_eq!(rotor.measured(), Some(angle(20)));
+    assert!(!rotor.go_to(angle(180)));
+    // On a full turn the ends lie in the north on both sides.
+    let mut rotor = self::rotor(350, [360, 0]);
+    assert!(rotor.go_to(angle(0)));
+    assert_eq!(rotor.moving(), Moving::CounterClockwise);
+    let angles = run(&mut rotor, 100.0);
+    assert!(angles.iter().all(|angle| *angle < 351.0));
+}
+
+#[test]
+fn from_outside_it_goes_back_over_the_nearer_end() {
+    for (position, way) in [(280, Moving::CounterClockwise), (80, Moving::Clockwise)] {
+        let mut rotor = rotor(position, [270, 90]);
+        assert!(rotor.is_outside_limits() && rotor.go_to(angle(180)));
+        assert_eq!(rotor.moving(), way, "{position}");
+        run(&mut rotor, 60.0);
+        assert_eq!(rotor.measured(), Some(angle(180)));
+    }
+}
+
+#[test]
+fn rate_and_ramp_stay_within_their_bounds() {
+    let mut rotor = rotor(10, [359, 0]);
+    rotor.rotate(Direction::Clockwise);
+    let mut angles = run(&mut rotor, 5.0);
+    rotor.rotate(Direction::CounterClockwise);
+    angles.extend(run(&mut rotor, 3.0));
+    let rates: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
+    assert!(rates.iter().all(|rate| rate.abs() <= RATE_DEG_S + 1e-6));
+    let ramps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
+    assert!(ramps.into_iter().all(|ramp| ramp.abs() <= RAMP_DEG_S2 + 1e-6));
+}
+
+#[test]
+fn without_its_sensor_it_is_neither_driven_nor_outside() {
+    let mut rotor = rotor(280, [270, 90]);
+    assert!(rotor.rotate(Direction::Clockwise));
+    rotor.set_faults(true, false);
+    assert_eq!((rotor.measured(), rotor.moving()), (None, Moving::Stopped));
+    assert!(!rotor.is_outside_limits());
+    assert!(!rotor.rotate(Direction::Clockwise) && !rotor.go_to(angle(180)));
+}
+
+#[test]
+fn new_limits_leave_it_where_it_is() {
+    let mut rotor = rotor(100, [359, 0]);
+    let configuration = Configuration::new(
+        RotatorNumber::One,
+        [angle(30), angle(300)],
+        RotatorKind::Elevation,
+        0,
+        RotatorName::new("").unwrap(),
+    );
+    rotor.configure(&configuration.unwrap());
+    assert_eq!(rotor.measured(), Some(angle(100)));
+    assert!(rotor.is_outside_limits());
+}
