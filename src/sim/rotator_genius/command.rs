@@ -80,6 +80,8 @@ fn command(piece: &[u8]) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn read(segments: &[&str], quirks: &[Quirk]) -> Vec<String> {
@@ -114,5 +116,26 @@ mod tests {
         assert_eq!(read(&short, &[Quirk::Config12]), short);
         assert_eq!(read(&short, &[Quirk::Config12, Quirk::Segment]), short);
         assert_eq!(read(&short, &[]), [""; 0]);
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes_are_harmless(
+            segments in prop::collection::vec("[|hAPMSc0-9 \\x00\u{ff}]{0,30}", 0..8),
+            quirks in prop::collection::btree_set(
+                prop::sample::select(vec![Quirk::Segment, Quirk::Config12]),
+                0..3,
+            ),
+        ) {
+            let mut reader = CommandReader::default();
+            for segment in &segments {
+                for command in reader.read(segment.as_bytes(), &quirks) {
+                    prop_assert!(command.len() >= 2 && command[0] == b'|', "{:?}", command);
+                    let _ = Request::parse(&command);
+                }
+                // Less than the longest command waits.
+                prop_assert!(reader.pending.len() < 22);
+            }
+        }
     }
 }
