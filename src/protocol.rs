@@ -1,4 +1,5 @@
 //! Pure codecs of the controllers: typed requests and replies, bytes in and out.
 
+pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;

@@ -1,0 +1,181 @@
+//! Frames: header, address, command code, data, ETX, checksum (appendix D).
+
+mod decoder;
+
+pub(super) use decoder::is_device_type;
+pub use decoder::{Decoder, FrameError};
+
+use super::Address;
+
+pub(super) const STX: u8 = 0x02;
+pub(super) const ETX: u8 = 0x03;
+pub(super) const ACK: u8 = 0x06;
+pub(super) const NAK: u8 = 0x15;
+/// The longest frame: a status.
+pub const MAX_FRAME_BYTES: usize = 38;
+/// The longest command: an auto move.
+pub const MAX_COMMAND_BYTES: usize = 16;
+/// All of a frame but its data: header, address, code, ETX, checksum.
+pub(super) const ENVELOPE_BYTES: usize = 5;
+/// The data of a reply from a controller whose remote mode is disabled.
+pub(super) const OFFLINE: &[u8] = b"F";
+
+/// What a frame begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Header {
+    /// STX: a command. On the console's side it is an echo.
+    Command,
+    /// ACK: the command was understood, or the controller is offline.
+    Ack,
+    /// NAK: the command was refused.
+    Nak,
+}
+
+impl Header {
+    const fn from_byte(byte: u8) -> Option<Self> {
+        match byte {
+            STX => Some(Self::Command),
+            ACK => Some(Self::Ack),
+            NAK => Some(Self::Nak),
+            _ => None,
+        }
+    }
+
+    const fn byte(self) -> u8 {
+        match self {
+            Self::Command => STX,
+            Self::Ack => ACK,
+            Self::Nak => NAK,
+        }
+    }
+}
+
+/// The commands of appendix E.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Command {
+    /// Which device is it.
+    DeviceType = 0x30,
+    /// What does it do.
+    Status = 0x31,
+    /// Go to a satellite or a position.
+    AutoMove = 0x32,
+    /// Jog azimuth or elevation, or stop.
+    Jog = 0x33,
+    /// Turn the polarization.
+    Polarization = 0x34,
+    /// Name a stored satellite.
+    SatelliteName = 0x35,
+    /// Alarms, automatic polarization, track mode.
+    Miscellaneous = 0x36,
+}
+
+impl Command {
+    /// All commands, in the order of their codes.
+    pub const ALL: [Self; 7] = [
+        Self::DeviceType,
+        Self::Status,
+        Self::AutoMove,
+        Self::Jog,
+        Self::Polarization,
+        Self::SatelliteName,
+        Self::Miscellaneous,
+    ];
+
+    /// The command with this code.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|command| command.code() == code)
+    }
+
+    /// The code on the line.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// Length of a whole good reply, bytes.
+    pub const fn reply_bytes(self) -> usize {
+        match self {
+            Self::DeviceType => 11,
+            Self::SatelliteName => 19,
+            Self::Status
+            | Self::AutoMove
+            | Self::Jog
+            | Self::Polarization
+            | Self::Miscellaneous => MAX_FRAME_BYTES,
+        }
+    }
+}
+
+/// A frame whose form and checksum were right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Frame {
+    header: Header,
+    address: Address,
+    code: u8,
+    data: Vec<u8>,
+}
+
+impl Frame {
+    /// A frame around `data`, which holds printable characters only.
+    pub(super) fn new(header: Header, address: Address, code: u8, data: Vec<u8>) -> Self {
+        Self { header, address, code, data }
+    }
+
+    /// What it begins with.
+    pub const fn header(&self) -> Header {
+        self.header
+    }
+
+    /// The controller that is meant or that speaks.
+    pub const fn address(&self) -> Address {
+        self.address
+    }
+
+    /// The command code, which a reply repeats. Not each is a [`Command`].
+    pub const fn code(&self) -> u8 {
+        self.code
+    }
+
+    /// The characters between code and ETX, 20h to 7Fh.
+    pub fn data(&self) -> &[u8] {
+        &self.data
+    }
+
+    /// The bytes on the line, each below 80h.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = vec![self.header.byte(), self.address.number(), self.code];
+        bytes.extend_from_slice(&self.data);
+        bytes.push(ETX);
+        bytes.push(checksum(&bytes));
+        bytes
+    }
+}
+
+/// The checksum: XOR of every byte from the header to ETX (appendix E). It may
+/// equal any control byte.
+pub fn checksum(bytes: &[u8]) -> u8 {
+    bytes.iter().fold(0, |sum, byte| sum ^ byte)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_may_look_like_any_control_byte() {
+        let last = |address, code| {
+            let address = Address::new(address).unwrap();
+            *Frame::new(Header::Command, address, code, Vec::new()).to_bytes().last().unwrap()
+        };
+        assert_eq!([last(0x32, 0x30), last(0x33, 0x30), last(0x37, 0x30)], [ETX, STX, ACK]);
+        assert_eq!([last(0x32, 0x31), last(0x33, 0x31), last(0x36, 0x31)], [STX, ETX, ACK]);
+        assert_eq!(last(0x49, 0x31), 0x79);
+    }
+
+    #[test]
+    fn every_command_is_found_by_its_code() {
+        for command in Command::ALL {
+            assert_eq!(Command::from_code(command.code()), Some(command));
+        }
+        assert_eq!(Command::from_code(0x37), None);
+    }
+}

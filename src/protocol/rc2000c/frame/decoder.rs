@@ -1,0 +1,210 @@
+//! From a byte stream to frames.
+
+use super::{
+    Address, Command, ENVELOPE_BYTES, ETX, Frame, Header, MAX_FRAME_BYTES, OFFLINE, checksum,
+};
+
+/// What may wait between two calls; more is dropped.
+const MAX_PENDING_BYTES: usize = 1024;
+
+/// Why what began like a frame is none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum FrameError {
+    /// The checksum is another one than that of the frame.
+    #[error("checksum {received:02X} instead of {computed:02X}")]
+    BadChecksum {
+        /// As in the frame.
+        received: u8,
+        /// Of the frame.
+        computed: u8,
+    },
+    /// No reply to this command has so many characters.
+    #[error("reply to {code:02X} with {data_bytes} bytes of data")]
+    BadLength {
+        /// Command code of the frame.
+        code: u8,
+        /// Characters between code and ETX.
+        data_bytes: usize,
+    },
+    /// A byte that stands in no code and no data: a control byte, or one with
+    /// the eighth bit set.
+    #[error("byte {byte:02X} at place {at}")]
+    BadByte {
+        /// As received.
+        byte: u8,
+        /// Its place, counted from 0 at the header.
+        at: usize,
+    },
+    /// More than [`MAX_FRAME_BYTES`] without an end.
+    #[error("frame longer than {MAX_FRAME_BYTES} bytes")]
+    TooLong,
+    /// The line went quiet in the middle.
+    #[error("frame ends after {bytes} bytes")]
+    Incomplete {
+        /// How many came.
+        bytes: usize,
+    },
+}
+
+/// Cuts a byte stream into the frames of one controller, on either side.
+///
+/// Push what was read, then take frames until `None`; when nothing came for
+/// longer than characters of one frame may be apart, call [`Self::line_is_quiet`].
+/// The stream may be cut and merged anywhere. Holds at most 1 KiB.
+///
+/// After the header only the own address begins a frame, and a reply has one of
+/// the lengths of its command. So the checksum is known by its place and may
+/// look like any control byte, and the XOR refuses every single wrong bit. What
+/// is broken loses its header alone; the rest is read again.
+///
+/// One reply inside another is the limit of this protocol without parity: with
+/// one bit of its second letter wrong, a status whose satellite name begins
+/// with `FC` or `F#` can read as an offline reply if the third letter is the
+/// checksum of that.
+#[derive(Debug)]
+pub struct Decoder {
+    address: Address,
+    pending: Vec<u8>,
+    skipped_bytes: u64,
+}
+
+/// What the beginning of the pending bytes is.
+enum Verdict {
+    /// Needs more bytes to be told.
+    Open,
+    /// No frame of this controller.
+    Foreign,
+    Broken(FrameError),
+    Whole(Frame),
+}
+
+impl Decoder {
+    /// A decoder for the frames of the controller at `address`.
+    pub const fn new(address: Address) -> Self {
+        Self { address, pending: Vec::new(), skipped_bytes: 0 }
+    }
+
+    /// Takes bytes of the stream. What does not fit while nobody takes frames
+    /// is dropped.
+    pub fn push(&mut self, bytes: &[u8]) {
+        let room = MAX_PENDING_BYTES.saturating_sub(self.pending.len());
+        let (kept, lost) = bytes.split_at_checked(room).unwrap_or((bytes, &[]));
+        self.pending.extend_from_slice(kept);
+        self.skipped_bytes += lost.len() as u64;
+    }
+
+    /// Gives up a frame that came in part, and reads what it held back.
+    pub fn line_is_quiet(&mut self) -> Vec<Result<Frame, FrameError>> {
+        let mut seen = Vec::new();
+        loop {
+            seen.extend(self.by_ref());
+            let bytes = self.pending.len();
+            if bytes == 0 {
+                return seen;
+            }
+            // A lone header is noise; with the address after it, it was a frame.
+            if bytes > 1 {
+                seen.push(Err(FrameError::Incomplete { bytes }));
+            }
+            self.skip(1);
+        }
+    }
+
+    /// Bytes that belonged to no frame so far: noise, other controllers' frames
+    /// and what was broken.
+    pub const fn skipped_bytes(&self) -> u64 {
+        self.skipped_bytes
+    }
+
+    fn skip(&mut self, count: usize) {
+        self.pending.drain(..count);
+        self.skipped_bytes += count as u64;
+    }
+
+    fn judge(&self) -> Verdict {
+        let Some(header) = self.pending.first().copied().and_then(Header::from_byte) else {
+            return if self.pending.is_empty() { Verdict::Open } else { Verdict::Foreign };
+        };
+        match self.pending.get(1) {
+            None => return Verdict::Open,
+            Some(byte) if *byte != self.address.number() => return Verdict::Foreign,
+            Some(_) => {}
+        }
+        for (at, byte) in self.pending.iter().copied().enumerate().skip(2) {
+            match byte {
+                ETX if at > 2 => return self.judge_whole(header, at),
+                0x20..0x80 if at + 2 < MAX_FRAME_BYTES => {}
+                0x20..0x80 => return Verdict::Broken(FrameError::TooLong),
+                _ => return Verdict::Broken(FrameError::BadByte { byte, at }),
+            }
+        }
+        Verdict::Open
+    }
+
+    /// Judges a frame whose ETX stands at `etx_at`.
+    fn judge_whole(&self, header: Header, etx_at: usize) -> Verdict {
+        let (Some(body), Some(code), Some(data)) = (
+            self.pending.get(..=etx_at),
+            self.pending.get(2).copied(),
+            self.pending.get(3..etx_at),
+        ) else {
+            return Verdict::Open;
+        };
+        if !is_known_form(header, code, data) {
+            return Verdict::Broken(FrameError::BadLength { code, data_bytes: data.len() });
+        }
+        let Some(received) = self.pending.get(etx_at + 1).copied() else {
+            return Verdict::Open;
+        };
+        let computed = checksum(body);
+        if received == computed {
+            Verdict::Whole(Frame::new(header, self.address, code, data.to_vec()))
+        } else {
+            Verdict::Broken(FrameError::BadChecksum { received, computed })
+        }
+    }
+}
+
+impl Iterator for Decoder {
+    type Item = Result<Frame, FrameError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            match self.judge() {
+                Verdict::Open => return None,
+                Verdict::Foreign => self.skip(1),
+                Verdict::Broken(error) => {
+                    self.skip(1);
+                    return Some(Err(error));
+                }
+                Verdict::Whole(frame) => {
+                    self.pending.drain(..ENVELOPE_BYTES + frame.data().len());
+                    return Some(Ok(frame));
+                }
+            }
+        }
+    }
+}
+
+/// Whether a frame may hold `data`. A command may have any length, for a
+/// controller answers wrong ones too.
+fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
+    match header {
+        Header::Command => true,
+        Header::Nak => data.is_empty(),
+        Header::Ack => {
+            let usual = Command::from_code(code).map(Command::reply_bytes);
+            data == OFFLINE || usual == Some(data.len() + ENVELOPE_BYTES) || is_device_type(data)
+        }
+    }
+}
+
+/// Firmware of the RC2000A before 2.6 repeats a wrong code in this one reply,
+/// and the RC2000C shares its code base.
+pub(in super::super) fn is_device_type(data: &[u8]) -> bool {
+    data.len() + ENVELOPE_BYTES == Command::DeviceType.reply_bytes()
+        && (data.starts_with(b"2KC") || data.starts_with(b"RC2K"))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,221 @@
+//! Replies of appendix E.
+
+use std::fmt;
+
+use super::frame::{OFFLINE, is_device_type};
+use super::satellite_name::NAME_BYTES;
+use super::{Address, Command, Frame, Header, SatelliteName, Status};
+
+/// What a controller answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reply {
+    /// Which device it is.
+    DeviceType(DeviceType),
+    /// Its state, in reply to `command`. For a motion this says that the
+    /// command was understood, not that it was carried out.
+    Status {
+        /// The command that it answers.
+        command: Command,
+        /// The state.
+        status: Status,
+    },
+    /// One entry of the list of satellites.
+    SatelliteName(NameEntry),
+    /// The controller is configured to take no commands. Its frame begins with
+    /// ACK all the same.
+    Offline {
+        /// Code of the command that it answers.
+        code: u8,
+    },
+    /// The command is unknown, has a wrong length or cannot be carried out; the
+    /// controller does not say which.
+    Refused {
+        /// Code of the command that it answers.
+        code: u8,
+    },
+}
+
+/// Why a frame is no reply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum ReplyError {
+    /// It is a command: the line echoes what we send.
+    #[error("echo of command {code:02X}")]
+    Echo {
+        /// Code of the command.
+        code: u8,
+    },
+    /// A list entry without numbers.
+    #[error("list entry without numbers")]
+    Entry,
+    /// No reply has this code and form.
+    #[error("reply to {code:02X} without meaning")]
+    Form {
+        /// Code of the reply.
+        code: u8,
+    },
+}
+
+/// Kind of mount, and version of the firmware.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DeviceType {
+    /// The mount that the firmware is made for.
+    pub mount: MountKind,
+    /// First two digits of the version, as characters.
+    pub version: [u8; 2],
+}
+
+/// The mount that a controller is made for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MountKind {
+    /// RC2000C, elevation over azimuth.
+    ElevationOverAzimuth,
+    /// RC2000C, polar with declination.
+    Polar,
+    /// RC2000C, azimuth over elevation.
+    AzimuthOverElevation,
+    /// Another device; its name on the line.
+    Other([u8; 4]),
+}
+
+impl MountKind {
+    const KNOWN: [(Self, [u8; 4]); 3] = [
+        (Self::ElevationOverAzimuth, *b"2KCA"),
+        (Self::Polar, *b"2KCP"),
+        (Self::AzimuthOverElevation, *b"2KCE"),
+    ];
+
+    fn from_name(name: [u8; 4]) -> Self {
+        let known = Self::KNOWN.into_iter().find(|(_, known)| *known == name);
+        known.map_or(Self::Other(name), |(mount, _)| mount)
+    }
+
+    fn name(self) -> [u8; 4] {
+        if let Self::Other(name) = self {
+            return name;
+        }
+        let known = Self::KNOWN.into_iter().find(|(mount, _)| *mount == self);
+        known.map_or(*b"    ", |(_, name)| name)
+    }
+}
+
+impl fmt::Display for DeviceType {
+    /// As `2KCA 1.4`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [whole, tenth] = self.version.map(char::from);
+        let name = self.mount.name();
+        write!(f, "{} {whole}.{tenth}", String::from_utf8_lossy(&name))
+    }
+}
+
+/// One entry of the list of satellites.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NameEntry {
+    /// Its place, counted from 1.
+    pub index: u8,
+    /// How many entries the list has.
+    pub count: u8,
+    /// The name, to be used as it is.
+    pub name: SatelliteName,
+}
+
+impl Reply {
+    /// Reads a reply.
+    pub fn parse(frame: &Frame) -> Result<Self, ReplyError> {
+        let (code, data) = (frame.code(), frame.data());
+        match frame.header() {
+            Header::Command => return Err(ReplyError::Echo { code }),
+            Header::Nak => return Ok(Self::Refused { code }),
+            Header::Ack if data == OFFLINE => return Ok(Self::Offline { code }),
+            Header::Ack => {}
+        }
+        let unknown = ReplyError::Form { code };
+        // Some firmware repeats a wrong code here.
+        if is_device_type(data) || code == Command::DeviceType.code() {
+            return device_type(data).map(Self::DeviceType).ok_or(unknown);
+        }
+        match Command::from_code(code).ok_or(unknown)? {
+            Command::SatelliteName => entry(data).map(Self::SatelliteName).ok_or(ReplyError::Entry),
+            command => {
+                let status = Status::parse(data).ok_or(unknown)?;
+                Ok(Self::Status { command, status })
+            }
+        }
+    }
+
+    /// The frame of the controller at `address`.
+    pub fn to_frame(&self, address: Address) -> Frame {
+        let (header, code, data) = match self {
+            Self::DeviceType(device) => {
+                let data = [&device.mount.name()[..], &device.version].concat();
+                (Header::Ack, Command::DeviceType.code(), data)
+            }
+            Self::Status { command, status } => (Header::Ack, command.code(), status.data()),
+            Self::SatelliteName(entry) => {
+                let numbers = format!("{:02}{:02}", entry.index.min(99), entry.count.min(99));
+                let data = [numbers.as_bytes(), entry.name.field()].concat();
+                (Header::Ack, Command::SatelliteName.code(), data)
+            }
+            Self::Offline { code } => (Header::Ack, *code, OFFLINE.to_vec()),
+            Self::Refused { code } => (Header::Nak, *code, Vec::new()),
+        };
+        Frame::new(header, address, code, data)
+    }
+}
+
+fn device_type(data: &[u8]) -> Option<DeviceType> {
+    let (name, version) = data.split_first_chunk::<4>()?;
+    Some(DeviceType { mount: MountKind::from_name(*name), version: version.try_into().ok()? })
+}
+
+fn entry(data: &[u8]) -> Option<NameEntry> {
+    let (numbers, name) = data.split_at_checked(data.len().checked_sub(NAME_BYTES)?)?;
+    let [index, count] = [numbers.get(..2)?, numbers.get(2..)?].map(|digits| {
+        let text = std::str::from_utf8(digits).ok()?;
+        text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok()).flatten()
+    });
+    Some(NameEntry { index: index?, count: count?, name: SatelliteName::from_field(name)? })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(header: Header, code: u8, data: &[u8]) -> Frame {
+        Frame::new(header, Address::FACTORY, code, data.to_vec())
+    }
+
+    #[test]
+    fn an_ack_is_not_success() {
+        let offline = frame(Header::Ack, 0x32, b"F");
+        assert_eq!(Reply::parse(&offline), Ok(Reply::Offline { code: 0x32 }));
+        let refused = frame(Header::Nak, 0x3f, b"");
+        assert_eq!(Reply::parse(&refused), Ok(Reply::Refused { code: 0x3f }));
+    }
+
+    #[test]
+    fn our_own_command_is_an_echo() {
+        let echo = frame(Header::Command, 0x31, b"");
+        assert_eq!(Reply::parse(&echo), Err(ReplyError::Echo { code: 0x31 }));
+    }
+
+    #[test]
+    fn other_devices_keep_their_name() {
+        let reply = Reply::parse(&frame(Header::Ack, 0x30, b"250025")).unwrap();
+        let Reply::DeviceType(device) = reply else { panic!("{reply:?}") };
+        assert_eq!(device.mount, MountKind::Other(*b"2500"));
+        assert_eq!(device.to_string(), "2500 2.5");
+    }
+
+    #[test]
+    fn forms_without_meaning_are_refused() {
+        for (code, data, error) in [
+            (0x35, &b"0112"[..], ReplyError::Entry),
+            (0x35, b"A112SBS 6     ", ReplyError::Entry),
+            (0x31, b"", ReplyError::Form { code: 0x31 }),
+            (0x37, b"", ReplyError::Form { code: 0x37 }),
+            (0x30, b"", ReplyError::Form { code: 0x30 }),
+        ] {
+            assert_eq!(Reply::parse(&frame(Header::Ack, code, data)), Err(error));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Commands of appendix E.
+
+mod motion;
+mod parse;
+
+pub use motion::{
+    AutoMove, Direction, DriveReset, Jog, MAX_JOG, MIN_JOG, Motion, Polarity, PolarizationMove,
+    PolarizationUnits, Speed, ValueError,
+};
+pub use parse::RequestError;
+
+use super::{Address, Command, Frame, Header};
+
+/// Stop of azimuth and elevation: speed and duration must be valid, though unused.
+const STOP: &[u8] = b"XS0000";
+
+/// Anything a console can ask. Every value was checked when it was built, so
+/// each request has bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Request {
+    /// Reads. Still, any command may take the panel from a local operator.
+    Query(Query),
+    /// Ends motion of azimuth and elevation; always allowed. Whether it ends an
+    /// auto move, polarization or tracking is not documented.
+    Stop,
+    /// Can make metal move.
+    Motion(Motion),
+    /// Changes what the controller will do.
+    Setting(Setting),
+}
+
+/// What can be asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Query {
+    /// Kind of mount and version of the firmware.
+    DeviceType,
+    /// The whole state.
+    Status,
+    /// One name of the list of satellites.
+    SatelliteName(NameIndex),
+}
+
+/// Place in the list of satellites, 1 to 50. An RC2000C has 35 of them, with a
+/// polar mount 50.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NameIndex(u8);
+
+impl NameIndex {
+    const MOST: u8 = 50;
+
+    /// A place from 1 to 50.
+    pub fn new(index: u8) -> Result<Self, ValueError> {
+        motion::checked("place in the list", index.into(), 1, Self::MOST.into())?;
+        Ok(Self(index))
+    }
+
+    /// Counted from 1.
+    pub const fn number(self) -> u8 {
+        self.0
+    }
+}
+
+/// What changes nothing but later moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Setting {
+    /// Set the polarization with each satellite. While on, commands for the
+    /// polarization are refused.
+    AutoPolarization(bool),
+    /// Band of a dual-band satellite; only while tracking.
+    Band(Band),
+}
+
+/// Band of the receiver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names of the bands")]
+pub enum Band {
+    C,
+    K,
+}
+
+impl Request {
+    /// The command, whose code the reply repeats.
+    pub const fn command(&self) -> Command {
+        match self {
+            Self::Query(Query::DeviceType) => Command::DeviceType,
+            Self::Query(Query::Status) => Command::Status,
+            Self::Query(Query::SatelliteName(_)) => Command::SatelliteName,
+            Self::Stop => Command::Jog,
+            Self::Motion(motion) => motion.command(),
+            Self::Setting(_) => Command::Miscellaneous,
+        }
+    }
+
+    /// The frame for the controller at `address`.
+    pub fn to_frame(&self, address: Address) -> Frame {
+        let data = match self {
+            Self::Query(Query::DeviceType | Query::Status) => Vec::new(),
+            Self::Query(Query::SatelliteName(index)) => {
+                format!("{:02}", index.number()).into_bytes()
+            }
+            Self::Stop => STOP.to_vec(),
+            Self::Motion(motion) => motion.data(),
+            Self::Setting(Setting::AutoPolarization(true)) => b"PN".to_vec(),
+            Self::Setting(Setting::AutoPolarization(false)) => b"PF".to_vec(),
+            Self::Setting(Setting::Band(Band::C)) => b"TC".to_vec(),
+            Self::Setting(Setting::Band(Band::K)) => b"TK".to_vec(),
+        };
+        Frame::new(Header::Command, address, self.command().code(), data)
+    }
+
+    /// The bytes to send to the controller at `address`.
+    pub fn to_bytes(&self, address: Address) -> Vec<u8> {
+        self.to_frame(address).to_bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_in_the_list_are_1_to_50() {
+        assert!(NameIndex::new(0).is_err() && NameIndex::new(51).is_err());
+        assert_eq!(NameIndex::new(35).map(NameIndex::number), Ok(35));
+    }
+}

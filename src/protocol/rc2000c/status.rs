@@ -1,0 +1,178 @@
+//! The status of a controller: 33 characters between code and ETX.
+
+mod alarm;
+mod drive;
+mod feed;
+mod position;
+mod track;
+
+pub use alarm::Alarm;
+pub use drive::{AxisDrive, PolarizationMotion, Sense};
+pub use feed::{FeedPosition, FeedReading, PolarizationCode, PolarizationDevice, PolarizationMode};
+pub use position::{LimitEnd, Position};
+pub use track::{Receiver, ReceiverChannel, Submode, Track, TrackBand};
+
+use super::SatelliteName;
+use position::Axis;
+
+/// Characters of a status in its frame.
+pub(super) const STATUS_BYTES: usize = 33;
+/// The fixed upper bits of most coded characters; a blank where nothing is coded.
+const BASE: u8 = 0x20;
+/// Stands for an unknown polarization mode, for a blank means one.
+const NO_MODE: u8 = b'?';
+
+/// What a controller reports of itself. What is not as documented is `Unknown`
+/// or `None` in its field alone; the frame keeps the characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Status {
+    /// The satellite on the display, blank if there is none.
+    pub satellite: SatelliteName,
+    /// How the display shows it.
+    pub name_display: NameDisplay,
+    /// Where the azimuth is.
+    pub azimuth: Position,
+    /// Where the elevation is.
+    pub elevation: Position,
+    /// Where the polarization is.
+    pub feed: FeedReading,
+    /// How the polarization is set.
+    pub polarization_mode: Option<PolarizationMode>,
+    /// What the azimuth drive does; its positive sense is clockwise.
+    pub azimuth_drive: AxisDrive,
+    /// What the elevation drive does; its positive sense is up.
+    pub elevation_drive: AxisDrive,
+    /// What the polarization does.
+    pub polarization_motion: PolarizationMotion,
+    /// The most urgent alarm; the next one shows when it is cleared.
+    pub alarm: Alarm,
+    /// The track mode. An RC2000A has none.
+    pub track: Option<Track>,
+    /// The receiver. An RC2000A has none.
+    pub receiver: Option<Receiver>,
+}
+
+/// How the display shows the name of a satellite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NameDisplay {
+    /// Upper case: the antenna points at it.
+    OnSatellite,
+    /// Lower case: the antenna points close to it.
+    NearSatellite,
+    /// Not at all.
+    Hidden,
+    /// A character without meaning.
+    Unknown(u8),
+}
+
+impl NameDisplay {
+    const fn from_byte(byte: u8) -> Self {
+        match byte {
+            0x20 => Self::OnSatellite,
+            0x21 => Self::NearSatellite,
+            0x22 => Self::Hidden,
+            other => Self::Unknown(other),
+        }
+    }
+
+    const fn byte(self) -> u8 {
+        match self {
+            Self::OnSatellite => 0x20,
+            Self::NearSatellite => 0x21,
+            Self::Hidden => 0x22,
+            Self::Unknown(other) => other,
+        }
+    }
+}
+
+impl Status {
+    /// Reads the characters between code and ETX; `None` unless there are 33.
+    pub(super) fn parse(data: &[u8]) -> Option<Self> {
+        let (name, rest) = data.split_at_checked(10)?;
+        let (display, rest) = rest.split_first()?;
+        let (azimuth, rest) = rest.split_first_chunk::<5>()?;
+        let (elevation, rest) = rest.split_first_chunk::<5>()?;
+        let (feed, rest) = rest.split_first_chunk::<2>()?;
+        let &[
+            mode,
+            azimuth_drive,
+            elevation_drive,
+            feed_motion,
+            alarm_low,
+            alarm_high,
+            device,
+            track,
+            agc_low,
+            agc_high,
+        ] = rest
+        else {
+            return None;
+        };
+        Some(Self {
+            satellite: SatelliteName::from_field(name)?,
+            name_display: NameDisplay::from_byte(*display),
+            azimuth: Position::parse(Axis::Azimuth, *azimuth),
+            elevation: Position::parse(Axis::Elevation, *elevation),
+            feed: FeedReading::parse(*feed, device),
+            polarization_mode: PolarizationMode::from_byte(mode),
+            azimuth_drive: AxisDrive::from_byte(azimuth_drive),
+            elevation_drive: AxisDrive::from_byte(elevation_drive),
+            polarization_motion: PolarizationMotion::from_byte(feed_motion),
+            alarm: Alarm::from_bytes(alarm_low, alarm_high),
+            track: Track::from_byte(track),
+            receiver: Receiver::from_bytes(agc_low, agc_high),
+        })
+    }
+
+    /// The characters between code and ETX. Without track mode and receiver there
+    /// are blanks, as an RC2000A sends them.
+    pub(super) fn data(&self) -> Vec<u8> {
+        let mut data = Vec::with_capacity(STATUS_BYTES);
+        data.extend_from_slice(self.satellite.field());
+        data.push(self.name_display.byte());
+        data.extend_from_slice(&self.azimuth.text());
+        data.extend_from_slice(&self.elevation.text());
+        let (feed, device) = self.feed.bytes();
+        data.extend_from_slice(&feed);
+        data.push(self.polarization_mode.map_or(NO_MODE, PolarizationMode::byte));
+        data.extend([self.azimuth_drive.byte(), self.elevation_drive.byte()]);
+        data.push(self.polarization_motion.byte());
+        data.extend(self.alarm.bytes());
+        data.push(device);
+        data.push(self.track.map_or(BASE, Track::byte));
+        data.extend(self.receiver.map_or([BASE; 2], Receiver::bytes));
+        data
+    }
+
+    /// An axis or the polarization turns, or is about to, as far as the
+    /// controller says. An axis that runs out without power is not told.
+    pub const fn is_moving(&self) -> bool {
+        self.azimuth_drive.is_moving()
+            || self.elevation_drive.is_moving()
+            || !matches!(self.polarization_motion, PolarizationMotion::Still)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_status_of_an_older_controller_has_no_track_mode_and_no_receiver() {
+        let data = b"SBS 6       1525  75039       #   ";
+        assert_eq!(data.len(), STATUS_BYTES + 1);
+        assert_eq!(Status::parse(data), None);
+        let status = Status::parse(b"SBS 6       1525  75039      #   ").unwrap();
+        assert_eq!((status.track, status.receiver), (None, None));
+        assert_eq!(status.data(), b"SBS 6       1525  75039      #   ");
+        assert!(!status.is_moving());
+    }
+
+    #[test]
+    fn every_field_takes_any_character() {
+        for byte in 0..=u8::MAX {
+            let status = Status::parse(&[byte; STATUS_BYTES]).unwrap();
+            assert_eq!(Status::parse(&status.data()).unwrap(), status, "{byte:02x}");
+        }
+    }
+}

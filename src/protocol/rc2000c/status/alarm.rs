@@ -1,0 +1,114 @@
+//! The alarm that the controller shows.
+
+use super::BASE;
+
+/// The most urgent alarm (appendix E, characters 30 and 31). The numbers are
+/// those of the RC2000C; its relatives count otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Alarm {
+    /// No alarm.
+    None,
+    /// The battery of the memory is low.
+    LowBattery,
+    /// Azimuth drive.
+    Azimuth,
+    /// Elevation drive.
+    Elevation,
+    /// The azimuth count is wrong.
+    AzimuthCount,
+    /// The elevation count is wrong.
+    ElevationCount,
+    /// The azimuth limits are corrupt.
+    AzimuthLimits,
+    /// The elevation limits are corrupt.
+    ElevationLimits,
+    /// The data for automatic polarization are corrupt.
+    AutoPolarizationData,
+    /// The setting for both axes at once is corrupt.
+    SimultaneousAxes,
+    /// The slow speed of the azimuth is corrupt.
+    AzimuthSlowSpeed,
+    /// The slow speed of the elevation is corrupt.
+    ElevationSlowSpeed,
+    /// The settings of the serial port are corrupt.
+    SerialPortData,
+    /// The geographic and elevation data are corrupt.
+    GeoElevationPosition,
+    /// The settings of the track mode are corrupt.
+    TrackConfiguration,
+    /// The antenna and receiver data are corrupt.
+    AntennaReceiver,
+    /// The time or date is wrong.
+    TimeOrDate,
+    /// The settings of the angle display are corrupt.
+    AngleDisplay,
+    /// The settings of the polarization are corrupt.
+    PolarizationOptions,
+    /// Polarization drive.
+    Polarization,
+    /// The settings of azimuth and elevation are corrupt.
+    AxisOptions,
+    /// Two characters without meaning, the lower nibble first.
+    Unknown([u8; 2]),
+}
+
+impl Alarm {
+    /// Every alarm in the order of its number, from 0; the most urgent first
+    /// after none.
+    pub const ALL: [Self; 21] = [
+        Self::None,
+        Self::LowBattery,
+        Self::Azimuth,
+        Self::Elevation,
+        Self::AzimuthCount,
+        Self::ElevationCount,
+        Self::AzimuthLimits,
+        Self::ElevationLimits,
+        Self::AutoPolarizationData,
+        Self::SimultaneousAxes,
+        Self::AzimuthSlowSpeed,
+        Self::ElevationSlowSpeed,
+        Self::SerialPortData,
+        Self::GeoElevationPosition,
+        Self::TrackConfiguration,
+        Self::AntennaReceiver,
+        Self::TimeOrDate,
+        Self::AngleDisplay,
+        Self::PolarizationOptions,
+        Self::Polarization,
+        Self::AxisOptions,
+    ];
+
+    pub(super) fn from_bytes(low: u8, high: u8) -> Self {
+        Self::ALL
+            .into_iter()
+            .find(|alarm| alarm.bytes() == [low, high])
+            .unwrap_or(Self::Unknown([low, high]))
+    }
+
+    pub(super) fn bytes(self) -> [u8; 2] {
+        if let Self::Unknown(bytes) = self {
+            return bytes;
+        }
+        let number = Self::ALL.into_iter().zip(0_u8..).find(|(alarm, _)| *alarm == self);
+        let number = number.map_or(0, |(_, number)| number);
+        [BASE | number & 0x0f, BASE | number >> 4]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alarms_are_numbered_as_documented() {
+        assert_eq!(Alarm::from_bytes(0x20, 0x20), Alarm::None);
+        assert_eq!(Alarm::from_bytes(0x22, 0x20), Alarm::Azimuth);
+        assert_eq!(Alarm::from_bytes(0x20, 0x21), Alarm::TimeOrDate);
+        assert_eq!(Alarm::from_bytes(0x24, 0x21), Alarm::AxisOptions);
+        for odd in [[0x25, 0x21], [0x20, 0x40], [0x32, 0x20]] {
+            assert_eq!(Alarm::from_bytes(odd[0], odd[1]), Alarm::Unknown(odd));
+            assert_eq!(Alarm::Unknown(odd).bytes(), odd);
+        }
+    }
+}
