@@ -1,8 +1,9 @@
-//! Simulators of the controllers on real sockets.
+//! Simulators of the controllers on real sockets and pseudo-terminals.
 
 mod names;
 mod port;
 mod prng;
+pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;
 

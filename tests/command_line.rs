@@ -63,3 +63,10 @@ fn every_simulator_names_its_faults() {
     assert!(!output.status.success());
     assert!(text(&output.stderr).contains("stuck_1"), "{}", text(&output.stderr));
 }
+
+#[test]
+fn a_wrong_fault_of_an_rc2000c_names_the_right_ones() {
+    let output = azel(&["simulate", "rc2000", "--fault", "az_jm"]);
+    assert!(!output.status.success());
+    assert!(text(&output.stderr).contains("az_jam"), "{}", text(&output.stderr));
+}

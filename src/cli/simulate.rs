@@ -8,7 +8,7 @@ use jiff::Timestamp;
 
 use crate::{
     driver, orbit,
-    sim::{rotator_genius, satrak},
+    sim::{rc2000c, rotator_genius, satrak},
     station::{DEMO_ELEMENT_FILE, Station},
 };
 
@@ -40,6 +40,22 @@ pub(super) enum Controller {
         /// Trouble to make; may be repeated
         #[arg(long = "fault", value_name = "FAULT")]
         faults: Vec<rotator_genius::Fault>,
+    },
+    /// Research Concepts RC2000C on raw TCP, as behind a serial server, or on a pseudo-terminal
+    Rc2000 {
+        /// Where to listen
+        #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:4002")]
+        listen: SocketAddr,
+        /// Serve a pseudo-terminal instead, and print its path
+        #[cfg(unix)]
+        #[arg(long, conflicts_with = "listen")]
+        pty: bool,
+        /// Way in which the controller or its line differs from the plain case; may be repeated
+        #[arg(long = "quirk", value_name = "QUIRK")]
+        quirks: Vec<rc2000c::Quirk>,
+        /// Trouble to make; may be repeated
+        #[arg(long = "fault", value_name = "FAULT")]
+        faults: Vec<rc2000c::Fault>,
     },
 }
 
@@ -73,6 +89,32 @@ pub(super) fn run(controller: Controller) -> anyhow::Result<()> {
                     .await
                     .with_context(|| taken(listen))?;
                 announce("a simulated Rotator Genius listens", simulator.local_addr()?);
+                until_told(simulator.run()).await
+            }
+            Controller::Rc2000 {
+                listen,
+                #[cfg(unix)]
+                pty,
+                quirks,
+                faults,
+            } => {
+                let options = rc2000c::Options {
+                    quirks: quirks.into_iter().collect(),
+                    faults: faults.into_iter().collect(),
+                    ..rc2000c::Options::default()
+                };
+                #[cfg(unix)]
+                if pty {
+                    use std::io::Write as _;
+                    let simulator = rc2000c::PtySimulator::open(&options)
+                        .context("No pseudo-terminal can be opened")?;
+                    writeln!(std::io::stdout(), "{}", simulator.path().display())?;
+                    return until_told(simulator.run()).await;
+                }
+                let simulator = rc2000c::Simulator::bind(listen, &options)
+                    .await
+                    .with_context(|| taken(listen))?;
+                announce("a simulated RC2000C listens", simulator.local_addr()?);
                 until_told(simulator.run()).await
             }
         }

@@ -1,13 +1,16 @@
 //! Commands of appendix E.
 
+mod auto_move;
 mod motion;
 mod parse;
+mod polarization;
+mod value;
 
-pub use motion::{
-    AutoMove, Direction, DriveReset, Jog, MAX_JOG, MIN_JOG, Motion, Polarity, PolarizationMove,
-    PolarizationUnits, Speed, ValueError,
-};
+pub use auto_move::AutoMove;
+pub use motion::{Direction, DriveReset, Jog, MAX_JOG, MIN_JOG, Motion, Speed};
 pub use parse::RequestError;
+pub use polarization::{Polarity, PolarizationMove, PolarizationUnits};
+pub use value::ValueError;
 
 use super::{Address, Command, Frame, Header};
 
@@ -50,7 +53,7 @@ impl NameIndex {
 
     /// A place from 1 to 50.
     pub fn new(index: u8) -> Result<Self, ValueError> {
-        motion::checked("place in the list", index.into(), 1, Self::MOST.into())?;
+        value::checked("place in the list", index.into(), 1, Self::MOST.into())?;
         Ok(Self(index))
     }
 

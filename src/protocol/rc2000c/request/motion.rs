@@ -2,51 +2,15 @@
 
 use std::time::Duration;
 
-use crate::protocol::rc2000c::{Command, SatelliteName};
+use super::auto_move::AutoMove;
+use super::polarization::PolarizationMove;
+use super::value::{ValueError, checked};
+use crate::protocol::rc2000c::Command;
 
 /// The shortest jog; the controller's timer runs in steps of about this.
 pub const MIN_JOG: Duration = Duration::from_millis(150);
 /// The longest jog that the field holds.
 pub const MAX_JOG: Duration = Duration::from_millis(9999);
-/// The most that a position of the polarization can be: a rotating feed's.
-const MAX_POLARIZATION: u16 = 1023;
-
-/// Why a value cannot be sent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum ValueError {
-    /// Outside the range.
-    #[error("{what} {value} is not between {least} and {most}")]
-    Range {
-        /// What the number means, with its unit.
-        what: &'static str,
-        /// As given.
-        value: u64,
-        /// Smallest accepted.
-        least: u64,
-        /// Largest accepted.
-        most: u64,
-    },
-    /// A controller would read the ten digits of the name as a position.
-    #[error("a name of ten digits means a position")]
-    NameIsPosition,
-    /// No satellite has a name of blanks.
-    #[error("the name is empty")]
-    NoName,
-}
-
-/// `value`, when it lies between `least` and `most`.
-pub(super) fn checked(
-    what: &'static str,
-    value: u64,
-    least: u64,
-    most: u64,
-) -> Result<u64, ValueError> {
-    if (least..=most).contains(&value) {
-        Ok(value)
-    } else {
-        Err(ValueError::Range { what, value, least, most })
-    }
-}
 
 /// A request that can make metal move. Only the gate of the driver may turn one
 /// into bytes.
@@ -63,106 +27,6 @@ pub enum Motion {
     ResetDrive(DriveReset),
     /// Clear the error of the track mode, which starts again.
     RestartTracking,
-}
-
-/// Where an auto move goes (appendix E, command 32h).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct AutoMove(Target);
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Target {
-    Satellite(SatelliteName, Option<Polarity>),
-    Position { az_counts: u16, el_counts: u16 },
-    Polarization(PolarizationUnits),
-}
-
-/// One of the two stored polarizations of a satellite.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Polarity {
-    /// H.
-    Horizontal,
-    /// V.
-    Vertical,
-}
-
-/// Position of the polarization as the controller counts it: 0 to 661 with a
-/// polarotor, 0 to 1023 with a rotating feed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct PolarizationUnits(u16);
-
-impl PolarizationUnits {
-    /// A position from 0 to 1023.
-    pub fn new(units: u16) -> Result<Self, ValueError> {
-        checked("polarization", units.into(), 0, MAX_POLARIZATION.into())?;
-        Ok(Self(units))
-    }
-
-    /// The number on the line.
-    pub const fn units(self) -> u16 {
-        self.0
-    }
-}
-
-impl AutoMove {
-    /// To a stored satellite and, if given, one of its polarizations. The name
-    /// must be one that the controller listed.
-    pub fn satellite(name: SatelliteName, polarity: Option<Polarity>) -> Result<Self, ValueError> {
-        if name.is_all_digits() {
-            Err(ValueError::NameIsPosition)
-        } else if name.is_blank() {
-            Err(ValueError::NoName)
-        } else {
-            Ok(Self(Target::Satellite(name, polarity)))
-        }
-    }
-
-    /// To a position of both axes, in counts of their sensors; never angles.
-    pub const fn position(az_counts: u16, el_counts: u16) -> Self {
-        Self(Target::Position { az_counts, el_counts })
-    }
-
-    /// To a position of the polarization alone.
-    pub const fn polarization(position: PolarizationUnits) -> Self {
-        Self(Target::Polarization(position))
-    }
-
-    /// The satellite and its polarization, if it goes to one.
-    pub const fn to_satellite(&self) -> Option<(SatelliteName, Option<Polarity>)> {
-        if let Target::Satellite(name, polarity) = self.0 { Some((name, polarity)) } else { None }
-    }
-
-    /// Azimuth and elevation in counts, if it goes to a position.
-    pub const fn to_position(&self) -> Option<(u16, u16)> {
-        if let Target::Position { az_counts, el_counts } = self.0 {
-            Some((az_counts, el_counts))
-        } else {
-            None
-        }
-    }
-
-    /// The position of the polarization, if it turns nothing else.
-    pub const fn to_polarization(&self) -> Option<PolarizationUnits> {
-        if let Target::Polarization(position) = self.0 { Some(position) } else { None }
-    }
-
-    fn data(self) -> Vec<u8> {
-        let letter = |polarity| match polarity {
-            Some(Polarity::Horizontal) => b'H',
-            Some(Polarity::Vertical) => b'V',
-            None => b' ',
-        };
-        match self.0 {
-            Target::Satellite(name, polarity) => {
-                let mut data = vec![letter(polarity)];
-                data.extend_from_slice(name.field());
-                data
-            }
-            Target::Position { az_counts, el_counts } => {
-                format!(" {az_counts:05}{el_counts:05}").into_bytes()
-            }
-            Target::Polarization(position) => format!("P{:05}00000", position.0).into_bytes(),
-        }
-    }
 }
 
 /// Which way a jog turns.
@@ -241,28 +105,6 @@ impl Jog {
     }
 }
 
-/// Turns the polarization (appendix E, command 34h). How long a jog lasts is
-/// set in the controller.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PolarizationMove {
-    /// Clockwise for a moment.
-    JogClockwise,
-    /// Counter-clockwise for a moment.
-    JogCounterClockwise,
-    /// To the stored polarization of the satellite nearest in azimuth.
-    ToStored(Polarity),
-}
-
-impl PolarizationMove {
-    /// All moves with their letters.
-    pub(super) const ALL: [(Self, u8); 4] = [
-        (Self::JogClockwise, b'C'),
-        (Self::JogCounterClockwise, b'W'),
-        (Self::ToStored(Polarity::Horizontal), b'H'),
-        (Self::ToStored(Polarity::Vertical), b'V'),
-    ];
-}
-
 /// The drive whose alarm is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveReset {
@@ -313,14 +155,5 @@ mod tests {
         assert!(jog(Duration::from_secs(10)).is_err() && jog(Duration::MAX).is_err());
         assert_eq!(jog(MIN_JOG).map(Jog::duration), Ok(MIN_JOG));
         assert_eq!(jog(MAX_JOG).map(Jog::duration), Ok(MAX_JOG));
-    }
-
-    #[test]
-    fn a_name_that_means_a_position_is_refused() {
-        let to = |name| AutoMove::satellite(SatelliteName::new(name).unwrap(), None);
-        assert_eq!(to("0152500750"), Err(ValueError::NameIsPosition));
-        assert!(to("015250075").is_ok());
-        assert_eq!(AutoMove::satellite(SatelliteName::BLANK, None), Err(ValueError::NoName));
-        assert!(PolarizationUnits::new(1024).is_err());
     }
 }

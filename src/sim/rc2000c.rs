@@ -1,0 +1,27 @@
+//! An RC2000C antenna controller that exists only in memory.
+//!
+//! An ordinary peer on a raw TCP port or a pseudo-terminal: it speaks the
+//! protocol of the vendor's manual, turns a modelled mount and feed, stores
+//! satellites, tracks one of them and can be told to misbehave. Where the
+//! manual is silent it takes the case that is worst for a client: any command
+//! takes the panel from a local operator, an axis that runs out after a stop is
+//! not told as moving, and a command for a drive in alarm is acknowledged.
+
+mod axis;
+mod connection;
+mod control;
+mod feed;
+#[cfg(unix)]
+mod pty;
+mod quirks;
+mod satellites;
+mod server;
+mod tracking;
+mod unit;
+
+pub use control::{Control, Mode, Snapshot};
+#[cfg(unix)]
+pub use pty::PtySimulator;
+pub use quirks::{Fault, Quirk};
+pub use satellites::StoredSatellite;
+pub use server::{Options, Simulator};

@@ -1,0 +1,246 @@
+//! One driven axis, in counts of its sensor. Rates, ramp and travel are own
+//! choices: 20 counts are one degree.
+
+use std::ops::RangeInclusive;
+
+use crate::protocol::rc2000c::{AxisDrive, Sense, Speed};
+
+const FAST_COUNTS_S: f64 = 40.0;
+const SLOW_COUNTS_S: f64 = 8.0;
+/// How fast the drive gains speed.
+const RAMP_COUNTS_S2: f64 = 80.0;
+/// How fast an axis without power loses it.
+const COAST_COUNTS_S2: f64 = 50.0;
+/// Closer than this an auto move has arrived.
+const ARRIVED_COUNTS: f64 = 0.3;
+/// A drive that sees no motion for this long is jammed.
+const STALL_S: f64 = 1.0;
+
+/// What an axis is to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Goal {
+    /// No power: run out and stand.
+    Still,
+    /// Turn for a time.
+    Jog { sense: Sense, rate_counts_s: f64, left_s: f64 },
+    /// Go to a count and stand there.
+    AutoMove(f64),
+}
+
+/// What is wrong with an axis, from outside.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Trouble {
+    /// It cannot be turned.
+    pub(super) is_stuck: bool,
+    /// The drive takes too much current.
+    pub(super) is_overloaded: bool,
+    /// It turns without command.
+    pub(super) runs_away: bool,
+}
+
+/// One driven axis.
+#[derive(Debug, Clone)]
+pub(super) struct Axis {
+    counts: f64,
+    rate_counts_s: f64,
+    goal: Goal,
+    travel: RangeInclusive<f64>,
+    /// Only the elevation reports its limits as an alarm.
+    has_limit_alarm: bool,
+    trouble: Trouble,
+    alarm: Option<AxisDrive>,
+    stalled_s: f64,
+}
+
+impl Axis {
+    pub(super) fn new(counts: u16, travel: RangeInclusive<u16>, has_limit_alarm: bool) -> Self {
+        let [least, most] = [*travel.start(), *travel.end()].map(f64::from);
+        Self {
+            counts: f64::from(counts).clamp(least, most),
+            rate_counts_s: 0.0,
+            goal: Goal::Still,
+            travel: least..=most,
+            has_limit_alarm,
+            trouble: Trouble::default(),
+            alarm: None,
+            stalled_s: 0.0,
+        }
+    }
+
+    pub(super) fn set_trouble(&mut self, trouble: Trouble) {
+        self.trouble = trouble;
+    }
+
+    /// Counts as the sensor gives them.
+    pub(super) fn counts(&self) -> u16 {
+        self.counts.round() as u16
+    }
+
+    /// The limit at which it stands.
+    pub(super) fn limit(&self) -> Option<Sense> {
+        if self.counts <= *self.travel.start() {
+            Some(Sense::Negative)
+        } else if self.counts >= *self.travel.end() {
+            Some(Sense::Positive)
+        } else {
+            None
+        }
+    }
+
+    pub(super) fn reaches(&self, counts: u16) -> bool {
+        self.travel.contains(&counts.into())
+    }
+
+    /// What the controller says of it. An axis that runs out is not told.
+    pub(super) fn drive(&self) -> AxisDrive {
+        if let Some(alarm) = self.alarm {
+            return alarm;
+        }
+        match self.goal {
+            Goal::Still => AxisDrive::Still,
+            Goal::AutoMove(_) => AxisDrive::AutoMove,
+            Goal::Jog { sense, .. } if self.rate_counts_s * sign(sense) < 0.0 => {
+                AxisDrive::Pending(sense)
+            }
+            Goal::Jog { sense, .. } => AxisDrive::Moving(sense),
+        }
+    }
+
+    /// The metal turns.
+    pub(super) fn is_turning(&self) -> bool {
+        self.rate_counts_s != 0.0
+    }
+
+    pub(super) fn has_arrived(&self) -> bool {
+        self.goal == Goal::Still && !self.is_turning()
+    }
+
+    pub(super) fn is_auto_moving(&self) -> bool {
+        matches!(self.goal, Goal::AutoMove(_))
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.goal = Goal::Still;
+    }
+
+    pub(super) fn jog(&mut self, sense: Sense, speed: Speed, duration_s: f64) {
+        let rate_counts_s = match speed {
+            Speed::Slow => SLOW_COUNTS_S,
+            Speed::Fast => FAST_COUNTS_S,
+        };
+        self.begin(Goal::Jog { sense, rate_counts_s, left_s: duration_s });
+    }
+
+    pub(super) fn auto_move(&mut self, counts: u16) {
+        self.begin(Goal::AutoMove(counts.into()));
+    }
+
+    /// A drive in alarm takes no power; an alarm of the limit is no such one.
+    fn begin(&mut self, goal: Goal) {
+        if self.alarm == Some(AxisDrive::Limit) {
+            self.alarm = None;
+        }
+        if self.alarm.is_none() {
+            self.goal = goal;
+            self.stalled_s = 0.0;
+        }
+    }
+
+    /// Clears the alarm; it comes back while its cause lasts.
+    pub(super) fn reset(&mut self) {
+        self.alarm = None;
+        self.stalled_s = 0.0;
+    }
+
+    fn fail(&mut self, alarm: AxisDrive) {
+        self.alarm = Some(alarm);
+        self.goal = Goal::Still;
+    }
+
+    pub(super) fn advance(&mut self, step_s: f64) {
+        let is_commanded = self.goal != Goal::Still;
+        if self.trouble.runs_away {
+            self.fail(AxisDrive::Runaway);
+            self.turn(SLOW_COUNTS_S, step_s);
+            return;
+        }
+        if self.trouble.is_overloaded && is_commanded {
+            self.fail(AxisDrive::Overcurrent);
+        }
+        if self.trouble.is_stuck {
+            self.rate_counts_s = 0.0;
+            self.stalled_s = if is_commanded { self.stalled_s + step_s } else { 0.0 };
+            if self.stalled_s >= STALL_S {
+                self.fail(AxisDrive::Jammed);
+            }
+            return;
+        }
+        let (wanted_counts_s, powered_s) = match &mut self.goal {
+            Goal::Still => (0.0, step_s),
+            Goal::AutoMove(target) => {
+                let target = *target;
+                (self.approach(target, step_s), step_s)
+            }
+            Goal::Jog { sense, rate_counts_s, left_s } => {
+                let powered_s = step_s.min(*left_s);
+                *left_s -= powered_s;
+                (*rate_counts_s * sign(*sense), powered_s)
+            }
+        };
+        self.turn(wanted_counts_s, powered_s);
+        if matches!(self.goal, Goal::Jog { left_s, .. } if left_s <= 0.0) {
+            self.goal = Goal::Still;
+            self.turn(0.0, step_s - powered_s);
+        }
+        if let Goal::AutoMove(target) = self.goal
+            && (target - self.counts).abs() < ARRIVED_COUNTS
+            && self.rate_counts_s.abs() <= COAST_COUNTS_S2 * step_s
+        {
+            self.counts = target;
+            self.rate_counts_s = 0.0;
+            self.goal = Goal::Still;
+        }
+    }
+
+    /// Turns for `step_s` while the rate goes towards the wanted one.
+    fn turn(&mut self, wanted_counts_s: f64, step_s: f64) {
+        let is_braking = wanted_counts_s.abs() < self.rate_counts_s.abs()
+            || wanted_counts_s * self.rate_counts_s < 0.0;
+        let most_change = step_s * if is_braking { COAST_COUNTS_S2 } else { RAMP_COUNTS_S2 };
+        let change = wanted_counts_s - self.rate_counts_s;
+        self.rate_counts_s += change.clamp(-most_change, most_change);
+        self.counts += self.rate_counts_s * step_s;
+        let end = if self.rate_counts_s < 0.0 { *self.travel.start() } else { *self.travel.end() };
+        let is_beyond = (self.counts - end) * self.rate_counts_s >= 0.0;
+        if is_beyond && self.rate_counts_s != 0.0 {
+            self.counts = end;
+            self.rate_counts_s = 0.0;
+            if matches!(self.goal, Goal::Jog { .. }) {
+                self.goal = Goal::Still;
+                if self.has_limit_alarm {
+                    self.alarm = Some(AxisDrive::Limit);
+                }
+            }
+        }
+    }
+
+    /// The fastest rate from which the axis still halts at `target`.
+    fn approach(&self, target: f64, step_s: f64) -> f64 {
+        let away = target - self.counts;
+        // Less than what it brakes with, so that the braking never falls behind.
+        let brake = 0.8 * COAST_COUNTS_S2;
+        let half = brake * step_s / 2.0;
+        let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;
+        fastest.min(away.abs() / step_s).min(FAST_COUNTS_S).copysign(away)
+    }
+}
+
+fn sign(sense: Sense) -> f64 {
+    match sense {
+        Sense::Negative => -1.0,
+        Sense::Positive => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

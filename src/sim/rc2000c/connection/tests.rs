@@ -1,0 +1,97 @@
+//! A client at the other end of a stream in memory, in paused time.
+
+mod line;
+mod motion;
+mod tracking;
+
+use tokio::io::DuplexStream;
+
+use super::*;
+use crate::protocol::rc2000c::{
+    AutoMove, FrameError, Motion, Query, ReplyError, Request, SatelliteName, Status,
+};
+use crate::sim::rc2000c::Options;
+
+struct Client {
+    stream: DuplexStream,
+    decoder: Decoder,
+}
+
+impl Client {
+    fn of(control: &Control) -> Self {
+        let (stream, other) = tokio::io::duplex(4096);
+        let control = control.clone();
+        tokio::spawn(async move { control.serve(other).await });
+        Self { stream, decoder: Decoder::new(Address::FACTORY) }
+    }
+
+    fn new() -> (Self, Control) {
+        let control = Control::new(&Options::default());
+        (Self::of(&control), control)
+    }
+
+    async fn send(&mut self, request: Request) {
+        self.stream.write_all(&request.to_bytes(Address::FACTORY)).await.unwrap();
+    }
+
+    /// The next frame or refusal; `None` when nothing comes within 2 s or the
+    /// connection ends.
+    async fn receive(&mut self) -> Option<Result<Frame, FrameError>> {
+        let mut buffer = [0; 256];
+        loop {
+            if let Some(seen) = self.decoder.next() {
+                return Some(seen);
+            }
+            let read = timeout(Duration::from_secs(2), self.stream.read(&mut buffer)).await;
+            match read {
+                Ok(Ok(count)) if count > 0 => self.decoder.push(&buffer[..count]),
+                _ => return None,
+            }
+        }
+    }
+
+    async fn ask(&mut self, request: Request) -> Reply {
+        self.send(request).await;
+        Reply::parse(&self.receive().await.unwrap().unwrap()).unwrap()
+    }
+
+    /// Sends raw characters of a command without checksum.
+    async fn ask_raw(&mut self, command: &[u8]) -> Option<Reply> {
+        let mut bytes = command.to_vec();
+        bytes.push(checksum(command));
+        self.stream.write_all(&bytes).await.unwrap();
+        self.receive().await.map(|frame| Reply::parse(&frame.unwrap()).unwrap())
+    }
+
+    async fn status_after(&mut self, request: Request) -> Status {
+        match self.ask(request).await {
+            Reply::Status { command, status } => {
+                assert_eq!(command, request.command());
+                status
+            }
+            other => panic!("{request:?}: {other:?}"),
+        }
+    }
+
+    async fn status(&mut self) -> Status {
+        self.status_after(Request::Query(Query::Status)).await
+    }
+
+    async fn refused(&mut self, request: Request) {
+        let code = request.command().code();
+        assert_eq!(self.ask(request).await, Reply::Refused { code }, "{request:?}");
+    }
+}
+
+fn to_satellite(name: &str) -> Request {
+    let name = SatelliteName::new(name).unwrap();
+    Request::Motion(Motion::AutoMove(AutoMove::satellite(name, None).unwrap()))
+}
+
+fn to_position(az_counts: u16, el_counts: u16) -> Request {
+    Request::Motion(Motion::AutoMove(AutoMove::position(az_counts, el_counts)))
+}
+
+async fn seconds(seconds: f64) {
+    sleep(Duration::try_from_secs_f64(seconds).unwrap()).await;
+}

@@ -1,0 +1,92 @@
+//! The controller on a pseudo-terminal, as on a serial port.
+
+use std::io;
+use std::os::fd::{AsFd, OwnedFd};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use nix::fcntl::{FcntlArg, FdFlag, OFlag, fcntl};
+use nix::pty::{OpenptyResult, openpty};
+use nix::sys::termios::{SetArg, cfmakeraw, tcgetattr, tcsetattr};
+use nix::unistd::ttyname;
+use tokio::io::{Join, join};
+use tokio::net::unix::pipe::{Receiver, Sender};
+use tokio::time::{MissedTickBehavior, interval, sleep};
+
+use super::{Control, Options};
+
+/// How often the controller lives on while nobody asks.
+const HEARTBEAT: Duration = Duration::from_millis(250);
+/// Between the end of one connection and the next.
+const RECOVERY: Duration = Duration::from_millis(100);
+
+/// A controller behind a pseudo-terminal, which carries eight bits without
+/// parity whatever a client sets. So a command may come with or without parity
+/// in the eighth bit, and the reply comes likewise.
+#[derive(Debug)]
+pub struct PtySimulator {
+    control: Control,
+    line: Join<Receiver, Sender>,
+    /// Kept open, so that a client that leaves does not hang up the line.
+    _terminal: OwnedFd,
+    path: PathBuf,
+}
+
+impl PtySimulator {
+    /// Starts a controller and opens a pseudo-terminal for it. Call it inside a
+    /// tokio runtime with I/O.
+    pub fn open(options: &Options) -> io::Result<Self> {
+        let OpenptyResult { master, slave } = openpty(None, None)?;
+        let mut attributes = tcgetattr(&slave)?;
+        cfmakeraw(&mut attributes);
+        tcsetattr(&slave, SetArg::TCSANOW, &attributes)?;
+        for end in [master.as_fd(), slave.as_fd()] {
+            fcntl(end, FcntlArg::F_SETFD(FdFlag::FD_CLOEXEC))?;
+        }
+        fcntl(&master, FcntlArg::F_SETFL(OFlag::O_NONBLOCK))?;
+        // A terminal is waited for, read and written as a pipe is.
+        let reader = Receiver::from_owned_fd_unchecked(master.try_clone()?)?;
+        let writer = Sender::from_owned_fd_unchecked(master)?;
+        Ok(Self {
+            control: Control::new(options),
+            line: join(reader, writer),
+            path: ttyname(&slave)?,
+            _terminal: slave,
+        })
+    }
+
+    /// The port that a client opens.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A handle to watch and disturb the controller.
+    pub fn control(&self) -> Control {
+        self.control.clone()
+    }
+
+    /// Serves whoever opens the port. Dropping the future ends the controller
+    /// and closes the port.
+    pub async fn run(self) {
+        let Self { control, mut line, path, .. } = self;
+        let serve = async {
+            loop {
+                let result = control.serve_as_spoken(&mut line).await;
+                tracing::info!(target: "azel::sim", ?result, path = %path.display(), "client left");
+                sleep(RECOVERY).await;
+            }
+        };
+        let live = async {
+            let mut heartbeat = interval(HEARTBEAT);
+            heartbeat.set_missed_tick_behavior(MissedTickBehavior::Delay);
+            loop {
+                heartbeat.tick().await;
+                control.live();
+            }
+        };
+        tokio::select! {
+            () = serve => {}
+            () = live => {}
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Oddities of firmware and wiring, and failures that can be switched on.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::protocol::rc2000c::Alarm;
+use crate::sim::names::{UnknownName, find, name_of};
+
+/// A way in which a controller or its line may differ from the plainest case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quirk {
+    /// The display, and so the status, shows angles instead of counts.
+    AngleDisplay,
+    /// A rotating feed instead of a polarotor.
+    RotatingFeed,
+    /// An RC2000A: no track mode, no receiver.
+    Rc2000a,
+    /// The reply to the device type query has a wrong command code.
+    TypeCode,
+    /// What is malformed is not answered, as appendix D has it.
+    SilentRefusal,
+    /// The words of limits stand at the left of their fields.
+    LeftWords,
+    /// A jog into the limit at which the axis stands is refused.
+    RefuseAtLimit,
+    /// A stop does not end an auto move.
+    StopSparesAutoMove,
+    /// A stop or a jog does not end the track mode.
+    StopSparesTracking,
+    /// The line adapter echoes what the client sends.
+    Echo,
+    /// The serial server is set to eight bits: the eighth carries even parity.
+    ParityBit,
+}
+
+impl Quirk {
+    /// All quirks with their names.
+    pub const ALL: [(Self, &'static str); 11] = [
+        (Self::AngleDisplay, "angle_display"),
+        (Self::RotatingFeed, "rotating_feed"),
+        (Self::Rc2000a, "rc2000a"),
+        (Self::TypeCode, "type_code"),
+        (Self::SilentRefusal, "silent_refusal"),
+        (Self::LeftWords, "left_words"),
+        (Self::RefuseAtLimit, "refuse_at_limit"),
+        (Self::StopSparesAutoMove, "stop_spares_auto_move"),
+        (Self::StopSparesTracking, "stop_spares_tracking"),
+        (Self::Echo, "echo"),
+        (Self::ParityBit, "parity_bit"),
+    ];
+}
+
+/// Something that goes wrong.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Fault {
+    /// No reply comes; commands are carried out.
+    Silence,
+    /// Every third reply is lost; its command was carried out.
+    DropReply,
+    /// Noise stands in front of each reply.
+    Garbage,
+    /// Replies come in pieces.
+    Split,
+    /// Replies are gathered and come together.
+    Merge,
+    /// One bit of every third reply is wrong.
+    BitError,
+    /// Every third reply ends in its middle.
+    Truncate,
+    /// The configuration takes no commands: every reply says offline.
+    RemoteDisabled,
+    /// Every command but queries is refused.
+    Refuse,
+    /// The azimuth cannot be turned.
+    AzimuthJam,
+    /// The elevation cannot be turned.
+    ElevationJam,
+    /// The azimuth turns without command.
+    AzimuthRunaway,
+    /// The elevation turns without command.
+    ElevationRunaway,
+    /// The azimuth drive takes too much current.
+    AzimuthOvercurrent,
+    /// The elevation drive takes too much current.
+    ElevationOvercurrent,
+    /// The track mode finds its peak at a limit.
+    PeakLimit,
+    /// The controller shows this alarm.
+    Alarm(Alarm),
+}
+
+impl Fault {
+    /// All faults with their names.
+    pub const ALL: [(Self, &'static str); 36] = [
+        (Self::Silence, "silence"),
+        (Self::DropReply, "drop_reply"),
+        (Self::Garbage, "garbage"),
+        (Self::Split, "split"),
+        (Self::Merge, "merge"),
+        (Self::BitError, "bit_error"),
+        (Self::Truncate, "truncate"),
+        (Self::RemoteDisabled, "remote_disabled"),
+        (Self::Refuse, "refuse"),
+        (Self::AzimuthJam, "az_jam"),
+        (Self::ElevationJam, "el_jam"),
+        (Self::AzimuthRunaway, "az_runaway"),
+        (Self::ElevationRunaway, "el_runaway"),
+        (Self::AzimuthOvercurrent, "az_overcurrent"),
+        (Self::ElevationOvercurrent, "el_overcurrent"),
+        (Self::PeakLimit, "peak_limit"),
+        (Self::Alarm(Alarm::LowBattery), "low_battery"),
+        (Self::Alarm(Alarm::Azimuth), "az_alarm"),
+        (Self::Alarm(Alarm::Elevation), "el_alarm"),
+        (Self::Alarm(Alarm::AzimuthCount), "az_count"),
+        (Self::Alarm(Alarm::ElevationCount), "el_count"),
+        (Self::Alarm(Alarm::AzimuthLimits), "az_limits"),
+        (Self::Alarm(Alarm::ElevationLimits), "el_limits"),
+        (Self::Alarm(Alarm::AutoPolarizationData), "autopol_data"),
+        (Self::Alarm(Alarm::SimultaneousAxes), "simultaneous_axes"),
+        (Self::Alarm(Alarm::AzimuthSlowSpeed), "az_slow_speed"),
+        (Self::Alarm(Alarm::ElevationSlowSpeed), "el_slow_speed"),
+        (Self::Alarm(Alarm::SerialPortData), "serial_port_data"),
+        (Self::Alarm(Alarm::GeoElevationPosition), "geo_position"),
+        (Self::Alarm(Alarm::TrackConfiguration), "track_configuration"),
+        (Self::Alarm(Alarm::AntennaReceiver), "antenna_receiver"),
+        (Self::Alarm(Alarm::TimeOrDate), "time_or_date"),
+        (Self::Alarm(Alarm::AngleDisplay), "angle_display_data"),
+        (Self::Alarm(Alarm::PolarizationOptions), "pol_options"),
+        (Self::Alarm(Alarm::Polarization), "pol_alarm"),
+        (Self::Alarm(Alarm::AxisOptions), "axis_options"),
+    ];
+}
+
+impl FromStr for Quirk {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("quirk", &Self::ALL, name)
+    }
+}
+
+impl FromStr for Fault {
+    type Err = UnknownName;
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        find("fault", &Self::ALL, name)
+    }
+}
+
+impl fmt::Display for Quirk {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name_of(&Self::ALL, self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back_and_wrong_ones_are_answered_with_the_list() {
+        for (quirk, name) in Quirk::ALL {
+            assert_eq!(name.parse(), Ok(quirk));
+            assert_eq!(quirk.to_string(), name);
+        }
+        for (fault, name) in Fault::ALL {
+            assert_eq!(name.parse(), Ok(fault));
+            assert_eq!(fault.to_string(), name);
+        }
+        let error = "az_jm".parse::<Fault>().unwrap_err().to_string();
+        assert!(error.contains("az_jm") && error.contains("az_jam, el_jam"), "{error}");
+    }
+
+    #[test]
+    fn every_alarm_can_be_switched_on() {
+        for alarm in Alarm::ALL.into_iter().skip(1) {
+            assert!(Fault::ALL.iter().any(|(fault, _)| *fault == Fault::Alarm(alarm)));
+        }
+    }
+}

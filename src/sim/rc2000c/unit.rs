@@ -1,0 +1,176 @@
+//! The controller itself: what it remembers and does. No I/O and no clock: the
+//! time since its start comes in as an argument.
+
+mod commands;
+mod report;
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use super::axis::{Axis, Trouble};
+use super::feed::Feed;
+use super::satellites::StoredSatellite;
+use super::tracking::Tracking;
+use super::{Fault, Mode, Options, Quirk, Snapshot};
+use crate::protocol::rc2000c::{AxisDrive, PolarizationMotion, Submode};
+
+/// Time between two steps of the mount.
+const STEP: Duration = Duration::from_millis(50);
+/// A longer absence than this is not lived through but skipped.
+const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
+/// From the counter-clockwise to the clockwise limit, half a turn.
+const AZIMUTH_TRAVEL: std::ops::RangeInclusive<u16> = 30..=3630;
+/// From the horizon to the zenith.
+const ELEVATION_TRAVEL: std::ops::RangeInclusive<u16> = 30..=1830;
+/// Where the antenna stands at the start: on the first satellite of the demo.
+const START_COUNTS: [u16; 2] = [1525, 750];
+const START_POLARIZATION: u16 = 263;
+
+/// State of one simulated controller.
+#[derive(Debug)]
+pub(super) struct Unit {
+    satellites: Vec<StoredSatellite>,
+    pub(super) quirks: BTreeSet<Quirk>,
+    pub(super) faults: BTreeSet<Fault>,
+    /// Since the start.
+    elapsed: Duration,
+    mode: Mode,
+    azimuth: Axis,
+    elevation: Axis,
+    feed: Feed,
+    is_auto_polarization: bool,
+    tracking: Option<Tracking>,
+    /// The track mode begins when the auto move that runs has arrived.
+    next_tracking: Option<Tracking>,
+}
+
+impl Unit {
+    pub(super) fn new(options: &Options) -> Self {
+        let [az_counts, el_counts] = START_COUNTS;
+        let mut unit = Self {
+            satellites: options.satellites.clone(),
+            quirks: options.quirks.clone(),
+            faults: options.faults.clone(),
+            elapsed: Duration::ZERO,
+            mode: Mode::Manual,
+            azimuth: Axis::new(az_counts, AZIMUTH_TRAVEL, false),
+            elevation: Axis::new(el_counts, ELEVATION_TRAVEL, true),
+            feed: Feed::new(START_POLARIZATION),
+            is_auto_polarization: false,
+            tracking: None,
+            next_tracking: None,
+        };
+        unit.suffer();
+        unit
+    }
+
+    /// Lets quirks and faults have their effect. Call it after each change of them.
+    pub(super) fn suffer(&mut self) {
+        let has = |fault| self.faults.contains(&fault);
+        self.azimuth.set_trouble(Trouble {
+            is_stuck: has(Fault::AzimuthJam),
+            is_overloaded: has(Fault::AzimuthOvercurrent),
+            runs_away: has(Fault::AzimuthRunaway),
+        });
+        self.elevation.set_trouble(Trouble {
+            is_stuck: has(Fault::ElevationJam),
+            is_overloaded: has(Fault::ElevationOvercurrent),
+            runs_away: has(Fault::ElevationRunaway),
+        });
+        self.feed.set_rotating(self.quirks.contains(&Quirk::RotatingFeed));
+    }
+
+    /// The local operator takes the panel: whatever the line asked for ends.
+    pub(super) fn use_panel(&mut self) {
+        self.mode = Mode::Manual;
+        self.tracking = None;
+        self.stop_axes();
+    }
+
+    fn stop_axes(&mut self) {
+        self.next_tracking = None;
+        self.azimuth.stop();
+        self.elevation.stop();
+    }
+
+    /// Lives until `elapsed` after the start. Earlier times change nothing.
+    pub(super) fn advance(&mut self, elapsed: Duration) {
+        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
+        self.elapsed = self.elapsed.max(catch_up_from);
+        while self.elapsed < elapsed {
+            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
+            self.elapsed += step;
+            self.step(step.as_secs_f64());
+        }
+    }
+
+    fn step(&mut self, step_s: f64) {
+        self.azimuth.advance(step_s);
+        self.elevation.advance(step_s);
+        self.feed.advance(step_s);
+        if self.azimuth.has_arrived()
+            && self.elevation.has_arrived()
+            && let Some(tracking) = self.next_tracking.take()
+        {
+            self.mode = Mode::Track;
+            self.tracking = Some(tracking);
+        }
+        self.track(step_s);
+    }
+
+    fn track(&mut self, step_s: f64) {
+        let Some(tracking) = &mut self.tracking else { return };
+        tracking.advance(step_s);
+        let drives = [self.azimuth.drive(), self.elevation.drive()];
+        if drives.contains(&AxisDrive::Jammed) {
+            tracking.fail(Submode::JammedError);
+        } else if drives.iter().any(|drive| drive.is_alarm()) {
+            tracking.fail(Submode::DriveError);
+        } else if tracking.is_peaking() && self.faults.contains(&Fault::PeakLimit) {
+            tracking.fail(Submode::PeakLimitError);
+        }
+        if let Some([az_counts, el_counts]) = tracking.target() {
+            for (axis, counts) in [(&mut self.azimuth, az_counts), (&mut self.elevation, el_counts)]
+            {
+                if axis.counts() != counts {
+                    axis.auto_move(counts);
+                }
+            }
+        }
+        if !tracking.is_peaking()
+            && let Some(polarity) = tracking.waiting.take()
+        {
+            self.turn_to(polarity);
+        }
+    }
+
+    fn end_tracking(&mut self) {
+        if self.tracking.take().is_some() {
+            self.mode = Mode::Remote;
+            self.stop_axes();
+        }
+    }
+
+    pub(super) fn snapshot(&self) -> Snapshot {
+        let is_turning = self.azimuth.is_turning()
+            || self.elevation.is_turning()
+            || self.feed.motion() != PolarizationMotion::Still;
+        Snapshot {
+            az_counts: self.azimuth.counts(),
+            el_counts: self.elevation.counts(),
+            polarization_units: self.feed.units(),
+            mode: self.mode,
+            is_turning,
+        }
+    }
+
+    fn counts(&self) -> [u16; 2] {
+        [self.azimuth.counts(), self.elevation.counts()]
+    }
+
+    /// The satellite nearest in azimuth.
+    fn nearest(&self) -> Option<&StoredSatellite> {
+        let az_counts = self.azimuth.counts();
+        self.satellites.iter().min_by_key(|satellite| satellite.az_counts.abs_diff(az_counts))
+    }
+}

@@ -1,0 +1,127 @@
+//! What the controller says of itself.
+
+use super::Unit;
+use crate::protocol::rc2000c::{
+    Alarm, AxisDrive, Band, DeviceType, LimitEnd, MountKind, NameDisplay, PolarizationCode,
+    PolarizationMode, Position, Receiver, ReceiverChannel, SatelliteName, Sense, Status, Submode,
+    Track, TrackBand,
+};
+use crate::sim::rc2000c::axis::Axis;
+use crate::sim::rc2000c::satellites::Closeness;
+use crate::sim::rc2000c::tracking::Tracking;
+use crate::sim::rc2000c::{Fault, Quirk};
+
+/// Counts of azimuth at 180 degrees, and of elevation at 0.
+const AZIMUTH_CENTRE: i32 = 1830;
+const ELEVATION_ZERO: i32 = 30;
+/// As a user enters it, so that one count is half a tenth of a degree.
+const DISPLAY_GAIN: i32 = 200;
+
+impl Unit {
+    pub(super) fn device_type(&self) -> DeviceType {
+        if self.quirks.contains(&Quirk::Rc2000a) {
+            DeviceType { mount: MountKind::Other(*b"RC2K"), version: *b"14" }
+        } else {
+            DeviceType { mount: MountKind::ElevationOverAzimuth, version: *b"14" }
+        }
+    }
+
+    pub(super) fn status(&self) -> Status {
+        let counts = self.counts();
+        let shown = self
+            .satellites
+            .iter()
+            .find_map(|satellite| Some((satellite, satellite.closeness(counts)?)));
+        let (satellite, name_display) = match shown {
+            Some((satellite, Closeness::On)) => (satellite.name, NameDisplay::OnSatellite),
+            Some((satellite, Closeness::Near)) => (satellite.name, NameDisplay::NearSatellite),
+            None => (SatelliteName::BLANK, NameDisplay::Hidden),
+        };
+        let units = self.feed.units();
+        let code = shown.map_or(PolarizationCode::None, |(shown, _)| shown.polarization(units));
+        let is_older = self.quirks.contains(&Quirk::Rc2000a);
+        let azimuth_ends = [LimitEnd::CounterClockwise, LimitEnd::Clockwise];
+        let [az_tenths, el_tenths] = angles(counts);
+        Status {
+            satellite,
+            name_display,
+            azimuth: self.position(&self.azimuth, az_tenths, azimuth_ends),
+            elevation: self.position(&self.elevation, el_tenths, [LimitEnd::Down, LimitEnd::Up]),
+            feed: self.feed.reading(),
+            polarization_mode: Some(PolarizationMode {
+                code,
+                is_automatic: self.is_auto_polarization,
+            }),
+            azimuth_drive: self.azimuth.drive(),
+            elevation_drive: self.elevation.drive(),
+            polarization_motion: self.feed.motion(),
+            alarm: self.alarm(),
+            track: (!is_older).then(|| self.track_report()),
+            receiver: (!is_older).then(|| self.receiver(code)),
+        }
+    }
+
+    fn position(&self, axis: &Axis, tenths: i16, [least, most]: [LimitEnd; 2]) -> Position {
+        let end = match axis.limit() {
+            Some(Sense::Negative) => least,
+            Some(Sense::Positive) => most,
+            None if self.quirks.contains(&Quirk::AngleDisplay) => {
+                return Position::TenthsOfDegree(tenths);
+            }
+            None => return Position::Counts(axis.counts()),
+        };
+        match end {
+            LimitEnd::CounterClockwise if self.has_left_words() => Position::Unknown(*b"CCW  "),
+            LimitEnd::Clockwise if self.has_left_words() => Position::Unknown(*b"CW   "),
+            LimitEnd::Down if self.has_left_words() => Position::Unknown(*b"DOWN "),
+            LimitEnd::Up if self.has_left_words() => Position::Unknown(*b"UP   "),
+            end => Position::Limit(end),
+        }
+    }
+
+    fn has_left_words(&self) -> bool {
+        self.quirks.contains(&Quirk::LeftWords)
+    }
+
+    /// The most urgent alarm.
+    fn alarm(&self) -> Alarm {
+        let own = [(&self.azimuth, Alarm::Azimuth), (&self.elevation, Alarm::Elevation)];
+        let own = own.into_iter().filter(|(axis, _)| AxisDrive::is_alarm(axis.drive()));
+        let injected = self.faults.iter().filter_map(|fault| match fault {
+            Fault::Alarm(alarm) => Some(*alarm),
+            _ => None,
+        });
+        own.map(|(_, alarm)| alarm).chain(injected).min().unwrap_or(Alarm::None)
+    }
+
+    fn track_report(&self) -> Track {
+        let submode = self.tracking.as_ref().map_or(Submode::Off, Tracking::submode);
+        let band = match self.tracking.as_ref().map(|tracking| tracking.band) {
+            Some(Band::K) => TrackBand::K,
+            Some(Band::C) | None => TrackBand::C,
+        };
+        Track { band, submode }
+    }
+
+    fn receiver(&self, code: PolarizationCode) -> Receiver {
+        let counts = self.counts();
+        let agc = self.satellites.iter().map(|satellite| satellite.agc(counts)).max();
+        let is_vertical =
+            matches!(code, PolarizationCode::Vertical | PolarizationCode::NearVertical);
+        Receiver {
+            channel: if is_vertical { ReceiverChannel::Two } else { ReceiverChannel::One },
+            agc: agc.unwrap_or(0),
+            allows_polarization: self
+                .tracking
+                .as_ref()
+                .is_some_and(|tracking| !tracking.is_peaking() && !self.is_auto_polarization),
+        }
+    }
+}
+
+/// Azimuth and elevation in tenths of a degree, as the display computes them.
+fn angles([az_counts, el_counts]: [u16; 2]) -> [i16; 2] {
+    let from = |counts: u16, zero: i32| (i32::from(counts) - zero) * 100 / DISPLAY_GAIN;
+    [1800 + from(az_counts, AZIMUTH_CENTRE), from(el_counts, ELEVATION_ZERO)]
+        .map(|tenths| i16::try_from(tenths).unwrap_or(i16::MAX))
+}
