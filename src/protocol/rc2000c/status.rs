@@ -145,7 +145,8 @@ impl Status {
     }
 
     /// An axis or the polarization turns, or is about to, as far as the
-    /// controller says. An axis that runs out without power is not told.
+    /// controller says. An axis whose drive is still may yet run out: compare
+    /// its positions.
     pub const fn is_moving(&self) -> bool {
         self.azimuth_drive.is_moving()
             || self.elevation_drive.is_moving()

@@ -174,3 +174,6 @@ impl Unit {
         self.satellites.iter().min_by_key(|satellite| satellite.az_counts.abs_diff(az_counts))
     }
 }
+
+#[cfg(test)]
+mod tests;
