@@ -56,7 +56,7 @@ fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         8 => prop::sample::select(known).prop_map(|command| Event::Command(command.to_owned())),
         2 => "[0-7][ -~]{0,12}".prop_map(Event::Command),
-        8 => (0_u64..100_000).prop_map(|ms| Event::Wait(Duration::from_millis(ms))),
+        8 => (0_u64..20_000).prop_map(|ms| Event::Wait(Duration::from_millis(ms))),
         1 => (0..Quirk::ALL.len(), any::<bool>())
             .prop_map(|(at, is_on)| Event::Quirk(Quirk::ALL[at].0, is_on)),
         2 => (0..Fault::ALL.len(), prop::bool::weighted(0.3))
@@ -76,7 +76,7 @@ fn switch<T: Ord>(set: &mut BTreeSet<T>, what: T, is_on: bool) {
 proptest! {
     #[test]
     fn nothing_leaves_the_travel_and_every_reply_is_read(
-        events in prop::collection::vec(event(), 0..60)
+        events in prop::collection::vec(event(), 0..40)
     ) {
         let mut unit = Unit::new(&Options::default());
         let mut elapsed = Duration::ZERO;
@@ -106,7 +106,7 @@ proptest! {
 
     #[test]
     fn without_a_motion_command_nothing_turns(
-        waits in prop::collection::vec(0_u64..100_000, 0..20)
+        waits in prop::collection::vec(0_u64..20_000, 0..20)
     ) {
         let mut unit = Unit::new(&Options::default());
         let before = unit.snapshot();

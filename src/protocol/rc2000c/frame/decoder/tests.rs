@@ -54,6 +54,13 @@ fn a_reply_of_another_length_is_refused_at_its_end() {
 }
 
 #[test]
+fn a_refusal_with_data_is_none() {
+    let mut decoder = decoder(b"\x15\x32\x32F\x03\x50");
+    let error = FrameError::BadLength { code: 0x32, data_bytes: 1 };
+    assert_eq!(decoder.next(), Some(Err(error)));
+}
+
+#[test]
 fn bytes_that_no_frame_holds_are_named() {
     for byte in [0x00, 0x1f, 0x06, 0x80, 0xff] {
         let mut decoder = decoder(&[b"\x06\x32\x31AB".as_slice(), &[byte]].concat());

@@ -1,7 +1,9 @@
 //! The track mode, entered by an auto move to an inclined satellite.
 
 use super::*;
-use crate::protocol::rc2000c::{Band, Polarity, PolarizationMove, Setting, Submode, TrackBand};
+use crate::protocol::rc2000c::{
+    Band, Direction, Jog, MIN_JOG, Polarity, PolarizationMove, Setting, Speed, Submode, TrackBand,
+};
 use crate::sim::rc2000c::Mode;
 
 const RESTART: Request = Request::Motion(Motion::RestartTracking);
@@ -80,4 +82,35 @@ async fn an_error_waits_for_its_restart() {
     control.set_fault(Fault::AzimuthJam, true);
     seconds(10.0).await;
     assert_eq!(submode(&client.status().await), Submode::JammedError);
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_ends_the_auto_move_ends_the_track_mode_to_come() {
+    let jog = Jog::new(Direction::Up, Speed::Slow, MIN_JOG).unwrap();
+    for ending in [Request::Stop, to_position(1600, 750), Request::Motion(Motion::Jog(jog))] {
+        let (mut client, control) = Client::new();
+        client.status_after(to_satellite("GSTAR 3")).await;
+        seconds(1.0).await;
+        client.status_after(ending).await;
+        seconds(30.0).await;
+        assert_eq!(control.state().mode, Mode::Remote, "{ending:?}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_auto_move_ends_the_track_mode() {
+    let (mut client, control) = tracking().await;
+    let status = client.status_after(to_position(1600, 750)).await;
+    assert_eq!((submode(&status), control.state().mode), (Submode::Off, Mode::Remote));
+    seconds(30.0).await;
+    assert_eq!((control.state().az_counts, control.state().el_counts), (1600, 750));
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_panel_ends_the_track_mode() {
+    let (mut client, control) = tracking().await;
+    control.use_panel();
+    seconds(10.0).await;
+    assert!(control.state().mode == Mode::Manual && !control.state().is_turning);
+    assert_eq!(submode(&client.status().await), Submode::Off);
 }
