@@ -36,6 +36,17 @@ async fn a_jog_ends_by_itself_and_the_axis_runs_out_untold() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_jog_lasts_whole_steps_of_150_ms() {
+    let (mut client, _control) = Client::new();
+    client.status_after(jog(Direction::Clockwise, Speed::Slow, 160)).await;
+    // A status takes about 60 ms from command to reply.
+    sleep(Duration::from_millis(140)).await;
+    assert!(client.status().await.is_moving());
+    sleep(Duration::from_millis(60)).await;
+    assert!(!client.status().await.is_moving());
+}
+
+#[tokio::test(start_paused = true)]
 async fn one_axis_jogs_at_a_time_and_stop_ends_it() {
     let (mut client, control) = Client::new();
     client.status_after(jog(Direction::Clockwise, Speed::Fast, 9000)).await;

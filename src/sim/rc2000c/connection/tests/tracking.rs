@@ -62,6 +62,9 @@ async fn stop_ends_the_track_mode_unless_the_quirk_spares_it() {
     control.set_quirk(Quirk::StopSparesTracking, true);
     client.status_after(Request::Stop).await;
     assert_eq!(control.state().mode, Mode::Track);
+    seconds(6.0).await;
+    let jog = Jog::new(Direction::Up, Speed::Slow, MIN_JOG).unwrap();
+    client.refused(Request::Motion(Motion::Jog(jog))).await;
     control.set_quirk(Quirk::StopSparesTracking, false);
     let status = client.status_after(Request::Stop).await;
     assert_eq!((submode(&status), control.state().mode), (Submode::Off, Mode::Remote));
