@@ -18,6 +18,7 @@ fn main() {
     let settings = Settings {
         path: Some(folder.path().join("none.toml")),
         library: Some(folder.path().join("elements")),
+        ..Settings::default()
     };
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
         let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {

@@ -15,13 +15,16 @@ pub mod copies;
 pub mod daylight;
 mod demo;
 pub mod forecast;
+pub mod host_keys;
 mod job;
 mod log_file;
 mod logic;
 mod memory;
 pub mod model;
 mod settle;
+pub mod secret;
 pub mod sources;
+pub mod uploads;
 
 use std::{path::PathBuf, sync::Arc, time::Instant};
 
@@ -52,6 +55,9 @@ pub struct Settings {
     pub path: Option<PathBuf>,
     /// Where elements from servers are kept; `None` for the user's own folder.
     pub library: Option<PathBuf>,
+    /// Where host keys, old uploads and secrets are kept; `None` for the user's
+    /// own places.
+    pub upload_places: Option<uploads::Places>,
 }
 
 /// The app behind the window.
@@ -69,6 +75,7 @@ pub struct App {
     elements_job: Option<Job<Outcome>>,
     copy_work: CopyWork,
     log_work: LogWork,
+    uploads: uploads::Desk,
     keeper: Keeper,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
@@ -97,6 +104,7 @@ impl App {
             list: keeper.memory.list,
             selected: None,
             sky: model::Sky::default(),
+            uploads: uploads::Uploads::default(),
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
@@ -107,6 +115,8 @@ impl App {
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
+        let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
+        let uploads = uploads::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
         let mut app = Self {
             model,
             views: ui::Views::with(keeper.memory.views),
@@ -120,6 +130,7 @@ impl App {
             elements_job: Some(elements_job),
             copy_work,
             log_work,
+            uploads,
             keeper,
             settings_unread: false,
             drawn: false,
@@ -236,6 +247,7 @@ impl eframe::App for App {
         let mut commands = Vec::new();
         self.views.show(ui, &self.model, &mut commands);
         if stop || commands.contains(&UiCommand::Stop) {
+            self.uploads.stopped();
             commands.retain(|command| !command.may_move());
         }
         if !std::mem::replace(&mut self.drawn, true) {

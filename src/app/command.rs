@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
+    uploads,
 };
 use crate::{
     driver,
@@ -93,6 +94,8 @@ pub enum UiCommand {
     SaveLog(Vec<Arc<Line>>),
     /// Save these settings and use them.
     SaveStation(Box<Station>),
+    /// About a file of elements for a unit.
+    Upload(uploads::Ask),
 }
 
 impl UiCommand {

@@ -46,6 +46,7 @@ impl App {
         for index in 0..self.model.antennas.len() {
             self.take_antenna(index);
         }
+        self.poll_uploads();
         self.model.refresh_sky();
         self.remember();
     }

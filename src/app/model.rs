@@ -13,6 +13,7 @@ use super::{
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
     sources::Sources,
+    uploads::Uploads,
 };
 use crate::{
     astro::{AzEl, Site, sun_moon},
@@ -79,6 +80,8 @@ pub struct Model {
     pub selected: Option<PassKey>,
     /// The sky at `now`.
     pub sky: Sky,
+    /// Files of elements on their way to units.
+    pub uploads: Uploads,
     /// What must not be missed.
     pub alarms: Alarms,
     /// Copies of the settings of units.

@@ -22,7 +22,7 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
              Start it in a desktop session."
         );
     }
-    let settings = Settings { path: station, library: None };
+    let settings = Settings { path: station, ..Settings::default() };
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")

@@ -104,8 +104,11 @@ pub(crate) fn clock_from(utc: Timestamp) -> Clock {
 
 /// A window with the real app on the settings at `path`.
 pub(crate) fn open(path: &Path, clock: Clock) -> RealWindow {
-    let settings =
-        Settings { path: Some(path.to_owned()), library: Some(path.with_file_name("elements")) };
+    let settings = Settings {
+        path: Some(path.to_owned()),
+        library: Some(path.with_file_name("elements")),
+        ..Settings::default()
+    };
     Harness::builder()
         .with_size(rig::LARGE)
         .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, clock).unwrap())

@@ -30,6 +30,14 @@ impl OfferedKey {
         Self { host: host.to_owned(), port, key }
     }
 
+    /// A key of `host` for tests of what becomes of it.
+    #[cfg(test)]
+    pub(crate) fn example(host: &str, port: u16) -> Self {
+        let text = "ssh-ed25519 \
+                    AAAAC3NzaC1lZDI1NTE5AAAAIAABAgMEBQYHCAkKCwwNDg8QERITFBUWFxgZGhscHR4f";
+        Self::new(host, port, PublicKey::from_openssh(text).unwrap())
+    }
+
     /// `SHA256:…`, as `ssh-keygen -l` shows it on the host.
     pub fn fingerprint(&self) -> String {
         fingerprint(&self.key)

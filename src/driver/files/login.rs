@@ -9,6 +9,9 @@ use super::FileHash;
 /// The user that every Satrak has from its maker, offered as a first choice.
 pub const FACTORY_USER: &str = "sftpsatr";
 
+/// Where every Satrak looks for files of elements, by its protocol document.
+pub const UNIT_FOLDER: &str = "/svs/satrak/tle";
+
 /// SHA-256 of the password that every Satrak has from its maker, after
 /// [`FACTORY_USER`] and a colon. It is known to whoever has the document of the
 /// protocol, so its use is worth a warning.

@@ -39,6 +39,40 @@ pub async fn open_sftp(
         .map_err(|reason| failed(ConnectStep::OpenFiles, &reason, peer))
 }
 
+/// Looks at the key of `peer` and hangs up: nobody is asked for a password that
+/// could not be sent. Errors as [`open_sftp`] does.
+pub async fn check_host_key(
+    peer: &Peer,
+    known: &KnownHosts,
+    limits: Limits,
+    cancel: &CancellationToken,
+) -> Result<(), ConnectError> {
+    let handle = shake_hands(peer, known, limits, cancel).await?;
+    // It may be gone already; then this says nothing new.
+    let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
+    Ok(())
+}
+
+/// A connection to a host with the right key; nobody is logged in yet.
+async fn shake_hands(
+    peer: &Peer,
+    known: &KnownHosts,
+    limits: Limits,
+    cancel: &CancellationToken,
+) -> Result<Ssh, ConnectError> {
+    let config = config(&known.algorithms(&peer.host, peer.port)?);
+    let stream = dial(peer, limits, cancel).await?;
+    let judge = Judge { known: known.clone(), peer: peer.clone() };
+    let shaking = client::connect_stream(Arc::new(config), stream, judge);
+    within(limits.log_in, cancel, shaking)
+        .await
+        .map_err(|by| interrupted(ConnectStep::Handshake, by, peer))?
+        .map_err(|error| match error {
+            Refused::Key(error) => error,
+            Refused::Ssh(error) => failed(ConnectStep::Handshake, &error, peer),
+        })
+}
+
 async fn connect(
     peer: &Peer,
     login: &Login,
@@ -51,17 +85,7 @@ async fn connect(
         Proof::Password(_) => None,
         Proof::KeyFile { path, passphrase } => Some(private_key(path, passphrase.as_ref())?),
     };
-    let config = config(&known.algorithms(&peer.host, peer.port)?);
-    let stream = dial(peer, limits, cancel).await?;
-    let judge = Judge { known: known.clone(), peer: peer.clone() };
-    let shaking = client::connect_stream(Arc::new(config), stream, judge);
-    let mut handle = within(limits.log_in, cancel, shaking)
-        .await
-        .map_err(|by| interrupted(ConnectStep::Handshake, by, peer))?
-        .map_err(|error| match error {
-            Refused::Key(error) => error,
-            Refused::Ssh(error) => failed(ConnectStep::Handshake, &error, peer),
-        })?;
+    let mut handle = shake_hands(peer, known, limits, cancel).await?;
     let result = within(limits.log_in, cancel, log_in(&mut handle, login, key))
         .await
         .map_err(|by| interrupted(ConnectStep::LogIn, by, peer))?

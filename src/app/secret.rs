@@ -1,0 +1,51 @@
+//! A password on its way from the window to a worker.
+
+use secrecy::{ExposeSecret as _, SecretString};
+
+/// A password or passphrase. Never shown by `Debug`, wiped when dropped.
+#[derive(Debug, Clone)]
+pub struct Secret(SecretString);
+
+impl Secret {
+    /// Takes what was typed out of its field, which is empty afterwards.
+    pub fn take(typed: &mut String) -> Self {
+        Self(std::mem::take(typed).into())
+    }
+
+    /// Hides `text`.
+    pub fn new(text: &str) -> Self {
+        Self(text.into())
+    }
+
+    pub(super) fn inner(&self) -> &SecretString {
+        &self.0
+    }
+}
+
+impl From<SecretString> for Secret {
+    fn from(secret: SecretString) -> Self {
+        Self(secret)
+    }
+}
+
+impl PartialEq for Secret {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.expose_secret() == other.0.expose_secret()
+    }
+}
+
+impl Eq for Secret {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_secret_leaves_its_field_and_is_never_printed() {
+        let mut typed = "hunter2".to_owned();
+        let secret = Secret::take(&mut typed);
+        assert!(typed.is_empty());
+        assert!(!format!("{secret:?}").contains("hunter2"));
+        assert!(secret == Secret::new("hunter2") && secret != Secret::new("hunter3"));
+    }
+}

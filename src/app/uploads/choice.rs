@@ -1,0 +1,85 @@
+//! The satellites that are to go to a unit, checked before anything is tried.
+
+use jiff::Timestamp;
+
+use crate::{
+    driver::files::{TleFile, TleFileError},
+    orbit::Catalog,
+};
+
+/// The chosen satellites and the file that they make.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// Each of them, in the order of the choice.
+    pub objects: Vec<ChosenObject>,
+    /// All of them in one file, or why there is none.
+    pub file: Result<TleFile, TleFileError>,
+}
+
+/// One chosen satellite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChosenObject {
+    /// Its catalogue number.
+    pub catalog_number: u32,
+    /// Its name in the catalogue; empty for none.
+    pub name: String,
+    /// The epoch of its elements; `None` when there are none.
+    pub epoch: Option<Timestamp>,
+    /// Why it cannot go to a unit; `None` when it can.
+    pub problem: Option<TleFileError>,
+}
+
+impl Chosen {
+    /// The objects with these catalogue numbers out of `catalog`. One without
+    /// elements is listed and is not in the file.
+    pub fn of(catalog: &Catalog, numbers: &[u32]) -> Self {
+        let objects = numbers.iter().map(|number| match catalog.get(*number) {
+            None => ChosenObject {
+                catalog_number: *number,
+                name: String::new(),
+                epoch: None,
+                problem: None,
+            },
+            Some(elements) => ChosenObject {
+                catalog_number: *number,
+                name: elements.name().to_owned(),
+                epoch: Some(elements.epoch()),
+                problem: TleFile::of([elements]).err(),
+            },
+        });
+        Self {
+            objects: objects.collect(),
+            file: TleFile::of(numbers.iter().filter_map(|number| catalog.get(*number))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{bundled, read_elements};
+
+    const ISS: u32 = 25_544;
+
+    #[test]
+    fn what_can_be_carried_makes_a_file() {
+        let chosen = Chosen::of(&bundled().unwrap(), &[ISS, 43_013]);
+        assert!(chosen.objects.iter().all(|one| one.problem.is_none() && one.epoch.is_some()));
+        assert_eq!(chosen.file.unwrap().objects().len(), 2);
+    }
+
+    #[test]
+    fn what_cannot_be_carried_says_so_at_its_own_line() {
+        let mut catalog = bundled().unwrap();
+        let text = "[{\"OBJECT_NAME\":\"NEW ONE\",\"NORAD_CAT_ID\":340000,\
+                    \"EPOCH\":\"2026-08-14T00:00:00\",\"MEAN_MOTION\":14.19,\"ECCENTRICITY\":0.0001,\
+                    \"INCLINATION\":98.7,\"RA_OF_ASC_NODE\":0,\"ARG_OF_PERICENTER\":0,\
+                    \"MEAN_ANOMALY\":0,\"BSTAR\":0}]";
+        catalog.merge(read_elements(text), "own");
+        let chosen = Chosen::of(&catalog, &[ISS, 340_000, 999_999_998]);
+        let is_fine: Vec<_> = chosen.objects.iter().map(|one| one.problem.is_none()).collect();
+        assert_eq!(is_fine, [true, false, true]);
+        assert_eq!(chosen.objects[2].epoch, None);
+        assert!(matches!(chosen.file, Err(TleFileError::Refused(refused)) if refused.len() == 1));
+    }
+}

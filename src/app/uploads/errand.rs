@@ -1,0 +1,206 @@
+//! The way of a file to a unit, on a thread of its own: keyring, connection,
+//! host key, log-in, upload and proof.
+
+use std::{io, sync::Arc};
+
+use tokio_util::sync::CancellationToken;
+
+use super::{Cargo, Order, Places};
+use crate::{
+    app::{job::Job, secret::Secret},
+    driver::{
+        Clock, Wake,
+        files::{
+            Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, Progress,
+            Proof, SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
+            is_factory_password, open_sftp, upload,
+        },
+    },
+};
+
+/// One attempt to carry an order out.
+pub(super) struct Errand {
+    pub(super) order: Order,
+    /// What the operator has typed for it.
+    pub(super) secret: Option<Secret>,
+}
+
+/// How an attempt ended.
+#[derive(Debug)]
+pub(super) enum Outcome {
+    /// The file is on the unit.
+    Uploaded(Box<Uploaded>),
+    /// The host has another key than the known one, or none is known.
+    HostKey(ConnectError),
+    /// The operator has to type the secret.
+    Secret {
+        /// Why the last one is no good.
+        refused: Option<String>,
+    },
+    /// Nobody wanted it any more.
+    Cancelled(String),
+    /// It went wrong.
+    Failed(String),
+}
+
+/// What an attempt tells.
+#[derive(Debug)]
+pub(super) struct Report {
+    pub(super) outcome: Outcome,
+    /// The unit took the log-in.
+    pub(super) is_logged_in: bool,
+    /// The password is the one that every unit has from its maker.
+    pub(super) is_factory: bool,
+    /// Why the keyring could not be asked.
+    pub(super) keyring_problem: Option<String>,
+}
+
+impl Report {
+    /// It went wrong before anything was done.
+    pub(super) fn failed(text: String) -> Self {
+        Self {
+            outcome: Outcome::Failed(text),
+            is_logged_in: false,
+            is_factory: false,
+            keyring_problem: None,
+        }
+    }
+}
+
+/// Begins `errand`.
+pub(super) fn start(
+    errand: Errand,
+    places: &Places,
+    clock: &Clock,
+    wake: Wake,
+) -> io::Result<Transfer<Report>> {
+    let (places, clock) = (places.clone(), clock.clone());
+    Transfer::start("azel-upload", wake, move |mut tell, cancel| {
+        // Outside the runtime, as keyrings want it.
+        let (secret, keyring_problem) = find_secret(&errand, &places);
+        async move {
+            let mut attempt =
+                Attempt { order: &errand.order, places: &places, is_logged_in: false };
+            let factory = |secret: &SecretString| is_factory_password(secret);
+            let is_factory =
+                errand.order.key_file.is_none() && secret.as_ref().is_some_and(factory);
+            let outcome = attempt.run(secret, &clock, &mut *tell, &cancel).await;
+            Report { outcome, is_logged_in: attempt.is_logged_in, is_factory, keyring_problem }
+        }
+    })
+}
+
+/// What was typed, or else what the session or the keyring remembers.
+fn find_secret(errand: &Errand, places: &Places) -> (Option<SecretString>, Option<String>) {
+    if let Some(secret) = &errand.secret {
+        return (Some(secret.inner().clone()), None);
+    }
+    let account = errand.order.account();
+    if let Ok(Some(secret)) = places.session.get(&account) {
+        return (Some(secret), None);
+    }
+    match places.keyring.get(&account) {
+        Ok(secret) => (secret, None),
+        Err(error) => (None, Some(error.to_string())),
+    }
+}
+
+struct Attempt<'a> {
+    order: &'a Order,
+    places: &'a Places,
+    is_logged_in: bool,
+}
+
+impl Attempt<'_> {
+    async fn run(
+        &mut self,
+        secret: Option<SecretString>,
+        clock: &Clock,
+        tell: &mut dyn FnMut(Progress),
+        cancel: &CancellationToken,
+    ) -> Outcome {
+        let (order, places) = (self.order, self.places);
+        let elements = match &order.cargo {
+            Cargo::New(file) => file.clone(),
+            Cargo::Kept(kept) => match places.kept.read(kept) {
+                Ok(file) => file,
+                Err(error) => return Outcome::Failed(error.to_string()),
+            },
+        };
+        let proof = match (&order.key_file, &secret) {
+            (Some(path), passphrase) => {
+                Proof::KeyFile { path: path.clone(), passphrase: passphrase.clone() }
+            }
+            (None, Some(password)) => Proof::Password(password.clone()),
+            (None, None) => {
+                // The host first: who it is matters before a password is typed for it.
+                let known = &places.known_hosts;
+                return match check_host_key(&order.unit, known, places.limits, cancel).await {
+                    Ok(()) => Outcome::Secret { refused: None },
+                    Err(error) => self.refused(error),
+                };
+            }
+        };
+        let login = Login { user: order.user.clone(), proof };
+        let (known, limits) = (&places.known_hosts, places.limits);
+        let opened = open_sftp(&order.unit, &order.folder, &login, known, limits, cancel).await;
+        let mut folder = match opened {
+            Ok(folder) => folder,
+            Err(error) => return self.refused(error),
+        };
+        self.is_logged_in = true;
+        if let Some(secret) = &secret {
+            // Memory takes everything.
+            let _ = places.session.set(&order.account(), secret);
+        }
+        let wanted = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
+        match upload(&mut folder, wanted, &places.kept, clock, tell, cancel).await {
+            Ok(uploaded) => Outcome::Uploaded(Box::new(uploaded)),
+            Err(error) if matches!(error.reason, UploadReason::Cancelled) => {
+                Outcome::Cancelled(error.state.to_string())
+            }
+            Err(error) => Outcome::Failed(error.to_string()),
+        }
+    }
+
+    fn refused(&self, error: ConnectError) -> Outcome {
+        match &error {
+            ConnectError::UnknownHostKey(_) | ConnectError::HostKeyChanged { .. } => {
+                Outcome::HostKey(error)
+            }
+            ConnectError::LoginRefused { .. } if self.order.key_file.is_none() => {
+                self.forget();
+                Outcome::Secret { refused: Some(error.to_string()) }
+            }
+            ConnectError::KeyFile { problem: KeyFileProblem::Locked, .. } => {
+                Outcome::Secret { refused: None }
+            }
+            ConnectError::KeyFile { problem: KeyFileProblem::WrongPassphrase, .. } => {
+                self.forget();
+                Outcome::Secret { refused: Some(error.to_string()) }
+            }
+            ConnectError::Interrupted { by: Interruption::Cancelled, .. } => {
+                Outcome::Cancelled("nothing was changed on the unit".to_owned())
+            }
+            _ => Outcome::Failed(error.to_string()),
+        }
+    }
+
+    fn forget(&self) {
+        // Memory forgets everything.
+        let _ = self.places.session.remove(&self.order.account());
+    }
+}
+
+/// Keeps `secret` in the keyring. The result is why that failed, if it did.
+pub(super) fn keep_secret(
+    places: &Places,
+    account: Account,
+    secret: Secret,
+    wake: Wake,
+) -> io::Result<Job<Result<(), String>>> {
+    let keyring = Arc::clone(&places.keyring);
+    Job::start("azel-keyring", wake, move |_| {
+        keyring.set(&account, secret.inner()).map_err(|error| error.to_string())
+    })
+}

@@ -1,0 +1,45 @@
+//! Where host keys, old uploads and secrets are kept.
+
+use std::{fmt, sync::Arc};
+
+use crate::driver::files::{KeptFiles, Keyring, KnownHosts, Limits, MemoryKeyring, SystemKeyring};
+
+/// Where host keys, old uploads and secrets are kept, and how long a unit may
+/// take.
+#[derive(Clone)]
+pub struct Places {
+    /// The pinned host keys.
+    pub known_hosts: KnownHosts,
+    /// The last files of every unit.
+    pub kept: KeptFiles,
+    /// Secrets that the operator wants kept.
+    pub keyring: Arc<dyn Keyring>,
+    /// Secrets of this session.
+    pub session: Arc<MemoryKeyring>,
+    /// How long the steps may take.
+    pub limits: Limits,
+}
+
+impl Places {
+    /// The places of this user; `None` on a machine without a home.
+    pub fn of_this_user() -> Option<Self> {
+        Some(Self {
+            known_hosts: KnownHosts::of_this_user()?,
+            kept: KeptFiles::of_this_user()?,
+            keyring: Arc::new(SystemKeyring),
+            session: Arc::default(),
+            limits: Limits::default(),
+        })
+    }
+}
+
+impl fmt::Debug for Places {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { known_hosts, kept, limits, .. } = self;
+        f.debug_struct("Places")
+            .field("known_hosts", known_hosts)
+            .field("kept", kept)
+            .field("limits", limits)
+            .finish_non_exhaustive()
+    }
+}
