@@ -28,6 +28,7 @@ const PADDING: f32 = 16.0;
 pub struct ElementsState {
     add: add::AddState,
     search: search::SearchState,
+    upload_is_open: bool,
 }
 
 impl ElementsState {
@@ -38,7 +39,8 @@ impl ElementsState {
 }
 
 /// Draws the view. `settings_are_edited`: the station's settings are typed and
-/// not saved, so that they must not change.
+/// not saved, so that they must not change. Returns the place of what is sent to
+/// the selected unit, when that is open in place of the catalogue.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -47,7 +49,7 @@ pub fn show(
     state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
-) {
+) -> Option<Rect> {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let wide = rect.width() >= SMALL_BELOW;
@@ -59,20 +61,24 @@ pub fn show(
         ui.set_clip_rect(left);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(PADDING);
-            head(ui, model, commands);
+            head(ui, model, &mut state.upload_is_open, commands);
             sources::show(ui, model, question, commands);
             add::show(ui, &model.sources, &mut state.add, commands);
             ui.add_space(PADDING);
         });
     });
+    ui.painter().vline(right.left() + 0.5, rect.y_range(), (1.0, t.line));
+    if state.upload_is_open {
+        return Some(right.shrink(PADDING));
+    }
     let builder = UiBuilder::new().id_salt("catalogue").max_rect(right.shrink(PADDING));
     ui.scope_builder(builder, |ui| {
         search::show(ui, model, settings_are_edited, &mut state.search, commands);
     });
-    ui.painter().vline(right.left() + 0.5, rect.y_range(), (1.0, t.line));
+    None
 }
 
-fn head(ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+fn head(ui: &mut Ui, model: &Model, upload_is_open: &mut bool, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let sources = &model.sources;
     ui.label(RichText::new("Elements").font(text::title()));
@@ -92,8 +98,12 @@ fn head(ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
             let names = sources.list.iter().map(|source| source.name.clone()).collect();
             commands.push(UiCommand::RefreshSources { names, forced: false });
         }
-        ui.label(RichText::new(work(sources)).font(text::body()).color(t.t2));
+        let word = if *upload_is_open { "Back to the catalogue" } else { "Upload to unit…" };
+        if ui.add_enabled(model.antenna().is_some(), egui::Button::new(word)).clicked() {
+            *upload_is_open ^= true;
+        }
     });
+    ui.label(RichText::new(work(sources)).font(text::body()).color(t.t2));
     ui.add_space(8.0);
 }
 

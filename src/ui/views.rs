@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use egui::{Rect, Ui, pos2};
+use egui::{Rect, ScrollArea, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 
 use super::{
@@ -16,6 +17,7 @@ use super::{
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
+    upload::{self, UploadState},
 };
 use crate::app::{Model, UiCommand, View};
 
@@ -27,6 +29,7 @@ pub struct Views {
     antennas: antennas::AntennasState,
     console: console::ConsoleState,
     preferences: preferences::PreferencesState,
+    upload: UploadState,
     question: Option<Question>,
     keys_open: bool,
 }
@@ -105,7 +108,10 @@ impl Views {
                 self.operate.leave_card(commands);
                 let is_edited = self.preferences.is_edited();
                 let (state, question) = (&mut self.elements, &mut self.question);
-                elements::show(ui, rest, model, is_edited, state, question, commands);
+                let upload = elements::show(ui, rest, model, is_edited, state, question, commands);
+                if let Some(place) = upload {
+                    show_upload(ui, place, model, &mut self.upload, commands);
+                }
             }
             View::Antennas => {
                 self.operate.leave_card(commands);
@@ -143,6 +149,21 @@ impl Views {
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         self.preferences.saved(result);
     }
+}
+
+fn show_upload(
+    ui: &mut Ui,
+    place: Rect,
+    model: &Model,
+    state: &mut UploadState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let builder = UiBuilder::new().id_salt("upload").max_rect(place);
+    ui.scope_builder(builder, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            upload::show(ui, model, model.selected_antenna, state, commands);
+        });
+    });
 }
 
 fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {

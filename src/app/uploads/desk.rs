@@ -145,11 +145,9 @@ impl Desk {
             return;
         }
         let since = *self.selecting_since.get_or_insert(steady);
-        if let Some((ticket, at, result)) = &unit.answer
-            && self.flow.waits_for(*ticket)
-        {
-            self.flow.selected(result.clone(), *at, shown);
-        } else if steady.saturating_duration_since(since) > SELECTING {
+        self.flow.answered(unit, shown);
+        let is_open = matches!(shown.stage, Stage::Selecting(_));
+        if is_open && steady.saturating_duration_since(since) > SELECTING {
             self.not_selected("the unit did not say whether it uses the file".to_owned(), shown);
         }
     }

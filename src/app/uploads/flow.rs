@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::{
     Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning,
     errand::{Errand, Outcome, Report},
-    select::{Selection, UnitNow, pick},
+    select::{Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
     app::{
@@ -39,7 +39,7 @@ pub(super) struct Flow {
     /// On the unit, which does not use it yet.
     uploaded: Option<Box<Uploaded>>,
     selection: Option<Selection>,
-    tickets: u64,
+    selections: u64,
 }
 
 impl Flow {
@@ -59,7 +59,7 @@ impl Flow {
         shown.antenna.clone_from(&order.antenna);
         shown.is_roll_back = matches!(order.cargo, Cargo::Kept(_));
         shown.warnings.clear();
-        *self = Self { order: Some(order), tickets: self.tickets, ..Self::default() };
+        *self = Self { order: Some(order), selections: self.selections, ..Self::default() };
         if let Some(busy) = unit.busy {
             shown.stage = Stage::AsksAboutTracking(busy);
             return None;
@@ -238,17 +238,22 @@ impl Flow {
             fail_after(shown, "the file holds no elements that Azel can read".to_owned(), uploaded);
             return None;
         };
-        self.tickets += 1;
+        self.selections += 1;
+        let ticket = TICKETS + self.selections;
         let file = uploaded.file.as_str().to_owned();
-        let selection = Selection { ticket: self.tickets, file, satellite };
+        let selection = Selection { ticket, since: unit.at, file, satellite };
         self.selection = Some(selection.clone());
         shown.stage = Stage::Selecting(uploaded);
         Some(Next::Select(selection))
     }
 
-    /// Whether the answer to this ticket is waited for.
-    pub(super) fn waits_for(&self, ticket: u64) -> bool {
-        self.selection.as_ref().is_some_and(|selection| selection.ticket == ticket)
+    /// Takes the unit's answer, if it is here.
+    pub(super) fn answered(&mut self, unit: &UnitNow, shown: &mut Uploads) {
+        let selection = self.selection.as_ref();
+        let end = selection.zip(unit.answer.as_ref()).and_then(|(one, answer)| one.end(answer));
+        if let Some((at, result)) = end {
+            self.selected(result, at, shown);
+        }
     }
 
     /// The unit has said whether it uses the file.

@@ -1,11 +1,23 @@
 //! Tells a unit to use a file that was put on it.
 
+use std::sync::Arc;
+
 use jiff::Timestamp;
 
 use crate::{
     app::antenna::AntennaModel,
-    driver::files::{FileObject, Uploaded},
+    controller::settings::{Change, HeldGroup, Settled, Value},
+    driver::{
+        self,
+        files::{FileObject, Uploaded},
+    },
+    protocol::satrak::{FaultKind, Faults},
 };
+
+/// The settings of the file and the satellite.
+const GROUP: &str = "file";
+/// Tickets of selections; those of the forms are lower.
+pub(super) const TICKETS: u64 = 1 << 63;
 
 /// Why the operator has to agree before a unit is told to use a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,37 +42,105 @@ impl Busy {
 /// How the unit of an antenna is.
 #[derive(Debug, Clone, Default)]
 pub(in crate::app) struct UnitNow {
+    /// UTC of this.
+    pub(super) at: Timestamp,
     /// Why the operator has to agree before it is told to use a file.
     pub(super) busy: Option<Busy>,
     /// The catalogue number of the satellite that it holds.
     pub(super) held: Option<u32>,
-    /// The ticket of the last selection that is over, when that was, and how it
-    /// ended.
-    pub(super) answer: Option<(u64, Timestamp, Result<(), String>)>,
+    /// The last selection that is over.
+    pub(super) answer: Option<Answer>,
+}
+
+/// How a selection ended.
+#[derive(Debug, Clone)]
+pub(super) struct Answer {
+    settled: Arc<Settled>,
+    /// What the unit holds now.
+    held: Option<HeldGroup>,
+    /// The faults, and when they were read.
+    faults: Option<(Faults, Timestamp)>,
 }
 
 impl UnitNow {
     /// As the session of `antenna` knows it.
-    pub(in crate::app) fn of(antenna: Option<&AntennaModel>) -> Self {
-        let Some(antenna) = antenna else { return Self::default() };
+    pub(in crate::app) fn of(antenna: Option<&AntennaModel>, at: Timestamp) -> Self {
+        let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
         let state = &antenna.snapshot.state;
-        Self {
-            busy: Busy::of(antenna),
-            held: state.satrak.satellite.as_ref().map(|held| held.catalog_number),
-            answer: None,
-        }
+        let group = state.held.get(GROUP);
+        let answer = group.and_then(|group| {
+            Some(Answer {
+                settled: group.settled.clone()?,
+                held: group.held.clone(),
+                faults: state.satrak.faults,
+            })
+        });
+        let held = state.satrak.satellite.as_ref().map(|held| held.catalog_number);
+        Self { at, busy: Busy::of(antenna), held, answer }
     }
 }
 
 /// A satellite of a file that a unit is to use.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::app) struct Selection {
-    /// Told again with the outcome.
+    /// Tells one from another; [`TICKETS`] and up.
     pub(super) ticket: u64,
+    /// When it was made.
+    pub(super) since: Timestamp,
     /// The file.
     pub(super) file: String,
     /// The satellite.
     pub(super) satellite: FileObject,
+}
+
+impl Selection {
+    /// What the session is told. The present track ends.
+    pub(in crate::app) fn command(&self) -> driver::Command {
+        let values = [
+            ("file", Value::Text(self.file.clone())),
+            ("name", Value::Text(self.satellite.name.clone())),
+            ("continue_tracking", Value::Flag(false)),
+        ];
+        let (ticket, values) = (self.ticket, values.into());
+        driver::Command::Settle(Change {
+            ticket,
+            group: GROUP,
+            values,
+            seen: None,
+            is_unlocked: false,
+        })
+    }
+
+    /// When and how it ended; `None` while it has not. Good only when the unit
+    /// has named the very object and its checks were read since.
+    pub(super) fn end(&self, answer: &Answer) -> Option<(Timestamp, Result<(), String>)> {
+        let settled = &answer.settled;
+        if settled.change.ticket != self.ticket {
+            return None;
+        }
+        let result = settled.result.clone().map_err(|error| error.to_string());
+        Some((settled.at, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
+    }
+
+    fn judge(&self, answer: &Answer) -> Result<(), &'static str> {
+        let number = answer
+            .held
+            .as_ref()
+            .filter(|held| held.read_at >= self.since)
+            .and_then(|held| held.values.get("catalog_number"));
+        if number != Some(&Value::Integer(self.satellite.catalog_number.into())) {
+            return Err("the unit names another object than the one that was chosen");
+        }
+        let (faults, _) = answer
+            .faults
+            .filter(|(_, read_at)| *read_at >= self.since)
+            .ok_or("the unit did not tell its checks after it was told to use the file")?;
+        let missing = [FaultKind::TleMissing, FaultKind::SatelliteMissing];
+        if faults.active().any(|kind| missing.contains(&kind)) {
+            return Err("the unit does not find the satellite in the file");
+        }
+        Ok(())
+    }
 }
 
 /// The satellite to use out of `uploaded`: the `wanted` one, or the one that

@@ -1,0 +1,74 @@
+//! Questions that stand before everything else until they are answered. Esc
+//! says no, and is STOP besides, as everywhere.
+
+mod password;
+
+use egui::{Id, Key, Label, Modal, RichText, Ui};
+
+pub use password::{PasswordDialog, SecretAnswer};
+
+use super::{text, theme};
+use crate::app::host_keys::DoubtfulKey;
+
+const WIDTH: f32 = 400.0;
+
+/// What the operator said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Yes.
+    Yes,
+    /// No, or Esc.
+    No,
+}
+
+/// Asks `words`; `yes` is the word of the button that agrees, and Enter.
+pub fn question(ui: &Ui, words: &str, yes: &str) -> Option<Answer> {
+    ask(ui, "question", yes, true, |ui| {
+        ui.label(RichText::new(words).font(text::body()));
+    })
+}
+
+/// Asks about a host key that was never seen before. Enter says nothing here:
+/// the fingerprint is to be compared first.
+pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
+    ask(ui, "host key", "It is the right key", false, |ui| {
+        let t = theme::tokens(ui);
+        let words = format!("{} is new here", key.address);
+        ui.label(RichText::new(words).font(text::value()));
+        let words = "Compare its key with the one that ssh-keygen -l shows on the unit. It is \
+                     asked about once; another key will be refused from then on.";
+        ui.label(RichText::new(words).font(text::body()));
+        for line in [&key.algorithm, &key.fingerprint] {
+            ui.add(Label::new(RichText::new(line).font(text::raw()).color(t.t1)).wrap());
+        }
+    })
+}
+
+fn ask(
+    ui: &Ui,
+    id: &str,
+    yes: &str,
+    enter_says_yes: bool,
+    content: impl FnOnce(&mut Ui),
+) -> Option<Answer> {
+    let mut answer = None;
+    let modal = Modal::new(Id::unique(id)).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
+        content(ui);
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let word = if enter_says_yes { format!("{yes} (Enter)") } else { yes.to_owned() };
+            let enter = enter_says_yes && ui.input(|input| input.key_pressed(Key::Enter));
+            if ui.button(word).clicked() || enter {
+                answer = Some(Answer::Yes);
+            }
+            if ui.button("No").clicked() {
+                answer = Some(Answer::No);
+            }
+        });
+    });
+    if modal.should_close() {
+        answer = answer.or(Some(Answer::No));
+    }
+    answer
+}

@@ -1,0 +1,111 @@
+//! Asks for a password or a passphrase.
+
+use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
+
+use super::WIDTH;
+use crate::{
+    app::{secret::Secret, uploads::SecretWanted},
+    ui::{text, theme, words::capitalised},
+};
+
+/// What is typed. It leaves here only as a [`Secret`].
+#[derive(Default)]
+pub struct PasswordDialog {
+    typed: String,
+    keep: bool,
+    is_open: bool,
+}
+
+/// What the operator said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SecretAnswer {
+    /// This.
+    Typed {
+        /// The secret.
+        secret: Secret,
+        /// Keep it in the keyring of the operating system.
+        keep: bool,
+    },
+    /// Nothing, or Esc.
+    Cancelled,
+}
+
+impl PasswordDialog {
+    /// Shows the question until it is answered. Enter sends what was typed.
+    pub fn show(&mut self, ui: &Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
+        let mut answer = None;
+        let modal = Modal::new(Id::unique("password")).show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
+            answer = self.content(ui, wanted);
+        });
+        self.is_open = true;
+        if modal.should_close() {
+            answer = answer.or(Some(SecretAnswer::Cancelled));
+        }
+        if answer.is_some() {
+            self.clear();
+            forget(ui);
+        }
+        answer
+    }
+
+    fn content(&mut self, ui: &mut Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
+        let t = theme::tokens(ui);
+        let what = if wanted.is_passphrase { "Passphrase" } else { "Password" };
+        let words = format!("{what} of {}", wanted.user);
+        ui.label(RichText::new(words).font(text::value()));
+        ui.label(RichText::new(format!("for {}", wanted.address)).font(text::body()).color(t.t2));
+        if let Some(refused) = &wanted.refused {
+            let words = format!("{}.", capitalised(refused));
+            ui.label(RichText::new(words).font(text::body()).color(t.bad));
+        }
+        let edit = TextEdit::singleline(&mut self.typed).password(true).id(field());
+        let label = ui.label(RichText::new(what).font(text::small()).color(t.t3)).id;
+        let edit = ui.add(edit.desired_width(f32::INFINITY)).labelled_by(label);
+        if !self.is_open {
+            edit.request_focus();
+        }
+        match &wanted.keyring_problem {
+            None => {
+                ui.checkbox(&mut self.keep, "Keep it in the keyring of this computer");
+                let words = "Without that it is asked for once in each session of Azel.";
+                ui.label(RichText::new(words).font(text::small()).color(t.t3));
+            }
+            Some(problem) => {
+                let words = format!(
+                    "{}. It is asked for once in each session of Azel and written down nowhere.",
+                    capitalised(problem)
+                );
+                ui.label(RichText::new(words).font(text::small()).color(t.warn));
+            }
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let can = !self.typed.is_empty();
+            let enter = can && ui.input(|input| input.key_pressed(Key::Enter));
+            let sends = ui.add_enabled(can, egui::Button::new("Log in (Enter)")).clicked() || enter;
+            if sends {
+                let keep = self.keep && wanted.keyring_problem.is_none();
+                return Some(SecretAnswer::Typed { secret: Secret::take(&mut self.typed), keep });
+            }
+            ui.button("Cancel").clicked().then_some(SecretAnswer::Cancelled)
+        })
+        .inner
+    }
+
+    /// Forgets what was typed.
+    pub fn clear(&mut self) {
+        // Through a secret, so that it is wiped.
+        drop(Secret::take(&mut self.typed));
+        (self.keep, self.is_open) = (false, false);
+    }
+}
+
+fn field() -> Id {
+    Id::unique("password field")
+}
+
+/// The field remembers what stood in it, to undo typing.
+fn forget(ui: &Ui) {
+    TextEditState::default().store(ui.ctx(), field());
+}

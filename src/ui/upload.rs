@@ -1,0 +1,131 @@
+//! Elements to a unit: the choice of satellites, the way to the unit, how far
+//! it is, what came of it, and what can be put back.
+
+mod chosen;
+mod form;
+mod kept;
+mod outcome;
+mod progress;
+mod questions;
+
+use std::collections::BTreeMap;
+
+use egui::{RichText, Ui};
+
+use super::{confirm::Question, icons, text, theme, widgets::paint};
+use crate::app::{
+    Model, UiCommand,
+    model::CatalogState,
+    uploads::{Ask, Cargo, Order, Stage},
+};
+use form::Form;
+
+/// Side of the mark before a sentence, and height of a line.
+const MARK: f32 = 12.0;
+const LINE: f32 = 16.0;
+
+/// What was typed and chosen, for every antenna by its name. No failure takes
+/// anything of it.
+#[derive(Default)]
+pub struct UploadState {
+    forms: BTreeMap<String, Form>,
+    questions: questions::Questions,
+    question: Option<Question>,
+}
+
+/// Draws the part for the antenna with the index `antenna`, as wide as the
+/// place in `ui` and as high as it gets; made for 300 to 560 points. Its
+/// questions stand before everything else.
+pub fn show(
+    ui: &mut Ui,
+    model: &Model,
+    antenna: usize,
+    state: &mut UploadState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let Some(antenna) = model.antennas.get(antenna) else {
+        ui.label(RichText::new("There is no antenna.").font(text::body()));
+        return;
+    };
+    let name = &antenna.config.name;
+    let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config));
+    ui.spacing_mut().item_spacing.y = 6.0;
+    ui.label(RichText::new(format!("Elements to {name}")).font(text::title()));
+    let uploads = &model.uploads;
+    let (is_ours, is_open) = (uploads.antenna == *name, uploads.stage.is_open());
+    if is_ours && uploads.stage != Stage::Idle {
+        // First, so that nobody has to look for it.
+        progress::show(ui, model, commands);
+        outcome::show(ui, model, &mut state.question, commands);
+    }
+    let CatalogState::Ready(catalog) = &model.catalog else {
+        ui.label(RichText::new("There are no elements to send.").font(text::body()));
+        return;
+    };
+    chosen::show(ui, model, catalog, form);
+    form::show(ui, form);
+    let file = form.chosen_file(catalog, &model.station.favourites);
+    let order = form.order(name, file.map(|file| Cargo::New(file.clone())));
+    send(ui, model, order.as_ref().map_err(String::as_str), commands);
+    if is_open && !is_ours {
+        let words = format!("Files are on their way to {}. One at a time.", uploads.antenna);
+        line(ui, Tone::Plain, &words);
+    }
+    kept::show(ui, model, name, form, &mut state.question, commands);
+    if is_ours {
+        questions::show(ui, model, &mut state.questions, commands);
+    }
+    Question::show(&mut state.question, ui, commands);
+}
+
+/// The button, and why it cannot be pressed.
+fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut Vec<UiCommand>) {
+    let is_open = model.uploads.stage.is_open();
+    let can = order.is_ok() && !is_open;
+    if ui.add_enabled(can, egui::Button::new("Upload and prove")).clicked()
+        && let Ok(order) = order
+    {
+        let begin = Ask::Begin(Box::new(order.clone()));
+        commands.push(UiCommand::Upload(begin));
+    }
+    if let Err(problem) = order {
+        line(ui, Tone::Caution, &format!("Not to be sent yet: {problem}."));
+    }
+}
+
+/// How words are to be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tone {
+    Plain,
+    Now,
+    Good,
+    Caution,
+    Bad,
+}
+
+/// A sentence behind the mark of its tone: a theme may have one hue only.
+fn line(ui: &mut Ui, tone: Tone, words: &str) {
+    use icons::Icon;
+    let t = theme::tokens(ui);
+    let (mark, colour) = match tone {
+        Tone::Plain => (None, t.t2),
+        Tone::Now => (Some((Icon::ChevronRight, t.sat)), t.t1),
+        Tone::Good => (Some((Icon::Check, t.ok)), t.t1),
+        Tone::Caution => (Some((Icon::Warning, t.warn)), t.warn),
+        Tone::Bad => (Some((Icon::Cross, t.bad)), t.bad),
+    };
+    ui.horizontal_top(|ui| {
+        let (place, _) = ui.allocate_exact_size(egui::vec2(MARK, LINE), egui::Sense::hover());
+        if let Some((icon, colour)) = mark {
+            icons::paint(ui.painter(), paint::square(place.center(), MARK), icon, colour);
+        }
+        let words = RichText::new(words).font(text::body()).color(colour);
+        ui.add(egui::Label::new(words).wrap());
+    });
+}
+
+/// A problem told by a lower layer, as a sentence.
+fn sentence(problem: &str) -> String {
+    let words = super::words::capitalised(problem);
+    if words.ends_with('.') { words } else { format!("{words}.") }
+}

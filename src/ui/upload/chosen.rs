@@ -1,0 +1,174 @@
+//! The satellites that are to go to the unit.
+
+use std::sync::Arc;
+
+use egui::{Align, Button, Label, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+
+use super::form::Form;
+use crate::{
+    app::{
+        Model,
+        uploads::{Chosen, ChosenObject},
+    },
+    astro::time::seconds_between,
+    orbit::{Catalog, Elements},
+    ui::{format, text, theme, widgets::card},
+};
+
+/// How many objects a search offers.
+const OFFERED: usize = 5;
+const ROW: f32 = 24.0;
+
+/// What was clicked.
+enum Change {
+    Remove(u32),
+    Add(u32),
+    Follow(u32),
+    Favourites,
+}
+
+pub(super) fn show(ui: &mut Ui, model: &Model, catalog: &Arc<Catalog>, form: &mut Form) {
+    let favourites = &model.station.favourites;
+    let mut change = None;
+    card::show(ui, f32::INFINITY, |ui| {
+        let is_own = form.numbers.is_some();
+        let satellite = form.satellite;
+        let chosen = form.chosen(catalog, favourites);
+        let followed = satellite.filter(|number| holds(chosen, *number));
+        let followed = followed.or_else(|| first(chosen));
+        head(ui, chosen, is_own, &mut change);
+        for object in &chosen.objects {
+            row(ui, model, object, followed == Some(object.catalog_number), &mut change);
+        }
+        search(ui, catalog, form, &mut change);
+        form.satellite = followed;
+    });
+    let mut numbers = form.numbers.clone().unwrap_or_else(|| favourites.clone());
+    match change {
+        None => {}
+        Some(Change::Favourites) => form.numbers = None,
+        Some(Change::Follow(number)) => form.satellite = Some(number),
+        Some(Change::Remove(number)) => {
+            numbers.retain(|known| *known != number);
+            form.numbers = Some(numbers);
+        }
+        Some(Change::Add(number)) => {
+            numbers.push(number);
+            form.numbers = Some(numbers);
+        }
+    }
+}
+
+fn holds(chosen: &Chosen, number: u32) -> bool {
+    chosen.objects.iter().any(|object| object.catalog_number == number && is_sent(object))
+}
+
+fn first(chosen: &Chosen) -> Option<u32> {
+    chosen.objects.iter().find(|object| is_sent(object)).map(|object| object.catalog_number)
+}
+
+fn is_sent(object: &ChosenObject) -> bool {
+    object.epoch.is_some() && object.problem.is_none()
+}
+
+fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>) {
+    let t = theme::tokens(ui);
+    let count = chosen.objects.iter().filter(|object| is_sent(object)).count();
+    let plural = if count == 1 { "" } else { "s" };
+    ui.label(RichText::new(format!("{count} satellite{plural} to send")).font(text::value()));
+    ui.horizontal_wrapped(|ui| {
+        let words = "The marked one is the one that the unit is told to follow.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t3));
+        if is_own && ui.button("Take the followed ones").clicked() {
+            *change = Some(Change::Favourites);
+        }
+    });
+}
+
+fn row(
+    ui: &mut Ui,
+    model: &Model,
+    object: &ChosenObject,
+    is_followed: bool,
+    change: &mut Option<Change>,
+) {
+    let t = theme::tokens(ui);
+    let number = object.catalog_number;
+    let name = if object.name.is_empty() { number.to_string() } else { object.name.clone() };
+    let size = vec2(ui.available_width(), ROW);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        if named(ui, true, "Leave out", &format!("Leave out {name}")) {
+            *change = Some(Change::Remove(number));
+        }
+        let age = object.epoch.map_or_else(
+            || "no elements".to_owned(),
+            |epoch| format!("{} old", format::age(seconds_between(epoch, model.now))),
+        );
+        ui.label(RichText::new(age).font(text::small()).color(t.t3));
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let can = is_sent(object);
+            ui.add_enabled_ui(can, |ui| {
+                let radio = ui.radio(is_followed, "");
+                let spoken = format!("The unit follows {name}");
+                radio.widget_info(|| {
+                    WidgetInfo::selected(Role::RadioButton, can, is_followed, &spoken)
+                });
+                if radio.clicked() {
+                    *change = Some(Change::Follow(number));
+                }
+            });
+            ui.add(Label::new(RichText::new(&name).font(text::body_medium())).truncate());
+        });
+    });
+    if let Some(problem) = &object.problem {
+        super::line(ui, super::Tone::Bad, &super::sentence(&problem.to_string()));
+    }
+}
+
+fn search(ui: &mut Ui, catalog: &Catalog, form: &mut Form, change: &mut Option<Change>) {
+    let t = theme::tokens(ui);
+    let hint = RichText::new("Add: number or name").color(t.t3);
+    let width = ui.available_width();
+    let edit = TextEdit::singleline(&mut form.search).hint_text(hint).desired_width(width);
+    let edit = ui.add(edit.id_salt("add a satellite"));
+    edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Add a satellite"));
+    if form.search.trim().is_empty() {
+        return;
+    }
+    let numbers: Vec<u32> = form
+        .numbers
+        .clone()
+        .or_else(|| form.known_numbers().map(<[u32]>::to_vec))
+        .unwrap_or_default();
+    let found = catalog.search(&form.search, OFFERED + numbers.len());
+    let offered: Vec<&Elements> = found
+        .into_iter()
+        .filter(|one| !numbers.contains(&one.catalog_number()))
+        .take(OFFERED)
+        .collect();
+    if offered.is_empty() {
+        let words = "No other object has this number or name.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t3));
+    }
+    for elements in offered {
+        let number = elements.catalog_number();
+        let size = vec2(ui.available_width(), ROW);
+        ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+            if named(ui, true, "Add", &format!("Add {}", elements.name())) {
+                *change = Some(Change::Add(number));
+            }
+            ui.label(RichText::new(number.to_string()).font(text::small()).color(t.t3));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let name = RichText::new(elements.name()).font(text::body());
+                ui.add(Label::new(name).truncate());
+            });
+        });
+    }
+}
+
+/// A button whose name says more than its word; whether it was clicked.
+pub(super) fn named(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
+    let response = ui.add_enabled(enabled, Button::new(word).small());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
+    response.clicked()
+}

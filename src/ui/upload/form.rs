@@ -1,0 +1,247 @@
+//! The way to the unit, as typed.
+
+use std::{net::SocketAddr, path::PathBuf, sync::Arc};
+
+use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+
+use crate::{
+    app::uploads::{Cargo, Chosen, Order},
+    driver::files::{FACTORY_USER, FileName, Peer, TleFile, UNIT_FOLDER},
+    orbit::Catalog,
+    station::{Antenna, Connection},
+    ui::{text, theme, widgets::card},
+};
+
+const LABEL: f32 = 72.0;
+const ROW: f32 = 24.0;
+/// No field is wider than its words need.
+const MOST: f32 = 360.0;
+const SSH: &str = "22";
+
+/// What was typed for one antenna.
+pub(super) struct Form {
+    pub(super) file: String,
+    pub(super) host: String,
+    pub(super) port: String,
+    pub(super) folder: String,
+    pub(super) user: String,
+    pub(super) uses_key: bool,
+    pub(super) key_file: String,
+    /// `None` for those that the operator follows.
+    pub(super) numbers: Option<Vec<u32>>,
+    /// The satellite that the unit is to follow.
+    pub(super) satellite: Option<u32>,
+    pub(super) search: String,
+    checked: Option<Checked>,
+}
+
+/// The chosen satellites, checked; kept until something they depend on changes.
+struct Checked {
+    catalog: Arc<Catalog>,
+    numbers: Vec<u32>,
+    chosen: Chosen,
+}
+
+impl Form {
+    /// What is known of `antenna` without being asked.
+    pub(super) fn of(antenna: &Antenna) -> Self {
+        let Connection::Satrak { address, element_file } = &antenna.connection;
+        Self {
+            file: element_file.clone(),
+            host: host(address),
+            port: SSH.to_owned(),
+            folder: UNIT_FOLDER.to_owned(),
+            user: String::new(),
+            uses_key: false,
+            key_file: String::new(),
+            numbers: None,
+            satellite: None,
+            search: String::new(),
+            checked: None,
+        }
+    }
+
+    /// The chosen satellites as they are in `catalog`.
+    pub(super) fn chosen(&mut self, catalog: &Arc<Catalog>, favourites: &[u32]) -> &Chosen {
+        let numbers = self.numbers.as_deref().unwrap_or(favourites);
+        let is_known = |checked: &Checked| {
+            Arc::ptr_eq(&checked.catalog, catalog) && checked.numbers == numbers
+        };
+        let checked = self.checked.take().filter(is_known).unwrap_or_else(|| Checked {
+            catalog: Arc::clone(catalog),
+            numbers: numbers.to_vec(),
+            chosen: Chosen::of(catalog, numbers),
+        });
+        &self.checked.insert(checked).chosen
+    }
+
+    /// Those that were checked last.
+    pub(super) fn known_numbers(&self) -> Option<&[u32]> {
+        self.checked.as_ref().map(|checked| checked.numbers.as_slice())
+    }
+
+    /// The file of the chosen satellites, or why there is none.
+    pub(super) fn chosen_file(
+        &mut self,
+        catalog: &Arc<Catalog>,
+        favourites: &[u32],
+    ) -> Result<TleFile, String> {
+        self.chosen(catalog, favourites).file.clone().map_err(|error| error.to_string())
+    }
+
+    /// Where the unit's files are served.
+    pub(super) fn peer(&self) -> Result<Peer, String> {
+        let host = self.host.trim();
+        if host.is_empty() || host.contains(char::is_whitespace) {
+            return Err("the host is missing or has a blank in it".to_owned());
+        }
+        let port = self.port.trim().parse().ok().filter(|port| *port > 0);
+        let port = port.ok_or("the port is no number from 1 to 65535")?;
+        Ok(Peer { host: host.to_owned(), port })
+    }
+
+    /// What is to be done, or what is missing for it.
+    pub(super) fn order(
+        &self,
+        antenna: &str,
+        cargo: Result<Cargo, String>,
+    ) -> Result<Order, String> {
+        let cargo = cargo?;
+        let file = FileName::new(self.file.trim()).map_err(|error| error.to_string())?;
+        let unit = self.peer()?;
+        let missing = |typed: &str, what: &str| {
+            if typed.trim().is_empty() { Err(format!("the {what} is missing")) } else { Ok(()) }
+        };
+        missing(&self.user, "user")?;
+        missing(&self.folder, "folder")?;
+        if self.uses_key {
+            missing(&self.key_file, "path of the key file")?;
+        }
+        Ok(Order {
+            antenna: antenna.to_owned(),
+            unit,
+            folder: self.folder.trim().to_owned(),
+            file,
+            user: self.user.trim().to_owned(),
+            key_file: self.uses_key.then(|| PathBuf::from(self.key_file.trim())),
+            cargo,
+            satellite: self.satellite,
+        })
+    }
+}
+
+/// The host of an address such as `unit:4001` or `[::1]:4001`.
+fn host(address: &str) -> String {
+    if let Ok(address) = address.parse::<SocketAddr>() {
+        return address.ip().to_string();
+    }
+    address.rsplit_once(':').map_or(address, |(host, _)| host).to_owned()
+}
+
+pub(super) fn show(ui: &mut Ui, form: &mut Form) {
+    card::show(ui, f32::INFINITY, |ui| {
+        ui.label(RichText::new("On the unit").font(text::value()));
+        field(ui, ("File", "such as weather.txt"), &mut form.file);
+        field(ui, ("Folder", "on the unit"), &mut form.folder);
+        field(ui, ("Host", "name or IP address"), &mut form.host);
+        field(ui, ("Port", SSH), &mut form.port);
+        field(ui, ("User", "on the unit"), &mut form.user);
+        ui.horizontal_wrapped(|ui| {
+            let offered = form.user != FACTORY_USER;
+            let response = ui.add_enabled(offered, Button::new("Factory user"));
+            let name = format!("Take the factory user {FACTORY_USER}");
+            response.widget_info(|| WidgetInfo::labeled(Role::Button, offered, &name));
+            if response.on_hover_text(name).clicked() {
+                FACTORY_USER.clone_into(&mut form.user);
+            }
+            ui.radio_value(&mut form.uses_key, false, "Password");
+            ui.radio_value(&mut form.uses_key, true, "Key file");
+        });
+        if form.uses_key {
+            field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), &mut form.key_file);
+        } else {
+            let t = theme::tokens(ui);
+            let words = "The password is asked for once the host is known to be the right one.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t3));
+        }
+    });
+}
+
+/// A field with its label beside it.
+pub(super) fn field(ui: &mut Ui, (label, hint): (&str, &str), typed: &mut String) {
+    let t = theme::tokens(ui);
+    ui.horizontal(|ui| {
+        let words = RichText::new(label).font(text::body()).color(t.t2);
+        let layout = Layout::left_to_right(Align::Center);
+        let label_id = ui
+            .allocate_ui_with_layout(vec2(LABEL, ROW), layout, |ui| {
+                ui.set_min_width(LABEL);
+                ui.label(words).id
+            })
+            .inner;
+        let hint = RichText::new(hint).color(t.t3);
+        let width = ui.available_width().min(MOST);
+        let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
+        ui.add(edit).labelled_by(label_id);
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::bundled;
+
+    fn form() -> Form {
+        let mut antenna = Antenna::satrak("Satrak", "192.168.10.21:4001");
+        antenna.connection = Connection::Satrak {
+            address: "192.168.10.21:4001".to_owned(),
+            element_file: "active.txt".to_owned(),
+        };
+        Form { user: "op".to_owned(), ..Form::of(&antenna) }
+    }
+
+    fn file() -> Result<Cargo, String> {
+        let catalog = bundled().unwrap();
+        Ok(Cargo::New(TleFile::of(catalog.get(25_544)).unwrap()))
+    }
+
+    #[test]
+    fn the_unit_is_where_the_antenna_is() {
+        let order = form().order("Satrak", file()).unwrap();
+        assert_eq!(order.unit, Peer { host: "192.168.10.21".to_owned(), port: 22 });
+        assert_eq!((order.file.as_str(), order.folder.as_str()), ("active.txt", UNIT_FOLDER));
+        assert_eq!(
+            (host("unit.local:4001"), host("[::1]:4001")),
+            ("unit.local".into(), "::1".into())
+        );
+    }
+
+    #[test]
+    fn what_is_missing_is_said() {
+        let problem = |form: Form| form.order("Satrak", file()).unwrap_err();
+        let part = |edit: fn(&mut Form)| {
+            let mut form = form();
+            edit(&mut form);
+            problem(form)
+        };
+        assert!(part(|form| form.host.clear()).contains("host"));
+        assert!(part(|form| form.port = "70000".into()).contains("port"));
+        assert!(part(|form| form.port = "0".into()).contains("port"));
+        assert!(part(|form| form.user = " ".into()).contains("user"));
+        assert!(part(|form| form.folder.clear()).contains("folder"));
+        assert!(part(|form| form.file = "a/b".into()).contains("slash"));
+        assert!(part(|form| form.uses_key = true).contains("key file"));
+        let nothing = form().order("Satrak", Err("no satellite was chosen".to_owned()));
+        assert!(nothing.unwrap_err().contains("no satellite"));
+    }
+
+    #[test]
+    fn the_choice_is_checked_once_and_again_when_it_changes() {
+        let catalog = Arc::new(bundled().unwrap());
+        let mut form = form();
+        assert_eq!(form.chosen(&catalog, &[25_544]).objects.len(), 1);
+        assert_eq!(form.chosen(&catalog, &[25_544, 43_013]).objects.len(), 2);
+        form.numbers = Some(Vec::new());
+        assert!(form.chosen_file(&catalog, &[25_544]).is_err());
+    }
+}

@@ -1,0 +1,97 @@
+//! The files that were on the unit before, each to be put back.
+
+use egui::{RichText, Ui};
+
+use super::{Tone, form::Form, line, outcome, sentence};
+use crate::{
+    app::{
+        Model, UiCommand,
+        uploads::{Ask, Cargo, KeptEntry, Order},
+    },
+    driver::files::{FileName, Origin},
+    ui::{confirm::Question, format, text, theme, upload::chosen::named, widgets::card},
+};
+
+/// How many digits of a hash tell two files apart.
+const HASH_DIGITS: usize = 12;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    antenna: &str,
+    form: &Form,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let (Ok(unit), Ok(file)) = (form.peer(), FileName::new(form.file.trim())) else { return };
+    let of = (unit.to_string(), file.as_str().to_owned());
+    let kept = &model.uploads.kept;
+    if kept.of != of {
+        let (unit, file) = of;
+        commands.push(UiCommand::Upload(Ask::ListKept { unit, file }));
+        return;
+    }
+    let t = theme::tokens(ui);
+    card::show(ui, f32::INFINITY, |ui| {
+        ui.label(RichText::new("Kept on this computer").font(text::value()));
+        match &kept.list {
+            None => line(ui, Tone::Plain, "The list is being read."),
+            Some(Err(problem)) => line(ui, Tone::Bad, &sentence(problem)),
+            Some(Ok(list)) if list.is_empty() => {
+                let words = format!("Nothing yet of {} on {}.", kept.of.1, kept.of.0);
+                ui.label(RichText::new(words).font(text::small()).color(t.t3));
+            }
+            Some(Ok(list)) => {
+                for (index, entry) in list.iter().enumerate() {
+                    let cargo = Ok(Cargo::Kept(entry.file.clone()));
+                    let order = form.order(antenna, cargo);
+                    one(ui, model, index, entry, order, question);
+                }
+            }
+        }
+    });
+}
+
+fn one(
+    ui: &mut Ui,
+    model: &Model,
+    index: usize,
+    entry: &KeptEntry,
+    order: Result<Order, String>,
+    question: &mut Option<Question>,
+) {
+    let t = theme::tokens(ui);
+    let file = &entry.file;
+    let at = format!("{} {}", format::date(file.at), format::time_z(file.at));
+    let origin = match file.origin {
+        Origin::Found => "was on the unit",
+        Origin::Uploaded => "sent from here",
+    };
+    if index > 0 {
+        ui.separator();
+    }
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(&at).font(text::body_medium()));
+        ui.label(RichText::new(origin).font(text::small()).color(t.t2));
+    });
+    let hash: String = file.sha256.to_string().chars().take(HASH_DIGITS).collect();
+    let words = format!("{hash}… {} bytes", file.bytes);
+    ui.label(RichText::new(words).font(text::raw()).color(t.t3))
+        .on_hover_text(file.sha256.to_string());
+    match &entry.objects {
+        Ok(objects) if objects.is_empty() => line(ui, Tone::Caution, "No elements in it."),
+        Ok(objects) => outcome::objects(ui, objects, model.now),
+        Err(problem) => return line(ui, Tone::Bad, &sentence(problem)),
+    }
+    let can = order.is_ok() && !model.uploads.stage.is_open();
+    if named(ui, can, "Put back…", &format!("Put back the file of {at}, {origin}"))
+        && let Ok(order) = order
+    {
+        let text = format!(
+            "Put {} of {at} back on {}? It is uploaded, compared and proved like any other.",
+            file.file, order.unit
+        );
+        let begin = Ask::Begin(Box::new(order));
+        *question = Some(Question { text, yes: "Put back", command: UiCommand::Upload(begin) });
+    }
+}

@@ -1,0 +1,154 @@
+//! What came of an order.
+
+use egui::{Frame, Margin, RichText, Stroke, Ui};
+use jiff::Timestamp;
+
+use super::{Tone, line, sentence};
+use crate::{
+    app::{
+        Model, UiCommand,
+        host_keys::DoubtfulKey,
+        uploads::{Ask, Failure, Proved, Stage, Warning},
+    },
+    astro::time::seconds_between,
+    driver::files::{FileObject, Uploaded},
+    ui::{confirm::Question, format, text, theme},
+};
+
+/// How many objects of a file are listed with their ages.
+const LISTED: usize = 20;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (ground, edge) = match &model.uploads.stage {
+        Stage::Proved(_) => (t.okbg, t.ok),
+        Stage::Failed(failure) if failure.is_cancel => (t.warnbg, t.warn),
+        Stage::Failed(_) => (t.badbg, t.bad),
+        _ => return warnings(ui, model),
+    };
+    Frame::new()
+        .fill(ground)
+        .stroke(Stroke::new(1.0, edge))
+        .corner_radius(6)
+        .inner_margin(Margin::same(12))
+        .show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            match &model.uploads.stage {
+                Stage::Proved(proved) => self::proved(ui, model, proved),
+                Stage::Failed(failure) => failed(ui, model, failure, question),
+                _ => {}
+            }
+            warnings(ui, model);
+            if ui.button("Done reading").clicked() {
+                commands.push(UiCommand::Upload(Ask::Dismiss));
+            }
+        });
+    ui.add_space(4.0);
+}
+
+fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
+    let what = if model.uploads.is_roll_back { "Rolled back and proved" } else { "Proved" };
+    let words = format!("{what} {}", format::time_z(proved.at));
+    line(ui, Tone::Good, &words);
+    let satellite = &proved.satellite;
+    let words = format!(
+        "The unit uses {} and has found {} ({}) in it.",
+        proved.uploaded.file.as_str(),
+        satellite.name,
+        satellite.catalog_number
+    );
+    line(ui, Tone::Plain, &words);
+    file(ui, &proved.uploaded);
+    objects(ui, &proved.uploaded.objects, model.now);
+}
+
+fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Question>) {
+    let tone = if failure.is_cancel { Tone::Caution } else { Tone::Bad };
+    match (&failure.changed_key, &failure.uploaded) {
+        (Some(key), _) => changed_key(ui, key, question),
+        (None, None) => line(ui, tone, &sentence(&failure.text)),
+        (None, Some(uploaded)) => {
+            line(ui, tone, &format!("Not in use: {}", sentence(&failure.text)));
+            let words = "The new file is on the unit, read back and compared. Upload again, or \
+                         put an old file back.";
+            line(ui, Tone::Plain, words);
+            file(ui, uploaded);
+            objects(ui, &uploaded.objects, model.now);
+        }
+    }
+}
+
+/// Refused, with both fingerprints.
+fn changed_key(ui: &mut Ui, key: &DoubtfulKey, question: &mut Option<Question>) {
+    let address = &key.address;
+    line(ui, Tone::Bad, &format!("Refused: the host key of {address} is not the known one."));
+    for pinned in &key.pinned {
+        fact(ui, "Known", pinned);
+    }
+    fact(ui, "Now", &key.fingerprint);
+    fact(ui, "Kind", &key.algorithm);
+    let words = "Either the unit was replaced or set up anew, or another computer stands in \
+                 between. Nothing was sent. Ask who keeps the unit; on the unit ssh-keygen -l \
+                 shows the right fingerprint.";
+    line(ui, Tone::Plain, words);
+    if ui.button("Forget the known key…").clicked() {
+        *question = Some(Question {
+            text: format!(
+                "Forget the known host key of {address}? Do so only if you know why it has \
+                 changed. The new key is shown next."
+            ),
+            yes: "Forget it",
+            command: UiCommand::Upload(Ask::ForgetHostKey),
+        });
+    }
+}
+
+fn file(ui: &mut Ui, uploaded: &Uploaded) {
+    fact(ui, "File", &format!("{}, {} bytes", uploaded.file.as_str(), uploaded.bytes));
+    fact(ui, "Unit", &uploaded.unit.to_string());
+    let at = format!("{} {}", format::date(uploaded.at), format::time_z(uploaded.at));
+    fact(ui, "Read back", &at);
+    fact(ui, "SHA-256", &uploaded.sha256.to_string());
+}
+
+fn fact(ui: &mut Ui, name: &str, value: &str) {
+    let t = theme::tokens(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(name).font(text::small()).color(t.t3));
+        ui.add(egui::Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
+    });
+}
+
+/// The age of each object's elements.
+pub(super) fn objects(ui: &mut Ui, objects: &[FileObject], now: Timestamp) {
+    let t = theme::tokens(ui);
+    let one = |object: &FileObject| {
+        let age = format::age(seconds_between(object.epoch, now));
+        format!("{} {} old", object.name, age)
+    };
+    let mut words: Vec<String> = objects.iter().take(LISTED).map(one).collect();
+    if objects.len() > LISTED {
+        words.push(format!("and {} more", objects.len() - LISTED));
+    }
+    let words = words.join(" · ");
+    ui.add(egui::Label::new(RichText::new(words).font(text::small()).color(t.t2)).wrap());
+}
+
+fn warnings(ui: &mut Ui, model: &Model) {
+    for warning in &model.uploads.warnings {
+        let words = match warning {
+            Warning::FactoryPassword => {
+                "This is the password that every unit has from its maker. Whoever has the \
+                 document of the protocol knows it: give the unit another one."
+                    .to_owned()
+            }
+            Warning::NotKept(problem) => format!("The password was not kept: {problem}."),
+        };
+        line(ui, Tone::Caution, &words);
+    }
+}

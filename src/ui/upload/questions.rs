@@ -1,0 +1,53 @@
+//! What the operator has to decide while files are on their way.
+
+use egui::Ui;
+
+use crate::{
+    app::{
+        Model, UiCommand,
+        uploads::{Ask, Busy, Stage},
+    },
+    ui::dialogs::{self, Answer, PasswordDialog, SecretAnswer},
+};
+
+/// What is typed into the questions.
+#[derive(Default)]
+pub(super) struct Questions {
+    password: PasswordDialog,
+}
+
+/// Shows the question that is open, if one is. Esc says no.
+pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut Vec<UiCommand>) {
+    let ask = match &model.uploads.stage {
+        Stage::AsksAboutTracking(busy) => {
+            yes_or_no(dialogs::question(ui, about_tracking(*busy), "Go on"), Ask::AgreeToTracking)
+        }
+        Stage::AsksAboutHostKey(key) => yes_or_no(dialogs::host_key(ui, key), Ask::TrustHostKey),
+        Stage::AsksForSecret(wanted) => match state.password.show(ui, wanted) {
+            None => None,
+            Some(SecretAnswer::Cancelled) => Some(Ask::Cancel),
+            Some(SecretAnswer::Typed { secret, keep }) => Some(Ask::Secret { secret, keep }),
+        },
+        _ => {
+            state.password.clear();
+            None
+        }
+    };
+    commands.extend(ask.map(UiCommand::Upload));
+}
+
+fn yes_or_no(answer: Option<Answer>, yes: Ask) -> Option<Ask> {
+    answer.map(|answer| if answer == Answer::Yes { yes } else { Ask::Cancel })
+}
+
+fn about_tracking(busy: Busy) -> &'static str {
+    match busy {
+        Busy::Tracks => {
+            "The unit tracks. Its tracking ends when it is told to use the new file. Go on?"
+        }
+        Busy::MayTrack => {
+            "Auto-track is on: the unit may begin to track the satellite by itself, and the \
+             antenna may move, once it is told to use the new file. Go on?"
+        }
+    }
+}
