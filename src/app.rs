@@ -23,6 +23,7 @@ mod memory;
 pub mod model;
 mod settle;
 pub mod secret;
+pub mod source_tests;
 pub mod sources;
 pub mod uploads;
 
@@ -76,6 +77,7 @@ pub struct App {
     copy_work: CopyWork,
     log_work: LogWork,
     uploads: uploads::Desk,
+    source_tests: source_tests::Desk,
     keeper: Keeper,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
@@ -105,6 +107,7 @@ impl App {
             selected: None,
             sky: model::Sky::default(),
             uploads: uploads::Uploads::default(),
+            source_tests: source_tests::SourceTests::default(),
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
@@ -116,7 +119,8 @@ impl App {
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
-        let uploads = uploads::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
+        let uploads = uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
+        let source_tests = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
         let mut app = Self {
             model,
             views: ui::Views::with(keeper.memory.views),
@@ -131,6 +135,7 @@ impl App {
             copy_work,
             log_work,
             uploads,
+            source_tests,
             keeper,
             settings_unread: false,
             drawn: false,

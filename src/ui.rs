@@ -20,6 +20,7 @@ pub mod preferences;
 pub mod profile;
 pub mod rail;
 pub mod sky_plot;
+pub mod source_test;
 pub mod state_sentence;
 pub mod text;
 pub mod theme;

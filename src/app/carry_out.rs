@@ -82,6 +82,7 @@ impl App {
             UiCommand::OpenedAlarms => model.alarms.unopened = false,
             UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(id),
             UiCommand::SaveStation(station) => self.save_station(*station),
+            UiCommand::TestSource(ask) => self.source_tests.ask(ask, &mut model.source_tests),
             UiCommand::Upload(ask) => self.ask_about_upload(ask),
         }
         (self.wake)();

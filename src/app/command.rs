@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
-    uploads,
+    source_tests, uploads,
 };
 use crate::{
     driver,
@@ -96,6 +96,8 @@ pub enum UiCommand {
     SaveStation(Box<Station>),
     /// About a file of elements for a unit.
     Upload(uploads::Ask),
+    /// About a test of a source that a unit is told to use.
+    TestSource(source_tests::TestAsk),
 }
 
 impl UiCommand {

@@ -47,6 +47,7 @@ impl App {
             self.take_antenna(index);
         }
         self.poll_uploads();
+        self.source_tests.poll(&mut self.model.source_tests);
         self.model.refresh_sky();
         self.remember();
     }

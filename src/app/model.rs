@@ -12,6 +12,7 @@ use super::{
     copies::Copies,
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
+    source_tests::SourceTests,
     sources::Sources,
     uploads::Uploads,
 };
@@ -82,6 +83,8 @@ pub struct Model {
     pub sky: Sky,
     /// Files of elements on their way to units.
     pub uploads: Uploads,
+    /// The sources that units are told to use, tested from here.
+    pub source_tests: SourceTests,
     /// What must not be missed.
     pub alarms: Alarms,
     /// Copies of the settings of units.

@@ -7,8 +7,12 @@ use egui::{Id, Key, Label, Modal, RichText, Ui};
 
 pub use password::{PasswordDialog, SecretAnswer};
 
-use super::{text, theme};
-use crate::app::host_keys::DoubtfulKey;
+use super::{
+    confirm::Question,
+    text, theme,
+    widgets::told::{Tone, fact, line},
+};
+use crate::app::{UiCommand, host_keys::DoubtfulKey};
 
 const WIDTH: f32 = 400.0;
 
@@ -42,6 +46,37 @@ pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
             ui.add(Label::new(RichText::new(line).font(text::raw()).color(t.t1)).wrap());
         }
     })
+}
+
+/// Says that a host key was refused, with both fingerprints and what to do.
+/// `forget` is what forgets the known key; it is asked about once more.
+pub fn changed_key(
+    ui: &mut Ui,
+    key: &DoubtfulKey,
+    forget: UiCommand,
+    question: &mut Option<Question>,
+) {
+    let address = &key.address;
+    line(ui, Tone::Bad, &format!("Refused: the host key of {address} is not the known one."));
+    for pinned in &key.pinned {
+        fact(ui, "Known", pinned);
+    }
+    fact(ui, "Now", &key.fingerprint);
+    fact(ui, "Kind", &key.algorithm);
+    let words = "Either the unit was replaced or set up anew, or another computer stands in \
+                 between. Nothing was sent. Ask who keeps the unit; on the unit ssh-keygen -l \
+                 shows the right fingerprint.";
+    line(ui, Tone::Plain, words);
+    if ui.button("Forget the known key…").clicked() {
+        *question = Some(Question {
+            text: format!(
+                "Forget the known host key of {address}? Do so only if you know why it has \
+                 changed. The new key is shown next."
+            ),
+            yes: "Forget it",
+            command: forget,
+        });
+    }
 }
 
 fn ask(

@@ -8,7 +8,7 @@ mod words;
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-use super::{confirm::Question, text, theme};
+use super::{confirm::Question, text, theme, words::sentence};
 use crate::app::{
     Model, UiCommand,
     model::CatalogState,
@@ -89,7 +89,7 @@ fn head(ui: &mut Ui, model: &Model, upload_is_open: &mut bool, commands: &mut Ve
     };
     ui.label(RichText::new(catalog).font(text::body()).color(t.t2));
     if let Some(problem) = &sources.problem {
-        ui.label(RichText::new(words::sentence(problem)).font(text::body()).color(t.bad));
+        ui.label(RichText::new(sentence(problem)).font(text::body()).color(t.bad));
     }
     ui.horizontal(|ui| {
         let all = egui::Button::new("Refresh all");

@@ -12,17 +12,17 @@ use std::collections::BTreeMap;
 
 use egui::{RichText, Ui};
 
-use super::{confirm::Question, icons, text, theme, widgets::paint};
+use super::{
+    confirm::Question,
+    text,
+    widgets::told::{Tone, line},
+};
 use crate::app::{
     Model, UiCommand,
     model::CatalogState,
     uploads::{Ask, Cargo, Order, Stage},
 };
 use form::Form;
-
-/// Side of the mark before a sentence, and height of a line.
-const MARK: f32 = 12.0;
-const LINE: f32 = 16.0;
 
 /// What was typed and chosen, for every antenna by its name. No failure takes
 /// anything of it.
@@ -91,41 +91,4 @@ fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut 
     if let Err(problem) = order {
         line(ui, Tone::Caution, &format!("Not to be sent yet: {problem}."));
     }
-}
-
-/// How words are to be taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Tone {
-    Plain,
-    Now,
-    Good,
-    Caution,
-    Bad,
-}
-
-/// A sentence behind the mark of its tone: a theme may have one hue only.
-fn line(ui: &mut Ui, tone: Tone, words: &str) {
-    use icons::Icon;
-    let t = theme::tokens(ui);
-    let (mark, colour) = match tone {
-        Tone::Plain => (None, t.t2),
-        Tone::Now => (Some((Icon::ChevronRight, t.sat)), t.t1),
-        Tone::Good => (Some((Icon::Check, t.ok)), t.t1),
-        Tone::Caution => (Some((Icon::Warning, t.warn)), t.warn),
-        Tone::Bad => (Some((Icon::Cross, t.bad)), t.bad),
-    };
-    ui.horizontal_top(|ui| {
-        let (place, _) = ui.allocate_exact_size(egui::vec2(MARK, LINE), egui::Sense::hover());
-        if let Some((icon, colour)) = mark {
-            icons::paint(ui.painter(), paint::square(place.center(), MARK), icon, colour);
-        }
-        let words = RichText::new(words).font(text::body()).color(colour);
-        ui.add(egui::Label::new(words).wrap());
-    });
-}
-
-/// A problem told by a lower layer, as a sentence.
-fn sentence(problem: &str) -> String {
-    let words = super::words::capitalised(problem);
-    if words.ends_with('.') { words } else { format!("{words}.") }
 }

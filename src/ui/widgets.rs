@@ -18,6 +18,7 @@ pub mod rate_slider;
 pub mod segmented;
 pub mod sentence;
 pub mod stop_button;
+pub mod told;
 pub mod travel_gauge;
 
 #[cfg(test)]

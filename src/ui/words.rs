@@ -36,6 +36,12 @@ pub fn intent(intent: Intent) -> &'static str {
     }
 }
 
+/// A problem told by a lower layer, as a sentence.
+pub fn sentence(problem: &str) -> String {
+    let words = capitalised(problem);
+    if words.ends_with('.') { words } else { format!("{words}.") }
+}
+
 /// With a capital at the beginning.
 pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();

@@ -5,7 +5,11 @@ use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
 use super::WIDTH;
 use crate::{
     app::{secret::Secret, uploads::SecretWanted},
-    ui::{text, theme, words::capitalised},
+    ui::{
+        text, theme,
+        widgets::told::{Tone, line},
+        words::sentence,
+    },
 };
 
 /// What is typed. It leaves here only as a [`Secret`].
@@ -56,8 +60,7 @@ impl PasswordDialog {
         ui.label(RichText::new(words).font(text::value()));
         ui.label(RichText::new(format!("for {}", wanted.address)).font(text::body()).color(t.t2));
         if let Some(refused) = &wanted.refused {
-            let words = format!("{}.", capitalised(refused));
-            ui.label(RichText::new(words).font(text::body()).color(t.bad));
+            line(ui, Tone::Bad, &sentence(refused));
         }
         let edit = TextEdit::singleline(&mut self.typed).password(true).id(field());
         let label = ui.label(RichText::new(what).font(text::small()).color(t.t3)).id;
@@ -72,11 +75,10 @@ impl PasswordDialog {
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
             Some(problem) => {
-                let words = format!(
-                    "{}. It is asked for once in each session of Azel and written down nowhere.",
-                    capitalised(problem)
-                );
-                ui.label(RichText::new(words).font(text::small()).color(t.warn));
+                line(ui, Tone::Caution, &sentence(problem));
+                let words =
+                    "It is asked for once in each session of Azel and written down nowhere.";
+                ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
         }
         ui.add_space(8.0);

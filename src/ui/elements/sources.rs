@@ -1,24 +1,20 @@
 //! The sources, one card each.
 
-use egui::{Align, Button, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 
-use super::words::{self, Tone};
+use super::words;
 use crate::{
     app::{Model, UiCommand},
     orbit::{Place, Source, SourceReport},
     ui::{
         confirm::Question,
-        icons::{self, Icon},
         text, theme,
-        widgets::{button::SMALL_HEIGHT, card, paint},
+        widgets::{button::SMALL_HEIGHT, card, told::line},
     },
 };
 
 /// A card is not wider than its words need.
 const MOST: f32 = 720.0;
-/// Side of the mark before a sentence, and height of a line.
-const MARK: f32 = 12.0;
-const LINE: f32 = 16.0;
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -76,25 +72,6 @@ fn one(
     for (tone, words) in words::report(source, report, model.now) {
         line(ui, tone, &words);
     }
-}
-
-/// A sentence behind the mark of its tone: a theme may have one hue only.
-fn line(ui: &mut Ui, tone: Tone, words: &str) {
-    let t = theme::tokens(ui);
-    let (mark, colour) = match tone {
-        Tone::Plain => (None, t.t2),
-        Tone::Good => (Some((Icon::Check, t.ok)), t.t1),
-        Tone::Caution => (Some((Icon::Warning, t.warn)), t.warn),
-        Tone::Bad => (Some((Icon::Cross, t.bad)), t.bad),
-    };
-    ui.horizontal_top(|ui| {
-        let (place, _) = ui.allocate_exact_size(vec2(MARK, LINE), Sense::hover());
-        if let Some((icon, colour)) = mark {
-            icons::paint(ui.painter(), paint::square(place.center(), MARK), icon, colour);
-        }
-        let words = RichText::new(words).font(text::body()).color(colour);
-        ui.add(egui::Label::new(words).wrap());
-    });
 }
 
 /// A button whose name says more than its word; whether it was clicked.

@@ -5,17 +5,8 @@ use jiff::Timestamp;
 use crate::{
     astro::time::seconds_between,
     orbit::{Catalog, FETCH_PAUSE, Place, Source, SourceReport},
-    ui::format,
+    ui::{format, widgets::told::Tone, words::sentence},
 };
-
-/// How the words are to be taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Tone {
-    Plain,
-    Good,
-    Caution,
-    Bad,
-}
 
 /// "1 object", "16 089 objects".
 pub(super) fn objects(count: usize) -> String {
@@ -34,13 +25,6 @@ pub(super) fn catalog(catalog: &Catalog, now: Timestamp) -> String {
 /// "2026-08-11, 3 h old".
 fn date_and_age(epoch: Timestamp, now: Timestamp) -> String {
     format!("{}, {} old", epoch.strftime("%Y-%m-%d"), format::age(seconds_between(epoch, now)))
-}
-
-/// A problem told by a lower layer, as a sentence.
-pub(super) fn sentence(problem: &str) -> String {
-    let mut letters = problem.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }
 
 /// Where a source is.

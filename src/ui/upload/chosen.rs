@@ -12,7 +12,14 @@ use crate::{
     },
     astro::time::seconds_between,
     orbit::{Catalog, Elements},
-    ui::{format, text, theme, widgets::card},
+    ui::{
+        format, text, theme,
+        widgets::{
+            card,
+            told::{Tone, line},
+        },
+        words::sentence,
+    },
 };
 
 /// How many objects a search offers.
@@ -121,7 +128,7 @@ fn row(
         });
     });
     if let Some(problem) = &object.problem {
-        super::line(ui, super::Tone::Bad, &super::sentence(&problem.to_string()));
+        line(ui, Tone::Bad, &sentence(&problem.to_string()));
     }
 }
 

@@ -2,14 +2,22 @@
 
 use egui::{RichText, Ui};
 
-use super::{Tone, form::Form, line, outcome, sentence};
+use super::{chosen::named, form::Form, outcome};
 use crate::{
     app::{
         Model, UiCommand,
         uploads::{Ask, Cargo, KeptEntry, Order},
     },
     driver::files::{FileName, Origin},
-    ui::{confirm::Question, format, text, theme, upload::chosen::named, widgets::card},
+    ui::{
+        confirm::Question,
+        format, text, theme,
+        widgets::{
+            card,
+            told::{Tone, line},
+        },
+        words::sentence,
+    },
 };
 
 /// How many digits of a hash tell two files apart.

@@ -3,16 +3,19 @@
 use egui::{Frame, Margin, RichText, Stroke, Ui};
 use jiff::Timestamp;
 
-use super::{Tone, line, sentence};
 use crate::{
     app::{
         Model, UiCommand,
-        host_keys::DoubtfulKey,
         uploads::{Ask, Failure, Proved, Stage, Warning},
     },
     astro::time::seconds_between,
     driver::files::{FileObject, Uploaded},
-    ui::{confirm::Question, format, text, theme},
+    ui::{
+        confirm::Question,
+        dialogs, format, text, theme,
+        widgets::told::{Tone, fact, line},
+        words::sentence,
+    },
 };
 
 /// How many objects of a file are listed with their ages.
@@ -70,7 +73,10 @@ fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
 fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Question>) {
     let tone = if failure.is_cancel { Tone::Caution } else { Tone::Bad };
     match (&failure.changed_key, &failure.uploaded) {
-        (Some(key), _) => changed_key(ui, key, question),
+        (Some(key), _) => {
+            let forget = UiCommand::Upload(Ask::ForgetHostKey);
+            dialogs::changed_key(ui, key, forget, question);
+        }
         (None, None) => line(ui, tone, &sentence(&failure.text)),
         (None, Some(uploaded)) => {
             line(ui, tone, &format!("Not in use: {}", sentence(&failure.text)));
@@ -83,45 +89,12 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
     }
 }
 
-/// Refused, with both fingerprints.
-fn changed_key(ui: &mut Ui, key: &DoubtfulKey, question: &mut Option<Question>) {
-    let address = &key.address;
-    line(ui, Tone::Bad, &format!("Refused: the host key of {address} is not the known one."));
-    for pinned in &key.pinned {
-        fact(ui, "Known", pinned);
-    }
-    fact(ui, "Now", &key.fingerprint);
-    fact(ui, "Kind", &key.algorithm);
-    let words = "Either the unit was replaced or set up anew, or another computer stands in \
-                 between. Nothing was sent. Ask who keeps the unit; on the unit ssh-keygen -l \
-                 shows the right fingerprint.";
-    line(ui, Tone::Plain, words);
-    if ui.button("Forget the known key…").clicked() {
-        *question = Some(Question {
-            text: format!(
-                "Forget the known host key of {address}? Do so only if you know why it has \
-                 changed. The new key is shown next."
-            ),
-            yes: "Forget it",
-            command: UiCommand::Upload(Ask::ForgetHostKey),
-        });
-    }
-}
-
 fn file(ui: &mut Ui, uploaded: &Uploaded) {
     fact(ui, "File", &format!("{}, {} bytes", uploaded.file.as_str(), uploaded.bytes));
     fact(ui, "Unit", &uploaded.unit.to_string());
     let at = format!("{} {}", format::date(uploaded.at), format::time_z(uploaded.at));
     fact(ui, "Read back", &at);
     fact(ui, "SHA-256", &uploaded.sha256.to_string());
-}
-
-fn fact(ui: &mut Ui, name: &str, value: &str) {
-    let t = theme::tokens(ui);
-    ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(name).font(text::small()).color(t.t3));
-        ui.add(egui::Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
-    });
 }
 
 /// The age of each object's elements.

@@ -4,14 +4,19 @@ use std::cmp::Ordering;
 
 use egui::{ProgressBar, RichText, Ui};
 
-use super::{Tone, line};
 use crate::{
     app::{
         Model, UiCommand,
         uploads::{Ask, Stage},
     },
     driver::files::{Progress, UploadStep},
-    ui::{text, theme, widgets::card},
+    ui::{
+        text, theme,
+        widgets::{
+            card,
+            told::{Tone, line},
+        },
+    },
 };
 
 /// The steps, each with what it does. The first is everything before the

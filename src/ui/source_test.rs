@@ -1,0 +1,208 @@
+//! "Test from here" beside the forms of a unit's web and FTP sources.
+
+mod seen;
+
+use egui::{ComboBox, RichText, Role, Spinner, TextEdit, Ui, WidgetInfo};
+
+use super::{
+    confirm::Question,
+    dialogs::{self, Answer},
+    text, theme,
+    widgets::told::{Tone, line},
+    words::sentence,
+};
+use crate::{
+    app::{
+        Model, UiCommand,
+        host_keys::DoubtfulKey,
+        secret::Secret,
+        source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
+    },
+    driver::files::{FileProtocol, Peer},
+};
+
+/// A source as it is typed in a form.
+#[derive(Debug, Clone, Copy)]
+pub enum TypedSource<'a> {
+    /// A web address.
+    Web {
+        /// As the unit is told.
+        url: &'a str,
+    },
+    /// A file on a server.
+    Server {
+        /// Its name or IP address.
+        address: &'a str,
+        /// TCP port.
+        port: &'a str,
+        /// The user there.
+        user: &'a str,
+        /// The user's password. Only taken when the button is pressed.
+        password: &'a str,
+        /// The file.
+        file: &'a str,
+        /// The name of the satellite as in the file.
+        satellite: &'a str,
+    },
+}
+
+/// What the operator chose beside the form.
+#[derive(Default)]
+pub struct SourceTestState {
+    /// `None` for what the port says.
+    protocol: Option<FileProtocol>,
+    /// The satellite to look for in a file from the web; `None` for the one that
+    /// the unit holds.
+    satellite: Option<String>,
+    question: Option<Question>,
+}
+
+/// Draws the button and what came of it, for the unit of the antenna with the
+/// index `antenna`, as wide as the place in `ui`.
+pub fn show(
+    ui: &mut Ui,
+    model: &Model,
+    antenna: usize,
+    typed: TypedSource<'_>,
+    state: &mut SourceTestState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let Some(antenna) = model.antennas.get(antenna) else { return };
+    let held = antenna.snapshot.state.satrak.satellite.as_ref().map(|held| held.name.as_str());
+    let order = order(&antenna.config.name, typed, held.unwrap_or_default(), state);
+    match typed {
+        TypedSource::Web { .. } => satellite(ui, held, state),
+        TypedSource::Server { .. } => protocol(ui, &mut state.protocol),
+    }
+    let tests = &model.source_tests;
+    ui.horizontal_wrapped(|ui| {
+        let can = order.is_ok() && !tests.stage.is_open();
+        if ui.add_enabled(can, egui::Button::new("Test from here")).clicked()
+            && let Ok(order) = &order
+        {
+            push(commands, TestAsk::Begin(Box::new(order.clone())));
+        }
+        if let Err(problem) = &order {
+            let words = format!("Not to be tested yet: {problem}.");
+            ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
+        }
+    });
+    let is_ours = |tested: &SourceOrder| {
+        tested.antenna == antenna.config.name
+            && matches!(tested.source, TestedSource::Web { .. })
+                == matches!(typed, TypedSource::Web { .. })
+    };
+    if let Some(tested) = tests.order.as_ref().filter(|tested| is_ours(tested)) {
+        if order.as_ref() != Ok(tested) && !tests.stage.is_open() && tests.stage != TestStage::Idle
+        {
+            let words = "This was tested before something was changed above.";
+            ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
+        }
+        outcome(ui, model, tested, state, commands);
+    }
+    Question::show(&mut state.question, ui, commands);
+}
+
+fn push(commands: &mut Vec<UiCommand>, ask: TestAsk) {
+    commands.push(UiCommand::TestSource(ask));
+}
+
+fn order(
+    antenna: &str,
+    typed: TypedSource<'_>,
+    held: &str,
+    state: &SourceTestState,
+) -> Result<SourceOrder, &'static str> {
+    let present = |typed: &str, problem| {
+        let typed = typed.trim();
+        if typed.is_empty() { Err(problem) } else { Ok(typed.to_owned()) }
+    };
+    let (source, satellite) = match typed {
+        TypedSource::Web { url } => {
+            let url = present(url, "the address is missing")?;
+            (TestedSource::Web { url }, state.satellite.as_deref().unwrap_or(held))
+        }
+        TypedSource::Server { address, port, user, password, file, satellite } => {
+            let host = present(address, "the address is missing")?;
+            let port: u16 = port.trim().parse().map_err(|_| "the port is no number")?;
+            let source = TestedSource::Server {
+                peer: Peer { host, port },
+                protocol: state.protocol.unwrap_or_else(|| FileProtocol::of_port(port)),
+                user: user.trim().to_owned(),
+                password: Secret::new(password),
+                file: present(file, "the file is missing")?,
+            };
+            (source, satellite)
+        }
+    };
+    let satellite = present(satellite, "the name of the satellite is missing")?;
+    Ok(SourceOrder { antenna: antenna.to_owned(), source, satellite })
+}
+
+fn satellite(ui: &mut Ui, held: Option<&str>, state: &mut SourceTestState) {
+    let t = theme::tokens(ui);
+    ui.horizontal(|ui| {
+        let label = ui.label(RichText::new("Look for").font(text::body()).color(t.t2)).id;
+        let mut typed = state.satellite.clone().unwrap_or_else(|| held.unwrap_or("").to_owned());
+        let hint = RichText::new("name of the satellite").color(t.t3);
+        let edit = TextEdit::singleline(&mut typed).id_salt("look for").hint_text(hint);
+        let edit = ui.add(edit.desired_width(ui.available_width().min(240.0)));
+        if edit.labelled_by(label).changed() {
+            state.satellite = Some(typed);
+        }
+    });
+}
+
+fn protocol(ui: &mut Ui, chosen: &mut Option<FileProtocol>) {
+    let word = |protocol: Option<FileProtocol>| match protocol {
+        None => "As the port says",
+        Some(FileProtocol::Ftp) => "FTP",
+        Some(FileProtocol::FtpTls) => "FTP with TLS",
+        Some(FileProtocol::Sftp) => "SFTP",
+    };
+    let combo = ComboBox::from_id_salt("protocol").selected_text(word(*chosen));
+    let opened = combo.show_ui(ui, |ui| {
+        for protocol in
+            [None, Some(FileProtocol::Ftp), Some(FileProtocol::FtpTls), Some(FileProtocol::Sftp)]
+        {
+            ui.selectable_value(chosen, protocol, word(protocol));
+        }
+    });
+    let name = format!("Protocol of the test, {}", word(*chosen));
+    opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+}
+
+fn outcome(
+    ui: &mut Ui,
+    model: &Model,
+    tested: &SourceOrder,
+    state: &mut SourceTestState,
+    commands: &mut Vec<UiCommand>,
+) {
+    match &model.source_tests.stage {
+        TestStage::Idle => {}
+        TestStage::Working => {
+            ui.horizontal(|ui| {
+                ui.add(Spinner::new().size(14.0));
+                ui.label(RichText::new("Being fetched.").font(text::body()));
+                if ui.button("Cancel test").clicked() {
+                    push(commands, TestAsk::Cancel);
+                }
+            });
+        }
+        TestStage::AsksAboutHostKey(key) => match dialogs::host_key(ui, key) {
+            Some(Answer::Yes) => push(commands, TestAsk::TrustHostKey),
+            Some(Answer::No) => push(commands, TestAsk::Cancel),
+            None => {}
+        },
+        TestStage::Seen { view, at } => seen::show(ui, view, &tested.satellite, *at, model.now),
+        TestStage::Failed { changed_key: Some(key), .. } => forget(ui, key, &mut state.question),
+        TestStage::Failed { text, changed_key: None } => {
+            line(ui, Tone::Bad, &sentence(text));
+        }
+    }
+}
+
+fn forget(ui: &mut Ui, key: &DoubtfulKey, question: &mut Option<Question>) {
+    dialogs::changed_key(ui, key, UiCommand::TestSource(TestAsk::ForgetHostKey), question);
+}

@@ -1,0 +1,146 @@
+//! What a unit will make of a source, in sentences.
+
+use egui::Ui;
+use jiff::Timestamp;
+
+use crate::{
+    astro::time::seconds_between,
+    driver::files::{FileObject, Seen, UnitView},
+    orbit::Refusal,
+    ui::{
+        format,
+        widgets::told::{Tone, line},
+    },
+};
+
+/// How many refused objects are told of.
+const TOLD: usize = 3;
+/// Elements older than this are worth a word: low satellites are off by more
+/// than a narrow beam.
+const OLD_S: f64 = 14.0 * 86_400.0;
+
+/// Shows the sentences about `view`, fetched at `at`, for `satellite`.
+pub(super) fn show(ui: &mut Ui, view: &UnitView, satellite: &str, at: Timestamp, now: Timestamp) {
+    for (tone, words) in sentences(view, satellite, at, now) {
+        line(ui, tone, &words);
+    }
+}
+
+fn sentences(
+    view: &UnitView,
+    satellite: &str,
+    at: Timestamp,
+    now: Timestamp,
+) -> Vec<(Tone, String)> {
+    let mut lines = vec![found(view, satellite, now)];
+    if !view.is_tle {
+        let words = "The file is no TLE, the only form that units are known to read.";
+        lines.push((Tone::Bad, words.to_owned()));
+    }
+    let refused = view.refused.len() + view.refused_unlisted;
+    if refused > 0 {
+        let one = |refusal: &Refusal| {
+            let object = refusal.object.as_deref().unwrap_or("an object");
+            format!("{object} in line {}: {}", refusal.line, refusal.reason)
+        };
+        let told: Vec<String> = view.refused.iter().take(TOLD).map(one).collect();
+        let words = format!("{refused} objects cannot be read: {}.", told.join("; "));
+        lines.push((Tone::Caution, words));
+    }
+    let words = format!(
+        "Fetched {}: {} bytes, {} objects, SHA-256 {}.",
+        format::time_z(at),
+        view.bytes,
+        view.objects,
+        view.sha256
+    );
+    lines.push((Tone::Plain, words));
+    lines
+}
+
+fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
+    match &view.satellite {
+        Seen::Found(object) => {
+            let age_s = seconds_between(object.epoch, now);
+            let words = format!("The unit will find {}.", of(object, now));
+            let tone = if view.is_tle { Tone::Good } else { Tone::Plain };
+            if age_s > OLD_S {
+                (Tone::Caution, format!("{words} They are old."))
+            } else {
+                (tone, words)
+            }
+        }
+        Seen::Several(objects) => {
+            let list: Vec<String> = objects.iter().map(|object| of(object, now)).collect();
+            let words = format!("Several have this name, the unit takes one: {}.", list.join("; "));
+            (Tone::Caution, words)
+        }
+        Seen::Missing { similar } if similar.is_empty() => {
+            (Tone::Bad, format!("The unit will not find {satellite}: it is not in the file."))
+        }
+        Seen::Missing { similar } => {
+            let words = format!(
+                "The unit will not find {satellite}. The file has {}; names must be the same to \
+                 the letter.",
+                similar.join(", ")
+            );
+            (Tone::Bad, words)
+        }
+    }
+}
+
+fn of(object: &FileObject, now: Timestamp) -> String {
+    format!(
+        "{} ({}), elements of {} {}, {} old",
+        object.name,
+        object.catalog_number,
+        format::date(object.epoch),
+        format::time_z(object.epoch),
+        format::age(seconds_between(object.epoch, now))
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::time::add_seconds,
+        driver::files::what_a_unit_sees,
+        orbit::{bundled, write_tle},
+    };
+
+    const NAME: &str = "NOAA 20 (JPSS-1)";
+
+    fn file() -> (Vec<u8>, Timestamp) {
+        let catalog = bundled().unwrap();
+        let elements = catalog.get(43_013).unwrap();
+        let mut bytes = Vec::new();
+        write_tle([elements], &mut bytes).unwrap();
+        (bytes, elements.epoch())
+    }
+
+    fn first(bytes: &[u8], satellite: &str, age_s: f64) -> (Tone, String) {
+        let now = add_seconds(file().1, age_s);
+        sentences(&what_a_unit_sees(bytes, satellite), satellite, now, now).remove(0)
+    }
+
+    #[test]
+    fn what_the_unit_will_find_is_said_with_its_age() {
+        let (bytes, _) = file();
+        let (tone, words) = first(&bytes, NAME, 7300.0);
+        assert_eq!(tone, Tone::Good);
+        assert!(words.contains("NOAA 20 (JPSS-1) (43013)") && words.contains("2 h 1 min old"));
+        assert_eq!(first(&bytes, NAME, 40.0 * 86_400.0).0, Tone::Caution);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let (bytes, _) = file();
+        let (tone, words) = first(&bytes, "noaa 20", 0.0);
+        assert!(tone == Tone::Bad && words.contains("to the letter"), "{words}");
+        let (tone, words) = first(b"<html>gone</html>", NAME, 0.0);
+        assert!(tone == Tone::Bad && words.contains("not in the file"), "{words}");
+        let twice = [bytes.clone(), bytes].concat();
+        assert_eq!(first(&twice, NAME, 0.0).0, Tone::Caution);
+    }
+}

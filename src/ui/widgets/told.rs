@@ -1,0 +1,57 @@
+//! Sentences and facts, one below the other.
+
+use egui::{Label, RichText, Sense, Ui, vec2};
+
+use super::paint;
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+};
+
+/// Side of the mark before a sentence, and height of a line.
+const MARK: f32 = 12.0;
+const LINE: f32 = 16.0;
+
+/// How words are to be taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// As they are.
+    Plain,
+    /// This is what happens now.
+    Now,
+    /// All is well.
+    Good,
+    /// To be looked at.
+    Caution,
+    /// Something is wrong.
+    Bad,
+}
+
+/// A sentence behind the mark of its tone: a theme may have one hue only.
+pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
+    let t = theme::tokens(ui);
+    let (mark, colour) = match tone {
+        Tone::Plain => (None, t.t2),
+        Tone::Now => (Some((Icon::ChevronRight, t.sat)), t.t1),
+        Tone::Good => (Some((Icon::Check, t.ok)), t.t1),
+        Tone::Caution => (Some((Icon::Warning, t.warn)), t.warn),
+        Tone::Bad => (Some((Icon::Cross, t.bad)), t.bad),
+    };
+    ui.horizontal_top(|ui| {
+        let (place, _) = ui.allocate_exact_size(vec2(MARK, LINE), Sense::hover());
+        if let Some((icon, colour)) = mark {
+            icons::paint(ui.painter(), paint::square(place.center(), MARK), icon, colour);
+        }
+        let words = RichText::new(words).font(text::body()).color(colour);
+        ui.add(Label::new(words).wrap());
+    });
+}
+
+/// A value that is read letter by letter, behind its name.
+pub fn fact(ui: &mut Ui, name: &str, value: &str) {
+    let t = theme::tokens(ui);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(name).font(text::small()).color(t.t3));
+        ui.add(Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
+    });
+}
