@@ -18,4 +18,5 @@ mod real_peers {
     mod unit;
     mod uploads;
     mod user;
+    mod whole_way;
 }

@@ -1,6 +1,6 @@
 //! Serves one simulated controller.
 
-use std::net::SocketAddr;
+use std::{net::SocketAddr, path::PathBuf};
 
 use anyhow::Context as _;
 use clap::Subcommand;
@@ -19,6 +19,10 @@ pub(super) enum Controller {
         /// Where to listen
         #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:4001")]
         listen: SocketAddr,
+        /// Folder of element files that the unit holds besides its own; read anew
+        /// whenever it is told to use one
+        #[arg(long, value_name = "FOLDER")]
+        element_folder: Option<PathBuf>,
         /// Way in which the unit differs from its document; may be repeated
         #[arg(long = "quirk", value_name = "QUIRK")]
         quirks: Vec<satrak::Quirk>,
@@ -60,6 +64,17 @@ pub(super) enum Controller {
 }
 
 pub(super) fn run(controller: Controller) -> anyhow::Result<()> {
+    let Controller::Satrak { listen, element_folder, quirks, faults } = controller;
+    let station = Station::default();
+    let catalog = orbit::bundled()?;
+    let elements = catalog.iter().cloned().collect();
+    let options = Options {
+        elements: [(DEMO_ELEMENT_FILE.to_owned(), elements)].into(),
+        element_folder,
+        quirks: quirks.into_iter().collect(),
+        faults: faults.into_iter().collect(),
+        ..Options::new(station.site, Timestamp::now())
+    };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
         match controller {

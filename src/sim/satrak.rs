@@ -9,6 +9,7 @@
 mod answer;
 mod connection;
 mod control;
+mod folder;
 mod mount;
 mod quirks;
 mod server;

@@ -58,14 +58,15 @@ pub fn show(
         progress::show(ui, model, commands);
         outcome::show(ui, model, &mut state.question, commands);
     }
-    let CatalogState::Ready(catalog) = &model.catalog else {
-        ui.label(RichText::new("There are no elements to send.").font(text::body()));
-        return;
+    let file = match &model.catalog {
+        CatalogState::Ready(catalog) => {
+            chosen::show(ui, model, catalog, form);
+            form.chosen_file(catalog, &model.station.favourites)
+        }
+        CatalogState::Loading | CatalogState::Failed => Err("there are no elements".to_owned()),
     };
-    chosen::show(ui, model, catalog, form);
     form::show(ui, form);
-    let file = form.chosen_file(catalog, &model.station.favourites);
-    let order = form.order(name, file.map(|file| Cargo::New(file.clone())));
+    let order = form.order(name, file.map(Cargo::New));
     send(ui, model, order.as_ref().map_err(String::as_str), commands);
     if is_open && !is_ours {
         let words = format!("Files are on their way to {}. One at a time.", uploads.antenna);

@@ -1,12 +1,15 @@
 //! One running unit, shared by its connections, and the hand that controls it.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use tokio::sync::watch;
 use tokio::time::Instant;
 
+use super::folder;
+use super::prng::Prng;
 use super::unit::Unit;
 use super::{Fault, Options, Quirk};
 use crate::protocol::satrak::Frame;
@@ -42,6 +45,7 @@ pub struct Control {
 struct Shared {
     started: Instant,
     reply_delay: (Duration, Duration),
+    element_folder: Option<PathBuf>,
     inner: Mutex<Inner>,
     /// Counts how often all clients were dropped.
     drops: watch::Sender<u64>,
@@ -84,6 +88,7 @@ impl Control {
         let shared = Shared {
             started: Instant::now(),
             reply_delay: (*options.reply_delay.start(), *options.reply_delay.end()),
+            element_folder: options.element_folder.clone(),
             inner: Mutex::new(inner),
             drops: watch::Sender::new(0),
         };
@@ -139,7 +144,10 @@ impl Control {
     /// Carries a frame out and gives the answer.
     pub(super) fn answer(&self, frame: &Frame) -> Reply {
         self.live();
+        let folder = self.shared.element_folder.as_deref();
+        let files = folder.filter(|_| folder::is_about_a_file(frame)).map(folder::read);
         let mut inner = self.lock();
+        inner.unit.take_files(files.unwrap_or_default());
         if inner.received.len() == REMEMBERED_FRAMES {
             inner.received.pop_front();
         }

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::net::SocketAddr;
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use jiff::Timestamp;
@@ -23,6 +25,9 @@ pub struct Options {
     pub utc_origin: Timestamp,
     /// Files with elements in the unit, by name.
     pub elements: BTreeMap<String, Vec<Elements>>,
+    /// A folder on disk whose files the unit holds besides, read anew whenever it
+    /// is told to use one, as a real unit does.
+    pub element_folder: Option<PathBuf>,
     /// Oddities of the firmware.
     pub quirks: BTreeSet<Quirk>,
     /// What goes wrong.
@@ -50,6 +55,7 @@ impl Options {
             site,
             utc_origin,
             elements: BTreeMap::new(),
+            element_folder: None,
             quirks: BTreeSet::new(),
             faults: BTreeSet::new(),
             reply_delay: Duration::from_millis(5)..=Duration::from_millis(30),

@@ -81,6 +81,11 @@ impl Unit {
         unit
     }
 
+    /// Puts `files` among its element files, in place of those of the same name.
+    pub(super) fn take_files(&mut self, files: BTreeMap<String, Vec<Elements>>) {
+        self.elements.extend(files);
+    }
+
     /// Lives until `elapsed` after the start. Earlier times change nothing.
     pub(super) fn advance(&mut self, elapsed: Duration) {
         let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);

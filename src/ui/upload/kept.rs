@@ -83,7 +83,7 @@ fn one(
         ui.label(RichText::new(origin).font(text::small()).color(t.t2));
     });
     let hash: String = file.sha256.to_string().chars().take(HASH_DIGITS).collect();
-    let words = format!("{hash}… {} bytes", file.bytes);
+    let words = format!("{hash} {} bytes", file.bytes);
     ui.label(RichText::new(words).font(text::raw()).color(t.t3))
         .on_hover_text(file.sha256.to_string());
     match &entry.objects {

@@ -1,0 +1,382 @@
+//! From the window to the unit's own word: the whole program against an `sshd`
+//! and a simulated unit that looks into the same folder.
+
+use std::{
+    fs,
+    net::SocketAddr,
+    sync::{Arc, LazyLock, Mutex},
+    thread,
+    time::{Duration, Instant},
+};
+
+use azel::{
+    app::{
+        App, Model, Settings,
+        model::CatalogState,
+        uploads::{Failure, Places, Stage},
+    },
+    driver::{
+        Clock,
+        files::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},
+    },
+    sim::satrak::{Control, Options, Simulator},
+    station::{self, Antenna, Connection, Station},
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use jiff::Timestamp;
+use tokio::sync::oneshot;
+
+use super::{
+    narrow::{Narrow, Then},
+    unit::{FILE, LIMITS, OLD, Unit, elements},
+    user::PASSWORD,
+};
+
+const WRONG: &str = "tr0ub4dor";
+const ISS: u32 = 25_544;
+const NOAA_20: u32 = 43_013;
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A unit with files and a protocol, and a window on it.
+struct Desk {
+    window: Harness<'static, App>,
+    files: Unit,
+    control: Control,
+    keyring: Arc<MemoryKeyring>,
+    folder: tempfile::TempDir,
+    _end: oneshot::Sender<()>,
+}
+
+impl Desk {
+    fn new(files: Unit, favourites: Vec<u32>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let (address, control, end) = simulate(&files);
+        let connection = Connection::Satrak { address, element_file: FILE.to_owned() };
+        let antenna = Antenna { connection, ..Antenna::satrak("Satrak", "") };
+        let station = Station { antennas: vec![antenna], favourites, ..Station::default() };
+        let path = folder.path().join("station.toml");
+        station::save(&station, &path).unwrap();
+        let keyring = Arc::new(MemoryKeyring::default());
+        let places = Places {
+            known_hosts: files.known.clone(),
+            kept: KeptFiles::new(folder.path().join("uploads")),
+            keyring: Arc::clone(&keyring) as _,
+            session: Arc::default(),
+            limits: LIMITS,
+        };
+        let settings = Settings {
+            library: Some(folder.path().join("elements")),
+            path: Some(path),
+            upload_places: Some(places),
+        };
+        let window = Harness::builder()
+            .with_size([1440.0, 3200.0])
+            .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, Clock::system()).unwrap());
+        let mut desk = Self { window, files, control, keyring, folder, _end: end };
+        desk.until("the unit is heard and the elements are read", |model| {
+            matches!(model.catalog, CatalogState::Ready(_))
+                && model.antenna().is_some_and(|antenna| {
+                    antenna.snapshot.state.measured.is_some()
+                        && antenna.snapshot.state.satrak.faults.is_some()
+                })
+        });
+        desk
+    }
+
+    /// The part is open, and everything typed but the password.
+    fn typed(files: Unit) -> Self {
+        Self::with(files, vec![ISS, NOAA_20])
+    }
+
+    fn with(files: Unit, favourites: Vec<u32>) -> Self {
+        let address = files.address();
+        let mut desk = Self::new(files, favourites);
+        desk.window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+        desk.window.run_steps(3);
+        desk.click("Upload to unit…");
+        desk.write("Port", &address.port().to_string());
+        desk.write("Folder", desk.files.folder().to_str().unwrap().to_owned().as_str());
+        desk.write("User", &desk.files.user.name.clone());
+        desk
+    }
+
+    fn write(&mut self, field: &str, words: &str) {
+        self.window.get_by_role_and_label(Role::TextInput, field).scroll_to_me();
+        self.window.run_steps(2);
+        self.window.get_by_role_and_label(Role::TextInput, field).focus();
+        self.window.run_steps(2);
+        self.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        self.window.event(Event::Text(words.to_owned()));
+        self.window.run_steps(2);
+    }
+
+    fn click(&mut self, button: &str) {
+        self.window.get_by_role_and_label(Role::Button, button).scroll_to_me();
+        self.window.run_steps(2);
+        self.window.get_by_role_and_label(Role::Button, button).click();
+        self.window.run_steps(3);
+    }
+
+    fn until(&mut self, what: &str, is_so: impl Fn(&Model) -> bool) {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            self.window.step();
+            let model = self.window.state().model();
+            if is_so(model) {
+                break;
+            }
+            let stage = &model.uploads.stage;
+            assert!(Instant::now() < end, "not in time: {what}, but {stage:?}");
+            thread::sleep(Duration::from_millis(5));
+        }
+        self.window.run_steps(3);
+    }
+
+    /// Waits for the end and hands back what is shown.
+    fn end(&mut self) -> Stage {
+        self.until("the end", |model| {
+            matches!(model.uploads.stage, Stage::Proved(_) | Stage::Failed(_))
+        });
+        self.window.state().model().uploads.stage.clone()
+    }
+
+    fn failure(&mut self) -> Failure {
+        match self.end() {
+            Stage::Failed(failure) => failure,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn assert_proved(&mut self) {
+        let stage = self.end();
+        assert!(matches!(stage, Stage::Proved(_)), "{stage:?}");
+        assert!(self.says("Proved") || self.says("proved"));
+    }
+
+    fn says(&self, words: &str) -> bool {
+        self.window.query_all_by_label_contains(words).next().is_some()
+    }
+
+    /// Types a password where it is asked for.
+    fn log_in(&mut self, password: &str) {
+        self.until("the password is asked for", |model| {
+            matches!(model.uploads.stage, Stage::AsksForSecret(_))
+        });
+        self.window.event(Event::Text(password.to_owned()));
+        self.window.run_steps(3);
+        self.assert_silent();
+        self.window.key_press(Key::Enter);
+        self.window.run_steps(3);
+    }
+
+    /// No password is told to who listens to the window.
+    fn assert_silent(&self) {
+        let told = format!("{:?}", self.window.root());
+        let stage = format!("{:?}", self.window.state().model().uploads);
+        for secret in [PASSWORD, WRONG] {
+            assert!(!told.contains(secret) && !stage.contains(secret));
+        }
+    }
+
+    fn sent(&self) -> Vec<String> {
+        let received = self.control.received().into_iter().map(|(_, frame)| frame);
+        received.filter(|frame| frame.contains("SATELLITE=")).collect()
+    }
+}
+
+/// A simulated unit that looks into the folder of `files`.
+fn simulate(files: &Unit) -> (String, Control, oneshot::Sender<()>) {
+    let options = Options {
+        element_folder: Some(files.folder()),
+        ..Options::new(Station::default().site, Timestamp::now())
+    };
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+    let free = SocketAddr::from(([127, 0, 0, 1], 0));
+    let simulator = runtime.block_on(Simulator::bind(free, options)).unwrap();
+    let (address, control) = (simulator.local_addr().unwrap(), simulator.control());
+    let (end, ended) = oneshot::channel::<()>();
+    let run = move || {
+        runtime.block_on(async {
+            tokio::select! {
+                () = simulator.run() => {}
+                _ = ended => {}
+            }
+        });
+    };
+    thread::Builder::new().name("unit".to_owned()).spawn(run).unwrap();
+    (address.to_string(), control, end)
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn from_the_first_click_to_the_unit_s_own_word_and_back() {
+    let log = log();
+    let mut desk = Desk::typed(Unit::unpinned("ed25519", "internal-sftp"));
+    desk.click("Upload and prove");
+    desk.until("the host key is asked about", |model| {
+        matches!(model.uploads.stage, Stage::AsksAboutHostKey(_))
+    });
+    assert!(desk.says(&desk.files.fingerprint()), "as ssh-keygen shows it");
+    desk.click("It is the right key");
+    desk.log_in(WRONG);
+    desk.until("it is refused", |model| {
+        matches!(&model.uploads.stage, Stage::AsksForSecret(wanted) if wanted.refused.is_some())
+    });
+    desk.window.get_by_role(Role::CheckBox).click();
+    desk.window.run_steps(2);
+    desk.window.get_by_role(Role::PasswordInput).focus();
+    desk.log_in(PASSWORD);
+    desk.assert_proved();
+    let first = desk.files.files();
+    assert!(first.len() == 1 && first[0].1 != OLD);
+    assert_eq!(desk.sent(), [format!("SATELLITE=,{FILE},ISS (ZARYA),1,0")]);
+    let account =
+        Account { user: desk.files.user.name.clone(), address: desk.files.address().to_string() };
+    desk.until("the password is kept", |_| true);
+    assert!(desk.keyring.get(&account).unwrap().is_some());
+
+    // Another file, without a question, and the first one back.
+    desk.click("Leave out ISS (ZARYA)");
+    desk.click("Upload and prove");
+    desk.assert_proved();
+    assert_ne!(desk.files.files(), first);
+    let put_back = desk
+        .window
+        .get_all_by_role(Role::Button)
+        .filter_map(|node| {
+            use egui_kittest::kittest::NodeT as _;
+            node.accesskit_node().label()
+        })
+        .filter(|label| label.starts_with("Put back the file") && label.contains("sent from here"))
+        .nth(1)
+        .unwrap();
+    desk.click(&put_back);
+    desk.click("Put back (Enter)");
+    desk.assert_proved();
+    assert!(desk.says("Rolled back and proved"));
+    assert_eq!(desk.files.files(), first);
+    assert_eq!(desk.sent().len(), 3);
+    desk.assert_silent();
+    let mut written = all_bytes(desk.folder.path());
+    written.extend(all_bytes(&desk.files.home.path().join("console")));
+    written.extend_from_slice(&log.0.lock().unwrap());
+    let written = String::from_utf8_lossy(&written);
+    assert!(written.contains("ssh-ed25519") && written.contains("uploaded and proved"));
+    assert!(!written.contains(PASSWORD) && !written.contains(WRONG));
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn a_changed_host_key_is_refused_and_forgotten_only_on_purpose() {
+    let mut desk = Desk::typed(Unit::new());
+    let before = desk.files.fingerprint();
+    desk.files.make_host_key("ed25519");
+    desk.click("Upload and prove");
+    assert!(desk.failure().changed_key.is_some());
+    assert!(desk.says(&before) && desk.says(&desk.files.fingerprint()));
+    desk.files.assert_as_before();
+    desk.click("Forget the known key…");
+    desk.click("Forget it (Enter)");
+    desk.until("the new key is asked about", |model| {
+        matches!(model.uploads.stage, Stage::AsksAboutHostKey(_))
+    });
+    desk.click("It is the right key");
+    desk.log_in(PASSWORD);
+    desk.assert_proved();
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let mut desk = Desk::typed(Unit::new());
+    desk.click("Upload and prove");
+    fs::set_permissions(desk.files.folder(), fs::Permissions::from_mode(0o555)).unwrap();
+    desk.log_in(PASSWORD);
+    let failure = desk.failure();
+    assert!(failure.text.contains("no right"), "{}", failure.text);
+    desk.files.assert_as_before();
+    assert!(desk.sent().is_empty(), "the unit was told nothing");
+    let user = desk.window.get_by_role_and_label(Role::TextInput, "User").value();
+    assert_eq!(user.as_deref(), Some(desk.files.user.name.as_str()));
+    // Asked once a session: now it goes through by itself.
+    fs::set_permissions(desk.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
+    desk.click("Upload and prove");
+    desk.assert_proved();
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
+    for then in [Then::Cut, Then::Stall] {
+        let many = elements(60).objects().iter().map(|object| object.catalog_number).collect();
+        let mut desk = Desk::with(Unit::new(), many);
+        let link = Narrow::new(desk.files.address(), 9000, then);
+        desk.files.pin_at(link.address());
+        desk.write("Port", &link.address().port().to_string());
+        let account =
+            Account { user: desk.files.user.name.clone(), address: link.address().to_string() };
+        desk.keyring.set(&account, &SecretString::from(PASSWORD)).unwrap();
+        desk.click("Upload and prove");
+        let failure = desk.failure();
+        assert!(!failure.is_cancel && failure.text.contains("check the link"), "{}", failure.text);
+        let old = desk.files.files().into_iter().find(|(name, _)| name == FILE);
+        assert_eq!(old.unwrap().1, OLD);
+        assert!(desk.sent().is_empty());
+    }
+}
+
+#[test]
+#[ignore = "needs sshd and root"]
+fn a_unit_that_does_not_see_the_file_is_no_success() {
+    // The unit looks into another folder than the one that is written to.
+    let mut desk = Desk::typed(Unit::new());
+    let other = desk.files.home.path().join("other");
+    fs::create_dir(&other).unwrap();
+    desk.files.user.own(&other);
+    desk.write("Folder", other.to_str().unwrap());
+    desk.click("Upload and prove");
+    desk.log_in(PASSWORD);
+    let failure = desk.failure();
+    assert!(failure.uploaded.is_some(), "{failure:?}");
+    assert!(desk.says("Not in use: The unit"), "{}", failure.text);
+}
+
+/// What all threads log.
+fn log() -> &'static Log {
+    static LOG: LazyLock<Log> = LazyLock::new(|| {
+        let log = Log::default();
+        let writer = log.clone();
+        let subscriber = tracing_subscriber::fmt()
+            .with_max_level(tracing::Level::TRACE)
+            .with_writer(move || writer.clone())
+            .finish();
+        tracing::subscriber::set_global_default(subscriber).unwrap();
+        log
+    });
+    &LOG
+}
+
+/// Log output in memory.
+#[derive(Clone, Default)]
+struct Log(Arc<Mutex<Vec<u8>>>);
+
+impl std::io::Write for Log {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Every file below `folder`, one after the other.
+fn all_bytes(folder: &std::path::Path) -> Vec<u8> {
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let read = |path: std::path::PathBuf| {
+        if path.is_dir() { all_bytes(&path) } else { fs::read(path).unwrap() }
+    };
+    paths.flat_map(read).collect()
+}
