@@ -33,3 +33,4 @@ mod states;
 mod step;
 mod stop;
 mod unit;
+mod uploads;
