@@ -29,6 +29,7 @@ mod settings_desk;
 mod settings_forms;
 mod settings_service;
 mod settings_unit;
+mod source_tests;
 mod states;
 mod step;
 mod stop;

@@ -324,8 +324,9 @@ fn a_password_is_asked_for_masked_and_kept_only_with_a_tick() {
         settle(&mut window);
         click(&mut window, "Log in (Enter)");
         assert_eq!(asked(&mut window), [Ask::Secret { secret, keep: true }]);
-        let held = format!("{:?}", window.ctx.memory(|memory| format!("{memory:?}")));
-        assert!(!held.contains(SECRET));
+        let field = egui::Id::unique("password field");
+        let held = egui::text_edit::TextEditState::load(&window.ctx, field).unwrap();
+        assert!(!format!("{:?}", held.undoer()).contains(SECRET), "it cannot be undone back");
         type_secret(&mut window);
         window.key_press(Key::Escape);
         assert_eq!(asked(&mut window), [Ask::Cancel]);
