@@ -8,14 +8,20 @@ mod outcome;
 mod progress;
 mod questions;
 
-use std::collections::BTreeMap;
+use std::{
+    collections::BTreeMap,
+    mem::{self, Discriminant},
+};
 
-use egui::{RichText, Ui};
+use egui::{Align, RichText, Ui, vec2};
 
 use super::{
     confirm::Question,
     text,
-    widgets::told::{Tone, line},
+    widgets::{
+        button::{Button, HEIGHT},
+        told::{Tone, line},
+    },
 };
 use crate::app::{
     Model, UiCommand,
@@ -29,6 +35,8 @@ use form::Form;
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
+    /// The stage that was shown last: a new one is brought into sight.
+    stage: Option<Discriminant<Stage>>,
     questions: questions::Questions,
     question: Option<Question>,
 }
@@ -54,7 +62,10 @@ pub fn show(
     let uploads = &model.uploads;
     let (is_ours, is_open) = (uploads.antenna == *name, uploads.stage.is_open());
     if is_ours && uploads.stage != Stage::Idle {
-        // First, so that nobody has to look for it.
+        let stage = Some(mem::discriminant(&uploads.stage));
+        if mem::replace(&mut state.stage, stage) != stage {
+            ui.scroll_to_cursor(Some(Align::BOTTOM));
+        }
         progress::show(ui, model, commands);
         outcome::show(ui, model, &mut state.question, commands);
     }
@@ -81,9 +92,10 @@ pub fn show(
 
 /// The button, and why it cannot be pressed.
 fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut Vec<UiCommand>) {
-    let is_open = model.uploads.stage.is_open();
-    let can = order.is_ok() && !is_open;
-    if ui.add_enabled(can, egui::Button::new("Upload and prove")).clicked()
+    let can = order.is_ok() && !model.uploads.stage.is_open();
+    let button = Button::primary("Upload and prove").locked(!can);
+    let (_, place) = ui.allocate_space(vec2(button.width(ui), HEIGHT));
+    if button.show(ui, "upload", place).clicked()
         && let Ok(order) = order
     {
         let begin = Ask::Begin(Box::new(order.clone()));

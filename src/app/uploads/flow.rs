@@ -33,6 +33,8 @@ pub(super) struct Flow {
     secret: Option<Secret>,
     /// The secret is to be kept once it has opened the door.
     keeps: bool,
+    /// Why the keyring could not be asked; it is asked once.
+    keyring_problem: Option<String>,
     offered: Option<Box<OfferedKey>>,
     /// The tracking of the unit may end.
     is_agreed: bool,
@@ -173,6 +175,7 @@ impl Flow {
         unit: &UnitNow,
         shown: &mut Uploads,
     ) -> Option<Next> {
+        self.keyring_problem = report.keyring_problem.or(self.keyring_problem.take());
         if report.is_factory && !shown.warnings.contains(&Warning::FactoryPassword) {
             shown.warnings.push(Warning::FactoryPassword);
         }
@@ -202,7 +205,7 @@ impl Flow {
                     address: account.address,
                     is_passphrase: order.key_file.is_some(),
                     refused,
-                    keyring_problem: report.keyring_problem,
+                    keyring_problem: self.keyring_problem.clone(),
                 });
             }
             Outcome::Cancelled(state) => cancelled(shown, &state),

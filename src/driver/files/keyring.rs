@@ -31,10 +31,10 @@ impl fmt::Display for Account {
 #[derive(Debug, thiserror::Error)]
 pub enum KeyringError {
     /// None runs, or none that can be reached: ask the operator each time.
-    #[error("there is no keyring on this computer ({0}); the password is asked for each time")]
+    #[error("there is no keyring on this computer ({0})")]
     Missing(String),
     /// It is there and refused, as when it is locked.
-    #[error("the keyring refused ({0}); unlock it, or type the password each time")]
+    #[error("the keyring refused ({0}); unlock it, or type the password")]
     Refused(String),
 }
 

@@ -10,14 +10,12 @@ use crate::{
     ui::{
         format,
         widgets::told::{Tone, line},
+        words::OLD_ELEMENTS_S,
     },
 };
 
 /// How many refused objects are told of.
 const TOLD: usize = 3;
-/// Elements older than this are worth a word: low satellites are off by more
-/// than a narrow beam.
-const OLD_S: f64 = 14.0 * 86_400.0;
 
 /// Shows the sentences about `view`, fetched at `at`, for `satellite`.
 pub(super) fn show(ui: &mut Ui, view: &UnitView, satellite: &str, at: Timestamp, now: Timestamp) {
@@ -64,7 +62,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
             let age_s = seconds_between(object.epoch, now);
             let words = format!("The unit will find {}.", of(object, now));
             let tone = if view.is_tle { Tone::Good } else { Tone::Plain };
-            if age_s > OLD_S {
+            if age_s > OLD_ELEMENTS_S {
                 (Tone::Caution, format!("{words} They are old."))
             } else {
                 (tone, words)

@@ -18,7 +18,7 @@ use crate::{
             card,
             told::{Tone, line},
         },
-        words::sentence,
+        words::{OLD_ELEMENTS_S, sentence},
     },
 };
 
@@ -107,11 +107,12 @@ fn row(
         if named(ui, true, "Leave out", &format!("Leave out {name}")) {
             *change = Some(Change::Remove(number));
         }
-        let age = object.epoch.map_or_else(
-            || "no elements".to_owned(),
-            |epoch| format!("{} old", format::age(seconds_between(epoch, model.now))),
-        );
-        ui.label(RichText::new(age).font(text::small()).color(t.t3));
+        let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
+        let is_fresh = age_s.is_some_and(|age_s| age_s <= OLD_ELEMENTS_S);
+        let colour = if is_fresh { t.t3 } else { t.warn };
+        let words = age_s.map(|age_s| format!("{} old", format::age(age_s)));
+        let words = words.unwrap_or_else(|| "no elements".to_owned());
+        ui.label(RichText::new(words).font(text::small()).color(colour));
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let can = is_sent(object);
             ui.add_enabled_ui(can, |ui| {
@@ -175,7 +176,7 @@ fn search(ui: &mut Ui, catalog: &Catalog, form: &mut Form, change: &mut Option<C
 
 /// A button whose name says more than its word; whether it was clicked.
 pub(super) fn named(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
-    let response = ui.add_enabled(enabled, Button::new(word).small());
+    let response = ui.add_enabled(enabled, Button::new(word));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
     response.clicked()
 }

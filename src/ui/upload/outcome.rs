@@ -14,7 +14,7 @@ use crate::{
         confirm::Question,
         dialogs, format, text, theme,
         widgets::told::{Tone, fact, line},
-        words::sentence,
+        words::{OLD_ELEMENTS_S, sentence},
     },
 };
 
@@ -66,6 +66,11 @@ fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
         satellite.catalog_number
     );
     line(ui, Tone::Plain, &words);
+    let oldest_s = proved.uploaded.oldest_age_s(model.now).unwrap_or_default();
+    if oldest_s > OLD_ELEMENTS_S {
+        let words = format!("The oldest elements in it are {} old.", format::age(oldest_s));
+        line(ui, Tone::Caution, &words);
+    }
     file(ui, &proved.uploaded);
     objects(ui, &proved.uploaded.objects, model.now);
 }

@@ -51,6 +51,7 @@ pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
 pub fn fact(ui: &mut Ui, name: &str, value: &str) {
     let t = theme::tokens(ui);
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().interact_size.y = LINE;
         ui.label(RichText::new(name).font(text::small()).color(t.t3));
         ui.add(Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
     });

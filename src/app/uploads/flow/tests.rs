@@ -170,6 +170,19 @@ fn a_password_is_asked_for_and_asked_again_when_it_is_wrong() {
 }
 
 #[test]
+fn a_missing_keyring_is_remembered_while_the_password_is_typed_again() {
+    let mut desk = Desk::default();
+    desk.begin();
+    let keyring_problem = Some("no keyring".to_owned());
+    let first = Report { keyring_problem, ..report(Outcome::Secret { refused: None }) };
+    desk.flow.reported(first, &desk.unit, &mut desk.shown);
+    desk.flow.type_secret(Secret::new("tr0ub4dor"), false, &mut desk.shown);
+    desk.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
+    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    assert_eq!(wanted.keyring_problem.as_deref(), Some("no keyring"));
+}
+
+#[test]
 fn a_secret_without_a_tick_is_not_kept() {
     let mut desk = Desk::default();
     desk.begin();
