@@ -14,9 +14,9 @@ use crate::{controller::Motion, driver::Intent};
 /// The likely cause of numbers that cannot be read, and what to do.
 pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
-/// Elements older than this are worth a word, seconds: a low satellite is off by
-/// more than a narrow beam.
-pub const OLD_ELEMENTS_S: f64 = 14.0 * 86_400.0;
+/// Elements older than this are worth a word, seconds: after some days a low
+/// satellite is minutes away from where they put it.
+pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
 /// What a motion is called.
 pub fn motion(motion: Motion) -> &'static str {

@@ -36,7 +36,7 @@ use super::{
 const WRONG: &str = "tr0ub4dor";
 const ISS: u32 = 25_544;
 const NOAA_20: u32 = 43_013;
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// A unit with files and a protocol, and a window on it.
 struct Desk {

@@ -154,3 +154,77 @@ pub(super) fn pick(
     let find = |number: u32| objects.iter().find(|object| object.catalog_number == number);
     wanted.and_then(find).or_else(|| held.and_then(find)).or(objects.first())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        controller::settings::SettleError,
+        driver::Command,
+        protocol::satrak::{Frame, Reply},
+    };
+
+    const NUMBER: u32 = 43_013;
+
+    fn time(seconds: i64) -> Timestamp {
+        Timestamp::from_second(1_786_000_000 + seconds).unwrap()
+    }
+
+    fn selection() -> Selection {
+        let satellite =
+            FileObject { name: "NOAA 20".to_owned(), catalog_number: NUMBER, epoch: time(-9000) };
+        Selection { ticket: TICKETS + 1, since: time(0), file: "active.txt".to_owned(), satellite }
+    }
+
+    /// The checks with these flags set, from 1.
+    fn faults(set: &[usize]) -> Faults {
+        let flags: Vec<_> = (1..=12).map(|n| if set.contains(&n) { "1" } else { "0" }).collect();
+        let frame = Frame::from_payload(&format!("ERRSTATUS?,{}", flags.join(",")));
+        match Reply::parse(&frame).unwrap().reply {
+            Reply::Faults(faults) => faults,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn answer(result: Result<(), SettleError>) -> Answer {
+        let Command::Settle(change) = selection().command() else { panic!() };
+        let values = [("catalog_number", Value::Integer(NUMBER.into()))].into();
+        Answer {
+            settled: Arc::new(Settled { change, at: time(3), result }),
+            held: Some(HeldGroup { values, read_at: time(1) }),
+            faults: Some((faults(&[]), time(2))),
+        }
+    }
+
+    fn problem(answer: &Answer) -> String {
+        selection().end(answer).unwrap().1.unwrap_err()
+    }
+
+    #[test]
+    fn the_unit_is_told_to_end_its_track_and_to_keep_its_period() {
+        let Command::Settle(change) = selection().command() else { panic!() };
+        assert_eq!(change.values.get("continue_tracking"), Some(&Value::Flag(false)));
+        assert_eq!(change.values.get("name"), Some(&Value::Text("NOAA 20".to_owned())));
+        assert!(!change.values.contains_key("period"));
+    }
+
+    #[test]
+    fn only_the_unit_s_own_words_since_then_are_proof() {
+        assert_eq!(selection().end(&answer(Ok(()))), Some((time(3), Ok(()))));
+        let other = Selection { ticket: TICKETS + 2, ..selection() };
+        assert_eq!(other.end(&answer(Ok(()))), None, "of another order");
+        let failed = answer(Err(SettleError::LinkLost));
+        assert!(problem(&failed).contains("link was lost"));
+        let old = Answer { faults: Some((faults(&[]), time(-1))), ..answer(Ok(())) };
+        assert!(problem(&old).contains("did not tell its checks"));
+        let missing = Answer { faults: Some((faults(&[4]), time(2))), ..answer(Ok(())) };
+        assert!(problem(&missing).contains("does not find the satellite"));
+        let mut wrong = answer(Ok(()));
+        let held = wrong.held.as_mut().unwrap();
+        held.values.insert("catalog_number", Value::Integer(0));
+        assert!(problem(&wrong).contains("another object"));
+        let stale = answer(Ok(()));
+        let held = stale.held.clone().map(|held| HeldGroup { read_at: time(-1), ..held });
+        assert!(problem(&Answer { held, ..stale }).contains("another object"));
+    }
+}

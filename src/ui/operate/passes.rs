@@ -24,10 +24,6 @@ use crate::{
     },
 };
 
-/// After some days a low satellite is minutes away from where its elements put
-/// it.
-const OLD_S: f64 = 7.0 * 86_400.0;
-
 /// Shows the list of passes.
 pub(super) fn list(
     ui: &mut Ui,
@@ -146,7 +142,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
             name,
             detail: detail.trim(),
             second_line: &second_line(model, forecast, age_s),
-            second_line_warns: age_s > OLD_S
+            second_line_warns: age_s > words::OLD_ELEMENTS_S
                 || model.sky.clearance.cut().is_some_and(<[Pass]>::is_empty),
             tca_countdown: &tca,
             event,
@@ -161,7 +157,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
     let mask = model.sky.clearance.cut().map(clear_of_mask);
     let elements = Some(format!("elements {} old", format::age(age_s)));
-    let order = if age_s > OLD_S { [elements, mask] } else { [mask, elements] };
+    let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
     let mut parts: Vec<String> = order.into_iter().flatten().collect();
     let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {

@@ -200,14 +200,14 @@ mod tests {
         Form { user: "op".to_owned(), ..Form::of(&antenna) }
     }
 
-    fn file() -> Result<Cargo, String> {
+    fn file() -> Cargo {
         let catalog = bundled().unwrap();
-        Ok(Cargo::New(TleFile::of(catalog.get(25_544)).unwrap()))
+        Cargo::New(TleFile::of(catalog.get(25_544)).unwrap())
     }
 
     #[test]
     fn the_unit_is_where_the_antenna_is() {
-        let order = form().order("Satrak", file()).unwrap();
+        let order = form().order("Satrak", Ok(file())).unwrap();
         assert_eq!(order.unit, Peer { host: "192.168.10.21".to_owned(), port: 22 });
         assert_eq!((order.file.as_str(), order.folder.as_str()), ("active.txt", UNIT_FOLDER));
         assert_eq!(
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_said() {
-        let problem = |form: Form| form.order("Satrak", file()).unwrap_err();
+        let problem = |form: Form| form.order("Satrak", Ok(file())).unwrap_err();
         let part = |edit: fn(&mut Form)| {
             let mut form = form();
             edit(&mut form);
