@@ -111,7 +111,7 @@ impl UiCommand {
     pub fn may_move(&self) -> bool {
         match self {
             Self::Antenna(_, command) => !matches!(command, driver::Command::ReadGroup(_)),
-            Self::Track { .. } => true,
+            Self::Track { .. } | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,
         }
     }

@@ -37,7 +37,7 @@ pub enum TypedSource<'a> {
         port: &'a str,
         /// The user there.
         user: &'a str,
-        /// The user's password. Only taken when the button is pressed.
+        /// The user's password.
         password: &'a str,
         /// The file.
         file: &'a str,

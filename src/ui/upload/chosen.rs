@@ -84,7 +84,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
     let plural = if count == 1 { "" } else { "s" };
     ui.label(RichText::new(format!("{count} satellite{plural} to send")).font(text::value()));
     ui.horizontal_wrapped(|ui| {
-        let words = "The marked one is the one that the unit is told to follow.";
+        let words = "With the age of their elements. The unit is told to follow the marked one.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
         if is_own && ui.button("Take the followed ones").clicked() {
             *change = Some(Change::Favourites);
@@ -104,14 +104,13 @@ fn row(
     let name = if object.name.is_empty() { number.to_string() } else { object.name.clone() };
     let size = vec2(ui.available_width(), ROW);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
-        if named(ui, true, "Leave out", &format!("Leave out {name}")) {
+        if named(ui, true, "Omit", &format!("Leave out {name}")) {
             *change = Some(Change::Remove(number));
         }
         let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
         let is_fresh = age_s.is_some_and(|age_s| age_s <= OLD_ELEMENTS_S);
         let colour = if is_fresh { t.t3 } else { t.warn };
-        let words = age_s.map(|age_s| format!("{} old", format::age(age_s)));
-        let words = words.unwrap_or_else(|| "no elements".to_owned());
+        let words = age_s.map_or_else(|| "no elements".to_owned(), format::age);
         ui.label(RichText::new(words).font(text::small()).color(colour));
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let can = is_sent(object);
@@ -125,7 +124,8 @@ fn row(
                     *change = Some(Change::Follow(number));
                 }
             });
-            ui.add(Label::new(RichText::new(&name).font(text::body_medium())).truncate());
+            let words = RichText::new(&name).font(text::body_medium());
+            ui.add(Label::new(words).truncate()).on_hover_text(&name);
         });
     });
     if let Some(problem) = &object.problem {

@@ -50,9 +50,12 @@ pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
 /// A value that is read letter by letter, behind its name.
 pub fn fact(ui: &mut Ui, name: &str, value: &str) {
     let t = theme::tokens(ui);
-    ui.horizontal_wrapped(|ui| {
+    ui.scope(|ui| {
+        // A row is else as high as a button.
         ui.spacing_mut().interact_size.y = LINE;
-        ui.label(RichText::new(name).font(text::small()).color(t.t3));
-        ui.add(Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(name).font(text::small()).color(t.t3));
+            ui.add(Label::new(RichText::new(value).font(text::raw()).color(t.t1)).wrap());
+        });
     });
 }
