@@ -64,22 +64,12 @@ pub(super) enum Controller {
 }
 
 pub(super) fn run(controller: Controller) -> anyhow::Result<()> {
-    let Controller::Satrak { listen, element_folder, quirks, faults } = controller;
-    let station = Station::default();
-    let catalog = orbit::bundled()?;
-    let elements = catalog.iter().cloned().collect();
-    let options = Options {
-        elements: [(DEMO_ELEMENT_FILE.to_owned(), elements)].into(),
-        element_folder,
-        quirks: quirks.into_iter().collect(),
-        faults: faults.into_iter().collect(),
-        ..Options::new(station.site, Timestamp::now())
-    };
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {
         match controller {
-            Controller::Satrak { listen, quirks, faults } => {
+            Controller::Satrak { listen, element_folder, quirks, faults } => {
                 let options = satrak::Options {
+                    element_folder,
                     quirks: quirks.into_iter().collect(),
                     faults: faults.into_iter().collect(),
                     ..demo_satrak()?

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use egui::{Rect, Ui, pos2};
 use egui::{Rect, ScrollArea, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 

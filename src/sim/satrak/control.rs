@@ -9,7 +9,6 @@ use tokio::sync::watch;
 use tokio::time::Instant;
 
 use super::folder;
-use super::prng::Prng;
 use super::unit::Unit;
 use super::{Fault, Options, Quirk};
 use crate::protocol::satrak::Frame;
