@@ -23,7 +23,7 @@ use crate::{
         settings::{Access, Change, Group, Guard, Values},
     },
     driver::Command,
-    ui::{copies::Taken, format, widgets::hold_button::HoldState},
+    ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
 };
 
 /// The session shows a change that it was given within this.
@@ -44,6 +44,7 @@ pub(super) struct Form {
     pub(super) auto_asked: Option<Timestamp>,
     /// What was typed as a password is shown.
     pub(super) is_revealed: bool,
+    pub(super) source_test: SourceTestState,
 }
 
 /// What came of what was applied last.

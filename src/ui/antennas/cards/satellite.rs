@@ -12,6 +12,7 @@ use crate::{
             unit::Unit,
         },
         icons::{self, Icon},
+        source_test::{self, TypedSource},
         text, theme,
         widgets::{
             button::{Button, HEIGHT},
@@ -41,6 +42,44 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
     if let Some(group) = section::group(shown).filter(|_| used != Some(shown)) {
         use_it(ui, unit, form, group, desk);
     }
+    test_from_here(ui, unit, form, shown, desk);
+}
+
+/// What the unit would fetch from the source as it is typed.
+fn test_from_here(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    shown: &'static str,
+    desk: &mut Desk<'_>,
+) {
+    let (Some(group), Some(held)) = (section::group(shown), unit.values(shown)) else { return };
+    let draft = form.draft(shown);
+    let text = |key: &str| {
+        group.field(key).map_or_else(String::new, |field| draft.text(field, Some(held)))
+    };
+    // A password that nobody typed is the one on the unit.
+    let password = match (text("password"), held.get("password")) {
+        (typed, Some(Value::Secret(held))) if typed.is_empty() => held.reveal().to_owned(),
+        (typed, _) => typed,
+    };
+    let [url, address, port, user, file, satellite] =
+        ["url", "address", "port", "user", "file", "satellite"].map(text);
+    let typed = match shown {
+        "web" => TypedSource::Web { url: &url },
+        "ftp" => TypedSource::Server {
+            address: &address,
+            port: &port,
+            user: &user,
+            password: &password,
+            file: &file,
+            satellite: &satellite,
+        },
+        _ => return,
+    };
+    ui.add_space(8.0);
+    let (model, commands) = (unit.model, &mut *desk.commands);
+    source_test::show(ui, model, unit.index, typed, &mut form.source_test, commands);
 }
 
 /// The group of the source that the unit uses.
