@@ -21,7 +21,6 @@ mod log_file;
 mod logic;
 mod memory;
 pub mod model;
-pub mod secret;
 mod settle;
 pub mod source_tests;
 pub mod sources;

@@ -2,8 +2,8 @@
 //!
 //! The folders are layers; a lower one never names a higher one. From the
 //! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`controller`], [`station`],
-//! [`plan`], [`driver`], [`sim`], [`app`], [`ui`]; `whole_file` stands below them
-//! all. The README's architecture section holds the picture and the invariants.
+//! [`plan`], [`driver`], [`sim`], [`app`], [`ui`]; [`secret`] and `whole_file` stand below
+//! them all. The README's architecture section holds the picture and the invariants.
 
 pub mod app;
 pub mod astro;
@@ -14,6 +14,7 @@ pub mod library;
 pub mod orbit;
 pub mod plan;
 pub mod protocol;
+pub mod secret;
 pub mod sim;
 pub mod station;
 pub mod ui;

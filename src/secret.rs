@@ -1,4 +1,4 @@
-//! A password on its way from the window to a worker.
+//! Passwords, wherever they are on their way.
 
 use secrecy::{ExposeSecret as _, SecretString};
 
@@ -13,11 +13,16 @@ impl Secret {
     }
 
     /// Hides `text`.
-    pub fn new(text: &str) -> Self {
-        Self(text.into())
+    pub fn new(text: impl AsRef<str>) -> Self {
+        Self(text.as_ref().into())
     }
 
-    pub(super) fn inner(&self) -> &SecretString {
+    /// The text itself. For the wire and the keyring only.
+    pub fn reveal(&self) -> &str {
+        self.0.expose_secret()
+    }
+
+    pub(crate) fn inner(&self) -> &SecretString {
         &self.0
     }
 }

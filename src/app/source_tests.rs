@@ -7,8 +7,9 @@ use jiff::Timestamp;
 
 pub(super) use desk::Desk;
 
-use super::{host_keys::DoubtfulKey, secret::Secret};
+use super::host_keys::DoubtfulKey;
 use crate::driver::files::{ElementSource, FileProtocol, Peer, UnitView};
+use crate::secret::Secret;
 
 /// What is shown of the last test.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -23,8 +23,9 @@ pub use places::Places;
 pub use select::Busy;
 pub(super) use select::{Selection, UnitNow};
 
-use super::{host_keys::DoubtfulKey, secret::Secret};
+use super::host_keys::DoubtfulKey;
 use crate::driver::files::{FileObject, KeptFile, Progress, Uploaded};
+use crate::secret::Secret;
 
 /// What is shown of uploads.
 #[derive(Debug, Clone, PartialEq, Default)]

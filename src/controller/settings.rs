@@ -6,9 +6,10 @@ mod field;
 mod held;
 mod value;
 
+pub use crate::secret::Secret;
 pub use copy::{CopiedValue, CopyError, CopyHead, Difference, SettingsCopy, Verdict};
 pub use field::{Access, Field, Group, Guard, Kind};
 pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
 };
-pub use value::{Secret, Unfit, Value, Values};
+pub use value::{Unfit, Value, Values};

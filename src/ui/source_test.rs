@@ -15,10 +15,10 @@ use crate::{
     app::{
         Model, UiCommand,
         host_keys::DoubtfulKey,
-        secret::Secret,
         source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
     },
     driver::files::{FileProtocol, Peer},
+    secret::Secret,
 };
 
 /// A source as it is typed in a form.

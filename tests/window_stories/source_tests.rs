@@ -4,11 +4,11 @@ use azel::{
     app::{
         Model, UiCommand,
         host_keys::DoubtfulKey,
-        secret::Secret,
         source_tests::{SourceOrder, SourceTests, TestAsk, TestStage, TestedSource},
     },
     driver::files::{FileProtocol, Peer, what_a_unit_sees},
     orbit::write_tle,
+    secret::Secret,
     ui::{
         source_test::{self, SourceTestState, TypedSource},
         theme,

@@ -4,7 +4,6 @@ use azel::{
     app::{
         Model, UiCommand, View,
         host_keys::DoubtfulKey,
-        secret::Secret,
         uploads::{
             Ask, Busy, Cargo, Failure, Kept, KeptEntry, Order, Proved, SecretWanted, Stage,
             Uploads, Warning,
@@ -15,6 +14,7 @@ use azel::{
         FACTORY_USER, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
         Uploaded,
     },
+    secret::Secret,
     ui::{
         theme,
         tokens::ThemeName,

@@ -7,7 +7,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{Cargo, Order, Places};
 use crate::{
-    app::{job::Job, secret::Secret},
+    app::job::Job,
     driver::{
         Clock, Wake,
         files::{
@@ -16,6 +16,7 @@ use crate::{
             is_factory_password, open_sftp, upload,
         },
     },
+    secret::Secret,
 };
 
 /// One attempt to carry an order out.

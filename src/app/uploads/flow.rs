@@ -9,11 +9,9 @@ use super::{
     select::{Selection, TICKETS, UnitNow, pick},
 };
 use crate::{
-    app::{
-        host_keys::{Decision, doubtful},
-        secret::Secret,
-    },
+    app::host_keys::{Decision, doubtful},
     driver::files::{OfferedKey, Uploaded},
+    secret::Secret,
 };
 
 /// What is to be done next.

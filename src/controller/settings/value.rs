@@ -1,10 +1,11 @@
 //! The value of a setting, and its text.
 
-use std::{collections::BTreeMap, fmt};
+use std::collections::BTreeMap;
 
 use jiff::{Timestamp, civil::DateTime, tz::TimeZone};
 
 use super::Kind;
+use crate::secret::Secret;
 
 /// Values of a group by the keys of their fields.
 pub type Values = BTreeMap<&'static str, Value>;
@@ -26,28 +27,6 @@ pub enum Value {
     Secret(Secret),
     /// Of a [`Kind::Time`].
     Time(Timestamp),
-}
-
-/// A text that is never printed.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Secret(String);
-
-impl Secret {
-    /// Hides `text`.
-    pub fn new(text: impl Into<String>) -> Self {
-        Self(text.into())
-    }
-
-    /// The text itself. For the wire only.
-    pub fn reveal(&self) -> &str {
-        &self.0
-    }
-}
-
-impl fmt::Debug for Secret {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Secret")
-    }
 }
 
 /// Why a value cannot be used; reads on from the name of its field.

@@ -4,7 +4,8 @@ use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
 
 use super::WIDTH;
 use crate::{
-    app::{secret::Secret, uploads::SecretWanted},
+    app::uploads::SecretWanted,
+    secret::Secret,
     ui::{
         text, theme,
         widgets::told::{Tone, line},
