@@ -85,6 +85,7 @@ fn reply(reply: &Reply) -> Meaning {
             "Holds {} ({}) from {}",
             satellite.name, satellite.catalog_number, satellite.file
         ),
+        Reply::SatelliteHttp(source) if source.url.is_empty() => "No web source".to_owned(),
         Reply::SatelliteHttp(source) => {
             format!("Elements from {} every {} d", source.url, source.period_days)
         }

@@ -79,7 +79,10 @@ fn test_from_here(
     };
     ui.add_space(8.0);
     let (model, commands) = (unit.model, &mut *desk.commands);
-    source_test::show(ui, model, unit.index, typed, &mut form.source_test, commands);
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 6.0;
+        source_test::show(ui, model, unit.index, typed, &mut form.source_test, commands);
+    });
 }
 
 /// The group of the source that the unit uses.
