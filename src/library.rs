@@ -13,6 +13,8 @@ mod list;
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
+use rustls::pki_types::CertificateDer;
+use ureq::tls::{Certificate, RootCerts};
 
 pub use self::{
     fetch::Limits,
@@ -40,6 +42,7 @@ pub struct Library {
     folder: PathBuf,
     index: Index,
     limits: Limits,
+    authorities: RootCerts,
 }
 
 /// Where the elements of this user are kept; `None` on a machine without a home.
@@ -50,7 +53,16 @@ pub fn library_folder() -> Option<PathBuf> {
 impl Library {
     /// Opens the library in `folder`, which need not exist yet.
     pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
-        Ok(Self { folder: folder.to_owned(), index: Index::load(folder)?, limits })
+        let (folder, index) = (folder.to_owned(), Index::load(folder)?);
+        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki })
+    }
+
+    /// Trusts the servers of these certificate authorities, in DER, and no
+    /// longer those of the public ones.
+    #[must_use]
+    pub fn trusting_only(self, authorities: &[CertificateDer<'static>]) -> Self {
+        let own = authorities.iter().map(|own| Certificate::from_der(own).to_owned());
+        Self { authorities: own.into(), ..self }
     }
 
     /// Reads all `sources` from disk. Asks no server.
@@ -145,7 +157,15 @@ impl Library {
                 }
                 Err(problem) => Some(problem),
             };
-            if matches!(problem, Some(FetchProblem::Answer(_) | FetchProblem::Unreachable(_))) {
+            let is_silent = matches!(
+                problem,
+                Some(
+                    FetchProblem::Answer(_)
+                        | FetchProblem::Unreachable(_)
+                        | FetchProblem::Certificate(_)
+                )
+            );
+            if is_silent {
                 silent_hosts.push(host);
             }
             self.index.entry(url, &source.name, now).problem = problem;
@@ -162,7 +182,7 @@ impl Library {
         let path = self.folder.join(&record.file);
         let held = disk::read(&path, self.limits.bytes).ok();
         let known = held.as_ref().map(|_| &record);
-        match fetch(url, known, self.limits)? {
+        match fetch(url, known, self.limits, &self.authorities)? {
             Answer::NotModified => {
                 self.index.entry(url, name, now).confirmed_at = Some(now);
                 Ok(false)

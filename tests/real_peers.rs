@@ -1,5 +1,5 @@
 //! Uploads and fetches against the servers that units and stations really run:
-//! OpenSSH's `sshd`, and `vsftpd` with and without TLS.
+//! OpenSSH's `sshd`, `vsftpd` with and without TLS, and HTTPS by `openssl`.
 //!
 //! Needs root, both servers and `openssl`; the tests are ignored by default and
 //! run by name, one after the other, where those are installed.
@@ -13,6 +13,8 @@ mod real_peers {
     mod doorman;
     mod fetches;
     mod ftp_server;
+    mod https_server;
+    mod library;
     mod log_in;
     mod narrow;
     mod unit;

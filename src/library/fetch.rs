@@ -5,6 +5,7 @@ use std::{io, net::IpAddr, time::Duration};
 use ureq::{
     Agent,
     http::{Response, Uri, header},
+    tls::{RootCerts, TlsConfig},
 };
 
 use super::{disk::read_limited, index::Record};
@@ -47,6 +48,7 @@ pub(super) fn fetch(
     url: &str,
     known: Option<&Record>,
     limits: Limits,
+    authorities: &RootCerts,
 ) -> Result<Answer, FetchProblem> {
     let is_local = check(url)?;
     let mut config = Agent::config_builder()
@@ -55,6 +57,7 @@ pub(super) fn fetch(
         .max_redirects(0)
         .max_redirects_will_error(false)
         .timeout_global(Some(limits.timeout))
+        .tls_config(TlsConfig::builder().root_certs(authorities.clone()).build())
         .user_agent(concat!("azel/", env!("CARGO_PKG_VERSION")));
     if is_local {
         config = config.proxy(None);
@@ -68,7 +71,7 @@ pub(super) fn fetch(
             request = request.header(name, value);
         }
     }
-    let response = request.call().map_err(|error| FetchProblem::Unreachable(error.to_string()))?;
+    let response = request.call().map_err(|error| unanswered(&error))?;
     match response.status().as_u16() {
         200 => {}
         304 if known.is_some() => return Ok(Answer::NotModified),
@@ -88,6 +91,19 @@ pub(super) fn fetch(
             },
         )?;
     Ok(Answer::New { body, etag, last_modified })
+}
+
+/// Why there is no answer.
+fn unanswered(error: &ureq::Error) -> FetchProblem {
+    let cause = match error {
+        ureq::Error::Rustls(error) => Some(error),
+        ureq::Error::Io(error) => error.get_ref().and_then(|inner| inner.downcast_ref()),
+        _ => None,
+    };
+    match cause {
+        Some(rustls::Error::InvalidCertificate(why)) => FetchProblem::Certificate(why.to_string()),
+        _ => FetchProblem::Unreachable(error.to_string()),
+    }
 }
 
 /// Whether `url` is on this very computer. Only there may it be plain `http`,

@@ -64,6 +64,9 @@ pub enum FetchProblem {
     /// No whole answer.
     #[error("no answer: {0}")]
     Unreachable(String),
+    /// The server could not prove who it is; nothing was asked of it.
+    #[error("the server's certificate is not trusted: {0}")]
+    Certificate(String),
     /// More than the limit, bytes.
     #[error("the answer is larger than {0} bytes")]
     TooLarge(u64),

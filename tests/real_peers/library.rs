@@ -1,0 +1,60 @@
+//! The library of elements asks a server over HTTPS.
+
+use std::time::Duration;
+
+use azel::{
+    library::{Library, Limits},
+    orbit::{FetchProblem, Place, Source},
+};
+use jiff::Timestamp;
+use rustls::pki_types::CertificateDer;
+
+use super::{
+    https_server::{Authority, FILE, HttpsServer},
+    unit::elements,
+};
+
+const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 1 << 20 };
+
+/// How many objects come from `server`, or why none.
+fn objects(
+    server: &HttpsServer,
+    trusted: Option<CertificateDer<'static>>,
+) -> Result<usize, FetchProblem> {
+    let folder = tempfile::tempdir().unwrap();
+    let url = format!("https://localhost:{}/{FILE}", server.port);
+    let sources = [Source { name: "Weather".to_owned(), place: Place::Web(url) }];
+    let mut library = Library::open(folder.path(), LIMITS).unwrap();
+    if let Some(authority) = trusted {
+        library = library.trusting_only(&[authority]);
+    }
+    let now: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+    library.refresh(&sources, now, false, &|| false).unwrap();
+    // The reason is on disk as well.
+    let (catalog, reports) = Library::open(folder.path(), LIMITS).unwrap().load(&sources);
+    reports[0].fetch_problem.clone().map_or(Ok(catalog.len()), Err)
+}
+
+#[test]
+#[ignore = "needs openssl"]
+fn elements_come_from_a_server_that_proves_who_it_is_and_from_no_other() {
+    let authority = Authority::new("Own");
+    let (own, other) = (authority.certificate(), Authority::new("Other").certificate());
+    let content = elements(5);
+    for (name, end, trusted, expected) in [
+        ("localhost", 2049, Some(&own), None),
+        ("localhost", 2021, Some(&own), Some("expired")),
+        ("elsewhere.example", 2049, Some(&own), Some("not valid for name \"localhost\"")),
+        ("localhost", 2049, Some(&other), Some("UnknownIssuer")),
+        ("localhost", 2049, None, Some("UnknownIssuer")),
+    ] {
+        let server = HttpsServer::new(&authority, name, end, content.bytes());
+        match (objects(&server, trusted.cloned()), expected) {
+            (Ok(count), None) => assert_eq!(count, 5),
+            (Err(FetchProblem::Certificate(why)), Some(word)) => {
+                assert!(why.contains(word), "{why}");
+            }
+            (result, _) => panic!("{name} until {end}: {result:?}"),
+        }
+    }
+}
