@@ -19,6 +19,8 @@ use crate::{
     },
 };
 
+const LABEL: &str = "Effect on the track";
+
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     fields(ui, unit, form, "clock", is_reported);
     effect(ui, unit);
@@ -36,17 +38,17 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     let forecast = forecast(unit);
     let rate_deg_s = forecast.and_then(|forecast| rate_at_tca(unit.model, forecast));
     let (Some(ahead_s), Some(forecast), Some(rate_deg_s)) = (ahead_s, forecast, rate_deg_s) else {
-        return row::plain(ui, "Effect", "not known without clock and pass", None);
+        return row::plain(ui, LABEL, "not known without clock and pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();
-    let label = format!("Effect on {}", forecast.satellite.short_name());
-    let value = format!("{} along track at TCA", format::degrees(off_deg, 1));
+    let off = format::degrees(off_deg, 1);
+    let value = format!("{off} along the path of {}", forecast.satellite.short_name());
     let verdict = if off_deg <= unit.antenna.config.beam_width_deg / 2.0 {
         (Some(Icon::Check), "Inside beam", t.t3)
     } else {
         (Some(Icon::Warning), "Outside beam", t.warn)
     };
-    row::plain(ui, &label, &value, Some(verdict));
+    row::plain(ui, LABEL, &value, Some(verdict));
 }
 
 /// The pass of the satellite on the unit, or else the selected one.
