@@ -2,7 +2,7 @@
 //! another client meanwhile, and the link lost in the middle.
 
 use azel::{
-    controller::settings::{SettleError, Settled},
+    controller::settings::{GroupState, SettleError, Settled},
     driver::LinkState,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},
@@ -111,11 +111,15 @@ impl Scene {
         control.set_fault(Fault::HangUp, false);
     }
 
+    /// The link is up, and all that is shown was read on it.
     fn link_is_back(&mut self) {
+        let lost_at = self.window.state().model().now;
         step_until(&mut self.window, "the link is back", |model| {
-            matches!(model.antennas[0].snapshot.link, LinkState::Up { .. })
+            let shown = &model.antennas[0].snapshot;
+            let is_new =
+                |state: &GroupState| state.held.as_ref().is_some_and(|held| held.read_at > lost_at);
+            matches!(shown.link, LinkState::Up { .. }) && shown.state.held.values().all(is_new)
         });
-        self.until_said("all groups read");
     }
 }
 
