@@ -162,3 +162,15 @@ async fn broken_frames_are_not_answered_and_dropping_closes() {
     let mut buffer = [0; 8];
     assert_eq!(client.stream.read(&mut buffer).await.unwrap(), 0);
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_hangs_up_answers_questions_and_carries_commands_out() {
+    let (mut client, control) = Client::new(&options(some_day()));
+    control.set_fault(Fault::HangUp, true);
+    assert_eq!(client.ask("VERSION?").await.word(), "VERSION?");
+    client.send("MOVE=,1,0").await;
+    assert!(client.receive().await.is_none());
+    assert!(control.state().is_moving);
+    let mut rest = [0; 8];
+    assert_eq!(client.stream.read(&mut rest).await.unwrap(), 0, "the connection is closed");
+}
