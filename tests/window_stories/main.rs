@@ -34,4 +34,6 @@ mod states;
 mod step;
 mod stop;
 mod unit;
+mod upload_desk;
+mod upload_questions;
 mod uploads;

@@ -2,158 +2,22 @@
 
 use azel::{
     app::{
-        Model, UiCommand, View,
-        host_keys::DoubtfulKey,
-        uploads::{
-            Ask, Busy, Cargo, Failure, Kept, KeptEntry, Order, Proved, SecretWanted, Stage,
-            Uploads, Warning,
-        },
+        UiCommand, View,
+        uploads::{Ask, Cargo, Failure, Kept, Proved, Stage, Uploads, Warning},
     },
-    astro::time::add_seconds,
-    driver::files::{
-        FACTORY_USER, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
-        Uploaded,
-    },
-    secret::Secret,
-    ui::{
-        theme,
-        tokens::ThemeName,
-        upload::{self, UploadState},
-    },
+    driver::files::{FACTORY_USER, FileObject, Origin, Peer, UploadStep},
 };
-use egui::{Event, Key, Modifiers, Role, UiBuilder};
-use egui_kittest::{
-    Harness,
-    kittest::{NodeT as _, Queryable as _},
-};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
     rig::{self, NOAA_20},
     states,
+    upload_desk::{
+        FILE, ISS, WIDTHS, asked, at, begun, click, failed, is_disabled, kept_entry, part, peer,
+        says, settle, typed, uploaded, working, write,
+    },
 };
-
-const ISS: u32 = 25_544;
-const FILE: &str = "weather.txt";
-const WIDTHS: [f32; 2] = [300.0, 560.0];
-const SECRET: &str = "hunter2-password";
-
-struct Part {
-    model: Model,
-    state: UploadState,
-    commands: Vec<UiCommand>,
-}
-
-type Window = Harness<'static, Part>;
-
-/// The part alone, as wide as this.
-fn part(width: f32, uploads: Uploads) -> Window {
-    let mut model = rig::model(states::holding());
-    model.uploads = uploads;
-    let part = Part { model, state: UploadState::default(), commands: Vec::new() };
-    let mut window = Harness::builder()
-        .with_size([width, 1800.0])
-        .with_context_setup(|ctx| theme::install(ctx, ThemeName::Dark))
-        .build_ui_state(
-            |ui, part: &mut Part| {
-                let whole = ui.ctx().content_rect();
-                ui.scope_builder(UiBuilder::new().max_rect(whole), |ui| {
-                    upload::show(ui, &part.model, 0, &mut part.state, &mut part.commands);
-                });
-            },
-            part,
-        );
-    settle(&mut window);
-    window.state_mut().commands.clear();
-    window
-}
-
-fn settle(window: &mut Window) {
-    window.run_steps(4);
-}
-
-/// What was asked for since the last time, but the list of what is kept.
-fn asked(window: &mut Window) -> Vec<Ask> {
-    settle(window);
-    let commands = std::mem::take(&mut window.state_mut().commands);
-    let ask = |command| match command {
-        UiCommand::Upload(Ask::ListKept { .. }) => None,
-        UiCommand::Upload(ask) => Some(ask),
-        other => panic!("{other:?}"),
-    };
-    commands.into_iter().filter_map(ask).collect()
-}
-
-fn click(window: &mut Window, button: &str) {
-    window.get_by_role_and_label(Role::Button, button).click();
-    settle(window);
-}
-
-fn is_disabled(window: &Window, button: &str) -> bool {
-    window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
-}
-
-fn write(window: &mut Window, field: &str, words: &str) {
-    window.get_by_role_and_label(Role::TextInput, field).focus();
-    settle(window);
-    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    window.key_press(Key::Backspace);
-    window.event(Event::Text(words.to_owned()));
-    settle(window);
-}
-
-fn says(window: &Window, words: &str) -> bool {
-    window
-        .query_all_by_role(Role::Label)
-        .any(|node| node.accesskit_node().value().is_some_and(|text| text.contains(words)))
-}
-
-fn peer() -> Peer {
-    Peer { host: "192.168.10.21".to_owned(), port: 22 }
-}
-
-fn file() -> TleFile {
-    let azel::app::model::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
-        panic!("the bundled elements")
-    };
-    TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number))).unwrap()
-}
-
-fn uploaded() -> Uploaded {
-    let file = file();
-    Uploaded {
-        unit: peer(),
-        file: FileName::new(FILE).unwrap(),
-        bytes: file.bytes().len() as u64,
-        sha256: file.hash(),
-        at: rig::now(),
-        objects: file.objects().to_vec(),
-    }
-}
-
-/// The part while an order of the antenna is in `stage`.
-fn at(stage: Stage) -> Uploads {
-    Uploads { antenna: "Satrak".to_owned(), stage, ..Uploads::default() }
-}
-
-fn failed(text: &str) -> Uploads {
-    at(Stage::Failed(Failure { text: text.to_owned(), ..Failure::default() }))
-}
-
-fn begun(window: &mut Window) -> Order {
-    match <[Ask; 1]>::try_from(asked(window)) {
-        Ok([Ask::Begin(order)]) => *order,
-        other => panic!("{other:?}"),
-    }
-}
-
-/// File and user are typed; the rest is there.
-fn typed(width: f32, uploads: Uploads) -> Window {
-    let mut window = part(width, uploads);
-    write(&mut window, "File", FILE);
-    write(&mut window, "User", "op");
-    window.state_mut().commands.clear();
-    window
-}
 
 #[test]
 fn what_is_followed_is_sent_to_where_the_antenna_is() {
@@ -248,149 +112,6 @@ fn each_field_says_what_is_missing() {
 }
 
 #[test]
-fn a_new_host_is_asked_about_with_its_fingerprint() {
-    let key = DoubtfulKey {
-        address: "192.168.10.21".to_owned(),
-        algorithm: "ssh-ed25519".to_owned(),
-        fingerprint: "SHA256:abc".to_owned(),
-        pinned: Vec::new(),
-    };
-    for width in WIDTHS {
-        let mut window = part(width, at(Stage::AsksAboutHostKey(key.clone())));
-        for words in ["192.168.10.21 is new here", "ssh-ed25519", "SHA256:abc"] {
-            assert!(says(&window, words), "{words}");
-        }
-        window.key_press(Key::Enter);
-        assert_eq!(asked(&mut window), [], "not by a careless key");
-        click(&mut window, "It is the right key");
-        assert_eq!(asked(&mut window), [Ask::TrustHostKey]);
-        click(&mut window, "No");
-        assert_eq!(asked(&mut window), [Ask::Cancel]);
-        window.key_press(Key::Escape);
-        assert_eq!(asked(&mut window), [Ask::Cancel]);
-    }
-}
-
-#[test]
-fn a_changed_host_key_is_shown_with_both_and_forgotten_on_purpose_only() {
-    let changed_key = Some(DoubtfulKey {
-        address: "192.168.10.21".to_owned(),
-        algorithm: "ssh-ed25519".to_owned(),
-        fingerprint: "SHA256:new".to_owned(),
-        pinned: vec!["SHA256:old".to_owned()],
-    });
-    let failure = Failure { text: "changed".to_owned(), changed_key, ..Failure::default() };
-    let mut window = part(WIDTHS[0], at(Stage::Failed(failure)));
-    for words in ["Refused: the host key", "SHA256:old", "SHA256:new", "ssh-keygen -l"] {
-        assert!(says(&window, words), "{words}");
-    }
-    click(&mut window, "Forget the known key…");
-    assert_eq!(asked(&mut window), []);
-    click(&mut window, "Cancel");
-    assert_eq!(asked(&mut window), []);
-    click(&mut window, "Forget the known key…");
-    click(&mut window, "Forget it (Enter)");
-    assert_eq!(asked(&mut window), [Ask::ForgetHostKey]);
-}
-
-fn wanted() -> SecretWanted {
-    SecretWanted {
-        user: "op".to_owned(),
-        address: "192.168.10.21:22".to_owned(),
-        is_passphrase: false,
-        refused: None,
-        keyring_problem: None,
-    }
-}
-
-fn type_secret(window: &mut Window) {
-    window.event(Event::Text(SECRET.to_owned()));
-    settle(window);
-    let told = format!("{:?}", window.root());
-    assert!(!told.contains(SECRET), "who listens to the window hears it");
-}
-
-#[test]
-fn a_password_is_asked_for_masked_and_kept_only_with_a_tick() {
-    for width in WIDTHS {
-        let mut window = part(width, at(Stage::AsksForSecret(wanted())));
-        assert!(is_disabled(&window, "Log in (Enter)"));
-        type_secret(&mut window);
-        window.key_press(Key::Enter);
-        let secret = Secret::new(SECRET);
-        assert_eq!(asked(&mut window), [Ask::Secret { secret: secret.clone(), keep: false }]);
-        type_secret(&mut window);
-        window.get_by_role(Role::CheckBox).click();
-        settle(&mut window);
-        click(&mut window, "Log in (Enter)");
-        assert_eq!(asked(&mut window), [Ask::Secret { secret, keep: true }]);
-        let field = egui::Id::unique("password field");
-        let held = egui::text_edit::TextEditState::load(&window.ctx, field).unwrap();
-        assert!(!format!("{:?}", held.undoer()).contains(SECRET), "it cannot be undone back");
-        type_secret(&mut window);
-        window.key_press(Key::Escape);
-        assert_eq!(asked(&mut window), [Ask::Cancel]);
-        let field = window.get_by_role(Role::PasswordInput);
-        assert_eq!(field.value().as_deref().unwrap_or_default(), "", "forgotten");
-    }
-}
-
-#[test]
-fn a_wrong_password_is_told_and_without_a_keyring_it_is_said_how_long_it_lasts() {
-    let wanted = SecretWanted {
-        refused: Some("log-in refused for user op".to_owned()),
-        keyring_problem: Some("there is no keyring on this computer".to_owned()),
-        ..wanted()
-    };
-    let mut window = part(WIDTHS[0], at(Stage::AsksForSecret(wanted)));
-    assert!(says(&window, "Log-in refused for user op."));
-    assert!(says(&window, "There is no keyring on this computer."));
-    assert!(says(&window, "once in each session"));
-    assert!(window.query_by_role(Role::CheckBox).is_none());
-    click(&mut window, "Cancel");
-    assert_eq!(asked(&mut window), [Ask::Cancel]);
-}
-
-#[test]
-fn the_operator_agrees_before_the_unit_s_tracking_ends() {
-    for (busy, words) in
-        [(Busy::Tracks, "Its tracking ends"), (Busy::MayTrack, "the antenna may move")]
-    {
-        let mut window = part(WIDTHS[0], at(Stage::AsksAboutTracking(busy)));
-        assert!(says(&window, words));
-        click(&mut window, "Go on (Enter)");
-        assert_eq!(asked(&mut window), [Ask::AgreeToTracking]);
-        click(&mut window, "No");
-        assert_eq!(asked(&mut window), [Ask::Cancel]);
-    }
-}
-
-fn working(step: UploadStep) -> Uploads {
-    let progress = Some(Progress { step, done_bytes: 40, file_bytes: 100 });
-    at(Stage::Working { progress, is_cancelled: false })
-}
-
-#[test]
-fn each_step_is_shown_and_can_be_cancelled_until_the_file_takes_its_place() {
-    for width in WIDTHS {
-        let mut window = part(width, working(UploadStep::Write));
-        assert!(says(&window, "4 Write the new file beside it"));
-        window.get_by_role(Role::ProgressIndicator);
-        click(&mut window, "Cancel upload");
-        assert_eq!(asked(&mut window), [Ask::Cancel]);
-        assert!(is_disabled(&window, "Upload and prove"));
-
-        let window = part(width, working(UploadStep::Replace));
-        assert!(is_disabled(&window, "Cancel upload"));
-        assert!(says(&window, "From here on it is carried to its end."));
-
-        let window = part(width, at(Stage::Selecting(Box::new(uploaded()))));
-        assert!(says(&window, "8 Tell the unit"));
-        assert!(window.query_by_label_contains("Proved").is_none(), "not yet");
-    }
-}
-
-#[test]
 fn proof_is_told_with_file_hash_time_and_ages() {
     let uploaded = uploaded();
     let satellite: FileObject = uploaded.objects[1].clone();
@@ -451,19 +172,6 @@ fn a_cancel_and_a_satellite_that_was_not_found_are_told_apart_from_success() {
     assert!(says(&window, "Not in use: The unit does not find the satellite in the file."));
     assert!(says(&window, "The new file is on the unit, read back and compared."));
     assert!(!says(&window, "Proved"));
-}
-
-fn kept_entry(origin: Origin, hours_ago: f64) -> KeptEntry {
-    let file = file();
-    let kept = KeptFile {
-        unit: peer().to_string(),
-        file: FILE.to_owned(),
-        sha256: file.hash(),
-        bytes: file.bytes().len() as u64,
-        at: add_seconds(rig::now(), -hours_ago * 3600.0),
-        origin,
-    };
-    KeptEntry { file: kept, objects: Ok(file.objects().to_vec()) }
 }
 
 #[test]
