@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use azel::{
     controller::settings::{Change, SettleError, SettleStep, Value},
-    driver::Command,
+    driver::{Command, Snapshot},
     protocol::satrak::encode,
     sim::satrak::Fault,
 };
@@ -68,6 +68,21 @@ async fn a_link_lost_in_the_middle_is_told_and_nothing_is_sent_again() {
     rig.until_up(20).await;
     rig.seconds(5.0).await;
     assert!(rig.sent("SETTINGS=").len() <= 1, "{:?}", rig.sent("SETTINGS="));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_hangs_up_after_a_command_is_read_anew() {
+    let mut rig = Rig::usual().await;
+    rig.control.set_fault(Fault::HangUp, true);
+    assert_eq!(settle(&mut rig, threshold(4.0)).await, Err(SettleError::LinkLost));
+    rig.control.set_fault(Fault::HangUp, false);
+    rig.until_up(20).await;
+    let held = |shown: &Snapshot| {
+        let held = shown.state.held["general"].held.as_ref().unwrap();
+        held.values["elevation_threshold_deg"] == Value::Decimal(4.0)
+    };
+    rig.until("read anew", 10, held).await;
+    assert_eq!(rig.sent("SETTINGS=").len(), 1, "{:?}", rig.sent("SETTINGS="));
 }
 
 #[tokio::test(start_paused = true)]
