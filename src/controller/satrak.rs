@@ -2,6 +2,7 @@
 //! past everything else.
 
 mod changes;
+mod device;
 mod exchange;
 mod prepare;
 mod record;
@@ -19,10 +20,7 @@ pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 pub use state::{SatrakState, UnitClock};
 
 use super::{
-    AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
-    Question, TrackTarget, WireLine,
-    settings::{Change, Group, SettleError, SettleStep},
-    wire::WireQueue,
+    AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -31,7 +29,6 @@ use crate::{
 use exchange::{Outstanding, Purpose, unit_motion};
 use prepare::Preparation;
 use schedule::Schedule;
-use settings::Plan;
 use settle::Settling;
 
 /// No answer within this is none.
@@ -176,170 +173,5 @@ impl Satrak {
         if let Some(schedule) = &mut self.schedule {
             schedule.hurry(Query::Status, now.steady);
         }
-    }
-}
-
-impl Device for Satrak {
-    fn capabilities(&self) -> Capabilities {
-        Capabilities { axes: ["X", "Y"] }
-    }
-
-    fn link_up(&mut self, now: Moment) {
-        self.link_down(now);
-        self.state.link_since = Some(now.steady);
-        self.state.motion_lock = None;
-        self.schedule = Some(Schedule::new(now.steady));
-    }
-
-    fn link_down(&mut self, now: Moment) {
-        self.record_unfinished(now);
-        self.has_heard_frame = false;
-        self.decoder = Decoder::new();
-        self.schedule = None;
-        self.outstanding = None;
-        self.drain_until = None;
-        self.halts.clear();
-        self.motions.clear();
-        self.calm.clear();
-        self.fail_preparation(PrepareError::Unanswered);
-        self.wanted.clear();
-        self.slow = None;
-        self.abandon_changes(now);
-    }
-
-    fn sent(&mut self, bytes: &[u8], now: Moment) {
-        self.record_sent(bytes, now);
-    }
-
-    fn next_wire_line(&mut self) -> Option<WireLine> {
-        self.wire.pop()
-    }
-
-    fn receive(&mut self, bytes: &[u8], now: Moment) {
-        self.decoder.push(bytes);
-        // Taken out one by one, because each one may change what is expected.
-        while let Some(line) = self.decoder.next_line() {
-            self.record_received(&line, now);
-            self.take_line(line.frame, now);
-        }
-    }
-
-    fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
-        self.halts.retain(|(_, until)| *until > now.steady);
-        if let Some(again) = self.expire(now) {
-            return Some(again);
-        }
-        self.expire_slow(now);
-        self.begin_change(now);
-        if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
-            return None;
-        }
-        self.drain_until = None;
-        let (request, purpose) = self.next_request(now)?;
-        let bytes = request.to_bytes();
-        self.outstanding = Some(Outstanding::new(request, purpose, now));
-        Some(bytes)
-    }
-
-    fn due(&self, now: Moment) -> Instant {
-        if let Some(outstanding) = &self.outstanding {
-            return outstanding.deadline();
-        }
-        if let Some(until) = self.drain_until {
-            return until;
-        }
-        let slow = self.slow.as_ref().map(Outstanding::deadline);
-        let far = now.steady + Duration::from_hours(1);
-        let Some(schedule) = &self.schedule else { return far };
-        let waits = !self.motions.is_empty()
-            || !self.calm.is_empty()
-            || !self.wanted.is_empty()
-            || self.preparation.is_some();
-        if waits {
-            return now.steady;
-        }
-        let due = schedule.due().into_iter().chain(slow).chain(self.settling_due(now));
-        due.min().unwrap_or(far)
-    }
-
-    fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
-        let program = extent == Extent::Everything || self.program_may_run();
-        self.motions.clear();
-        self.fail_preparation(PrepareError::Stopped);
-        if let Some(outstanding) = &mut self.outstanding {
-            outstanding.disown();
-        }
-        self.halts.retain(|(_, until)| *until > now.steady);
-        // STOP alone may leave the tracking switched on, and the antenna starts
-        // again by itself.
-        let halts = [Halt::Stop].into_iter().chain(program.then_some(Halt::TrackOff));
-        let until = now.steady + REPLY;
-        self.halts.extend(halts.clone().map(|halt| (halt, until)));
-        self.look_soon(now);
-        halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
-    }
-
-    fn prepare(&mut self, target: TrackTarget) {
-        // An answer to a step of the former preparation must not move this one.
-        if let Some(outstanding) = &mut self.outstanding {
-            outstanding.disown();
-        }
-        self.preparation = Some(Preparation::new(target));
-    }
-
-    fn groups(&self) -> &'static [&'static Group] {
-        GROUPS
-    }
-
-    fn read_group(&mut self, group: &str) {
-        if let Some(Plan { query, .. }) = Plan::of(group) {
-            self.want(query);
-        }
-    }
-
-    fn settle(&mut self, change: Change, now: Moment) {
-        if self.schedule.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
-        }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
-    }
-
-    fn ask(&mut self, question: Question) {
-        let Question::Satrak(query) = question;
-        self.want(query);
-    }
-
-    fn disable_auto(&mut self) {
-        self.calm.push_back(Halt::AutoTrackOff);
-    }
-
-    fn motion_under_way(&self) -> bool {
-        self.motion_waits()
-    }
-
-    fn state(&self) -> &AntennaState {
-        &self.state
-    }
-
-    fn next_happening(&mut self) -> Option<Happening> {
-        self.happenings.pop_front()
-    }
-
-    fn patience(&self) -> Duration {
-        // One question and its repetition, on top of the wait for it.
-        self.poll_period() + REPLY * 2 + DRAIN
-    }
-
-    fn poll_period(&self) -> Duration {
-        self.rates.period(self.moving())
-    }
-}
-
-impl Moves for Satrak {
-    fn start(&mut self, motion: Motion) {
-        // A newer wish replaces one that has not gone out yet.
-        self.motions.clear();
-        self.motions.push_back(motion);
     }
 }

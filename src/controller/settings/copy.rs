@@ -4,6 +4,9 @@
 //! The file is TOML, one table for each group. A password is never in it, and
 //! a service setting is only shown, never taken from it.
 
+#[cfg(test)]
+mod tests;
+
 use std::fmt::Write as _;
 
 use jiff::Timestamp;
@@ -248,116 +251,4 @@ fn unknown(table: &toml::Table, groups: &[&'static Group]) -> Vec<String> {
         unknown.extend(strange.map(|field| format!("{key}.{field}")));
     }
     unknown
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::controller::{
-        satrak::GROUPS,
-        settings::{GroupState, HeldGroup, ReadFailure, Secret, Values},
-    };
-
-    fn head() -> CopyHead {
-        CopyHead {
-            antenna: "Dish \"2\"".to_owned(),
-            address: "192.168.10.21:4001".to_owned(),
-            controller: "satrak".to_owned(),
-            saved_at: "2026-08-12T11:15:30Z".parse().unwrap(),
-        }
-    }
-
-    fn state<const N: usize>(values: [(&'static str, Value); N]) -> GroupState {
-        let read_at = head().saved_at;
-        let held = Some(HeldGroup { values: Values::from(values), read_at });
-        GroupState { held, ..GroupState::default() }
-    }
-
-    fn held() -> Held {
-        let text = |text: &str| Value::Text(text.to_owned());
-        let failed = GroupState {
-            failure: Some(ReadFailure::Refused("1".to_owned())),
-            ..GroupState::default()
-        };
-        Held::from([
-            (
-                "general",
-                state([
-                    ("clock_from_gps", Value::Flag(true)),
-                    ("lead_ms", Value::Integer(90_000)),
-                    ("azimuth_offset_deg", Value::Decimal(-0.15)),
-                    ("sspa", Value::Choice(0)),
-                    ("sspa_rule", Value::Choice(9)),
-                    ("tle_source", Value::Choice(1)),
-                ]),
-            ),
-            ("gps", state([("latitude_deg", Value::Decimal(-33.86))])),
-            ("window", state([("start", Value::Time(head().saved_at))])),
-            (
-                "ftp",
-                state([
-                    ("password", Value::Secret(Secret::new("hunter2"))),
-                    ("user", text("a \"b\" # c")),
-                ]),
-            ),
-            ("reduction", state([("x", Value::Decimal(4000.0))])),
-            ("web", failed),
-        ])
-    }
-
-    #[test]
-    fn a_copy_of_a_unit_differs_from_it_in_nothing() {
-        let written = SettingsCopy::text(&head(), GROUPS, &held());
-        assert!(!written.contains("hunter2"), "{written}");
-        assert!(written.contains("# web: not read, the unit answered ERR,1"), "{written}");
-        let copy = SettingsCopy::read(&written, "satrak", GROUPS).unwrap();
-        assert_eq!(copy.head, head());
-        assert_eq!(copy.unknown, Vec::<String>::new());
-        let names: Vec<_> = copy.values.iter().map(|value| value.field.key).collect();
-        assert!(!names.contains(&"tle_source") && !names.contains(&"password"), "{names:?}");
-        assert_eq!(copy.differences(&held()), []);
-    }
-
-    #[test]
-    fn what_differs_is_told_and_service_is_only_shown() {
-        let text = "version = 1\ncontroller = \"satrak\"\nantenna = \"A\"\naddress = \"b\"\n\
-            saved_at = \"2026-08-12T11:15:30Z\"\n[general]\nlead_ms = 60000\nsspa = \"On\"\n\
-            azimuth_offset_deg = 99\nminimum = 1\n[gps]\nlatitude_deg = 41.02\n\
-            [reduction]\nx = 4100\n[web]\nurl = \"https://x\"\n[other]\nz = 1\n";
-        let copy = SettingsCopy::read(text, "satrak", GROUPS).unwrap();
-        assert_eq!(copy.unknown, ["general.minimum", "other.z"]);
-        let found: Vec<_> = copy
-            .differences(&held())
-            .into_iter()
-            .map(|one| (one.copied.field.key, one.verdict))
-            .collect();
-        let expected = [
-            ("azimuth_offset_deg", Verdict::Unfit),
-            ("lead_ms", Verdict::Free),
-            ("sspa", Verdict::Service),
-            ("latitude_deg", Verdict::Free),
-            ("url", Verdict::NotRead),
-            ("x", Verdict::Service),
-        ];
-        let as_sets = |mut list: Vec<_>| {
-            list.sort_by_key(|(key, _)| *key);
-            list
-        };
-        assert_eq!(as_sets(found), as_sets(expected.to_vec()));
-    }
-
-    #[test]
-    fn another_file_is_refused_with_the_reason() {
-        let read = |text: &str| SettingsCopy::read(text, "satrak", GROUPS).unwrap_err();
-        assert!(matches!(read("[["), CopyError::Syntax(_)));
-        assert_eq!(read("a = 1"), CopyError::NoCopy("version"));
-        assert_eq!(read("version = 2"), CopyError::Newer(2));
-        assert_eq!(read("version = 1\nantenna = 3"), CopyError::NoCopy("antenna"));
-        let other = SettingsCopy::text(
-            &CopyHead { controller: "genius".to_owned(), ..head() },
-            GROUPS,
-            &held(),
-        );
-        assert!(matches!(read(&other), CopyError::OtherController { .. }));
-    }
 }
