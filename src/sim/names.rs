@@ -12,21 +12,29 @@ pub struct UnknownName {
     pub known: Vec<&'static str>,
 }
 
-/// What the name stands for.
-pub(super) fn find<T: Copy>(
-    what: &'static str,
-    all: &[(T, &'static str)],
-    name: &str,
-) -> Result<T, UnknownName> {
-    let found = all.iter().find(|(_, known)| *known == name).map(|(value, _)| *value);
-    found.ok_or_else(|| UnknownName {
-        what,
-        name: name.to_owned(),
-        known: all.iter().map(|(_, known)| *known).collect(),
-    })
+/// Makes types with a table `ALL` of values and names readable from their names,
+/// and writes them by these.
+macro_rules! named {
+    ($($type:ident is $what:literal),* $(,)?) => {$(
+        impl std::str::FromStr for $type {
+            type Err = $crate::sim::UnknownName;
+            fn from_str(name: &str) -> Result<Self, Self::Err> {
+                let found = Self::ALL.iter().find(|(_, known)| *known == name);
+                found.map(|(value, _)| *value).ok_or_else(|| $crate::sim::UnknownName {
+                    what: $what,
+                    name: name.to_owned(),
+                    known: Self::ALL.iter().map(|(_, known)| *known).collect(),
+                })
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let named = Self::ALL.iter().find(|(value, _)| value == self);
+                f.write_str(named.map_or("", |(_, name)| name))
+            }
+        }
+    )*};
 }
 
-/// The name, empty when it has none.
-pub(super) fn name_of<T: PartialEq>(all: &[(T, &'static str)], value: &T) -> &'static str {
-    all.iter().find(|(known, _)| known == value).map_or("", |(_, name)| name)
-}
+pub(super) use named;

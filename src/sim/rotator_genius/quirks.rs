@@ -1,10 +1,7 @@
 //! Oddities of devices and failures that can be switched on.
 
-use std::fmt;
-use std::str::FromStr;
-
 use crate::protocol::rotator_genius::RotatorNumber;
-use crate::sim::names::{UnknownName, find, name_of};
+use crate::sim::names::named;
 
 /// A way in which a device may deviate from those that were recorded, or the
 /// document from itself.
@@ -87,31 +84,7 @@ impl Fault {
     ];
 }
 
-impl FromStr for Quirk {
-    type Err = UnknownName;
-    fn from_str(name: &str) -> Result<Self, UnknownName> {
-        find("quirk", &Self::ALL, name)
-    }
-}
-
-impl FromStr for Fault {
-    type Err = UnknownName;
-    fn from_str(name: &str) -> Result<Self, UnknownName> {
-        find("fault", &Self::ALL, name)
-    }
-}
-
-impl fmt::Display for Quirk {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(name_of(&Self::ALL, self))
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(name_of(&Self::ALL, self))
-    }
-}
+named!(Quirk is "quirk", Fault is "fault");
 
 #[cfg(test)]
 mod tests {

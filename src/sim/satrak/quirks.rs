@@ -1,10 +1,7 @@
 //! Oddities of firmware and failures that can be switched on.
 
-use std::fmt;
-use std::str::FromStr;
-
 use crate::protocol::satrak::FaultKind;
-use crate::sim::names::{UnknownName, find, name_of};
+use crate::sim::names::named;
 
 /// A way in which firmware may deviate from the document, or the document from
 /// itself.
@@ -95,31 +92,7 @@ impl Fault {
     ];
 }
 
-impl FromStr for Quirk {
-    type Err = UnknownName;
-    fn from_str(name: &str) -> Result<Self, UnknownName> {
-        find("quirk", &Self::ALL, name)
-    }
-}
-
-impl FromStr for Fault {
-    type Err = UnknownName;
-    fn from_str(name: &str) -> Result<Self, UnknownName> {
-        find("fault", &Self::ALL, name)
-    }
-}
-
-impl fmt::Display for Quirk {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(name_of(&Self::ALL, self))
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(name_of(&Self::ALL, self))
-    }
-}
+named!(Quirk is "quirk", Fault is "fault");
 
 #[cfg(test)]
 mod tests {
