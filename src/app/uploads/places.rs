@@ -14,7 +14,7 @@ pub struct Places {
     pub kept: KeptFiles,
     /// Secrets that the operator wants kept.
     pub keyring: Arc<dyn Keyring>,
-    /// Secrets of this session.
+    /// Secrets that are kept until the program ends.
     pub session: Arc<MemoryKeyring>,
     /// How long the steps may take.
     pub limits: Limits,
