@@ -92,7 +92,7 @@ fn one(
         Err(problem) => return line(ui, Tone::Bad, &sentence(problem)),
     }
     let can = order.is_ok() && !model.uploads.stage.is_open();
-    if named(ui, can, "Put back…", &format!("Put back the file of {at}, {origin}"))
+    if named(ui, can, "Put back…", &format!("Put back the file of {at}, {origin}, {hash}"))
         && let Ok(order) = order
     {
         let text = format!(
