@@ -5,6 +5,11 @@
 //! Invariant: nothing here opens a link. A [`Moves`] can make metal move, so
 //! only the driver's gate holds one; everyone else sees its [`Device`] side.
 
+mod capabilities;
+mod makes;
+pub mod panel;
+pub mod rc2000c;
+pub mod rotator_genius;
 pub mod satrak;
 pub mod settings;
 mod state;
@@ -14,13 +19,13 @@ use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
-pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Program, Traffic};
+pub use capabilities::{Capabilities, JogSpeed, JogSpeeds};
+pub use makes::Make;
+pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
 pub use wire::{Direction, Finding, WireLine};
 
-use crate::{
-    astro::{Angle, AzEl},
-    protocol::satrak::Query,
-};
+use crate::{astro::Angle, protocol::satrak::Query};
+use panel::Act;
 use settings::{Change, Group};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
@@ -51,7 +56,8 @@ pub enum Motion {
     },
     /// To a direction; `None` leaves that angle as it is.
     Position {
-        /// Azimuth.
+        /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
+        /// the position of that axis: 370 is not 10.
         azimuth: Option<Angle>,
         /// Elevation.
         elevation: Option<Angle>,
@@ -60,6 +66,8 @@ pub enum Motion {
     StartProgram,
     /// The controller starts to follow by itself whenever its target is due.
     EnableAuto,
+    /// What only this make can do: one of [`Make::actions`], by its key.
+    Action(&'static str),
 }
 
 /// What an antenna shall follow, as far as a controller that tracks by itself
@@ -146,13 +154,6 @@ pub enum PrepareError {
     Stopped,
 }
 
-/// What the controller can do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Capabilities {
-    /// Names of the two axes that are jogged.
-    pub axes: [&'static str; 2],
-}
-
 /// A controller as everyone may use it: nothing here starts a motion.
 pub trait Device: Send {
     /// What it can do.
@@ -225,19 +226,23 @@ pub trait Device: Send {
 
 /// The side of a controller that moves metal. Only the gate holds it.
 pub trait Moves: Device {
-    /// Queues a motion. It is sent once, and not at all when a halt comes first.
+    /// Queues a motion other than an action. It is sent once, and not at all
+    /// when a halt comes first.
     fn start(&mut self, motion: Motion);
+
+    /// Queues what only this make can do. A controller without
+    /// [`Make::actions`] is never asked.
+    fn act(&mut self, act: Act);
 }
 
-/// The direction halfway certain: what a motion aims at when one angle is left
-/// as it is.
-pub fn aimed_direction(
+/// What a motion aims at: an angle that is left as it is stays as measured.
+pub fn aimed(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
-    measured: Option<AzEl>,
-) -> Option<AzEl> {
-    Some(AzEl {
-        azimuth: azimuth.or(measured.map(|m| m.azimuth))?,
-        elevation: elevation.or(measured.map(|m| m.elevation))?,
-    })
+    measured: Option<Pointing>,
+) -> Pointing {
+    Pointing {
+        azimuth: azimuth.or(measured.and_then(|measured| measured.azimuth)),
+        elevation: elevation.or(measured.and_then(|measured| measured.elevation)),
+    }
 }

@@ -156,6 +156,7 @@ impl Driver {
                 Box::new(Satrak::new(antenna.poll, element_file.clone())),
                 dial_tcp(address.clone()),
             ),
+            Connection::Genius { .. } | Connection::Rc2000c { .. } => todo!(),
         };
         let (session, handle) =
             Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));

@@ -2,11 +2,17 @@
 //! one TOML file that forgives what it can and never loses what it cannot read.
 
 mod antenna;
+mod connection;
 mod file;
+mod following;
+mod mount;
 mod read;
 
-pub use antenna::{Antenna, Connection, Direction, MotionLimits, Mount, PollRates};
+pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
+pub use connection::{Calibration, Connection, CountPoint, Rotators};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
+pub use following::{AfterPass, Following};
+pub use mount::Mount;
 pub(crate) use read::check_address;
 pub use read::{Note, NoteReason, from_toml};
 

@@ -8,9 +8,9 @@ use jiff::Timestamp;
 use super::forecast::Followed;
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
-    controller::{Measured, Phase, satrak, settings::Group},
+    controller::{Make, Measured, Phase, settings::Group},
     driver::{AntennaHandle, Event, Intent, Snapshot},
-    station::{Antenna, Connection},
+    station::Antenna,
 };
 
 /// The errors of this long are kept for the profile of a pass.
@@ -78,16 +78,17 @@ impl AntennaModel {
 
     /// Kind of its controller, as the station file names it.
     pub fn controller(&self) -> &'static str {
-        match self.config.connection {
-            Connection::Satrak { .. } => "satrak",
-        }
+        self.make().key
+    }
+
+    /// What its controller is and can do.
+    pub fn make(&self) -> &'static Make {
+        Make::of(&self.config.connection)
     }
 
     /// What its controller remembers.
     pub fn groups(&self) -> &'static [&'static Group] {
-        match self.config.connection {
-            Connection::Satrak { .. } => satrak::GROUPS,
-        }
+        self.make().groups
     }
 
     /// Takes the newest snapshot. `followed` finds a satellite by its number.
@@ -137,9 +138,13 @@ impl AntennaModel {
             if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
                 return None;
             }
-            let azimuth = (measured.direction.azimuth - before.direction.azimuth).wrapped_180();
-            let elevation = measured.direction.elevation - before.direction.elevation;
-            Some((azimuth.degrees() / span_s, elevation.degrees() / span_s))
+            let (now, then) = (measured.pointing, before.pointing);
+            let azimuth = (now.azimuth? - then.azimuth?).wrapped_180();
+            let elevation = now
+                .elevation
+                .zip(then.elevation)
+                .map(|(now, then)| (now - then).degrees() / span_s);
+            Some((azimuth.degrees() / span_s, elevation.unwrap_or_default()))
         });
         self.recent.push_back(measured);
     }
@@ -169,12 +174,14 @@ impl AntennaModel {
     pub fn error(&self) -> Option<ErrorSample> {
         let prediction = self.prediction?;
         let measured = self.snapshot.state.measured?;
-        let difference = measured.direction.azimuth - prediction.direction.azimuth;
+        let pointing = measured.pointing;
+        let azimuth = (pointing.azimuth? - prediction.direction.azimuth).wrapped_180();
+        let elevation = pointing.elevation.map(|at| at - prediction.direction.elevation);
         Some(ErrorSample {
             time: measured.at,
-            off_beam: measured.direction.separation(prediction.direction),
-            azimuth: difference.wrapped_180(),
-            elevation: measured.direction.elevation - prediction.direction.elevation,
+            off_beam: pointing.separation(prediction.direction.into())?,
+            azimuth,
+            elevation: elevation.unwrap_or(Angle::ZERO),
         })
     }
 }

@@ -20,7 +20,8 @@ pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 pub use state::{SatrakState, UnitClock};
 
 use super::{
-    AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
+    AntennaState, Capabilities, Happening, JogSpeeds, Make, Moment, Motion, PrepareError,
+    settings::Change, wire::WireQueue,
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -30,6 +31,27 @@ use exchange::{Outstanding, Purpose, unit_motion};
 use prepare::Preparation;
 use schedule::Schedule;
 use settle::Settling;
+
+/// A Satrak as the rest of the program knows it.
+pub const MAKE: Make = Make {
+    key: "satrak",
+    name: "SVS Satrak",
+    capabilities: Capabilities {
+        axes: ["X", "Y"],
+        has_program: true,
+        takes_positions: true,
+        arrives_within_deg: 0.3,
+        has_elevation: true,
+        jog: JogSpeeds::AnyRate,
+        jogs_one_axis: false,
+        steps: true,
+        ends_jogs: false,
+        waits_for_word: false,
+        stop_note: None,
+    },
+    groups: GROUPS,
+    actions: &[],
+};
 
 /// No answer within this is none.
 const REPLY: Duration = Duration::from_secs(2);

@@ -5,10 +5,11 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
+    panel::{Check, Reading},
     satrak::SatrakState,
     settings::{GroupState, Held},
 };
-use crate::astro::AzEl;
+use crate::astro::{Angle, AzEl};
 
 /// What is known of an antenna. `None` means not read yet, never a default.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,7 +23,11 @@ pub struct AntennaState {
     pub motion_lock: Option<bool>,
     /// When the present link came up: what is older tells of another time.
     pub link_since: Option<Instant>,
-    /// What the name on the box adds to the above.
+    /// What it tells beyond the above, line by line for its panel.
+    pub readings: Arc<[Reading]>,
+    /// Its faults and warnings by name, where it reports them one by one.
+    pub checks: Arc<[Check]>,
+    /// What a Satrak adds to the above.
     pub satrak: SatrakState,
     /// Its settings, as far as they were read, and what came of changes.
     pub held: Arc<Held>,
@@ -48,12 +53,50 @@ pub struct Measured {
     /// When it came in.
     pub received: Instant,
     /// Where the antenna points.
-    pub direction: AzEl,
+    pub pointing: Pointing,
     /// Its two axes.
     pub axes: [Axis; 2],
 }
 
+/// Where an antenna points, as far as its device tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pointing {
+    /// `None` without a sensor, or while the reading cannot be turned into one.
+    pub azimuth: Option<Angle>,
+    /// As the azimuth; `None` for good where there is no elevation axis.
+    pub elevation: Option<Angle>,
+}
+
+impl Pointing {
+    /// The direction, once both angles are known.
+    pub fn direction(self) -> Option<AzEl> {
+        Some(AzEl { azimuth: self.azimuth?, elevation: self.elevation? })
+    }
+}
+
+impl Pointing {
+    /// How far it is from here to `other`: in the sky where all angles are known,
+    /// else by the azimuth alone; `None` without one.
+    pub fn separation(self, other: Self) -> Option<Angle> {
+        if let (Some(here), Some(there)) = (self.direction(), other.direction()) {
+            return Some(here.separation(there));
+        }
+        Some((self.azimuth? - other.azimuth?).wrapped_180().abs())
+    }
+}
+
+impl From<AzEl> for Pointing {
+    fn from(direction: AzEl) -> Self {
+        Self { azimuth: Some(direction.azimuth), elevation: Some(direction.elevation) }
+    }
+}
+
 impl Measured {
+    /// Where the antenna points, once both angles are known.
+    pub fn direction(&self) -> Option<AzEl> {
+        self.pointing.direction()
+    }
+
     /// Whether any axis turns, or may turn.
     pub fn moving(&self) -> bool {
         self.axes.iter().any(|axis| axis.motion != AxisMotion::Still)
@@ -63,8 +106,8 @@ impl Measured {
 /// One axis as the device reports it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
-    /// In degrees, counted as the device counts.
-    pub angle_deg: f64,
+    /// In degrees, counted as the mount counts; `None` when it is not known.
+    pub angle_deg: Option<f64>,
     /// Whether it turns.
     pub motion: AxisMotion,
     /// The limit switch at the upper end is set.

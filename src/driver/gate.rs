@@ -10,8 +10,10 @@ use std::time::Duration;
 
 use super::intent::Intent;
 use crate::{
-    astro::AzEl,
-    controller::{AntennaState, Device, Moment, Motion, Moves},
+    astro::Angle,
+    controller::{
+        AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
+    },
     station::{MotionLimits, Mount},
 };
 use rules::RULES;
@@ -69,6 +71,18 @@ pub enum Refusal {
         /// Lowest allowed.
         lowest_deg: f64,
     },
+    /// The controller cannot do this.
+    #[error("the controller cannot do this")]
+    NotOffered,
+    /// The angle of an axis is not known, so nothing would end its motion.
+    #[error("the angle of {axis} is not known")]
+    AngleUnknown {
+        /// Name of the axis.
+        axis: &'static str,
+    },
+    /// One axis at a time.
+    #[error("one axis at a time")]
+    OneAxis,
     /// The mount cannot point there.
     #[error("{axis} would have to go to {asked_deg} degrees, it travels {from_deg} to {to_deg}")]
     Travel {
@@ -92,7 +106,7 @@ pub enum Refusal {
 /// What the rules look at beside the motion itself.
 struct Situation<'a> {
     state: &'a AntennaState,
-    axes: [&'static str; 2],
+    can: Capabilities,
     intent: Intent,
     stopping: bool,
     limits: MotionLimits,
@@ -149,7 +163,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let situation = Situation {
             state: self.controller.state(),
-            axes: self.controller.capabilities().axes,
+            can: self.controller.capabilities(),
             intent,
             stopping,
             limits: self.limits,
@@ -159,11 +173,37 @@ impl Gate {
         RULES.iter().try_for_each(|rule| rule(&motion, &situation))
     }
 
+    /// Does what only this make can do, or says why not.
+    pub(super) fn act(
+        &mut self,
+        act: Act,
+        moves: bool,
+        intent: Intent,
+        stopping: bool,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        if moves {
+            self.examine(Motion::Action(act.action), intent, stopping, now)?;
+        }
+        self.controller.act(act);
+        Ok(())
+    }
+
+    /// The motion to an azimuth of the sky, with the position of the axis that is
+    /// nearest.
+    pub(super) fn nearest(&self, motion: Motion) -> Motion {
+        let Motion::Position { azimuth: Some(azimuth), elevation } = motion else { return motion };
+        let near_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
+        let azimuth = Some(self.mount.axis_azimuth(azimuth, near_deg));
+        Motion::Position { azimuth, elevation }
+    }
+
     /// Where a motion to a position would end, for the display.
-    pub(super) fn aim(&self, motion: &Motion) -> Option<AzEl> {
+    pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let Motion::Position { azimuth, elevation } = *motion else { return None };
-        let measured = self.state().measured.map(|measured| measured.direction);
-        crate::controller::aimed_direction(azimuth, elevation, measured)
+        let measured = self.state().measured.map(|measured| measured.pointing);
+        let aim = aimed(azimuth.map(Angle::wrapped_360), elevation, measured);
+        Some(aim)
     }
 }
 

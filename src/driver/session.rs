@@ -25,8 +25,7 @@ use super::{
     WireLog, gate::Gate,
 };
 use crate::{
-    astro::AzEl,
-    controller::{Moment, Moves, TrackTarget},
+    controller::{Make, Moment, Moves, Pointing, TrackTarget},
     station::Antenna,
 };
 use command::Waiting;
@@ -48,7 +47,10 @@ pub struct Wires {
 pub struct Session {
     name: String,
     gate: Gate,
-    park: AzEl,
+    make: &'static Make,
+    park: Pointing,
+    /// The operator wants a link.
+    wanted: bool,
     dial: Dial,
     clock: Clock,
     wires: Wires,
@@ -65,7 +67,7 @@ pub struct Session {
     intent: Intent,
     /// The intent is not yet proved by the device.
     pending: Option<Instant>,
-    aim: Option<AzEl>,
+    aim: Option<Pointing>,
     target: Option<TrackTarget>,
     jog: Option<Jog>,
     /// A step that is not known to be over.
@@ -94,7 +96,13 @@ impl Session {
         let (events, read_events) = mpsc::channel(EVENTS);
         let stop = Arc::new(Notify::new());
         let gate = Gate::new(controller, antenna.limits, antenna.mount);
-        let link = LinkState::Connecting { since: tokio::time::Instant::now().into_std() };
+        let make = Make::of(&antenna.connection);
+        let wanted = !make.capabilities.waits_for_word;
+        let link = if wanted {
+            LinkState::Connecting { since: tokio::time::Instant::now().into_std() }
+        } else {
+            LinkState::Off
+        };
         let first = Arc::new(Snapshot::before_anything(link.clone()));
         let (snapshots, read_snapshots) = watch::channel(first);
         let handle =
@@ -102,7 +110,9 @@ impl Session {
         let session = Self {
             name: antenna.name.clone(),
             gate,
-            park: antenna.park_direction(),
+            make,
+            park: antenna.park_direction().into(),
+            wanted,
             dial,
             clock,
             wires: Wires { commands, stop, snapshots, events, wake },

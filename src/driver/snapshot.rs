@@ -6,12 +6,9 @@ use std::{
 };
 
 use super::{Intent, Refusal};
-use crate::{
-    astro::AzEl,
-    controller::{
-        AntennaState, Motion, PrepareError, TrackTarget,
-        settings::{GroupState, Held},
-    },
+use crate::controller::{
+    AntennaState, Motion, Pointing, PrepareError, TrackTarget,
+    settings::{GroupState, Held},
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -24,7 +21,7 @@ pub struct Snapshot {
     /// The intent is asked for but not yet proved by the device.
     pub pending: bool,
     /// Where a motion to a position ends.
-    pub aim: Option<AzEl>,
+    pub aim: Option<Pointing>,
     /// What is to be tracked.
     pub target: Option<TrackTarget>,
     /// The stop button.
@@ -66,7 +63,7 @@ impl Snapshot {
                 .state
                 .measured
                 .filter(|measured| !measured.moving())
-                .map(|measured| (measured.direction, measured.axes))
+                .map(|measured| (measured.pointing, measured.axes))
         };
         if standing(self).is_none() || standing(self) != standing(newer) {
             return false;
@@ -100,7 +97,8 @@ fn same_settings(old: &Held, new: &Held) -> bool {
 /// The link to a controller.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LinkState {
-    /// Switched off: no address, or the session has ended.
+    /// Nobody wants one: the operator has not connected or has disconnected, or
+    /// the session has ended.
     Off,
     /// Trying, for the first time since the start.
     Connecting {
@@ -207,13 +205,13 @@ pub enum Event {
         completed: bool,
     },
     /// A motion to a position has arrived.
-    Arrived(AzEl),
+    Arrived(Pointing),
     /// A motion to a position ended elsewhere.
     EndedShort {
         /// Where it should have gone.
-        aim: AzEl,
+        aim: Pointing,
         /// Where it is.
-        at: AzEl,
+        at: Pointing,
     },
     /// The window did not renew a jog; it was stopped.
     JogLeaseOver,

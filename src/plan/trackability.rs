@@ -35,7 +35,9 @@ pub enum Trackability {
 /// How much of the pass along `samples` a mount follows whose axes turn at up
 /// to `maximum_rate_deg_s`. Samples are a few seconds apart, oldest first.
 pub fn trackability(samples: &[Sample], mount: Mount, maximum_rate_deg_s: f64) -> Trackability {
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = mount;
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = mount else {
+        return Trackability::Whole;
+    };
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
     let axes = |sample: &Sample| {
         let axes = xy_mount::axes_from_azel(sample.direction, lower_axis);

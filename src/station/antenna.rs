@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use super::{AfterPass, Calibration, Connection, Following, Mount, Rotators};
 use crate::astro::{Angle, AzEl};
 
 /// One controller on one link, with its mount, limits and park position.
@@ -23,6 +24,8 @@ pub struct Antenna {
     pub limits: MotionLimits,
     /// How often the controller is asked.
     pub poll: PollRates,
+    /// How this program follows a target with it.
+    pub follow: Following,
 }
 
 /// A direction in a file.
@@ -32,46 +35,6 @@ pub struct Direction {
     pub azimuth_deg: f64,
     /// From the horizon, degrees, 0 to 90.
     pub elevation_deg: f64,
-}
-
-/// Which controller, and where it answers.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[serde(tag = "controller", rename_all = "lowercase")]
-pub enum Connection {
-    /// SVS Satrak on TCP.
-    Satrak {
-        /// Host and port, such as `192.168.10.21:4001`.
-        address: String,
-        /// The element file on the unit from which satellites are chosen;
-        /// empty for the one that the unit uses already.
-        #[serde(skip_serializing_if = "String::is_empty")]
-        element_file: String,
-    },
-}
-
-impl Connection {
-    /// Where the controller answers, for the operator's eyes.
-    pub fn address(&self) -> &str {
-        match self {
-            Self::Satrak { address, .. } => address,
-        }
-    }
-}
-
-/// How the axes are arranged.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "type", rename_all = "lowercase")]
-pub enum Mount {
-    /// Two crossed axes, the lower one horizontal; the keyholes lie at its ends.
-    Xy {
-        /// Azimuth to which the lower axis points, degrees, 0 to 180.
-        lower_axis_azimuth_deg: f64,
-        /// Lower end of the travel of both axes as the controller counts
-        /// (90 at the zenith), degrees.
-        travel_from_deg: f64,
-        /// Upper end of the travel, degrees.
-        travel_to_deg: f64,
-    },
 }
 
 /// What the mount can do and what the operator allows it.
@@ -126,6 +89,76 @@ impl Antenna {
                 maximum_step_deg: 5.0,
             },
             poll: PollRates { idle_hz: 2.0, moving_hz: 5.0 },
+            follow: Following {
+                period_s: 1.0,
+                dead_band_deg: 0.1,
+                latency_s: 0.3,
+                after: AfterPass::Hold,
+            },
+        }
+    }
+
+    /// A Rotator Genius at `address` that turns azimuth and elevation.
+    pub fn genius(name: &str, address: &str) -> Self {
+        Self {
+            connection: Connection::Genius {
+                address: address.to_owned(),
+                rotators: Rotators::Pair,
+            },
+            mount: Mount::AzEl {
+                azimuth_from_deg: 0.0,
+                azimuth_to_deg: 360.0,
+                elevation_from_deg: 0.0,
+                elevation_to_deg: 180.0,
+            },
+            beam_width_deg: 20.0,
+            limits: MotionLimits {
+                minimum_elevation_deg: 0.0,
+                maximum_rate_deg_s: 6.0,
+                maximum_step_deg: 10.0,
+            },
+            park: Direction { azimuth_deg: 0.0, elevation_deg: 0.0 },
+            poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
+            follow: Following {
+                period_s: 1.0,
+                dead_band_deg: 0.5,
+                latency_s: 0.5,
+                after: AfterPass::Hold,
+            },
+            ..Self::satrak(name, "")
+        }
+    }
+
+    /// An RC2000C at `address` on the bus address of the factory, not calibrated.
+    pub fn rc2000c(name: &str, address: &str) -> Self {
+        Self {
+            connection: Connection::Rc2000c {
+                address: address.to_owned(),
+                baud: 9600,
+                bus_address: 50,
+                calibration: Calibration::default(),
+            },
+            mount: Mount::AzEl {
+                azimuth_from_deg: 0.0,
+                azimuth_to_deg: 360.0,
+                elevation_from_deg: 0.0,
+                elevation_to_deg: 90.0,
+            },
+            beam_width_deg: 1.5,
+            limits: MotionLimits {
+                minimum_elevation_deg: 5.0,
+                maximum_rate_deg_s: 2.0,
+                maximum_step_deg: 5.0,
+            },
+            park: Direction { azimuth_deg: 180.0, elevation_deg: 45.0 },
+            poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
+            follow: Following {
+                period_s: 2.0,
+                dead_band_deg: 0.2,
+                latency_s: 0.5,
+                after: AfterPass::Hold,
+            },
+            ..Self::satrak(name, "")
         }
     }
 

@@ -1,12 +1,11 @@
 //! Reads a station from TOML: what is missing gets its default, what is
 //! invalid gets its default with a note, what is unknown is named in a note.
 
+mod antenna;
+
 use toml::{Table, Value};
 
-use super::{
-    Station,
-    antenna::{Antenna, Connection, Direction, Mount},
-};
+use super::{Antenna, Station};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -167,67 +166,6 @@ impl Fields<'_> {
         fields.name_the_unknown();
         self.notes.append(&mut fields.notes);
         value
-    }
-
-    /// An antenna needs a controller and an address: nothing stands in for them.
-    fn antenna(&mut self) -> Option<Antenna> {
-        let connection = self.inner("connection", |connection| {
-            let controller = connection.text("controller", "");
-            let address = connection.text("address", "");
-            let element_file = connection.text("element_file", "");
-            if controller != "satrak" {
-                connection.invalid("controller", "must be \"satrak\"");
-            } else if let Err(why) = check_address(&address) {
-                connection.invalid("address", why);
-            } else {
-                return Some(Connection::Satrak { address, element_file });
-            }
-            None
-        })?;
-        let default = Antenna::satrak("Satrak", connection.address());
-        Some(Antenna {
-            name: self.text("name", &default.name),
-            connection,
-            mount: self.inner("mount", |mount| mount.xy(default.mount)),
-            beam_width_deg: self.number("beam_width_deg", 0.01, 180.0, default.beam_width_deg),
-            park: self.inner("park", |park| Direction {
-                azimuth_deg: park.number("azimuth_deg", 0.0, 360.0, default.park.azimuth_deg),
-                elevation_deg: park.number("elevation_deg", 0.0, 90.0, default.park.elevation_deg),
-            }),
-            limits: self.inner("limits", |limits| {
-                let mut read = default.limits;
-                read.minimum_elevation_deg =
-                    limits.number("minimum_elevation_deg", 0.0, 90.0, read.minimum_elevation_deg);
-                read.maximum_rate_deg_s =
-                    limits.number("maximum_rate_deg_s", 0.01, 30.0, read.maximum_rate_deg_s);
-                read.maximum_step_deg =
-                    limits.number("maximum_step_deg", 0.01, 90.0, read.maximum_step_deg);
-                read
-            }),
-            poll: self.inner("poll", |poll| {
-                let mut read = default.poll;
-                read.idle_hz = poll.number("idle_hz", 2.0, 10.0, read.idle_hz);
-                read.moving_hz = poll.number("moving_hz", 2.0, 10.0, read.moving_hz);
-                read
-            }),
-        })
-    }
-
-    fn xy(&mut self, default: Mount) -> Mount {
-        let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = default;
-        if self.text("type", "xy") != "xy" {
-            self.invalid("type", "must be \"xy\"");
-        }
-        Mount::Xy {
-            lower_axis_azimuth_deg: self.number(
-                "lower_axis_azimuth_deg",
-                0.0,
-                180.0,
-                lower_axis_azimuth_deg,
-            ),
-            travel_from_deg: self.number("travel_from_deg", -180.0, 90.0, travel_from_deg),
-            travel_to_deg: self.number("travel_to_deg", 90.0, 360.0, travel_to_deg),
-        }
     }
 
     fn name_the_unknown(&mut self) {

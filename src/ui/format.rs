@@ -2,6 +2,8 @@
 
 use jiff::{Timestamp, tz::TimeZone};
 
+use crate::{astro::Angle, controller::Pointing};
+
 /// The true minus sign.
 const MINUS: char = '\u{2212}';
 /// Groups the thousands.
@@ -44,6 +46,14 @@ fn group_thousands(digits: &str) -> String {
 /// An angle with the degree sign.
 pub fn degrees(value_deg: f64, decimals: usize) -> String {
     format!("{}°", number(value_deg, decimals))
+}
+
+/// Azimuth and elevation, as far as they are known.
+pub fn pointing(pointing: Pointing) -> String {
+    let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
+    let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
+    let known: Vec<String> = angles.into_iter().flatten().map(|deg| degrees(deg, 1)).collect();
+    known.join(", ")
 }
 
 /// An azimuth as three digits with the degree sign; 359.6 is 000.

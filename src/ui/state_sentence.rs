@@ -12,7 +12,7 @@ use super::{
 use crate::{
     app::{Model, antenna::AntennaModel, forecast::Followed},
     astro::time::seconds_between,
-    controller::Phase,
+    controller::{Phase, Pointing},
     driver::{Intent, StopState},
 };
 
@@ -216,11 +216,7 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
     let aim = snapshot.aim.filter(|_| moving || snapshot.pending)?;
     let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };
-    Some(Spoken::new(SentenceKind::Commanded).plain(format!(
-        "{verb} {}, {}.",
-        format::degrees(aim.azimuth_deg(), 1),
-        format::degrees(aim.elevation_deg(), 1)
-    )))
+    Some(Spoken::new(SentenceKind::Commanded).plain(format!("{verb} {}.", format::pointing(aim))))
 }
 
 fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
@@ -267,12 +263,9 @@ fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestam
 
 /// " at 343.1°, 5.0°", where it is known.
 fn place(antenna: &AntennaModel) -> String {
-    antenna.snapshot.state.measured.map_or_else(String::new, |measured| {
-        format!(
-            " at {}, {}",
-            format::degrees(measured.direction.azimuth_deg(), 1),
-            format::degrees(measured.direction.elevation_deg(), 1)
-        )
+    antenna.snapshot.state.measured.map_or_else(String::new, |measured| match measured.pointing {
+        Pointing { azimuth: None, elevation: None } => String::new(),
+        pointing => format!(" at {}", format::pointing(pointing)),
     })
 }
 

@@ -9,7 +9,10 @@ pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{link_loss, prepare_error, refusal};
 
-use crate::{controller::Motion, driver::Intent};
+use crate::{
+    controller::{Make, Motion},
+    driver::Intent,
+};
 
 /// The likely cause of numbers that cannot be read, and what to do.
 pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
@@ -26,7 +29,14 @@ pub fn motion(motion: Motion) -> &'static str {
         Motion::Position { .. } => "Go to",
         Motion::StartProgram => "Track",
         Motion::EnableAuto => "Auto-track on",
+        Motion::Action(key) => action_name(key),
     }
+}
+
+/// What an action of some make is called.
+fn action_name(key: &str) -> &'static str {
+    let actions = Make::ALL.iter().flat_map(|make| make.actions);
+    actions.into_iter().find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 
 /// What an intent is called.

@@ -29,7 +29,7 @@ async fn a_new_link_is_probed_in_order_and_nothing_moves() {
     assert_eq!((shown.intent, shown.pending), (Intent::Standby, false));
     assert_eq!((shown.stop, shown.jog, shown.aim), (StopState::Ready, None, None));
     let measured = shown.state.measured.unwrap();
-    assert!((measured.direction.elevation_deg() - 90.0).abs() < 0.01);
+    assert!((measured.direction().unwrap().elevation_deg() - 90.0).abs() < 0.01);
     assert!(shown.state.satrak.version.is_some() && shown.state.satrak.faults.is_some());
     let clock = shown.state.satrak.clock.unwrap();
     assert!(clock.ahead_s.abs() < 0.02, "{clock:?}");

@@ -141,7 +141,7 @@ async fn a_late_reply_is_not_taken_for_that_of_another_question() {
     assert_eq!(shown.state.traffic.unsolicited, 2);
     assert_eq!(shown.state.traffic.unreadable, 0);
     let measured = shown.state.measured.unwrap();
-    assert!((measured.direction.azimuth_deg() - 299.49).abs() < 1e-9);
+    assert!((measured.direction().unwrap().azimuth_deg() - 299.49).abs() < 1e-9);
 }
 
 #[tokio::test(start_paused = true)]

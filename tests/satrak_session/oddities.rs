@@ -49,7 +49,7 @@ fn assert_arrived(rig: &mut Rig, what: &str) {
     let shown = rig.shown();
     assert!(shown.link.is_open(), "{what}: {:?}", shown.link);
     let measured = shown.state.measured.unwrap();
-    assert!(measured.direction.separation(aim).degrees() < 0.05, "{what}: {measured:?}");
+    assert!(measured.direction().unwrap().separation(aim).degrees() < 0.05, "{what}: {measured:?}");
     assert_eq!(rig.sent("GOTO=").len(), 1, "{what}");
     let lost = events.iter().any(|event| matches!(event, Event::LinkLost(_)));
     assert!(!lost, "{what}: {events:?}");

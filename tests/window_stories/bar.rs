@@ -176,7 +176,7 @@ fn ctrl_l_goes_round_the_themes_and_moves_nothing() {
 
 #[test]
 fn the_table_says_whether_it_compares_with_a_command_or_a_prediction() {
-    let aim = Some(azel::astro::AzEl::from_degrees(136.0, 20.0));
+    let aim = Some(azel::astro::AzEl::from_degrees(136.0, 20.0).into());
     let going = Snapshot { intent: Intent::Position, aim, ..states::moving() };
     for size in SIZES {
         for (snapshot, wanted) in [

@@ -40,7 +40,7 @@ fn intent(model: &Model) -> Option<Intent> {
 }
 
 fn place(window: &RealWindow) -> AzEl {
-    measured(window.state().model()).unwrap().direction
+    measured(window.state().model()).unwrap().direction().unwrap()
 }
 
 /// The window of the demo station, once its antenna is measured.
@@ -66,7 +66,8 @@ fn a_held_jog_moves_the_antenna_and_its_release_stops_it() {
     let before = place(&window);
     hold_jog(&mut window);
     step_until(&mut window, "it gets on", |model| {
-        measured(model).is_some_and(|now| now.direction.separation(before).degrees() > 0.3)
+        measured(model)
+            .is_some_and(|now| now.direction().unwrap().separation(before).degrees() > 0.3)
     });
     window.drop_at(window.get_by_label("Jog X+").rect().center());
     step_until(&mut window, "it stands", stands);

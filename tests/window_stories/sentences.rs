@@ -117,7 +117,7 @@ fn standing_says_where_and_what_comes_next() {
 
 #[test]
 fn moving_says_who_moves_it_and_where_to() {
-    let aim = Some(AzEl::from_degrees(136.0, 20.0));
+    let aim = Some(AzEl::from_degrees(136.0, 20.0).into());
     let going = Snapshot { intent: Intent::Position, aim, ..states::moving() };
     assert_eq!(told(going.clone(), unchanged), "Moving to 136.0°, 20.0°.");
     let parking = Snapshot { intent: Intent::Park, ..going };

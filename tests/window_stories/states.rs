@@ -15,13 +15,13 @@ use crate::rig::{NOAA_20, model, now, quiet};
 
 /// A position that has just come in.
 pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {
-    let axis = Axis { angle_deg: 90.0, motion, plus_limit: false, minus_limit: false };
+    let axis = Axis { angle_deg: Some(90.0), motion, plus_limit: false, minus_limit: false };
     let steady = Instant::now();
     Measured {
         at: now(),
         asked: steady,
         received: steady,
-        direction: AzEl::from_degrees(azimuth_deg, elevation_deg),
+        pointing: AzEl::from_degrees(azimuth_deg, elevation_deg).into(),
         axes: [axis; 2],
     }
 }

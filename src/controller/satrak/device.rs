@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    DRAIN, REPLY, Satrak,
+    DRAIN, MAKE, REPLY, Satrak,
     exchange::Outstanding,
     prepare::Preparation,
     schedule::Schedule,
@@ -13,6 +13,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         Question, TrackTarget, WireLine,
+        panel::Act,
         settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::satrak::{Decoder, Halt, Request},
@@ -20,7 +21,7 @@ use crate::{
 
 impl Device for Satrak {
     fn capabilities(&self) -> Capabilities {
-        Capabilities { axes: ["X", "Y"] }
+        MAKE.capabilities
     }
 
     fn link_up(&mut self, now: Moment) {
@@ -181,4 +182,6 @@ impl Moves for Satrak {
         self.motions.clear();
         self.motions.push_back(motion);
     }
+
+    fn act(&mut self, _: Act) {}
 }

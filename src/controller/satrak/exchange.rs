@@ -323,5 +323,7 @@ pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
         }
         Motion::StartProgram => unit::Motion::TrackOn,
         Motion::EnableAuto => unit::Motion::AutoTrackOn,
+        // It has none.
+        Motion::Action(_) => return Err(ValueError::NoMotion),
     })
 }

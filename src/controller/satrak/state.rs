@@ -104,7 +104,7 @@ impl AntennaState {
             at,
             asked: asked.steady,
             received: now.steady,
-            direction: AzEl::from_degrees(status.az_deg, status.el_deg),
+            pointing: AzEl::from_degrees(status.az_deg, status.el_deg).into(),
             axes: [
                 axis(status.x_deg, status.x_motion, limits.x_plus, limits.x_minus),
                 axis(status.y_deg, status.y_motion, limits.y_plus, limits.y_minus),
@@ -137,5 +137,5 @@ fn axis(angle_deg: f64, motion: UnitMotion, plus_limit: bool, minus_limit: bool)
         UnitMotion::Negative => AxisMotion::Minus,
         UnitMotion::Unknown(code) => AxisMotion::Unknown(code),
     };
-    Axis { angle_deg, motion, plus_limit, minus_limit }
+    Axis { angle_deg: Some(angle_deg), motion, plus_limit, minus_limit }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{Refusal, Situation};
 use crate::{
     astro::{Angle, xy_mount},
-    controller::{Motion, aimed_direction},
+    controller::{Motion, aimed},
     driver::intent::Intent,
     station::Mount,
 };
@@ -20,14 +20,16 @@ const RECENT: Duration = Duration::from_secs(5);
 type Rule = fn(&Motion, &Situation<'_>) -> Result<(), Refusal>;
 
 /// All rules, the plainest reason first.
-pub(super) const RULES: [Rule; 9] = [
+pub(super) const RULES: [Rule; 11] = [
     something_is_asked_for,
+    controller_offers_it,
     position_is_fresh,
     no_stop_under_way,
     intent_allows_it,
     no_fault_forbids_it,
     no_limit_switch_in_that_direction,
     within_rates_and_steps,
+    no_blind_jog,
     within_travel,
     within_reach,
 ];
@@ -41,9 +43,28 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
             let finite = |angle: Option<Angle>| angle.is_none_or(Angle::is_finite);
             finite(azimuth) && finite(elevation) && (azimuth.is_some() || elevation.is_some())
         }
-        Motion::StartProgram | Motion::EnableAuto => true,
+        Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => true,
     };
     if sound { Ok(()) } else { Err(Refusal::Nothing) }
+}
+
+fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let can = situation.can;
+    let offered = match *motion {
+        Motion::Jog { x_deg_s: x, y_deg_s: y } => {
+            if can.jogs_one_axis && x != 0.0 && y != 0.0 {
+                return Err(Refusal::OneAxis);
+            }
+            true
+        }
+        Motion::Step { .. } => can.steps,
+        Motion::Position { elevation, .. } => {
+            can.takes_positions && (can.has_elevation || elevation.is_none())
+        }
+        Motion::StartProgram | Motion::EnableAuto => can.has_program,
+        Motion::Action(_) => true,
+    };
+    if offered { Ok(()) } else { Err(Refusal::NotOffered) }
 }
 
 fn position_is_fresh(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
@@ -55,7 +76,9 @@ fn position_is_fresh(motion: &Motion, situation: &Situation<'_>) -> Result<(), R
     let age = situation.now.steady.saturating_duration_since(measured.asked);
     let allowed = match motion {
         Motion::Jog { .. } | Motion::Step { .. } => FRESH,
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => RECENT,
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
+            RECENT
+        }
     };
     if age < allowed { Ok(()) } else { Err(Refusal::PositionOld(age)) }
 }
@@ -67,8 +90,11 @@ fn no_stop_under_way(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
 fn intent_allows_it(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let allowed = match motion {
         Motion::Jog { .. } | Motion::Step { .. } => situation.intent == Intent::Manual,
-        Motion::Position { .. } => matches!(situation.intent, Intent::Position | Intent::Park),
+        Motion::Position { .. } => {
+            matches!(situation.intent, Intent::Position | Intent::Park | Intent::Track)
+        }
         Motion::StartProgram => situation.intent == Intent::Track,
+        Motion::Action(_) => matches!(situation.intent, Intent::Manual | Intent::Position),
         Motion::EnableAuto => true,
     };
     if allowed { Ok(()) } else { Err(Refusal::Intent(situation.intent)) }
@@ -92,7 +118,7 @@ fn no_limit_switch_in_that_direction(
         return Ok(());
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    for ((asked, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.axes) {
+    for ((asked, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.can.axes) {
         if asked > 0.0 && axis.plus_limit {
             return Err(Refusal::Limit { axis: name, plus: true });
         }
@@ -119,7 +145,24 @@ fn within_rates_and_steps(motion: &Motion, situation: &Situation<'_>) -> Result<
                 return Err(Refusal::StepTooLarge { asked_deg, allowed_deg });
             }
         }
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => {}
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
+        }
+    }
+    Ok(())
+}
+
+/// Nobody would see where an axis without a known angle turns to, and nothing
+/// would end it when the link goes.
+fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let (Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y }) = *motion
+    else {
+        return Ok(());
+    };
+    let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
+    for ((asked, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.can.axes) {
+        if asked != 0.0 && axis.angle_deg.is_none() && !situation.can.ends_jogs {
+            return Err(Refusal::AngleUnknown { axis: name });
+        }
     }
     Ok(())
 }
@@ -130,21 +173,19 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
         // As far as it gets before the next position is looked at.
         Motion::Jog { x_deg_s, y_deg_s } => [x_deg_s * JOG_HORIZON_S, y_deg_s * JOG_HORIZON_S],
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
+            return Ok(());
+        }
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    let Mount::Xy { travel_from_deg, travel_to_deg, .. } = situation.mount;
-    for ((ahead_deg, axis), name) in ahead_deg.into_iter().zip(measured.axes).zip(situation.axes) {
-        let asked_deg = axis.angle_deg + ahead_deg;
-        let outward = (ahead_deg > 0.0 && asked_deg > travel_to_deg)
-            || (ahead_deg < 0.0 && asked_deg < travel_from_deg);
+    let axes = measured.axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
+    for (ahead_deg, ((axis, (from_deg, to_deg)), name)) in ahead_deg.into_iter().zip(axes) {
+        let Some(angle_deg) = axis.angle_deg else { continue };
+        let asked_deg = angle_deg + ahead_deg;
+        let outward =
+            (ahead_deg > 0.0 && asked_deg > to_deg) || (ahead_deg < 0.0 && asked_deg < from_deg);
         if outward {
-            return Err(Refusal::Travel {
-                axis: name,
-                asked_deg,
-                from_deg: travel_from_deg,
-                to_deg: travel_to_deg,
-            });
+            return Err(Refusal::Travel { axis: name, asked_deg, from_deg, to_deg });
         }
     }
     Ok(())
@@ -160,21 +201,24 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
             return Err(Refusal::Elevation { asked_deg, lowest_deg });
         }
     }
-    let measured = situation.state.measured.map(|measured| measured.direction);
-    let direction =
-        aimed_direction(azimuth, elevation, measured).ok_or(Refusal::PositionUnknown)?;
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = situation.mount;
-    let axes = xy_mount::axes_from_azel(direction, Angle::from_degrees(lower_axis_azimuth_deg));
-    for (angle, name) in [axes.lower, axes.upper].into_iter().zip(situation.axes) {
-        // The controller counts 90 at the zenith.
-        let asked_deg = angle.degrees() + 90.0;
-        if asked_deg < travel_from_deg || asked_deg > travel_to_deg {
-            return Err(Refusal::Travel {
-                axis: name,
-                asked_deg,
-                from_deg: travel_from_deg,
-                to_deg: travel_to_deg,
-            });
+    let measured = situation.state.measured.map(|measured| measured.pointing);
+    let aim = aimed(azimuth, elevation, measured);
+    let asked_deg = match situation.mount {
+        Mount::Xy { lower_axis_azimuth_deg, .. } => {
+            let direction = aim.direction().ok_or(Refusal::PositionUnknown)?;
+            let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+            let axes = xy_mount::axes_from_azel(direction, lower_axis);
+            // The controller counts 90 at the zenith.
+            [axes.lower, axes.upper].map(|angle| Some(angle.degrees() + 90.0))
+        }
+        // An axis that is left as it is does not move.
+        Mount::AzEl { .. } => [azimuth, elevation].map(|angle| angle.map(Angle::degrees)),
+    };
+    let ends = situation.mount.travel_deg().into_iter().zip(situation.can.axes);
+    for (asked_deg, ((from_deg, to_deg), axis)) in asked_deg.into_iter().zip(ends) {
+        let Some(asked_deg) = asked_deg else { continue };
+        if asked_deg < from_deg - 1e-9 || asked_deg > to_deg + 1e-9 {
+            return Err(Refusal::Travel { axis, asked_deg, from_deg, to_deg });
         }
     }
     Ok(())

@@ -9,10 +9,11 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    astro::Angle,
+    astro::AzEl,
     controller::{
         Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
         WireLine,
+        satrak::MAKE,
         settings::{Change, Group},
     },
     station::Antenna,
@@ -26,7 +27,7 @@ struct Metal {
 
 impl Device for Metal {
     fn capabilities(&self) -> Capabilities {
-        Capabilities { axes: ["X", "Y"] }
+        MAKE.capabilities
     }
     fn link_up(&mut self, _: Moment) {}
     fn link_down(&mut self, _: Moment) {}
@@ -73,6 +74,8 @@ impl Device for Metal {
 }
 
 impl Moves for Metal {
+    fn act(&mut self, _: Act) {}
+
     fn start(&mut self, motion: Motion) {
         self.started.lock().unwrap().push(motion);
     }
@@ -90,7 +93,7 @@ struct Case {
 impl Case {
     fn new(intent: Intent) -> Self {
         let axis = Axis {
-            angle_deg: 90.0,
+            angle_deg: Some(90.0),
             motion: AxisMotion::Still,
             plus_limit: false,
             minus_limit: false,
@@ -100,7 +103,7 @@ impl Case {
             at: Timestamp::UNIX_EPOCH,
             asked: now,
             received: now,
-            direction: AzEl::from_degrees(80.0, 45.0),
+            pointing: AzEl::from_degrees(80.0, 45.0).into(),
             axes: [axis; 2],
         };
         Self {
@@ -211,7 +214,8 @@ fn each_motion_belongs_to_its_intents() {
     for (motion, allowed) in [
         (jog(1.0, 0.0), &[Manual][..]),
         (step(1.0, 0.0), &[Manual]),
-        (position(10.0, 40.0), &[Position, Park]),
+        (position(10.0, 40.0), &[Position, Park, Track]),
+        (Motion::Action("turn"), &[Manual, Position]),
         (Motion::StartProgram, &[Track]),
         (Motion::EnableAuto, &all),
     ] {
@@ -294,7 +298,7 @@ fn positions_stay_above_the_lowest_elevation_and_out_of_the_keyholes() {
 fn an_angle_that_stays_is_taken_from_the_measured_position() {
     let mut case = Case::new(Intent::Position);
     case.antenna.limits.minimum_elevation_deg = 0.0;
-    case.state.measured.as_mut().unwrap().direction = AzEl::from_degrees(45.0, 3.0);
+    case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(45.0, 3.0).into();
     assert_eq!(case.ask(position(30.0, None)), Ok(()));
     assert!(matches!(case.ask(position(0.0, None)), Err(Refusal::Travel { axis: "Y", .. })));
 }
@@ -317,13 +321,13 @@ fn faults_that_were_not_read_yet_may_forbid_motion() {
 fn by_hand_the_axes_stay_within_their_travel() {
     let mut case = Case::new(Intent::Manual);
     if let Some(measured) = &mut case.state.measured {
-        measured.axes[0].angle_deg = 174.5;
+        measured.axes[0].angle_deg = Some(174.5);
     }
     assert!(matches!(case.ask(step(1.0, 0.0)), Err(Refusal::Travel { axis: "X", .. })));
     assert!(matches!(case.ask(jog(2.0, 0.0)), Err(Refusal::Travel { axis: "X", .. })));
     assert_eq!(case.ask(step(-1.0, 0.0)), Ok(()));
     if let Some(measured) = &mut case.state.measured {
-        measured.axes[0].angle_deg = 179.0;
+        measured.axes[0].angle_deg = Some(179.0);
     }
     assert_eq!(case.ask(jog(-2.0, 0.0)), Ok(()), "the way back is free");
 }

@@ -3,7 +3,7 @@
 use super::{Event, Session};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, Question, TrackTarget, settings::Change},
+    controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},
     driver::{Intent, Refusal},
 };
 
@@ -40,6 +40,13 @@ pub enum Command {
     Track(TrackTarget),
     /// To the park position.
     Park,
+    /// Open the link, and keep it.
+    Connect,
+    /// Close the link, and leave the device to others. A motion of its own goes
+    /// on.
+    Disconnect,
+    /// Do what only this make of controller can do.
+    Act(Act),
     /// The device may start to follow by itself.
     AutoTrack(bool),
     /// Read the group of settings with this key anew.
@@ -78,9 +85,10 @@ impl Session {
                 self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
             }
             Command::Park => {
+                let has_elevation = self.make.capabilities.has_elevation;
                 let motion = Motion::Position {
-                    azimuth: Some(self.park.azimuth),
-                    elevation: Some(self.park.elevation),
+                    azimuth: self.park.azimuth,
+                    elevation: self.park.elevation.filter(|_| has_elevation),
                 };
                 self.go_to(motion, Intent::Park, now);
             }
@@ -92,6 +100,21 @@ impl Session {
             Command::ReadGroup(group) => self.gate.device().read_group(group),
             Command::Settle(change) => self.gate.device().settle(change, now),
             Command::Ask(question) => self.gate.device().ask(question),
+            Command::Act(act) => self.act(act, now),
+            // Both are the loop's.
+            Command::Connect | Command::Disconnect => {}
+        }
+    }
+
+    fn act(&mut self, act: Act, now: Moment) {
+        let Some(action) = self.make.action(act.action) else {
+            return self.tell(Event::NotSent(Refusal::NotOffered));
+        };
+        let stopping = self.halting.is_some();
+        match self.gate.act(act, action.moves, self.intent, stopping, now) {
+            Ok(()) if action.moves => self.stopped_at = None,
+            Ok(()) => {}
+            Err(refusal) => self.tell(Event::NotSent(refusal)),
         }
     }
 
@@ -120,6 +143,7 @@ impl Session {
 
     /// Checked before anything that runs is ended for it.
     fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
+        let motion = self.gate.nearest(motion);
         if let Err(refusal) = self.gate.check(motion, intent, now) {
             return self.tell(Event::NotSent(refusal));
         }
@@ -181,7 +205,7 @@ impl Session {
             Command::Settle(change) => self.gate.device().settle(change, now),
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
-            Command::ReadGroup(_) | Command::Ask(_) => {}
+            Command::ReadGroup(_) | Command::Ask(_) | Command::Connect => {}
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { .. } | Command::EndJog => self.jog = None,
             Command::Standby => {

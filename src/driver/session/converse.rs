@@ -7,10 +7,10 @@ use tokio::{
     time::{sleep_until, timeout},
 };
 
-use super::{Command, Session};
+use super::{Command, Event, Intent, Session};
 use crate::{
     controller::{Extent, Moment},
-    driver::{LinkLoss, LinkState, Stream},
+    driver::{LinkLoss, LinkState, Refusal, Stream},
 };
 
 /// A connection that does not come up in this time is given up.
@@ -46,10 +46,19 @@ impl Session {
     /// Runs until the handle is dropped; a jog is stopped before the end.
     pub async fn run(mut self) {
         let mut attempt = 0;
-        while let Some(end) = self.connect_and_talk(&mut attempt).await {
-            let wait = BACK_OFF.get(attempt).or(BACK_OFF.last()).copied().unwrap_or(CONNECT);
-            attempt += 1;
-            if self.pause(end, wait).await.is_none() {
+        loop {
+            if !self.wanted && !self.is_sent_for().await {
+                break;
+            }
+            if let Some(loss) = self.connect_and_talk(&mut attempt).await {
+                let wait = BACK_OFF.get(attempt).or(BACK_OFF.last()).copied().unwrap_or(CONNECT);
+                attempt += 1;
+                if self.pause(loss, wait).await.is_some() {
+                    continue;
+                }
+            }
+            // Over, or let go of: in that case the next word is waited for.
+            if self.wanted {
                 break;
             }
         }
@@ -61,7 +70,44 @@ impl Session {
         self.publish(now);
     }
 
-    /// Why the link is lost again; `None` when the session is to end.
+    /// Waits for the operator to want a link; `false` when the session is to end.
+    /// A stop wants one: it is its first word.
+    async fn is_sent_for(&mut self) -> bool {
+        self.link = LinkState::Off;
+        self.away_since = None;
+        self.told_lost = false;
+        while !self.wanted {
+            let now = self.now();
+            self.publish(now);
+            match next_word(&mut self.wires.commands, &self.wires.stop).await {
+                Turn::Over => return false,
+                Turn::Stop => {
+                    self.halt_and_forget(now);
+                    self.wanted = true;
+                }
+                Turn::Command(Command::Connect) => self.wanted = true,
+                Turn::Command(command) => self.turn_down(command, now),
+                Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+            }
+        }
+        self.link = LinkState::Connecting { since: self.now().steady };
+        true
+    }
+
+    /// The operator leaves the device to others. What is owed to safety comes
+    /// first.
+    fn let_go(&mut self) -> bool {
+        if self.halting.is_some() {
+            self.tell(Event::NotSent(Refusal::Stopping));
+            return false;
+        }
+        self.wanted = false;
+        self.intent = Intent::Standby;
+        true
+    }
+
+    /// Why the link is lost again; `None` when the session is to end or the link
+    /// is not wanted any more.
     async fn connect_and_talk(&mut self, attempt: &mut usize) -> Option<LinkLoss> {
         let stream = match self.connect().await {
             Ok(Some(stream)) => stream,
@@ -143,12 +189,13 @@ impl Session {
         }
     }
 
-    /// `false` when the session is to end.
+    /// `false` when the session is to end or to let go of the device.
     fn answer_without_link(&mut self, turn: Turn) -> bool {
         let now = self.now();
         match turn {
             Turn::Over => return false,
             Turn::Stop => self.halt_and_forget(now),
+            Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
             Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
         }
@@ -198,6 +245,12 @@ impl Session {
                 Turn::Stop => {
                     let now = self.now();
                     self.halt_and_forget(now);
+                }
+                Turn::Command(Command::Disconnect) => {
+                    if self.let_go() {
+                        self.say_goodbye(&mut reader, &mut writer).await;
+                        return None;
+                    }
                 }
                 Turn::Command(command) => {
                     let now = self.now();

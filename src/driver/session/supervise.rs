@@ -13,8 +13,6 @@ use crate::{
 const EFFECT: Duration = Duration::from_secs(5);
 /// For tracking there are several steps to it.
 const TRACK_EFFECT: Duration = Duration::from_secs(15);
-/// As near as this counts as arrived, degrees; the readings have decimals.
-const ARRIVED_DEG: f64 = 0.3;
 /// An axis that has turned by less may not have been moved at all, degrees.
 const TURNED_DEG: f64 = 0.05;
 
@@ -96,7 +94,7 @@ impl Session {
                 self.stepping = None;
                 self.tell(event);
             }
-            Motion::EnableAuto => self.tell(event),
+            Motion::EnableAuto | Motion::Action(_) => self.tell(event),
             Motion::Position { .. } | Motion::StartProgram => self.give_up(event, now),
         }
     }
@@ -119,19 +117,25 @@ impl Session {
     }
 
     fn axes_deg(&self) -> Option<[f64; 2]> {
-        Some(self.gate.state().measured?.axes.map(|axis| axis.angle_deg))
+        let [x, y] = self.gate.state().measured?.axes.map(|axis| axis.angle_deg);
+        Some([x?, y?])
     }
 
     /// Says what the device was found doing when the link came up.
     fn greet(&mut self, now: Moment) {
         let state = self.gate.state();
-        let (Some(measured), Some(program)) = (state.measured, state.program) else { return };
+        let Some(measured) = state.measured else { return };
+        let tracks = match state.program {
+            Some(program) => program.enabled,
+            None if self.make.capabilities.has_program => return,
+            None => false,
+        };
         if !self.unread || state.link_since.is_none_or(|since| measured.asked < since) {
             return;
         }
         self.unread = false;
-        self.program_was_on = program.enabled;
-        let found = if program.enabled {
+        self.program_was_on = tracks;
+        let found = if tracks {
             Found::Tracking
         } else if measured.moving() {
             Found::Moving
@@ -170,7 +174,9 @@ impl Session {
             return;
         }
         let (Some(aim), Some(measured)) = (self.aim, self.gate.state().measured) else { return };
-        let near = measured.direction.separation(aim).degrees() <= ARRIVED_DEG;
+        let within_deg = self.make.capabilities.arrives_within_deg;
+        let off = measured.pointing.separation(aim);
+        let near = off.is_some_and(|off| off.degrees() <= within_deg);
         let Some(since) = self.pending else { return };
         if measured.asked <= since || measured.moving() {
             // Under way: the clock for the first effect starts anew.
@@ -184,7 +190,7 @@ impl Session {
             self.tell(Event::Arrived(aim));
         } else if now.steady.saturating_duration_since(since) >= EFFECT {
             self.pending = None;
-            self.tell(Event::EndedShort { aim, at: measured.direction });
+            self.tell(Event::EndedShort { aim, at: measured.pointing });
         }
     }
 

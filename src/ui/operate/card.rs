@@ -9,10 +9,9 @@ use super::antenna_card::{
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
     astro::Angle,
-    controller::{AxisMotion, Measured},
+    controller::{AxisMotion, Measured, Pointing},
     driver::{Command, Intent},
     protocol::satrak::{FaultKind, Satellite},
-    station::Mount,
     ui::{
         bar, format,
         state_sentence::{short, state_sentence},
@@ -148,48 +147,51 @@ fn second_line(antenna: &AntennaModel) -> String {
 
 fn axes(antenna: &AntennaModel) -> [AxisRow<'static>; 2] {
     let snapshot = &antenna.snapshot;
-    let actual = snapshot.state.measured.map(|measured| measured.direction);
-    let wanted = snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction));
+    let actual = snapshot.state.measured.map(|measured| measured.pointing);
+    let wanted = snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()));
     let rates = antenna.rates_deg_s;
     let error = wanted.zip(actual).map(|(wanted, actual)| {
-        (
-            (actual.azimuth - wanted.azimuth).wrapped_180().degrees(),
-            (actual.elevation - wanted.elevation).degrees(),
-        )
+        let off = |actual: Option<Angle>, wanted: Option<Angle>| {
+            Some((actual? - wanted?).wrapped_180().degrees())
+        };
+        (off(actual.azimuth, wanted.azimuth), off(actual.elevation, wanted.elevation))
     });
+    let azimuth_deg = |at: Pointing| at.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
+    let elevation_deg = |at: Pointing| at.elevation.map(Angle::degrees);
     [
         AxisRow {
             name: "Az",
-            wanted_deg: wanted.map(crate::astro::AzEl::azimuth_deg),
-            actual_deg: actual.map(crate::astro::AzEl::azimuth_deg),
-            error_deg: error.map(|(azimuth, _)| azimuth),
+            wanted_deg: wanted.and_then(azimuth_deg),
+            actual_deg: actual.and_then(azimuth_deg),
+            error_deg: error.and_then(|(azimuth, _)| azimuth),
             rate_deg_s: rates.map(|(azimuth, _)| azimuth),
         },
         AxisRow {
             name: "El",
-            wanted_deg: wanted.map(crate::astro::AzEl::elevation_deg),
-            actual_deg: actual.map(crate::astro::AzEl::elevation_deg),
-            error_deg: error.map(|(_, elevation)| elevation),
+            wanted_deg: wanted.and_then(elevation_deg),
+            actual_deg: actual.and_then(elevation_deg),
+            error_deg: error.and_then(|(_, elevation)| elevation),
             rate_deg_s: rates.map(|(_, elevation)| elevation),
         },
     ]
 }
 
 fn travel(antenna: &AntennaModel, measured: Option<Measured>) -> [TravelModel<'static>; 2] {
-    let Mount::Xy { travel_from_deg, travel_to_deg, .. } = antenna.config.mount;
-    let axis = |index: usize, name| {
+    let axis = |index: usize, name, travel_deg| {
         let axis = measured.and_then(|measured| measured.axes.get(index).copied());
         TravelModel {
             name,
             scale_deg: (0.0, 180.0),
-            travel_deg: (travel_from_deg, travel_to_deg),
-            position_deg: axis.map(|axis| axis.angle_deg),
+            travel_deg,
+            position_deg: axis.and_then(|axis| axis.angle_deg),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
             turns: false,
         }
     };
-    [axis(0, "X"), axis(1, "Y")]
+    let [x, y] = antenna.make().capabilities.axes;
+    let [of_x, of_y] = antenna.config.mount.travel_deg();
+    [axis(0, x, of_x), axis(1, y, of_y)]
 }
 
 fn blocked(measured: Measured) -> Vec<JogDirection> {

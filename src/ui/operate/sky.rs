@@ -70,17 +70,18 @@ pub(super) fn show(
             antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
         ),
         mask: model.station.horizon_mask.as_ref(),
-        keyholes: antenna.map(keyholes),
+        keyholes: antenna.and_then(keyholes),
         track,
         others: &others,
         sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
         moon: model.sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
-        commanded: antenna.and_then(|antenna| antenna.snapshot.aim),
+        commanded: antenna.and_then(|antenna| antenna.snapshot.aim?.direction()),
         ghost: antenna.and_then(|antenna| ghost(antenna, state)),
         beam_width: antenna.map_or(Angle::from_degrees(1.0), |antenna| antenna.config.beam_width()),
         measured: antenna
             .and_then(|antenna| antenna.snapshot.state.measured)
-            .map(|measured| Measured { direction: measured.direction, lost: lost.as_deref() }),
+            .and_then(|measured| measured.direction())
+            .map(|direction| Measured { direction, lost: lost.as_deref() }),
         predicted: antenna
             .and_then(|antenna| antenna.prediction)
             .map(|prediction| prediction.direction),
@@ -118,12 +119,14 @@ fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
 }
 
 /// Where the lower axis dips below what the travel reaches.
-fn keyholes(antenna: &AntennaModel) -> Keyholes {
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = antenna.config.mount;
-    Keyholes {
+fn keyholes(antenna: &AntennaModel) -> Option<Keyholes> {
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = antenna.config.mount else {
+        return None;
+    };
+    Some(Keyholes {
         lower_axis_azimuth: Angle::from_degrees(lower_axis_azimuth_deg),
         radius: Angle::from_degrees(travel_from_deg.clamp(1.0, 45.0)),
-    }
+    })
 }
 
 /// The way of a go-to that is typed but not sent.
@@ -132,7 +135,7 @@ fn ghost(antenna: &AntennaModel, state: &OperateState) -> Option<(AzEl, AzEl)> {
         return None;
     }
     let target = state.card.drive.go_to.previewed()?;
-    let from = antenna.snapshot.state.measured?.direction;
+    let from = antenna.snapshot.state.measured?.direction()?;
     let elevation_deg = target.elevation_deg.unwrap_or(from.elevation_deg());
     Some((from, AzEl::from_degrees(target.azimuth_deg, elevation_deg)))
 }

@@ -178,8 +178,12 @@ fn rounded(degrees: f64) -> f64 {
 
 fn fields_of(antenna: &Antenna) -> [Field; 14] {
     let range = |low, high, unit| Kind::Range { low, high, unit };
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = antenna.mount;
-    let Connection::Satrak { address, element_file } = &antenna.connection;
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = antenna.mount else {
+        return fields_of(&Antenna::satrak("", ""));
+    };
+    let Connection::Satrak { address, element_file } = &antenna.connection else {
+        return fields_of(&Antenna::satrak("", ""));
+    };
     let limits = antenna.limits;
     [
         Field::new("Name", Kind::Text, &antenna.name),
@@ -241,6 +245,7 @@ fn read_antenna(fields: &[Field; 14]) -> Option<Antenna> {
             maximum_step_deg: maximum_step.number()?,
         },
         poll: PollRates { idle_hz: idle.number()?, moving_hz: moving.number()? },
+        ..Antenna::satrak("", "")
     })
 }
 

@@ -53,11 +53,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             caution.plain("The unit ended tracking before LOS.")
         }
         Event::EndedShort { aim, at } => caution.plain(format!(
-            "Stands at {}, {} and not at {}, {}.",
-            format::degrees(at.azimuth_deg(), 1),
-            format::degrees(at.elevation_deg(), 1),
-            format::degrees(aim.azimuth_deg(), 1),
-            format::degrees(aim.elevation_deg(), 1)
+            "Stands at {} and not at {}.",
+            format::pointing(*at),
+            format::pointing(*aim)
         )),
         Event::JogLeaseOver => {
             caution.plain("The jog was stopped: the window did not hold it in time.")

@@ -45,10 +45,13 @@ struct Checked {
 impl Form {
     /// What is known of `antenna` without being asked.
     pub(super) fn of(antenna: &Antenna) -> Self {
-        let Connection::Satrak { address, element_file } = &antenna.connection;
+        let file = match &antenna.connection {
+            Connection::Satrak { element_file, .. } => element_file.clone(),
+            _ => String::new(),
+        };
         Self {
-            file: element_file.clone(),
-            host: host(address),
+            file,
+            host: host(antenna.connection.address()),
             port: SSH.to_owned(),
             folder: UNIT_FOLDER.to_owned(),
             user: String::new(),

@@ -52,6 +52,11 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::degrees(*from_deg, 1),
             format::degrees(*to_deg, 1)
         ),
+        Refusal::NotOffered => "Not sent: this controller cannot do that.".to_owned(),
+        Refusal::AngleUnknown { axis } => {
+            format!("Not sent: the angle of {axis} is not known, nobody would see it turn.")
+        }
+        Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }

@@ -1,0 +1,81 @@
+//! What a controller can do, as far as the rest of the program has to know.
+
+/// What a controller can do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capabilities {
+    /// Names of the two axes that are jogged.
+    pub axes: [&'static str; 2],
+    /// It follows a satellite by itself, from the elements that it holds.
+    pub has_program: bool,
+    /// It takes directions; without it there is no go-to, no park and no
+    /// tracking by this program.
+    pub takes_positions: bool,
+    /// A direction that is off by this much counts as reached, degrees.
+    pub arrives_within_deg: f64,
+    /// It turns both angles of the sky. Without it the elevation is neither read
+    /// nor commanded.
+    pub has_elevation: bool,
+    /// How fast it jogs.
+    pub jog: JogSpeeds,
+    /// One axis at a time is jogged.
+    pub jogs_one_axis: bool,
+    /// It takes single steps.
+    pub steps: bool,
+    /// A jog ends in the device by itself, so that an axis whose angle is not
+    /// known may be jogged all the same.
+    pub ends_jogs: bool,
+    /// Whatever is asked of it may take its panel from somebody who stands in
+    /// front of it. It is left alone until the operator connects to it.
+    pub waits_for_word: bool,
+    /// What STOP does beyond stopping this antenna, in a sentence.
+    pub stop_note: Option<&'static str>,
+}
+
+/// How fast a controller jogs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JogSpeeds {
+    /// At any rate up to the highest that is allowed.
+    AnyRate,
+    /// At one of these, the slowest first.
+    Named(&'static [JogSpeed]),
+}
+
+/// A speed without a figure that the device would know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JogSpeed {
+    /// As on the front panel.
+    pub name: &'static str,
+    /// As a share of the highest allowed rate. It is what tells the speeds of one
+    /// controller apart, not a promise.
+    pub share: f64,
+}
+
+impl JogSpeeds {
+    /// The named speed that is meant by a rate, of which the highest is
+    /// `maximum_rate_deg_s`; `None` where any rate is possible.
+    pub fn nearest(self, rate_deg_s: f64, maximum_rate_deg_s: f64) -> Option<JogSpeed> {
+        let Self::Named(speeds) = self else { return None };
+        let share = rate_deg_s.abs() / maximum_rate_deg_s;
+        let off = |speed: &JogSpeed| (speed.share - share).abs();
+        speeds.iter().min_by(|a, b| off(a).total_cmp(&off(b))).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPEEDS: &[JogSpeed] =
+        &[JogSpeed { name: "Slow", share: 0.25 }, JogSpeed { name: "Fast", share: 1.0 }];
+
+    #[test]
+    fn a_rate_means_the_nearest_named_speed_either_way_round() {
+        let slow = JogSpeed { name: "Slow", share: 0.25 };
+        let fast = JogSpeed { name: "Fast", share: 1.0 };
+        let speeds = JogSpeeds::Named(SPEEDS);
+        assert_eq!(speeds.nearest(-0.5, 2.0), Some(slow));
+        assert_eq!(speeds.nearest(2.0, 2.0), Some(fast));
+        assert_eq!(speeds.nearest(-1.9, 2.0), Some(fast));
+        assert_eq!(JogSpeeds::AnyRate.nearest(1.0, 2.0), None);
+    }
+}

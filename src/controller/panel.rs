@@ -1,0 +1,99 @@
+//! The panel of a controller: what it tells beyond its position, and what only
+//! it can do. The window draws both from these descriptions.
+
+use std::borrow::Cow;
+
+use super::settings::{Field, Values};
+
+/// One line of what a device tells of itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Before the value. Lines with the same label would not be told apart.
+    pub label: Cow<'static, str>,
+    /// As shown, with its unit.
+    pub text: String,
+    /// For a bar: how full it is, 0 to 1.
+    pub share: Option<f64>,
+    /// Whether it is worth a second look.
+    pub tone: Tone,
+}
+
+impl Reading {
+    /// A plain line.
+    pub fn new(label: impl Into<Cow<'static, str>>, text: impl Into<String>) -> Self {
+        Self { label: label.into(), text: text.into(), share: None, tone: Tone::Plain }
+    }
+
+    /// With a bar that is full by `share`, 0 to 1.
+    #[must_use]
+    pub fn with_bar(self, share: f64) -> Self {
+        Self { share: Some(share.clamp(0.0, 1.0)), ..self }
+    }
+
+    /// In this tone.
+    #[must_use]
+    pub fn in_tone(self, tone: Tone) -> Self {
+        Self { tone, ..self }
+    }
+}
+
+/// Whether something is worth a second look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// As usual.
+    Plain,
+    /// Unusual.
+    Caution,
+    /// Wrong.
+    Bad,
+}
+
+/// A fault or warning that a device can report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Check {
+    /// As the operator knows it.
+    pub name: &'static str,
+    /// How it is.
+    pub state: CheckState,
+    /// What to do about it, in a sentence.
+    pub advice: &'static str,
+}
+
+/// How a checked thing is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CheckState {
+    /// Not told.
+    Unknown,
+    /// All right.
+    Good,
+    /// A warning.
+    Caution,
+    /// A fault.
+    Fault,
+}
+
+/// What only this make of controller can do.
+#[derive(Debug)]
+pub struct Action {
+    /// Names it in commands and logs.
+    pub key: &'static str,
+    /// On its key.
+    pub label: &'static str,
+    /// What it does, in a sentence or two.
+    pub about: &'static str,
+    /// What it needs to be told; the window asks for it.
+    pub fields: &'static [Field],
+    /// Metal may move by it: it passes every rule of the gate.
+    pub moves: bool,
+    /// Asked before it is done, where it cannot be undone.
+    pub question: Option<&'static str>,
+}
+
+/// An action with what it was told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Act {
+    /// Key of the action.
+    pub action: &'static str,
+    /// By the keys of its fields.
+    pub values: Values,
+}

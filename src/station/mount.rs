@@ -1,0 +1,68 @@
+//! How the axes of an antenna are arranged and how far they travel.
+
+use serde::Serialize;
+
+use crate::astro::Angle;
+
+/// How the axes are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub enum Mount {
+    /// Two crossed axes, the lower one horizontal; the keyholes lie at its ends.
+    Xy {
+        /// Azimuth to which the lower axis points, degrees, 0 to 180.
+        lower_axis_azimuth_deg: f64,
+        /// Lower end of the travel of both axes as the controller counts
+        /// (90 at the zenith), degrees.
+        travel_from_deg: f64,
+        /// Upper end of the travel, degrees.
+        travel_to_deg: f64,
+    },
+    /// Elevation over azimuth. With a rotator for the azimuth alone the elevation
+    /// is not used.
+    AzEl {
+        /// Counter-clockwise end of the azimuth axis, degrees from north over
+        /// east, -360 to 360.
+        azimuth_from_deg: f64,
+        /// Clockwise end, degrees; above 360 where the axis turns by more than a
+        /// turn.
+        azimuth_to_deg: f64,
+        /// Lower end of the elevation axis, degrees.
+        elevation_from_deg: f64,
+        /// Upper end, degrees, to 180 where the mount tips over.
+        elevation_to_deg: f64,
+    },
+}
+
+impl Mount {
+    /// Both ends of the travel of the two axes, degrees as the mount counts.
+    pub fn travel_deg(&self) -> [(f64, f64); 2] {
+        match *self {
+            Self::Xy { travel_from_deg, travel_to_deg, .. } => {
+                [(travel_from_deg, travel_to_deg); 2]
+            }
+            Self::AzEl {
+                azimuth_from_deg,
+                azimuth_to_deg,
+                elevation_from_deg,
+                elevation_to_deg,
+            } => [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)],
+        }
+    }
+
+    /// The position of the azimuth axis that points to `azimuth`, the one nearest
+    /// to `near_deg`. Where no position of the axis does, and for a mount without
+    /// such an axis, the azimuth as it is.
+    pub fn axis_azimuth(&self, azimuth: Angle, near_deg: Option<f64>) -> Angle {
+        let Self::AzEl { azimuth_from_deg: from, azimuth_to_deg: to, .. } = *self else {
+            return azimuth;
+        };
+        let lowest = from + (azimuth.degrees() - from).rem_euclid(360.0);
+        let turns = (0..).map(|turn: u32| lowest + 360.0 * f64::from(turn));
+        let way = |axis_deg: &f64| near_deg.map_or(0.0, |near| (axis_deg - near).abs());
+        turns
+            .take_while(|axis_deg| *axis_deg <= to)
+            .min_by(|a, b| way(a).total_cmp(&way(b)))
+            .map_or(azimuth, Angle::from_degrees)
+    }
+}
