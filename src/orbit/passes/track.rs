@@ -25,7 +25,7 @@ const TIME_TOLERANCE_S: f64 = 5e-4;
 /// The greatest elevation is found as exactly as this, in radians, and its time
 /// as this, in seconds.
 const CREST_TOLERANCE: f64 = 3e-7;
-const CREST_TIME_TOLERANCE_S: f64 = 6e-3;
+const CREST_TIME_TOLERANCE_S: f64 = 8e-3;
 /// Distance of the second state where one does not show the speed well enough.
 const MENDING_STEP_S: f64 = 15.0;
 
