@@ -19,6 +19,7 @@ mod satrak_session {
     mod every_command;
     mod idle;
     mod jog;
+    mod let_go;
     mod oddities;
     mod overtaken;
     mod position;
