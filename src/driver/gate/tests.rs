@@ -1,5 +1,7 @@
 //! Each rule refuses and allows.
 
+mod makes;
+
 use std::{
     sync::{Arc, Mutex},
     time::{Duration, Instant},
@@ -11,9 +13,8 @@ use super::*;
 use crate::{
     astro::AzEl,
     controller::{
-        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
+        Axis, AxisMotion, Capabilities, Extent, Happening, Make, Measured, Question, TrackTarget,
         WireLine,
-        satrak::MAKE,
         settings::{Change, Group},
     },
     station::Antenna,
@@ -21,13 +22,14 @@ use crate::{
 
 /// A controller that remembers what was started.
 struct Metal {
+    can: Capabilities,
     state: AntennaState,
     started: Arc<Mutex<Vec<Motion>>>,
 }
 
 impl Device for Metal {
     fn capabilities(&self) -> Capabilities {
-        MAKE.capabilities
+        self.can
     }
     fn link_up(&mut self, _: Moment) {}
     fn link_down(&mut self, _: Moment) {}
@@ -127,7 +129,8 @@ impl Case {
     /// What the gate says; it is checked that only an allowed motion starts.
     fn ask(&self, motion: Motion) -> Result<(), Refusal> {
         let started = Arc::new(Mutex::new(Vec::new()));
-        let metal = Metal { state: self.state.clone(), started: Arc::clone(&started) };
+        let can = Make::of(&self.antenna.connection).capabilities;
+        let metal = Metal { can, state: self.state.clone(), started: Arc::clone(&started) };
         let mut gate = Gate::new(Box::new(metal), self.antenna.limits, self.antenna.mount);
         let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
         let now = Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH };

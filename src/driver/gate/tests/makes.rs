@@ -1,0 +1,113 @@
+//! What differs from make to make.
+
+use super::*;
+use crate::station::{Connection, Rotators};
+
+fn of(antenna: Antenna, intent: Intent) -> Case {
+    let mut case = Case { antenna, ..Case::new(intent) };
+    for axis in case.axes() {
+        axis.angle_deg = Some(45.0);
+    }
+    case
+}
+
+fn genius(intent: Intent) -> Case {
+    of(Antenna::genius("Mast", ""), intent)
+}
+
+fn rc2000c(intent: Intent) -> Case {
+    of(Antenna::rc2000c("Dish", ""), intent)
+}
+
+fn alone(intent: Intent) -> Case {
+    let mut antenna = Antenna::genius("Mast", "");
+    antenna.connection = Connection::Genius { address: String::new(), rotators: Rotators::First };
+    of(antenna, intent)
+}
+
+#[test]
+fn what_a_controller_cannot_do_is_not_asked_of_it() {
+    assert_eq!(genius(Intent::Track).ask(Motion::StartProgram), Err(Refusal::NotOffered));
+    assert_eq!(genius(Intent::Track).ask(Motion::EnableAuto), Err(Refusal::NotOffered));
+    assert_eq!(genius(Intent::Manual).ask(step(1.0, 0.0)), Err(Refusal::NotOffered));
+    let alone = alone(Intent::Position);
+    assert_eq!(alone.ask(position(10.0, 20.0)), Err(Refusal::NotOffered), "no elevation axis");
+    assert_eq!(alone.ask(position(10.0, None)), Ok(()));
+}
+
+#[test]
+fn one_axis_at_a_time_where_the_controller_turns_one() {
+    for case in [genius(Intent::Manual), rc2000c(Intent::Manual)] {
+        assert_eq!(case.ask(jog(1.0, 1.0)), Err(Refusal::OneAxis));
+        assert_eq!(case.ask(jog(0.0, -1.0)), Ok(()));
+    }
+    assert_eq!(Case::new(Intent::Manual).ask(jog(1.0, 1.0)), Ok(()));
+}
+
+#[test]
+fn an_axis_of_unknown_angle_is_jogged_only_where_the_unit_ends_the_jog() {
+    let (mut genius, mut rc2000c) = (genius(Intent::Manual), rc2000c(Intent::Manual));
+    for case in [&mut genius, &mut rc2000c] {
+        case.axes()[0].angle_deg = None;
+    }
+    assert_eq!(genius.ask(jog(1.0, 0.0)), Err(Refusal::AngleUnknown { axis: "Az" }));
+    assert_eq!(genius.ask(jog(0.0, 1.0)), Ok(()), "the other one is known");
+    assert_eq!(rc2000c.ask(jog(1.0, 0.0)), Ok(()));
+}
+
+#[test]
+fn an_azimuth_axis_has_its_own_ends() {
+    let mut case = rc2000c(Intent::Track);
+    case.antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 450.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    assert_eq!(case.ask(position(449.0, 30.0)), Ok(()));
+    let beyond = case.ask(position(451.0, 30.0));
+    assert!(matches!(beyond, Err(Refusal::Travel { axis: "Az", .. })), "{beyond:?}");
+
+    // An axis that stays where it is asks for nothing.
+    case.axes()[0].angle_deg = None;
+    assert_eq!(case.ask(position(None, 30.0)), Ok(()));
+}
+
+#[test]
+fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
+    let mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 450.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    for (at_deg, asked_deg, wanted_deg) in
+        [(350.0, 10.0, 370.0), (20.0, 10.0, 10.0), (440.0, 100.0, 100.0), (440.0, 80.0, 440.0)]
+    {
+        let mut case = rc2000c(Intent::Position);
+        case.axes()[0].angle_deg = Some(at_deg);
+        let metal = Metal {
+            can: Make::of(&case.antenna.connection).capabilities,
+            state: case.state.clone(),
+            started: Arc::default(),
+        };
+        let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
+        let Motion::Position { azimuth: Some(axis), .. } = gate.nearest(position(asked_deg, 30.0))
+        else {
+            panic!("it stays a position")
+        };
+        assert!((axis.degrees() - wanted_deg).abs() < 1e-9, "{at_deg} {asked_deg}: {axis:?}");
+    }
+}
+
+#[test]
+fn an_action_that_moves_passes_every_rule() {
+    let mut case = rc2000c(Intent::Manual);
+    let action = Motion::Action("auto_move");
+    assert_eq!(case.ask(action), Ok(()));
+    case.stopping = true;
+    assert_eq!(case.ask(action), Err(Refusal::Stopping));
+    case.stopping = false;
+    case.state.motion_lock = Some(true);
+    assert_eq!(case.ask(action), Err(Refusal::Fault));
+}
