@@ -26,7 +26,14 @@ pub mod source_tests;
 pub mod sources;
 pub mod uploads;
 
-use std::{path::PathBuf, sync::Arc, time::Instant};
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Instant,
+};
 
 pub use command::UiCommand;
 pub use model::{Model, View};
@@ -80,6 +87,8 @@ pub struct App {
     keeper: Keeper,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
+    /// The operator or the operating system has said so: nothing is asked.
+    may_close: Arc<AtomicBool>,
     drawn: bool,
 }
 
@@ -111,7 +120,8 @@ impl App {
             copies: copies::Copies::default(),
             view: View::Operate,
         };
-        close_on_signals(&driver, ctx.clone());
+        let may_close = Arc::default();
+        close_on_signals(&driver, Arc::clone(&may_close), ctx.clone());
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
@@ -137,6 +147,7 @@ impl App {
             source_tests,
             keeper,
             settings_unread: false,
+            may_close,
             drawn: false,
         };
         app.load_station();
@@ -211,11 +222,12 @@ impl Drop for App {
 
 /// A log-out or Ctrl C in the terminal closes the window in order, so that a
 /// jog ends with STOP.
-fn close_on_signals(driver: &Driver, ctx: egui::Context) {
+fn close_on_signals(driver: &Driver, may_close: Arc<AtomicBool>, ctx: egui::Context) {
     driver.runtime().spawn(async move {
         if let Err(error) = driver::told_to_end().await {
             return tracing::error!(%error, "signals are not heard");
         }
+        may_close.store(true, Ordering::Relaxed);
         ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         ctx.request_repaint_after_for(std::time::Duration::from_millis(1), egui::ViewportId::ROOT);
     });
@@ -249,6 +261,13 @@ impl eframe::App for App {
             self.stop_all();
         }
         let mut commands = Vec::new();
+        let closes = ui.input(|input| input.viewport().close_requested());
+        if closes
+            && !self.may_close.load(Ordering::Relaxed)
+            && self.views.ask_before_closing(&self.model, &mut commands)
+        {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        }
         self.views.show(ui, &self.model, &mut commands);
         if stop || commands.contains(&UiCommand::Stop) {
             self.uploads.stopped();

@@ -1,6 +1,6 @@
 //! Carries out what the views asked for.
 
-use std::sync::Arc;
+use std::sync::{Arc, atomic::Ordering};
 
 use super::{
     App, UiCommand,
@@ -22,6 +22,10 @@ impl App {
         let model = &mut self.model;
         match command {
             UiCommand::Stop => self.stop_all(),
+            UiCommand::Close => {
+                self.may_close.store(true, Ordering::Relaxed);
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
             UiCommand::SelectPass(key) => model.selected = Some(key),
             UiCommand::SelectSatellite(number) => {
                 model.selected =

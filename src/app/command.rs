@@ -19,6 +19,8 @@ use crate::{
 pub enum UiCommand {
     /// Stop every antenna.
     Stop,
+    /// Close the window, whatever is lost with it.
+    Close,
     /// Show this pass.
     SelectPass(PassKey),
     /// Show the present or next pass of this satellite.

@@ -67,6 +67,13 @@ impl AntennasState {
         }
     }
 
+    /// How many values were typed that are on none of the units.
+    pub fn edited(&self, model: &Model) -> usize {
+        let units = (0..model.antennas.len()).filter_map(|index| Unit::of(model, index));
+        let edited = |unit: Unit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
+        units.filter_map(edited).sum()
+    }
+
     /// The question before the operator leaves edits behind, where one of the
     /// commands from the place `from` on does so. The edits are kept.
     pub fn ask_before_leaving(

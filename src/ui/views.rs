@@ -134,6 +134,30 @@ impl Views {
         keys::list::show(ui, &mut self.keys_open);
     }
 
+    /// Asks before the window closes where something would be lost with it.
+    /// Whether there is something to ask. A key that is held down ends here.
+    pub fn ask_before_closing(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
+        let mut lost = Vec::new();
+        match self.antennas.edited(model) {
+            0 => {}
+            1 => lost.push("1 change of a unit's settings is not applied.".to_owned()),
+            edited => lost.push(format!("{edited} changes of units' settings are not applied.")),
+        }
+        if self.preferences.is_edited() {
+            lost.push("The station settings are not saved.".to_owned());
+        }
+        if model.uploads.stage.is_open() {
+            lost.push("An upload is under way.".to_owned());
+        }
+        if lost.is_empty() {
+            return false;
+        }
+        self.operate.leave_card(commands);
+        let text = format!("{} Close all the same?", lost.join(" "));
+        self.question = Some(Question { text, yes: "Close", command: UiCommand::Close });
+        true
+    }
+
     /// The station has changed, and not by the preferences.
     pub fn station_changed(&mut self) {
         self.preferences.forget();

@@ -10,6 +10,7 @@
 
 mod bar;
 mod clock;
+mod closing;
 mod console;
 mod console_send;
 mod drive;
