@@ -19,7 +19,7 @@ use tokio::sync::{Notify, mpsc, watch};
 pub use clock::Clock;
 pub use gate::Refusal;
 pub use intent::Intent;
-pub use link::{Dial, Stream, dial_tcp};
+pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{Event, Found, LinkLoss, LinkState, Snapshot, StopState};
 pub use time_sync::{TimeSync, time_sync};
