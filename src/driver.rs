@@ -26,7 +26,7 @@ pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use crate::{
-    controller::{Moves, satrak::Satrak},
+    controller::{Moves, rc2000c::Rc2000c, satrak::Satrak},
     station::{Antenna, Connection},
 };
 
@@ -156,7 +156,11 @@ impl Driver {
                 Box::new(Satrak::new(antenna.poll, element_file.clone())),
                 dial_tcp(address.clone()),
             ),
-            Connection::Genius { .. } | Connection::Rc2000c { .. } => todo!(),
+            Connection::Rc2000c { address, baud, bus_address, calibration } => (
+                Box::new(Rc2000c::new(antenna, *baud, *bus_address, calibration)),
+                dial_line(address, *baud),
+            ),
+            Connection::Genius { .. } => todo!(),
         };
         let (session, handle) =
             Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));
