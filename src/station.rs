@@ -2,6 +2,7 @@
 //! one TOML file that forgives what it can and never loses what it cannot read.
 
 mod antenna;
+mod calibration;
 mod connection;
 mod file;
 mod following;
@@ -9,6 +10,7 @@ mod mount;
 mod read;
 
 pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
+pub use calibration::{CalibrationError, CountLine};
 pub use connection::{Calibration, Connection, CountPoint, Rotators};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub use following::{AfterPass, Following};
