@@ -26,7 +26,7 @@ pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use crate::{
-    controller::{Moves, satrak::Satrak},
+    controller::{Moves, rotator_genius::Genius, satrak::Satrak},
     station::{Antenna, Connection},
 };
 
@@ -156,7 +156,10 @@ impl Driver {
                 Box::new(Satrak::new(antenna.poll, element_file.clone())),
                 dial_tcp(address.clone()),
             ),
-            Connection::Genius { .. } | Connection::Rc2000c { .. } => todo!(),
+            Connection::Genius { address, rotators } => {
+                (Box::new(Genius::new(antenna.poll, *rotators)), dial_tcp(address.clone()))
+            }
+            Connection::Rc2000c { .. } => todo!(),
         };
         let (session, handle) =
             Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));

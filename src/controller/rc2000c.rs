@@ -6,6 +6,7 @@ use super::{Capabilities, JogSpeed, JogSpeeds, Make};
 pub const MAKE: Make = Make {
     key: "rc2000c",
     name: "Research Concepts RC2000C",
+    closed_note: None,
     capabilities: Capabilities {
         axes: ["Az", "El"],
         has_program: false,
