@@ -13,6 +13,13 @@ mod genius_session {
     mod rig;
     mod script;
 
+    mod alone;
     mod connect;
+    mod go_to;
+    mod jog;
+    mod oddities;
     mod pair;
+    mod rescue;
+    mod stop;
+    mod wire;
 }

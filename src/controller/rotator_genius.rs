@@ -73,7 +73,7 @@ const RESCUE_REPLY: Duration = Duration::from_millis(400);
 const RESCUE_POLL: Duration = Duration::from_millis(250);
 /// After a question had to be repeated, the answers to both may come. Nothing is
 /// asked until the surplus one must have come.
-const DRAIN: Duration = Duration::from_millis(500);
+const DRAIN: Duration = Duration::from_millis(1100);
 /// After this long without a byte, what is unfinished stays unfinished.
 const QUIET: Duration = Duration::from_millis(250);
 /// Without any good reply for this long, the link is given up.

@@ -243,9 +243,13 @@ impl Rig {
         self.control.state().rotators[number - 1]
     }
 
-    /// All commands that the device received, without the questions.
+    /// All commands that the device received, without the questions. A stop is
+    /// sent again until it is proved, and stands here once.
     pub(super) fn orders(&self) -> Vec<String> {
-        self.commands().into_iter().filter(|command| command != "|h").collect()
+        let mut orders = self.commands();
+        orders.retain(|command| command != "|h");
+        orders.dedup_by(|a, b| a == b && a == "|S");
+        orders
     }
 
     /// All commands that the device received.

@@ -154,6 +154,9 @@ impl Genius {
         let asked = missing.or(read.as_ref().map(Outstanding::sent));
         let Some(asked) = asked else {
             self.state.traffic.unsolicited += 1;
+            if let Some(until) = &mut self.drain_until {
+                *until = now.steady + DRAIN;
+            }
             return;
         };
         self.count_reply(now);
