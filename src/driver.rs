@@ -21,7 +21,9 @@ pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_tcp};
 pub use session::{Command, Session, Wires};
-pub use snapshot::{Event, Found, LinkLoss, LinkState, Snapshot, StopState};
+pub use snapshot::{
+    Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, Snapshot, StopState,
+};
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 

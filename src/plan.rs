@@ -1,9 +1,11 @@
-//! What a mount can follow, and lists of passes for others to read. Pure
-//! functions over passes.
+//! What a mount can follow, how it follows it, and lists of passes for others to
+//! read. Pure functions over passes.
 
 mod azimuth_route;
+pub mod follow;
 pub mod pass_export;
 mod trackability;
 
 pub use azimuth_route::{AzimuthRange, AzimuthRoute, RangeTooSmall};
+pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use trackability::{Sample, Trackability, trackability};

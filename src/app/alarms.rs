@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     controller::{Motion, PrepareError, TrackTarget},
-    driver::{Event, Found, LinkLoss},
+    driver::{Event, FollowProblem, Found, LinkLoss},
     protocol::satrak::FaultKind,
     station::Note,
 };
@@ -44,6 +44,8 @@ pub enum AlarmKind {
     Unanswered(Motion),
     /// The satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
+    /// A target cannot be followed position by position, or no further.
+    CannotFollow(String, FollowProblem),
     /// Tracking ended before LOS.
     TrackingEnded,
     /// A motion ended somewhere else.
@@ -232,6 +234,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
         Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
+        Event::CannotFollow(name, problem) => AlarmKind::CannotFollow(name, problem),
         Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,
         Event::EndedShort { .. } => AlarmKind::EndedShort,
         Event::StartedByItself | Event::Connected(Found::Tracking) => AlarmKind::StartedByItself,
@@ -241,6 +244,9 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::Back { .. }
         | Event::NotSent(_)
         | Event::Tracking(_)
+        | Event::Awaits { .. }
+        | Event::Follows(_)
+        | Event::FollowOver { .. }
         | Event::Arrived(_)
         | Event::Stopped => return None,
     })

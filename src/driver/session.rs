@@ -5,6 +5,7 @@
 mod command;
 mod converse;
 mod farewell;
+mod follow;
 mod halting;
 mod jog;
 mod liveness;
@@ -26,9 +27,10 @@ use super::{
 };
 use crate::{
     controller::{Make, Moment, Moves, Pointing, TrackTarget},
-    station::Antenna,
+    station::{AfterPass, Antenna},
 };
 use command::Waiting;
+use follow::Following;
 use halting::Halting;
 use jog::Jog;
 use step::Stepping;
@@ -49,6 +51,8 @@ pub struct Session {
     gate: Gate,
     make: &'static Make,
     park: Pointing,
+    /// What it does when a pass is over.
+    after: AfterPass,
     /// The operator wants a link.
     wanted: bool,
     dial: Dial,
@@ -69,6 +73,8 @@ pub struct Session {
     pending: Option<Instant>,
     aim: Option<Pointing>,
     target: Option<TrackTarget>,
+    /// What this program follows, position by position.
+    following: Option<Following>,
     jog: Option<Jog>,
     /// A step that is not known to be over.
     stepping: Option<Stepping>,
@@ -112,6 +118,7 @@ impl Session {
             gate,
             make,
             park: antenna.park_direction().into(),
+            after: antenna.follow.after,
             wanted,
             dial,
             clock,
@@ -126,6 +133,7 @@ impl Session {
             pending: None,
             aim: None,
             target: None,
+            following: None,
             jog: None,
             stepping: None,
             waiting: None,
@@ -153,6 +161,7 @@ impl Session {
             pending: self.pending.is_some(),
             aim: self.aim,
             target: self.target.clone(),
+            following: self.following.as_ref().map(Following::view),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
             step: self.stepping.map(|stepping| stepping.steps_deg),

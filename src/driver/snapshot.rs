@@ -5,10 +5,16 @@ use std::{
     time::{Duration, Instant},
 };
 
+use jiff::Timestamp;
+
 use super::{Intent, Refusal};
-use crate::controller::{
-    AntennaState, Motion, Pointing, PrepareError, TrackTarget,
-    settings::{GroupState, Held},
+use crate::{
+    controller::{
+        AntennaState, Motion, Pointing, PrepareError, TrackTarget,
+        settings::{GroupState, Held},
+    },
+    orbit::PropagationError,
+    plan::{FollowPhase, FollowStats, Sample},
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -24,6 +30,8 @@ pub struct Snapshot {
     pub aim: Option<Pointing>,
     /// What is to be tracked.
     pub target: Option<TrackTarget>,
+    /// What this program follows with it, position by position.
+    pub following: Option<FollowView>,
     /// The stop button.
     pub stop: StopState,
     /// Signed rates of a jog that is held, degrees a second.
@@ -45,6 +53,7 @@ impl Snapshot {
             pending: false,
             aim: None,
             target: None,
+            following: None,
             stop: StopState::Ready,
             jog: None,
             step: None,
@@ -77,6 +86,11 @@ impl Snapshot {
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.satrak.clock = self.state.satrak.clock;
         newer.state.satrak.gps = self.state.satrak.gps;
+        if let (Some(old), Some(new)) = (&self.following, &mut newer.following) {
+            new.next_look = old.next_look;
+            new.stats = old.stats;
+            new.predicted = old.predicted;
+        }
         if let (Some(old), Some(new)) = (&self.state.satrak.faults, &mut newer.state.satrak.faults)
         {
             new.1 = old.1;
@@ -92,6 +106,24 @@ fn same_settings(old: &Held, new: &Held) -> bool {
         (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
+}
+
+/// What is followed position by position, and how well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FollowView {
+    /// Of the target.
+    pub name: String,
+    /// Of a satellite, up to nine digits.
+    pub catalog_number: Option<u32>,
+    /// Where it is in its passes.
+    pub phase: FollowPhase,
+    /// How well it is followed, and the number of commands.
+    pub stats: FollowStats,
+    /// When it is looked at next whether the antenna is where it should be.
+    pub next_look: Option<Instant>,
+    /// Where the target stood when the antenna was measured last; `None` unless
+    /// it is followed right now.
+    pub predicted: Option<Sample>,
 }
 
 /// The link to a controller.
@@ -204,6 +236,24 @@ pub enum Event {
         /// At the end of the pass, not before.
         completed: bool,
     },
+    /// The antenna goes to where this target will rise, and waits there.
+    Awaits {
+        /// Name of the target.
+        name: String,
+        /// When it rises.
+        aos: Timestamp,
+    },
+    /// The antenna follows the target of this name, position by position.
+    Follows(String),
+    /// The last pass of a target is over.
+    FollowOver {
+        /// Name of the target.
+        name: String,
+        /// How well it was followed.
+        stats: FollowStats,
+    },
+    /// The target of this name cannot be followed, or no further.
+    CannotFollow(String, FollowProblem),
     /// A motion to a position has arrived.
     Arrived(Pointing),
     /// A motion to a position ended elsewhere.
@@ -227,6 +277,20 @@ pub enum Event {
     AutoTrackStillOn,
     /// The device did not switch its auto-track off.
     AutoStaysOn,
+}
+
+/// Why a target cannot be followed, or no further.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum FollowProblem {
+    /// It does not rise any more in the time that was looked at.
+    #[error("there is no pass to come")]
+    NoPass,
+    /// Its elements describe no orbit, or it has come down.
+    #[error(transparent)]
+    Orbit(#[from] PropagationError),
+    /// The gate does not let the antenna go where it has to.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
 }
 
 /// What a device was found doing when its link came back.

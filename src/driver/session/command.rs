@@ -5,6 +5,7 @@ use crate::{
     astro::Angle,
     controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},
     driver::{Intent, Refusal},
+    plan::Follow,
 };
 
 /// What the operator can ask of an antenna. STOP is no command: it goes past
@@ -38,6 +39,9 @@ pub enum Command {
     },
     /// Follow a satellite.
     Track(TrackTarget),
+    /// Follow a target position by position, also where the device could track by
+    /// itself.
+    Follow(Box<Follow>),
     /// To the park position.
     Park,
     /// Open the link, and keep it.
@@ -93,6 +97,7 @@ impl Session {
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Track(target) => self.track(target, now),
+            Command::Follow(follow) => self.follow(*follow, now),
             Command::AutoTrack(true) => {
                 self.start(Motion::EnableAuto, now);
             }
@@ -124,6 +129,7 @@ impl Session {
             self.halt_quietly(now);
         }
         self.aim = None;
+        self.following = None;
         self.intent = intent;
     }
 
@@ -152,6 +158,7 @@ impl Session {
             self.halt_quietly(now);
         }
         self.intent = intent;
+        self.following = None;
         self.aim = aim;
         self.pending = Some(now.steady);
         self.waiting = Some(Waiting::Motion(motion));
@@ -165,6 +172,7 @@ impl Session {
             self.halt_quietly(now);
         }
         self.intent = Intent::Track;
+        self.following = None;
         self.aim = None;
         self.pending = Some(now.steady);
         self.target = Some(target.clone());
@@ -210,6 +218,7 @@ impl Session {
             Command::Jog { .. } | Command::EndJog => self.jog = None,
             Command::Standby => {
                 self.intent = Intent::Standby;
+                self.following = None;
                 self.pending = None;
             }
             _ => self.tell(Event::NotSent(Refusal::PositionUnknown)),

@@ -103,6 +103,7 @@ impl Session {
         }
         self.wanted = false;
         self.intent = Intent::Standby;
+        self.following = None;
         true
     }
 

@@ -59,6 +59,7 @@ impl Session {
         self.pending = None;
         self.aim = None;
         self.target = None;
+        self.following = None;
         self.doubt = None;
         self.stopped_at = None;
         let extent = if pressed { Extent::Everything } else { Extent::Motion };

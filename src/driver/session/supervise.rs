@@ -41,6 +41,7 @@ impl Session {
         self.start_waiting(now);
         match self.intent {
             Intent::Position | Intent::Park => self.watch_position(now),
+            Intent::Track if self.following.is_some() => self.watch_follow(now),
             Intent::Track => self.watch_track(now),
             Intent::Standby | Intent::Manual => {}
         }
@@ -142,7 +143,8 @@ impl Session {
         } else {
             Found::Still
         };
-        if self.intent == Intent::Track && found != Found::Tracking {
+        let by_device = self.intent == Intent::Track && self.following.is_none();
+        if by_device && found != Found::Tracking {
             self.intent = Intent::Standby;
             self.target = None;
         }

@@ -49,6 +49,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain("Not tracking ")
             .bold(short(&target.name))
             .plain(format!(": {}.", words::prepare_error(reason))),
+        Event::CannotFollow(target, problem) => caution
+            .plain("Not following ")
+            .bold(short(target))
+            .plain(format!(": {}", words::follow_problem(problem))),
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
         }
@@ -71,6 +75,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         Event::LinkLost(_)
         | Event::Connected(_)
         | Event::Tracking(_)
+        | Event::Awaits { .. }
+        | Event::Follows(_)
+        | Event::FollowOver { .. }
         | Event::TrackingEnded { completed: true }
         | Event::Arrived(_)
         | Event::Stopped

@@ -36,6 +36,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::CannotTrack(target, reason) => {
             format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))
         }
+        AlarmKind::CannotFollow(name, problem) => {
+            format!("{antenna} does not follow {name}: {}", super::follow_problem(problem))
+        }
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stands still before its target."),
         AlarmKind::StartedByItself => {

@@ -2,7 +2,7 @@
 
 use crate::{
     controller::PrepareError,
-    driver::{LinkLoss, Refusal},
+    driver::{FollowProblem, LinkLoss, Refusal},
     ui::format,
 };
 
@@ -61,6 +61,15 @@ pub fn refusal(refusal: &Refusal) -> String {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
+    }
+}
+
+/// Why a target is not followed, or no further.
+pub fn follow_problem(problem: &FollowProblem) -> String {
+    match problem {
+        FollowProblem::NoPass => "it does not rise in the next days.".to_owned(),
+        FollowProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
+        FollowProblem::Refused(why) => refusal(why),
     }
 }
 

@@ -1,0 +1,106 @@
+//! Following a target with an antenna that takes positions: what to command so
+//! that the error is least and the drives are spared. Pure functions; where the
+//! antenna stands and what time it is come in.
+
+mod stats;
+mod target;
+
+use jiff::Timestamp;
+
+pub use stats::FollowStats;
+pub use target::{Course, Target};
+
+use crate::astro::Site;
+
+/// What an antenna is to follow, from where, and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Follow {
+    /// What.
+    pub target: Target,
+    /// From where.
+    pub site: Site,
+    /// AOS and LOS of its passes, in order; empty for always.
+    pub passes: Vec<(Timestamp, Timestamp)>,
+}
+
+/// Where a target that is followed is in its passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FollowPhase {
+    /// It rises then; the antenna goes there and waits.
+    Waiting {
+        /// When.
+        aos: Timestamp,
+    },
+    /// It is up.
+    Following,
+    /// Its last pass is over.
+    Over,
+}
+
+impl Follow {
+    /// Where the target is in its passes at `now`.
+    pub fn phase(&self, now: Timestamp) -> FollowPhase {
+        if self.passes.is_empty() {
+            return FollowPhase::Following;
+        }
+        match self.pass(now) {
+            None => FollowPhase::Over,
+            Some((aos, _)) if now < aos => FollowPhase::Waiting { aos },
+            Some(_) => FollowPhase::Following,
+        }
+    }
+
+    /// AOS and LOS of the pass at `now`, or of the next one.
+    pub fn pass(&self, now: Timestamp) -> Option<(Timestamp, Timestamp)> {
+        self.passes.iter().copied().find(|(_, los)| now < *los)
+    }
+
+    /// Without the passes after the one at `now` or the next.
+    #[must_use]
+    pub fn one_pass(mut self, now: Timestamp) -> Self {
+        let over = self.passes.iter().filter(|(_, los)| *los <= now).count();
+        self.passes.truncate(over + 1);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(second: i64) -> Timestamp {
+        Timestamp::from_second(second).unwrap()
+    }
+
+    fn follow(passes: &[(i64, i64)]) -> Follow {
+        Follow {
+            target: Target::Sun,
+            site: Site::new(41.0, 29.0, 100.0).unwrap(),
+            passes: passes.iter().map(|(aos, los)| (at(*aos), at(*los))).collect(),
+        }
+    }
+
+    #[test]
+    fn a_target_waits_is_followed_and_is_over() {
+        let follow = follow(&[(10, 20), (50, 60)]);
+        assert_eq!(follow.phase(at(9)), FollowPhase::Waiting { aos: at(10) });
+        assert_eq!(follow.phase(at(10)), FollowPhase::Following);
+        assert_eq!(follow.phase(at(20)), FollowPhase::Waiting { aos: at(50) });
+        assert_eq!(follow.phase(at(60)), FollowPhase::Over);
+    }
+
+    #[test]
+    fn without_passes_a_target_is_always_followed() {
+        assert_eq!(follow(&[]).phase(at(9)), FollowPhase::Following);
+        assert_eq!(follow(&[]).one_pass(at(9)).phase(at(9)), FollowPhase::Following);
+    }
+
+    #[test]
+    fn one_pass_is_the_one_under_way_or_the_next() {
+        let passes = [(10, 20), (50, 60), (90, 99)];
+        assert_eq!(follow(&passes).one_pass(at(0)).phase(at(20)), FollowPhase::Over);
+        assert_eq!(follow(&passes).one_pass(at(20)).phase(at(59)), FollowPhase::Following);
+        assert_eq!(follow(&passes).one_pass(at(55)).phase(at(60)), FollowPhase::Over);
+        assert_eq!(follow(&passes).one_pass(at(99)).phase(at(99)), FollowPhase::Over);
+    }
+}

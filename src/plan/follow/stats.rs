@@ -1,0 +1,51 @@
+//! How well a target is followed.
+
+use crate::astro::Angle;
+
+/// How well a target is followed, and what it takes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FollowStats {
+    /// Positions that were sent.
+    pub commands: u32,
+    samples: u32,
+    sum_of_squares_deg2: f64,
+    worst_deg: f64,
+}
+
+impl FollowStats {
+    /// Takes the angle between the target and where the antenna was measured to
+    /// point.
+    pub fn take(&mut self, off: Angle) {
+        let off_deg = off.degrees().abs();
+        self.samples += 1;
+        self.sum_of_squares_deg2 += off_deg * off_deg;
+        self.worst_deg = self.worst_deg.max(off_deg);
+    }
+
+    /// The root of the mean square error; `None` before the first measurement.
+    pub fn rms(&self) -> Option<Angle> {
+        let mean_deg2 = self.sum_of_squares_deg2 / f64::from(self.samples);
+        (self.samples > 0).then(|| Angle::from_degrees(mean_deg2.sqrt()))
+    }
+
+    /// The greatest error; `None` before the first measurement.
+    pub fn worst(&self) -> Option<Angle> {
+        (self.samples > 0).then(|| Angle::from_degrees(self.worst_deg))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_of_the_mean_square_and_the_worst() {
+        let mut stats = FollowStats::default();
+        assert_eq!((stats.rms(), stats.worst()), (None, None));
+        for off_deg in [3.0, -4.0, 0.0, 0.0] {
+            stats.take(Angle::from_degrees(off_deg));
+        }
+        assert!((stats.rms().unwrap().degrees() - 2.5).abs() < 1e-12);
+        assert!((stats.worst().unwrap().degrees() - 4.0).abs() < 1e-12);
+    }
+}
