@@ -11,6 +11,7 @@ pub const MAKE: Make = Make {
         has_program: false,
         takes_positions: true,
         arrives_within_deg: 0.5,
+        position_step_deg: 0.0,
         has_elevation: true,
         jog: JogSpeeds::Named(&[
             JogSpeed { name: "Slow", share: 0.25 },

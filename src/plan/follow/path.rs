@@ -70,7 +70,7 @@ impl Path {
     pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
         let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
         let between = self.between(axis, from_s, to_s);
-        between.fold((start.min(end), start.max(end)), |span, at| widened(span, at))
+        between.fold((start.min(end), start.max(end)), widened)
     }
 
     /// The same, and for as much longer as the span stays within `within_deg`.
@@ -100,13 +100,13 @@ impl Path {
             let [before, after] = pair else { return false };
             (after - before).abs() >= FULL_RATE * self.most_deg
         };
-        let way = |pair: &[f64]| {
-            let [before, after] = pair else { return 0.0 };
-            (after - before).signum()
+        let grows = |pair: &[f64]| {
+            let [before, after] = pair else { return false };
+            after > before
         };
         let begun = rest.windows(2).next().filter(swings)?;
         let steps = rest.windows(2).take_while(swings);
-        let steps = steps.take_while(|pair| way(pair) == way(begun)).count();
+        let steps = steps.take_while(|pair| grows(pair) == grows(begun)).count();
         rest.get(steps).copied()
     }
 

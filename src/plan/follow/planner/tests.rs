@@ -18,6 +18,8 @@ struct Metal {
     orders: VecDeque<(f64, [Option<f64>; 2])>,
     rate_deg_s: f64,
     latency_s: f64,
+    /// An axis does not set out for a way as short as this, degrees.
+    ignored_deg: f64,
 }
 
 impl Metal {
@@ -28,7 +30,10 @@ impl Metal {
 
     fn advance(&mut self, now_s: f64) {
         while let Some((_, axes)) = self.orders.pop_front_if(|(at_s, _)| *at_s <= now_s) {
-            for (goal, told) in self.goals_deg.iter_mut().zip(axes) {
+            let each = self.goals_deg.iter_mut().zip(axes).zip(self.axes_deg);
+            for ((goal, told), at) in each {
+                let is_reached = *goal == at;
+                let told = told.filter(|told| !is_reached || (told - at).abs() > self.ignored_deg);
                 *goal = told.unwrap_or(*goal);
             }
         }
@@ -109,6 +114,16 @@ fn max_deg(pass: &Pass) -> f64 {
 }
 
 fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run {
+    run_with(target, pass, drives, following, 0.0)
+}
+
+fn run_with(
+    target: Target,
+    pass: &Pass,
+    drives: Drives,
+    following: Following,
+    ignored_deg: f64,
+) -> Run {
     let passes = vec![(pass.aos.time, pass.los.time)];
     let follow = Follow { target, site: site(), passes };
     let mut planner = Planner::new(follow, drives, following).unwrap();
@@ -118,6 +133,7 @@ fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run
         orders: VecDeque::new(),
         rate_deg_s: drives.limits.maximum_rate_deg_s,
         latency_s: following.latency_s,
+        ignored_deg,
     };
     let begin = add_seconds(pass.aos.time, -240.0);
     let mut run = Run { stats: FollowStats::default(), azimuths_deg: Vec::new() };
@@ -138,7 +154,9 @@ fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run
         if now >= pass.aos.time {
             let [azimuth, elevation] = metal.axes_deg;
             let at = AzEl::from_degrees(azimuth, elevation);
-            run.stats.take(planner.direction(now).unwrap().separation(at));
+            if let Some(direction) = planner.reachable(now) {
+                run.stats.take(direction.separation(at));
+            }
             run.azimuths_deg.push(azimuth);
         }
     }
@@ -169,6 +187,15 @@ fn whole_degrees_are_followed_to_their_rounding() {
     let (rms, worst, _) = shown("usual, whole degrees", run.stats);
     // The roundings of two axes, each up to half a degree.
     assert!(rms < 0.5 && worst < 1.0, "{rms} {worst}");
+}
+
+#[test]
+fn a_drive_that_ignores_short_ways_is_found_out() {
+    let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
+    let drives = azel((0.0, 360.0), 4.0, 1.0);
+    let run = run_with(target, &pass, drives, following(1.0, 0.5), 2.0);
+    let (rms, worst, _) = shown("usual, whole degrees, more than 2 at once", run.stats);
+    assert!(rms < 1.2 && worst < 3.5, "{rms} {worst}");
 }
 
 #[test]
