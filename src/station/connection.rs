@@ -1,5 +1,7 @@
 //! Which controller an antenna has, and where it answers.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
 /// Which controller, and where it answers.
@@ -69,6 +71,34 @@ pub struct CountPoint {
     pub degrees: f64,
 }
 
+impl CountPoint {
+    /// Degrees that any mount can have.
+    const DEGREES: RangeInclusive<f64> = -360.0..=1440.0;
+
+    /// Whether points make a scale, in any order; the reason when they do not.
+    /// None at all are a scale that is not known yet.
+    pub(crate) fn check(points: &[Self]) -> Result<(), &'static str> {
+        let mut points = points.to_vec();
+        points.sort_by_key(|point| point.counts);
+        if points.len() == 1 {
+            return Err("must hold two points or more, or none");
+        }
+        if !points.iter().all(|point| Self::DEGREES.contains(&point.degrees)) {
+            return Err("must hold angles from −360 to 1440°");
+        }
+        let steps = || points.iter().zip(points.iter().skip(1));
+        if steps().any(|(a, b)| a.counts == b.counts) {
+            return Err("must not hold a count twice");
+        }
+        let rises = steps().all(|(a, b)| a.degrees < b.degrees);
+        let falls = steps().all(|(a, b)| a.degrees > b.degrees);
+        if points.is_empty() || rises || falls {
+            return Ok(());
+        }
+        Err("must hold angles that only rise or only fall with the counts")
+    }
+}
+
 impl Connection {
     /// Where the controller answers, for the operator's eyes.
     pub fn address(&self) -> &str {
@@ -76,6 +106,67 @@ impl Connection {
             Self::Satrak { address, .. }
             | Self::Genius { address, .. }
             | Self::Rc2000c { address, .. } => address,
+        }
+    }
+}
+
+/// Whether `address` is a host and a port; the reason when it is not.
+pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
+    let Some((host, port)) = address.rsplit_once(':') else {
+        return Err("must be a host and a port, such as 192.168.10.21:4001");
+    };
+    if host.is_empty() || host.contains(char::is_whitespace) {
+        return Err("the host is missing or holds a blank");
+    }
+    match port.parse::<u16>() {
+        Ok(1..) => Ok(()),
+        _ => Err("the port must be a number from 1 to 65535"),
+    }
+}
+
+/// Whether `address` is a serial port or else a host and a port; the reason when
+/// it is neither.
+pub(crate) fn check_line(address: &str) -> Result<(), &'static str> {
+    if address.is_empty() {
+        return Err("must be a serial port, such as /dev/ttyUSB0 or COM3, or a host and a port");
+    }
+    // Names of ports by their place on the machine hold colons too.
+    let is_port = address.starts_with(['/', '\\']) || !address.contains(':');
+    if is_port { Ok(()) } else { check_address(address) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_a_serial_port_or_a_host_and_a_port() {
+        for good in ["/dev/ttyUSB0", "COM3", "/dev/serial/by-path/pci-0000:00:14.0-port0", "h:1"] {
+            assert_eq!(check_line(good), Ok(()), "{good}");
+        }
+        for bad in ["", "host:", "host:0", "host:70000", ":4001"] {
+            assert!(check_line(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_scale_has_two_points_and_one_sense() {
+        let check = |points: &[(u16, f64)]| {
+            let points = points.iter().map(|&(counts, degrees)| CountPoint { counts, degrees });
+            CountPoint::check(&points.collect::<Vec<_>>())
+        };
+        assert_eq!(check(&[]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, 270.0), (200, 181.0)]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, -90.0)]), Ok(()));
+        for bad in [
+            &[(100, 90.0)][..],
+            &[(100, 90.0), (100, 91.0)],
+            &[(100, 90.0), (200, 90.0)],
+            &[(100, 90.0), (200, 100.0), (300, 95.0)],
+            &[(100, 90.0), (200, 9000.0)],
+            &[(100, f64::NAN), (200, 90.0)],
+        ] {
+            assert!(check(bad).is_err(), "{bad:?}");
         }
     }
 }
