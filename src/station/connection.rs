@@ -116,11 +116,11 @@ pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
         return Err("must be a host and a port, such as 192.168.10.21:4001");
     };
     if host.is_empty() || host.contains(char::is_whitespace) {
-        return Err("the host is missing or holds a blank");
+        return Err("must have a host without blanks before the port");
     }
     match port.parse::<u16>() {
         Ok(1..) => Ok(()),
-        _ => Err("the port must be a number from 1 to 65535"),
+        _ => Err("must have a port from 1 to 65535 behind the host"),
     }
 }
 

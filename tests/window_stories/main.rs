@@ -20,6 +20,7 @@ mod keys;
 mod mask;
 mod passes;
 mod preferences;
+mod preferences_makes;
 mod rig;
 mod running;
 mod sentences;
