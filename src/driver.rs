@@ -19,7 +19,7 @@ use tokio::sync::{Notify, mpsc, watch};
 pub use clock::Clock;
 pub use gate::Refusal;
 pub use intent::Intent;
-pub use link::{Dial, Stream, dial_tcp};
+pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, Snapshot, StopState,
@@ -28,7 +28,7 @@ pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use crate::{
-    controller::{Moves, satrak::Satrak},
+    controller::{Moves, rc2000c::Rc2000c, satrak::Satrak},
     station::{Antenna, Connection},
 };
 
@@ -158,7 +158,11 @@ impl Driver {
                 Box::new(Satrak::new(antenna.poll, element_file.clone())),
                 dial_tcp(address.clone()),
             ),
-            Connection::Genius { .. } | Connection::Rc2000c { .. } => todo!(),
+            Connection::Rc2000c { address, baud, bus_address, calibration } => (
+                Box::new(Rc2000c::new(antenna, *baud, *bus_address, calibration)),
+                dial_line(address, *baud),
+            ),
+            Connection::Genius { .. } => todo!(),
         };
         let (session, handle) =
             Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));

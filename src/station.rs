@@ -2,6 +2,7 @@
 //! one TOML file that forgives what it can and never loses what it cannot read.
 
 mod antenna;
+mod calibration;
 mod connection;
 mod demo;
 mod file;
@@ -11,6 +12,7 @@ pub mod ranges;
 mod read;
 
 pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
+pub use calibration::{CalibrationError, CountLine};
 pub use connection::{Calibration, Connection, CountPoint, Rotators};
 pub(crate) use connection::{check_address, check_line};
 pub use demo::{DEMO_ELEMENT_FILE, DemoAddresses};

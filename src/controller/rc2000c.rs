@@ -1,6 +1,42 @@
-//! Behaviour of an RC2000C.
+//! Behaviour of an RC2000C: one command on the line at a time, replies matched by
+//! their code, halts past everything else.
+//!
+//! An acknowledgement says that a command was understood. What became of it is
+//! seen in a status that was asked for later.
 
-use super::{Capabilities, JogSpeed, JogSpeeds, Make};
+mod actions;
+mod axes;
+mod checks;
+mod device;
+mod exchange;
+mod line;
+mod names;
+mod readings;
+mod record;
+mod refusal;
+
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
+
+use super::{
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion,
+    wire::WireQueue,
+};
+use crate::{
+    protocol::rc2000c::{
+        self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
+    },
+    station::{Antenna, Calibration, Mount, PollRates},
+};
+use axes::Axes;
+use exchange::{Outstanding, Purpose};
+use line::Line;
+use names::Names;
+
+const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
+const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
 
 /// An RC2000C as the rest of the program knows it.
 pub const MAKE: Make = Make {
@@ -12,10 +48,7 @@ pub const MAKE: Make = Make {
         takes_positions: true,
         arrives_within_deg: 0.5,
         has_elevation: true,
-        jog: JogSpeeds::Named(&[
-            JogSpeed { name: "Slow", share: 0.25 },
-            JogSpeed { name: "Fast", share: 1.0 },
-        ]),
+        jog: JogSpeeds::Named(&[SLOW, FAST]),
         jogs_one_axis: true,
         steps: false,
         ends_jogs: true,
@@ -23,5 +56,167 @@ pub const MAKE: Make = Make {
         stop_note: None,
     },
     groups: &[],
-    actions: &[],
+    actions: actions::ACTIONS,
 };
+
+/// How long the unit jogs after each command: its own timer is the dead-man.
+const JOG: Duration = Duration::from_millis(600);
+/// A jog that is held is renewed this often.
+const RENEWAL: Duration = Duration::from_millis(300);
+
+/// An RC2000C, seen from the near end of its link.
+#[derive(Debug)]
+pub struct Rc2000c {
+    rates: PollRates,
+    mount: Mount,
+    maximum_rate_deg_s: f64,
+    address: Address,
+    axes: Axes,
+    line: Line,
+    decoder: Decoder,
+    state: AntennaState,
+    status: Option<Status>,
+    /// It is to be asked which device it is.
+    wants_device: bool,
+    device: Option<DeviceType>,
+    /// The configuration of the unit takes no commands.
+    is_offline: bool,
+    names: Names,
+    /// When the next status is due; `None` without a link.
+    poll_at: Option<Instant>,
+    /// Nothing but a halt goes out before this.
+    quiet_until: Option<Instant>,
+    outstanding: Option<Outstanding>,
+    /// A halt that was sent past everything and not answered yet.
+    halt: Option<Outstanding>,
+    /// What was asked for and not sent yet.
+    orders: VecDeque<Order>,
+    jog: Option<HeldJog>,
+    /// A stop was pressed while the polarization may be under way.
+    holds_polarization: bool,
+    happenings: VecDeque<Happening>,
+    /// Bytes that came in and are not told yet, and when the last of them came.
+    heard: Vec<u8>,
+    heard_at: Option<Instant>,
+    wire: WireQueue,
+}
+
+/// A command that is sent once.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    request: Request,
+    /// What it was asked as; `None` for a part of a halt.
+    motion: Option<Motion>,
+}
+
+/// A jog that lives until a halt, a refusal or a missing reply.
+#[derive(Debug, Clone, Copy)]
+struct HeldJog {
+    motion: Motion,
+    direction: unit::Direction,
+    speed: Speed,
+    sent: Option<Instant>,
+}
+
+impl Rc2000c {
+    /// The unit at `bus_address` (49 to 111; beyond, that of the factory) of a
+    /// line of `baud` bits a second, which turns `antenna`. Silent until the link
+    /// is up.
+    pub fn new(antenna: &Antenna, baud: u32, bus_address: u8, calibration: &Calibration) -> Self {
+        let address = Address::new(bus_address).unwrap_or(Address::FACTORY);
+        Self {
+            rates: antenna.poll,
+            mount: antenna.mount,
+            maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
+            address,
+            axes: Axes::new(calibration),
+            line: Line::new(baud),
+            decoder: Decoder::new(address),
+            state: AntennaState::default(),
+            status: None,
+            wants_device: false,
+            device: None,
+            is_offline: false,
+            names: Names::default(),
+            poll_at: None,
+            quiet_until: None,
+            outstanding: None,
+            halt: None,
+            orders: VecDeque::new(),
+            jog: None,
+            holds_polarization: false,
+            happenings: VecDeque::new(),
+            heard: Vec::new(),
+            heard_at: None,
+            wire: WireQueue::default(),
+        }
+    }
+
+    fn moving(&self) -> bool {
+        let is_commanded = self.jog.is_some() || self.halt.is_some() || !self.orders.is_empty();
+        let polarization = self.status.is_some_and(|status| status.is_moving());
+        is_commanded
+            || polarization
+            || self.state.measured.is_some_and(|measured| measured.moving())
+            || self.state.program.is_some()
+    }
+
+    /// What is to be sent next, the most urgent first.
+    fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
+        if let Some(Order { request, motion }) = self.orders.pop_front() {
+            return Some((request, Purpose::Order(motion)));
+        }
+        if let Some(jog) = self.next_jog(now) {
+            return Some(jog);
+        }
+        let poll_at = self.poll_at?;
+        if self.wants_device {
+            return Some((Request::Query(Query::DeviceType), Purpose::Question));
+        }
+        if now.steady >= poll_at {
+            return Some((Request::Query(Query::Status), Purpose::Poll));
+        }
+        let index = self.next_name()?;
+        Some((Request::Query(Query::SatelliteName(index)), Purpose::Question))
+    }
+
+    /// The entry of the list that is to be read next. While a jog has to be
+    /// renewed, or the unit says nothing, it can wait.
+    fn next_name(&self) -> Option<NameIndex> {
+        let is_calm = self.jog.is_none() && self.status.is_some() && !self.is_offline;
+        self.names.next().filter(|_| is_calm)
+    }
+
+    /// The command that keeps a held jog alive, when it is time. One that comes
+    /// too late would begin the jog anew, so it is not sent.
+    fn next_jog(&mut self, now: Moment) -> Option<(Request, Purpose)> {
+        let held = self.jog.as_mut()?;
+        let age = held.sent.map(|sent| now.steady.saturating_duration_since(sent));
+        if age.is_some_and(|age| age < RENEWAL) {
+            return None;
+        }
+        let motion = held.motion;
+        let jog = unit::Jog::new(held.direction, held.speed, JOG).ok();
+        let jog = jog.filter(|_| age.is_none_or(|age| age < JOG));
+        let Some(jog) = jog else {
+            self.jog = None;
+            self.happenings.push_back(Happening::Unanswered(motion));
+            return None;
+        };
+        held.sent = Some(now.steady);
+        Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion))))
+    }
+
+    /// Queues a motion, or says why it cannot be.
+    fn order(&mut self, motion: Motion, request: Result<Request, String>) {
+        match request {
+            Ok(request) => self.orders.push_back(Order { request, motion: Some(motion) }),
+            Err(reason) => self.happenings.push_back(Happening::Refused(motion, reason)),
+        }
+    }
+
+    /// The next status tells what a command has brought about.
+    fn look_soon(&mut self, now: Moment) {
+        self.poll_at = self.poll_at.map(|at| at.min(now.steady));
+    }
+}

@@ -1,11 +1,16 @@
 //! Opens links.
 
+mod parity;
+mod serial;
+mod tcp;
+
 use std::{future::Future, io, pin::Pin};
 
-use tokio::{
-    io::{AsyncRead, AsyncWrite},
-    net::TcpStream,
-};
+use tokio::io::{AsyncRead, AsyncWrite};
+
+pub use tcp::dial_tcp;
+
+use crate::station::check_address;
 
 /// An open link.
 pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {}
@@ -15,15 +20,13 @@ impl<T: AsyncRead + AsyncWrite + Send + Unpin> Stream for T {}
 pub type Dial =
     Box<dyn FnMut() -> Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>> + Send>;
 
-/// Opens TCP links to `address` (host and port).
-pub fn dial_tcp(address: String) -> Dial {
-    Box::new(move || {
-        let address = address.clone();
-        Box::pin(async move {
-            let stream = TcpStream::connect(&address).await?;
-            // A STOP must not wait for a fuller packet.
-            stream.set_nodelay(true)?;
-            Ok(Box::new(stream) as Box<dyn Stream>)
-        })
-    })
+/// Opens a serial line of seven bits and even parity: where `address` is a host
+/// and a port through the serial server there, else as a serial port of this
+/// computer at `baud` bits a second. Bytes of seven bits go in and come out.
+pub fn dial_line(address: &str, baud: u32) -> Dial {
+    if check_address(address).is_ok() {
+        tcp::dial_line_server(address.to_owned())
+    } else {
+        serial::dial_serial(address.to_owned(), baud)
+    }
 }

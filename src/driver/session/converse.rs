@@ -224,6 +224,9 @@ impl Session {
         }
         self.unread = true;
         loop {
+            // After a long wait a jog may be over that the controller would renew.
+            let now = self.now();
+            self.watch_jog(now);
             if let Err(loss) = self.send(&mut writer).await {
                 return Some(loss);
             }

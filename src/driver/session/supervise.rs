@@ -75,6 +75,12 @@ impl Session {
             Happening::Refused(motion, code) => {
                 self.forget_motion(motion, Event::Refused(motion, code), now);
             }
+            // What the device ends by itself is over, whatever came of it.
+            Happening::Unanswered(motion @ Motion::Jog { .. })
+                if self.make.capabilities.ends_jogs =>
+            {
+                self.forget_motion(motion, Event::Unanswered(motion), now);
+            }
             Happening::Unanswered(motion) => {
                 // Nothing was asked since the motion went out.
                 let before_deg = self.axes_deg();
@@ -164,9 +170,12 @@ impl Session {
 
     /// A device that starts to track by itself surprises whoever stands beside it.
     fn watch_program(&mut self) {
-        let Some(program) = self.gate.state().program.filter(|_| !self.unread) else { return };
-        let was_on = std::mem::replace(&mut self.program_was_on, program.enabled);
-        if program.enabled && !was_on && self.intent != Intent::Track {
+        if self.unread {
+            return;
+        }
+        let is_on = self.gate.state().program.is_some_and(|program| program.enabled);
+        let was_on = std::mem::replace(&mut self.program_was_on, is_on);
+        if is_on && !was_on && self.intent != Intent::Track {
             self.tell(Event::StartedByItself);
         }
     }

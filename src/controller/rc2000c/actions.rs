@@ -1,0 +1,218 @@
+//! What only an RC2000C can do, and the commands that do it.
+
+use super::{Order, Rc2000c, refusal::is_tracking};
+use crate::{
+    controller::{
+        Device, Happening, Motion,
+        panel::{Act, Action},
+        settings::{Field, Kind, Unfit, Value},
+    },
+    protocol::rc2000c::{
+        AutoMove, Band, DriveReset, Motion as UnitMotion, Polarity, PolarizationMove,
+        PolarizationUnits, Request, SatelliteName, Setting,
+    },
+};
+
+const TO_SATELLITE: &str = "to_satellite";
+const TO_COUNTS: &str = "to_counts";
+const TO_POLARIZATION: &str = "to_polarization";
+const POLARIZATION_CW: &str = "polarization_cw";
+const POLARIZATION_CCW: &str = "polarization_ccw";
+const POLARITY_H: &str = "polarity_h";
+const POLARITY_V: &str = "polarity_v";
+const AUTO_POLARIZATION_ON: &str = "auto_polarization_on";
+const AUTO_POLARIZATION_OFF: &str = "auto_polarization_off";
+const RESET_AZIMUTH: &str = "reset_azimuth";
+const RESET_ELEVATION: &str = "reset_elevation";
+const RESET_POLARIZATION: &str = "reset_polarization";
+const RESTART_TRACK: &str = "restart_track";
+const TRACK_C_BAND: &str = "track_c_band";
+const TRACK_K_BAND: &str = "track_k_band";
+const READ_LIST: &str = "read_list";
+
+const SATELLITE: Field = Field::write("satellite", "Satellite", Kind::Text(check_name))
+    .about("As in the list of stored satellites.");
+const POLARITY: Field = Field::write(
+    "polarity",
+    "Polarity",
+    Kind::Choice(&[(0, "As it is"), (1, "Stored H"), (2, "Stored V")]),
+);
+const END_TRACK: Field = Field::write("end_track", "Although TRACK is active", Kind::Flag)
+    .about("While the unit tracks by itself, a move is sent only with this.");
+const AZ_COUNTS: Field = Field::write("az_counts", "Azimuth", COUNTS).in_unit("counts");
+const EL_COUNTS: Field = Field::write("el_counts", "Elevation", COUNTS).in_unit("counts");
+const COUNTS: Kind = Kind::Integer { least: 0, most: 65_535 };
+const UNITS: Field = Field::write("units", "Polarization", Kind::Integer { least: 0, most: 1023 })
+    .about("0 to 661 with a polarotor, 0 to 1023 with a rotating feed; more is further CCW.");
+
+/// In the order of the panel.
+pub(super) const ACTIONS: &[Action] = &[
+    Action {
+        fields: &[SATELLITE, POLARITY, END_TRACK],
+        ..moving(
+            TO_SATELLITE,
+            "Go to a stored satellite",
+            "The unit runs to the place that it has stored. One with an inclined orbit leads to \
+             TRACK: the unit then moves by itself until it is stopped.",
+        )
+    },
+    Action {
+        fields: &[AZ_COUNTS, EL_COUNTS, END_TRACK],
+        ..moving(TO_COUNTS, "Go to counts", "Both axes run to these counts of their sensors.")
+    },
+    Action {
+        fields: &[UNITS],
+        ..moving(TO_POLARIZATION, "Turn polarization to", "The polarization alone turns.")
+    },
+    moving(POLARIZATION_CW, "Polarization CW", "Turns for the moment that is set in the unit."),
+    moving(POLARIZATION_CCW, "Polarization CCW", "Turns for the moment that is set in the unit."),
+    moving(POLARITY_H, "Polarity H", "To the H of the stored satellite nearest in azimuth."),
+    moving(POLARITY_V, "Polarity V", "To the V of the stored satellite nearest in azimuth."),
+    moving(
+        AUTO_POLARIZATION_ON,
+        "Automatic polarization on",
+        "The unit sets the polarization with each satellite, and refuses commands for it.",
+    ),
+    still(AUTO_POLARIZATION_OFF, "Automatic polarization off", "The polarization stays as it is."),
+    resetting(RESET_AZIMUTH, "Reset azimuth drive"),
+    resetting(RESET_ELEVATION, "Reset elevation drive"),
+    resetting(RESET_POLARIZATION, "Reset polarization drive"),
+    Action {
+        question: Some("The unit begins to track anew and moves by itself. Reset TRACK?"),
+        ..moving(RESTART_TRACK, "Reset TRACK", "Clears the error of the track mode.")
+    },
+    still(
+        TRACK_C_BAND,
+        "TRACK in C band",
+        "For a satellite with both bands, while TRACK is active.",
+    ),
+    still(
+        TRACK_K_BAND,
+        "TRACK in K band",
+        "For a satellite with both bands, while TRACK is active.",
+    ),
+    still(READ_LIST, "Read the list", "Reads the names of the stored satellites anew."),
+];
+
+const fn still(key: &'static str, label: &'static str, about: &'static str) -> Action {
+    Action { key, label, about, fields: &[], moves: false, question: None }
+}
+
+const fn moving(key: &'static str, label: &'static str, about: &'static str) -> Action {
+    Action { moves: true, ..still(key, label, about) }
+}
+
+/// An alarm forbids motion, so clearing it cannot count as one; a stop goes first
+/// instead, lest something that is pending goes on.
+const fn resetting(key: &'static str, label: &'static str) -> Action {
+    Action {
+        question: Some("The drive takes power again. Is its cause mended, and nobody near?"),
+        ..still(key, label, "Stops the axes, then clears the alarm of this drive.")
+    }
+}
+
+fn check_name(typed: &str) -> Result<(), Unfit> {
+    let name = SatelliteName::new(&typed.trim().to_ascii_uppercase());
+    name.map(drop).map_err(|error| Unfit::Text(error.to_string()))
+}
+
+impl Rc2000c {
+    /// Queues what the action asks for, or says why it cannot be.
+    pub(super) fn act_on(&mut self, act: &Act) {
+        let motion = Motion::Action(act.action);
+        if self.motion_under_way() {
+            let reason = "another command is under way".to_owned();
+            return self.happenings.push_back(Happening::Refused(motion, reason));
+        }
+        match act.action {
+            READ_LIST => self.names = super::Names::default(),
+            RESET_AZIMUTH => self.reset(DriveReset::Azimuth, motion),
+            RESET_ELEVATION => self.reset(DriveReset::Elevation, motion),
+            RESET_POLARIZATION => self.reset(DriveReset::Polarization, motion),
+            _ => {
+                let request = self.request_of(act);
+                self.order(motion, request);
+            }
+        }
+    }
+
+    fn reset(&mut self, drive: DriveReset, motion: Motion) {
+        let reset = Request::Motion(UnitMotion::ResetDrive(drive));
+        let motion = Some(motion);
+        self.orders.extend([Request::Stop, reset].map(|request| Order { request, motion }));
+    }
+
+    fn request_of(&self, act: &Act) -> Result<Request, String> {
+        let polarization = |wanted| Request::Motion(UnitMotion::Polarization(wanted));
+        let in_track = |request| {
+            let tracks = self.status.as_ref().is_some_and(is_tracking);
+            if tracks { Ok(request) } else { Err("TRACK is not active".to_owned()) }
+        };
+        match act.action {
+            TO_SATELLITE => self.to_satellite(act).map(auto_move),
+            TO_COUNTS => self.to_counts(act).map(auto_move),
+            TO_POLARIZATION => {
+                let units = integer(act, UNITS.key)?;
+                let units = PolarizationUnits::new(units).map_err(|error| error.to_string())?;
+                Ok(auto_move(AutoMove::polarization(units)))
+            }
+            POLARIZATION_CW => Ok(polarization(PolarizationMove::JogClockwise)),
+            POLARIZATION_CCW => Ok(polarization(PolarizationMove::JogCounterClockwise)),
+            POLARITY_H => Ok(polarization(PolarizationMove::ToStored(Polarity::Horizontal))),
+            POLARITY_V => Ok(polarization(PolarizationMove::ToStored(Polarity::Vertical))),
+            AUTO_POLARIZATION_ON => Ok(Request::Setting(Setting::AutoPolarization(true))),
+            AUTO_POLARIZATION_OFF => Ok(Request::Setting(Setting::AutoPolarization(false))),
+            RESTART_TRACK => in_track(Request::Motion(UnitMotion::RestartTracking)),
+            TRACK_C_BAND => in_track(Request::Setting(Setting::Band(Band::C))),
+            TRACK_K_BAND => in_track(Request::Setting(Setting::Band(Band::K))),
+            _ => Err("the controller cannot do this".to_owned()),
+        }
+    }
+
+    fn to_satellite(&self, act: &Act) -> Result<AutoMove, String> {
+        self.check_track(act)?;
+        let Some(Value::Text(typed)) = act.values.get(SATELLITE.key) else {
+            return Err("no satellite was named".to_owned());
+        };
+        if !self.names.is_complete() {
+            return Err("the list of stored satellites was not read yet".to_owned());
+        }
+        let name = self.names.find(typed);
+        let name = name.ok_or_else(|| format!("no satellite {:?} is stored", typed.trim()))?;
+        let polarity = match act.values.get(POLARITY.key) {
+            Some(Value::Choice(1)) => Some(Polarity::Horizontal),
+            Some(Value::Choice(2)) => Some(Polarity::Vertical),
+            _ => None,
+        };
+        AutoMove::satellite(name, polarity).map_err(|error| error.to_string())
+    }
+
+    fn to_counts(&self, act: &Act) -> Result<AutoMove, String> {
+        self.check_track(act)?;
+        let [az_counts, el_counts] = [integer(act, AZ_COUNTS.key)?, integer(act, EL_COUNTS.key)?];
+        self.axes.check_travel(&self.mount, [az_counts, el_counts])?;
+        Ok(AutoMove::position(az_counts, el_counts))
+    }
+
+    /// A move would take the antenna out of the hands of the unit.
+    fn check_track(&self, act: &Act) -> Result<(), String> {
+        let is_told = act.values.get(END_TRACK.key) == Some(&Value::Flag(true));
+        if is_told || !self.status.as_ref().is_some_and(is_tracking) {
+            Ok(())
+        } else {
+            Err("TRACK is active on the unit".to_owned())
+        }
+    }
+}
+
+fn auto_move(target: AutoMove) -> Request {
+    Request::Motion(UnitMotion::AutoMove(target))
+}
+
+fn integer(act: &Act, key: &str) -> Result<u16, String> {
+    match act.values.get(key) {
+        Some(Value::Integer(number)) => u16::try_from(*number).ok(),
+        _ => None,
+    }
+    .ok_or_else(|| format!("{key} is missing"))
+}

@@ -1,0 +1,178 @@
+//! The two axes: from a status to angles, and from angles to counts and jogs.
+
+use crate::{
+    astro::Angle,
+    controller::{Axis, AxisMotion, Pointing},
+    protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
+    station::{Calibration, CountLine, Mount},
+};
+
+/// An axis that stands may read one step more or less.
+const UNSTEADY: u16 = 1;
+/// The number of the drive for an auto move, which tells no way.
+const AUTO_MOVE: i64 = 7;
+
+/// What the counts of both axes mean.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Axes {
+    lines: [Option<CountLine>; 2],
+}
+
+impl Axes {
+    pub(super) fn new(calibration: &Calibration) -> Self {
+        let lines = [&calibration.azimuth, &calibration.elevation];
+        Self { lines: lines.map(|points| CountLine::through(points).ok()) }
+    }
+
+    pub(super) fn are_calibrated(&self) -> bool {
+        self.lines.iter().all(Option::is_some)
+    }
+
+    /// Azimuth and elevation in `status`. What `before` showed elsewhere moves,
+    /// for an axis that runs out is not told as moving.
+    pub(super) fn read(&self, status: &Status, before: Option<&Status>) -> [Axis; 2] {
+        let both = |status: &Status| [status.azimuth, status.elevation];
+        let before = before.map(both);
+        let drives = [status.azimuth_drive, status.elevation_drive];
+        let [azimuth, elevation] = both(status);
+        let axis = |position, line: Option<CountLine>, drive, before: Option<Position>| {
+            let is_reversed = line.is_some_and(|line| line.is_reversed());
+            let end = match position {
+                Position::Limit(end) => Some(sense_of(end)),
+                _ => None,
+            };
+            let at = |sense| end.is_some_and(|end| (end == sense) != is_reversed);
+            Axis {
+                angle_deg: angle_deg(position, line),
+                motion: motion(drive, position, before, is_reversed),
+                plus_limit: at(Sense::Positive),
+                minus_limit: at(Sense::Negative),
+            }
+        };
+        let [az_line, el_line] = self.lines;
+        let [az_drive, el_drive] = drives;
+        [
+            axis(azimuth, az_line, az_drive, before.map(|[azimuth, _]| azimuth)),
+            axis(elevation, el_line, el_drive, before.map(|[_, elevation]| elevation)),
+        ]
+    }
+
+    /// Where the antenna points with its axes there.
+    pub(super) fn pointing([azimuth, elevation]: [Axis; 2]) -> Pointing {
+        let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
+        Pointing { azimuth: angle(azimuth).map(Angle::wrapped_360), elevation: angle(elevation) }
+    }
+
+    /// Which way to jog, that the angle of one axis grows or falls.
+    pub(super) fn direction(&self, x_deg_s: f64, y_deg_s: f64) -> Direction {
+        let [azimuth, elevation] = self.lines;
+        let grows = |rate: f64, line: Option<CountLine>| {
+            (rate > 0.0) != line.is_some_and(|line| line.is_reversed())
+        };
+        match x_deg_s {
+            0.0 if grows(y_deg_s, elevation) => Direction::Up,
+            0.0 => Direction::Down,
+            _ if grows(x_deg_s, azimuth) => Direction::Clockwise,
+            _ => Direction::CounterClockwise,
+        }
+    }
+
+    /// The move to a direction. Both axes always go along: one that is to stay is
+    /// sent to the counts where it stands.
+    pub(super) fn auto_move(
+        &self,
+        azimuth: Option<Angle>,
+        elevation: Option<Angle>,
+        status: Option<&Status>,
+    ) -> Result<AutoMove, String> {
+        let [az_line, el_line] = self.lines;
+        let counts = |name, angle: Option<Angle>, line: Option<CountLine>, at| {
+            let Some(angle) = angle else {
+                let Some(Position::Counts(counts)) = at else {
+                    return Err(format!("the {name} is to stay, but its counts are not known"));
+                };
+                return Ok(counts);
+            };
+            let line = line.ok_or_else(|| format!("the {name} is not calibrated"))?;
+            let degrees = angle.degrees();
+            line.counts(degrees)
+                .ok_or_else(|| format!("the {name} has no counts for {degrees:.1}°"))
+        };
+        let az_counts = counts("azimuth", azimuth, az_line, status.map(|status| status.azimuth))?;
+        let el_counts =
+            counts("elevation", elevation, el_line, status.map(|status| status.elevation))?;
+        Ok(AutoMove::position(az_counts, el_counts))
+    }
+
+    /// Whether counts lie within the travel of the mount, as far as an axis is
+    /// calibrated.
+    pub(super) fn check_travel(&self, mount: &Mount, counts: [u16; 2]) -> Result<(), String> {
+        let names = ["azimuth", "elevation"];
+        let axes = self.lines.iter().zip(counts).zip(mount.travel_deg()).zip(names);
+        for (((line, counts), (from_deg, to_deg)), name) in axes {
+            let Some(line) = line else { continue };
+            let degrees = line.degrees(counts);
+            // Counts are rounded from degrees: allow for it.
+            let step_deg = (line.degrees(1) - line.degrees(0)).abs();
+            if degrees < from_deg - step_deg || degrees > to_deg + step_deg {
+                return Err(format!(
+                    "the {name} would have to go to {degrees:.1}°, it travels {from_deg}° to \
+                     {to_deg}°"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Counts need a calibration; a shown angle stands for itself.
+fn angle_deg(position: Position, line: Option<CountLine>) -> Option<f64> {
+    match position {
+        Position::Counts(counts) => Some(line?.degrees(counts)),
+        Position::TenthsOfDegree(tenths) => Some(f64::from(tenths) / 10.0),
+        Position::Limit(_) | Position::Unknown(_) => None,
+    }
+}
+
+fn sense_of(end: LimitEnd) -> Sense {
+    match end {
+        LimitEnd::CounterClockwise | LimitEnd::Down => Sense::Negative,
+        LimitEnd::Clockwise | LimitEnd::Up => Sense::Positive,
+    }
+}
+
+fn motion(
+    drive: AxisDrive,
+    position: Position,
+    before: Option<Position>,
+    is_reversed: bool,
+) -> AxisMotion {
+    let counts_grow = |grow: bool| turning(grow != is_reversed);
+    match drive {
+        AxisDrive::Pending(sense) | AxisDrive::Moving(sense) => {
+            counts_grow(sense == Sense::Positive)
+        }
+        AxisDrive::Unknown(code) => AxisMotion::Unknown(code.into()),
+        _ => match (before, position) {
+            (Some(Position::Counts(before)), Position::Counts(now))
+                if now.abs_diff(before) > UNSTEADY =>
+            {
+                counts_grow(now > before)
+            }
+            (Some(Position::TenthsOfDegree(before)), Position::TenthsOfDegree(now))
+                if now.abs_diff(before) > UNSTEADY =>
+            {
+                turning(now > before)
+            }
+            _ if drive == AxisDrive::AutoMove => AxisMotion::Unknown(AUTO_MOVE),
+            _ => AxisMotion::Still,
+        },
+    }
+}
+
+fn turning(angle_grows: bool) -> AxisMotion {
+    if angle_grows { AxisMotion::Plus } else { AxisMotion::Minus }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,141 @@
+use super::*;
+use crate::{
+    protocol::rc2000c::{Address, Decoder, Reply},
+    station::CountPoint,
+};
+
+/// An idle unit at 1525 and 750 counts.
+pub(crate) const IDLE: &[u8] = b"\x06\x32\x31SBS 6        1525  75039       #@;S\x03\x42";
+
+fn status(bytes: &[u8]) -> Status {
+    let mut decoder = Decoder::new(Address::FACTORY);
+    decoder.push(bytes);
+    let frame = decoder.next().unwrap().unwrap();
+    let Ok(Reply::Status { status, .. }) = Reply::parse(&frame) else { panic!("{frame:?}") };
+    status
+}
+
+fn points(pairs: [(u16, f64); 2]) -> Vec<CountPoint> {
+    pairs.map(|(counts, degrees)| CountPoint { counts, degrees }).to_vec()
+}
+
+/// Twenty counts a degree.
+fn calibrated() -> Axes {
+    Axes::new(&Calibration {
+        azimuth: points([(30, 90.0), (9030, 540.0)]),
+        elevation: points([(30, 0.0), (1830, 90.0)]),
+    })
+}
+
+/// As south of the equator: the counts grow westwards through north.
+fn reversed() -> Axes {
+    Axes::new(&Calibration {
+        azimuth: points([(30, 450.0), (3630, 270.0)]),
+        elevation: points([(30, 0.0), (1830, 90.0)]),
+    })
+}
+
+#[test]
+fn counts_are_angles_once_they_are_calibrated() {
+    let status = status(IDLE);
+    let [azimuth, elevation] = calibrated().read(&status, None);
+    assert_eq!(azimuth.angle_deg.map(f64::round), Some(165.0));
+    assert_eq!(elevation.angle_deg, Some(36.0));
+    let unknown = Axes::new(&Calibration::default());
+    let axes = unknown.read(&status, None);
+    assert_eq!(axes.map(|axis| axis.angle_deg), [None, None]);
+    assert_eq!(Axes::pointing(axes), Pointing { azimuth: None, elevation: None });
+}
+
+#[test]
+fn beyond_north_the_axis_counts_on_and_the_pointing_does_not() {
+    let far = Status { azimuth: Position::Counts(6030), ..status(IDLE) };
+    let axes = calibrated().read(&far, None);
+    assert_eq!(axes[0].angle_deg, Some(390.0));
+    assert_eq!(Axes::pointing(axes).azimuth.map(Angle::degrees), Some(30.0));
+}
+
+#[test]
+fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
+    let shown = Status {
+        azimuth: Position::TenthsOfDegree(1784),
+        elevation: Position::TenthsOfDegree(-3),
+        ..status(IDLE)
+    };
+    let unknown = Axes::new(&Calibration::default());
+    let axes = unknown.read(&shown, None);
+    assert_eq!(axes.map(|axis| axis.angle_deg), [Some(178.4), Some(-0.3)]);
+    let angle = Some(Angle::from_degrees(180.0));
+    let refused = unknown.auto_move(angle, angle, Some(&shown)).unwrap_err();
+    assert_eq!(refused, "the azimuth is not calibrated");
+    let refused = calibrated().auto_move(angle, None, Some(&shown)).unwrap_err();
+    assert!(refused.contains("elevation") && refused.contains("not known"), "{refused}");
+}
+
+#[test]
+fn an_axis_that_stays_is_sent_to_its_present_counts() {
+    let axes = calibrated();
+    let angle = |degrees| Some(Angle::from_degrees(degrees));
+    let both = axes.auto_move(angle(390.0), angle(45.0), None).unwrap();
+    assert_eq!(both.to_position(), Some((6030, 930)));
+    let one = axes.auto_move(None, angle(45.0), Some(&status(IDLE))).unwrap();
+    assert_eq!(one.to_position(), Some((1525, 930)));
+    assert!(axes.auto_move(angle(88.0), angle(45.0), None).unwrap_err().contains("no counts"));
+}
+
+#[test]
+fn limits_lie_at_the_end_where_the_angle_does() {
+    let at_end = Status {
+        azimuth: Position::Limit(LimitEnd::CounterClockwise),
+        elevation: Position::Limit(LimitEnd::Up),
+        ..status(IDLE)
+    };
+    let ends =
+        |axes: Axes| axes.read(&at_end, None).map(|axis| (axis.minus_limit, axis.plus_limit));
+    assert_eq!(ends(calibrated()), [(true, false), (false, true)]);
+    assert_eq!(ends(reversed()), [(false, true), (false, true)]);
+}
+
+#[test]
+fn a_jog_goes_the_way_in_which_the_angle_grows() {
+    let ways = |axes: Axes| {
+        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(x, y)| axes.direction(x, y))
+    };
+    let [up, down] = [Direction::Up, Direction::Down];
+    let [clockwise, back] = [Direction::Clockwise, Direction::CounterClockwise];
+    assert_eq!(ways(calibrated()), [clockwise, back, up, down]);
+    assert_eq!(ways(reversed()), [back, clockwise, up, down]);
+}
+
+#[test]
+fn an_axis_moves_while_its_drive_or_its_number_says_so() {
+    let before = status(IDLE);
+    let axes = calibrated();
+    let motion = |drive, az_counts| {
+        let now = Status { azimuth_drive: drive, azimuth: Position::Counts(az_counts), ..before };
+        axes.read(&now, Some(&before))[0].motion
+    };
+    assert_eq!(motion(AxisDrive::Still, 1526), AxisMotion::Still, "one count is no motion");
+    assert_eq!(motion(AxisDrive::Still, 1527), AxisMotion::Plus);
+    assert_eq!(motion(AxisDrive::Runaway, 1500), AxisMotion::Minus);
+    assert_eq!(motion(AxisDrive::Runaway, 1525), AxisMotion::Still, "the alarm stays, not it");
+    assert_eq!(motion(AxisDrive::Pending(Sense::Negative), 1525), AxisMotion::Minus);
+    assert_eq!(motion(AxisDrive::AutoMove, 1525), AxisMotion::Unknown(7));
+    assert_eq!(motion(AxisDrive::AutoMove, 1530), AxisMotion::Plus);
+    assert_eq!(motion(AxisDrive::Unknown(0x26), 1525), AxisMotion::Unknown(0x26));
+}
+
+#[test]
+fn counts_beyond_the_travel_of_the_mount_are_told() {
+    let mount = Mount::AzEl {
+        azimuth_from_deg: 90.0,
+        azimuth_to_deg: 540.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 85.0,
+    };
+    assert_eq!(calibrated().check_travel(&mount, [30, 30]), Ok(()));
+    let refused = calibrated().check_travel(&mount, [30, 1830]).unwrap_err();
+    assert!(refused.contains("elevation") && refused.contains("85"), "{refused}");
+    let unknown = Axes::new(&Calibration::default());
+    assert_eq!(unknown.check_travel(&mount, [0, 65_535]), Ok(()), "nothing is known");
+}

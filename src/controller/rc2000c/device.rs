@@ -1,0 +1,204 @@
+//! What the driver asks of an RC2000C.
+
+use std::time::{Duration, Instant};
+
+use super::{
+    HeldJog, MAKE, Names, RENEWAL, Rc2000c,
+    exchange::{Outstanding, Purpose},
+    refusal::is_tracking,
+};
+use crate::{
+    controller::{
+        AntennaState, Capabilities, Device, Extent, Finding, Happening, Moment, Motion, Moves,
+        PrepareError, Question, TrackTarget, WireLine,
+        panel::Act,
+        settings::{Change, Group},
+    },
+    protocol::rc2000c::{
+        Decoder, Motion as UnitMotion, PolarizationMotion, Request, Speed, Status,
+    },
+};
+
+impl Device for Rc2000c {
+    fn capabilities(&self) -> Capabilities {
+        MAKE.capabilities
+    }
+
+    fn link_up(&mut self, now: Moment) {
+        self.link_down(now);
+        self.state.link_since = Some(now.steady);
+        self.state.motion_lock = None;
+        self.state.program = None;
+        self.status = None;
+        self.device = None;
+        self.is_offline = false;
+        self.wants_device = true;
+        self.names = Names::default();
+        self.poll_at = Some(now.steady);
+        self.refresh_panel();
+    }
+
+    fn link_down(&mut self, now: Moment) {
+        self.record_noise(Finding::Unfinished, now);
+        self.heard_at = None;
+        self.decoder = Decoder::new(self.address);
+        self.poll_at = None;
+        self.quiet_until = None;
+        self.outstanding = None;
+        self.halt = None;
+        self.orders.clear();
+        self.jog = None;
+        self.wants_device = false;
+    }
+
+    fn sent(&mut self, bytes: &[u8], now: Moment) {
+        self.record_sent(bytes, now);
+    }
+
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        self.wire.pop()
+    }
+
+    fn receive(&mut self, bytes: &[u8], now: Moment) {
+        self.hear(bytes, now);
+        self.decoder.push(bytes);
+        while let Some(frame) = self.decoder.next() {
+            self.take_frame(frame, now);
+        }
+        self.limit_noise(now);
+    }
+
+    fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
+        if self.silent_at().is_some_and(|at| now.steady >= at) {
+            for frame in self.decoder.line_is_quiet() {
+                self.take_frame(frame, now);
+            }
+            self.record_noise(Finding::NoHeader, now);
+            self.heard_at = None;
+        }
+        if let Some(again) = self.expire(now) {
+            return Some(again);
+        }
+        if !self.is_free() || self.quiet_until.is_some_and(|until| now.steady < until) {
+            return None;
+        }
+        self.quiet_until = None;
+        let (request, purpose) = self.next_request(now)?;
+        self.outstanding = Some(Outstanding::new(request, purpose, self.line, now));
+        Some(request.to_bytes(self.address))
+    }
+
+    fn due(&self, now: Moment) -> Instant {
+        let far = now.steady + Duration::from_hours(1);
+        let waits = [&self.outstanding, &self.halt].into_iter().flatten();
+        let deadlines = waits.map(|sent| sent.deadline);
+        let next = self.is_free().then(|| self.next_due(now)).flatten();
+        deadlines.chain(self.silent_at()).chain(next).min().unwrap_or(far)
+    }
+
+    fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
+        self.orders.clear();
+        self.jog = None;
+        if let Some(outstanding) = &mut self.outstanding {
+            outstanding.disown();
+        }
+        let stands = |status: &Status| status.polarization_motion == PolarizationMotion::Still;
+        self.holds_polarization =
+            extent == Extent::Everything && !self.status.as_ref().is_some_and(stands);
+        self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
+        self.look_soon(now);
+        Request::Stop.to_bytes(self.address)
+    }
+
+    fn prepare(&mut self, target: TrackTarget) {
+        let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
+        self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn groups(&self) -> &'static [&'static Group] {
+        MAKE.groups
+    }
+
+    fn read_group(&mut self, _: &str) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
+    fn ask(&mut self, _: Question) {}
+
+    fn disable_auto(&mut self) {}
+
+    fn motion_under_way(&self) -> bool {
+        let is_sent = self.outstanding.as_ref().is_some_and(Outstanding::is_order);
+        is_sent || !self.orders.is_empty() || self.jog.is_some()
+    }
+
+    fn state(&self) -> &AntennaState {
+        &self.state
+    }
+
+    fn next_happening(&mut self) -> Option<Happening> {
+        self.happenings.pop_front()
+    }
+
+    fn patience(&self) -> Duration {
+        // A question and its two repetitions, on top of the wait for it.
+        self.poll_period() + self.line.longest_wait() * 3
+    }
+
+    fn poll_period(&self) -> Duration {
+        self.rates.period(self.moving())
+    }
+}
+
+impl Rc2000c {
+    /// Nothing is waited for.
+    fn is_free(&self) -> bool {
+        self.outstanding.is_none() && self.halt.is_none()
+    }
+
+    /// When a frame that came in part will not go on.
+    fn silent_at(&self) -> Option<Instant> {
+        self.heard_at.map(|at| at + self.line.silence())
+    }
+
+    /// When there is something to send, with nothing outstanding.
+    fn next_due(&self, now: Moment) -> Option<Instant> {
+        let poll_at = self.poll_at?;
+        let jog_at = self.jog.map(|jog| jog.sent.map_or(now.steady, |sent| sent + RENEWAL));
+        let is_asked = !self.orders.is_empty() || self.wants_device || self.next_name().is_some();
+        let at = [poll_at].into_iter().chain(jog_at).chain(is_asked.then_some(now.steady)).min()?;
+        Some(at.max(self.quiet_until.unwrap_or(at)))
+    }
+}
+
+impl Moves for Rc2000c {
+    fn start(&mut self, motion: Motion) {
+        // A newer wish replaces one that has not gone out yet.
+        self.orders.clear();
+        match motion {
+            Motion::Jog { x_deg_s, y_deg_s } => {
+                let rate_deg_s = x_deg_s.abs().max(y_deg_s.abs());
+                let named = MAKE.capabilities.jog.nearest(rate_deg_s, self.maximum_rate_deg_s);
+                let speed = if named == Some(super::FAST) { Speed::Fast } else { Speed::Slow };
+                let direction = self.axes.direction(x_deg_s, y_deg_s);
+                self.jog = Some(HeldJog { motion, direction, speed, sent: None });
+            }
+            Motion::Position { azimuth, elevation } => {
+                let request = if self.status.as_ref().is_some_and(is_tracking) {
+                    Err("TRACK is active on the unit".to_owned())
+                } else {
+                    let target = self.axes.auto_move(azimuth, elevation, self.status.as_ref());
+                    target.map(|target| Request::Motion(UnitMotion::AutoMove(target)))
+                };
+                self.order(motion, request);
+            }
+            Motion::Step { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
+                self.order(motion, Err("the controller cannot do this".to_owned()));
+            }
+        }
+    }
+
+    fn act(&mut self, act: Act) {
+        self.act_on(&act);
+    }
+}

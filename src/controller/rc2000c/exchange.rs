@@ -1,0 +1,265 @@
+//! One command and its reply: matching, time-outs, what the reply brings about.
+
+use std::time::Instant;
+
+use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
+use crate::{
+    controller::{Happening, Measured, Moment, Motion, Phase, Program},
+    protocol::rc2000c::{
+        AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
+        PolarizationUnits, Query, Reply, ReplyError, Request, Status,
+    },
+};
+
+/// A question is asked at most so often; anything else once.
+const MOST_TRIES: u8 = 3;
+const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
+
+/// Why a command was sent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Purpose {
+    /// The status was due.
+    Poll,
+    /// Something is to be known.
+    Question,
+    /// The operator asked for it, or nobody did: a part of a halt.
+    Order(Option<Motion>),
+    /// A halt past everything.
+    Halt,
+    /// A halt has overtaken it: whatever comes is of no interest.
+    Disowned,
+}
+
+/// A command that waits for its reply.
+#[derive(Debug)]
+pub(super) struct Outstanding {
+    request: Request,
+    pub(super) purpose: Purpose,
+    pub(super) sent: Moment,
+    /// When the question is repeated, its answer may be to the first one.
+    first_sent: Moment,
+    tries: u8,
+    pub(super) deadline: Instant,
+}
+
+impl Outstanding {
+    pub(super) fn new(request: Request, purpose: Purpose, line: Line, now: Moment) -> Self {
+        let deadline = now.steady + line.reply_wait(&request);
+        Self { request, purpose, sent: now, first_sent: now, tries: 1, deadline }
+    }
+
+    pub(super) fn code(&self) -> u8 {
+        self.request.command().code()
+    }
+
+    pub(super) fn is_order(&self) -> bool {
+        matches!(self.purpose, Purpose::Order(_))
+    }
+
+    /// A halt came after it.
+    pub(super) fn disown(&mut self) {
+        if self.is_order() {
+            self.purpose = Purpose::Disowned;
+        }
+    }
+
+    fn is_answered_by(&self, reply: &Reply) -> bool {
+        self.code()
+            == match reply {
+                Reply::DeviceType(_) => Command::DeviceType.code(),
+                Reply::Status { command, .. } => command.code(),
+                Reply::SatelliteName(_) => Command::SatelliteName.code(),
+                Reply::Offline { code } | Reply::Refused { code } => *code,
+            }
+    }
+}
+
+impl Rc2000c {
+    /// Takes one frame of the stream.
+    pub(super) fn take_frame(&mut self, frame: Result<Frame, FrameError>, now: Moment) {
+        let frame = match frame {
+            Ok(frame) => frame,
+            Err(error) => {
+                self.state.traffic.damaged += 1;
+                self.record_broken(error, now);
+                return tracing::debug!(%error, "damaged frame");
+            }
+        };
+        self.record_frame(&frame, now);
+        match Reply::parse(&frame) {
+            Ok(reply) => self.match_reply(&reply, now),
+            // Adapters of such lines send back what they hear.
+            Err(ReplyError::Echo { .. }) => self.state.traffic.odd += 1,
+            Err(error) => {
+                self.state.traffic.unreadable += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
+                tracing::debug!(%error, "unreadable reply");
+            }
+        }
+    }
+
+    fn match_reply(&mut self, reply: &Reply, now: Moment) {
+        let answered = self
+            .outstanding
+            .take_if(|sent| sent.is_answered_by(reply))
+            .or_else(|| self.halt.take_if(|sent| sent.is_answered_by(reply)));
+        let Some(answered) = answered else {
+            self.state.traffic.unsolicited += 1;
+            return tracing::debug!(?reply, "nobody asked for this");
+        };
+        self.state.traffic.replies += 1;
+        self.state.traffic.last_reply = Some(now.steady);
+        // The answers to all that was asked may come: each is waited for, or the
+        // next question would be taken for answered by an older state.
+        let quiet = if answered.tries > 1 { self.line.longest_wait() } else { GAP };
+        self.quiet_until = Some(now.steady + quiet);
+        self.take_reply(&answered, reply, now);
+        self.refresh_panel();
+    }
+
+    fn take_reply(&mut self, answered: &Outstanding, reply: &Reply, now: Moment) {
+        match reply {
+            Reply::Offline { .. } => {
+                self.is_offline = true;
+                self.fail(answered, REMOTE_DISABLED.to_owned(), now);
+            }
+            Reply::Refused { .. } => {
+                let reason = refusal::likely_reason(&answered.request, self.status.as_ref());
+                self.fail(answered, reason, now);
+            }
+            Reply::DeviceType(device) => {
+                self.wants_device = false;
+                self.device = Some(*device);
+            }
+            Reply::SatelliteName(entry) => self.names.take(entry),
+            Reply::Status { status, .. } => {
+                self.take_status(*status, answered, now);
+                if let Purpose::Order(motion) = answered.purpose {
+                    self.happenings.extend(motion.map(Happening::Accepted));
+                }
+                let is_jog = matches!(answered.request, Request::Motion(UnitMotion::Jog(_)));
+                if answered.purpose != Purpose::Poll && !is_jog {
+                    self.look_soon(now);
+                }
+            }
+        }
+    }
+
+    fn take_status(&mut self, status: Status, answered: &Outstanding, now: Moment) {
+        // A unit that was not allowed to answer is asked who it is once it is.
+        self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
+        let before = self.status.replace(status);
+        let axes = self.axes.read(&status, before.as_ref());
+        let way = now.steady.saturating_duration_since(answered.sent.steady) / 2;
+        self.state.measured = Some(Measured {
+            at: now.utc.checked_sub(way).unwrap_or(now.utc),
+            asked: answered.first_sent.steady,
+            received: now.steady,
+            pointing: Axes::pointing(axes),
+            axes,
+        });
+        self.state.motion_lock = Some(checks::forbids_motion(&status));
+        self.state.program = refusal::is_tracking(&status).then_some(Program {
+            enabled: true,
+            phase: Phase::Tracking,
+            auto: None,
+        });
+        self.hold_polarization(&status);
+        self.poll_at = Some(now.steady + self.rates.period(self.moving()));
+    }
+
+    /// A stop of the axes leaves the polarization turning. It is sent to where it
+    /// is; a jog of it ends by itself.
+    fn hold_polarization(&mut self, status: &Status) {
+        if !std::mem::take(&mut self.holds_polarization) {
+            return;
+        }
+        let is_automatic = status.polarization_mode.is_none_or(|mode| mode.is_automatic);
+        let is_under_way = status.polarization_motion == PolarizationMotion::ToStored;
+        let units = status.feed.units().filter(|_| is_under_way && !is_automatic);
+        if let Some(here) = units.and_then(|units| PolarizationUnits::new(units).ok()) {
+            let request = Request::Motion(UnitMotion::AutoMove(AutoMove::polarization(here)));
+            self.orders.push_back(Order { request, motion: None });
+        }
+    }
+
+    /// The unit said no.
+    fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
+        self.end_jog(answered, |motion| Happening::Refused(motion, reason.clone()));
+        match answered.purpose {
+            Purpose::Poll | Purpose::Question => self.question_failed(&answered.request, now),
+            Purpose::Order(Some(motion)) => {
+                self.orders.clear();
+                self.happenings.push_back(Happening::Refused(motion, reason));
+                self.look_soon(now);
+            }
+            Purpose::Halt | Purpose::Order(None) => {
+                self.happenings.push_back(Happening::HaltRefused(reason));
+                self.look_soon(now);
+            }
+            Purpose::Disowned => self.look_soon(now),
+        }
+    }
+
+    fn question_failed(&mut self, request: &Request, now: Moment) {
+        match request {
+            Request::Query(Query::DeviceType) => self.wants_device = false,
+            Request::Query(Query::SatelliteName(_)) => self.names.end(),
+            _ => self.poll_at = Some(now.steady + self.rates.period(self.moving())),
+        }
+    }
+
+    /// Nothing renews the jog any more: the timer of the unit ends it. It is told
+    /// where the command that failed was not the jog itself.
+    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Motion) -> Happening) {
+        let is_told = matches!(failed.purpose, Purpose::Order(Some(Motion::Jog { .. })));
+        let ended = self.jog.take().filter(|_| !is_told);
+        self.happenings.extend(ended.map(|jog| tell(jog.motion)));
+    }
+
+    /// What was not answered in time. A question is repeated; anything else
+    /// never: the next status tells whether it came through.
+    pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
+        if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.deadline) {
+            self.miss(&late, false, now);
+            self.look_soon(now);
+        }
+        let mut late = self.outstanding.take_if(|sent| now.steady >= sent.deadline)?;
+        let is_repeated =
+            matches!(late.purpose, Purpose::Poll | Purpose::Question) && late.tries < MOST_TRIES;
+        self.miss(&late, is_repeated, now);
+        if is_repeated {
+            late.tries += 1;
+            late.sent = now;
+            late.deadline = now.steady + self.line.reply_wait(&late.request);
+            let bytes = late.request.to_bytes(self.address);
+            self.outstanding = Some(late);
+            return Some(bytes);
+        }
+        match late.purpose {
+            Purpose::Poll | Purpose::Question => self.question_failed(&late.request, now),
+            Purpose::Order(motion) => {
+                self.orders.clear();
+                self.happenings.extend(motion.map(Happening::Unanswered));
+                self.look_soon(now);
+            }
+            Purpose::Halt | Purpose::Disowned => self.look_soon(now),
+        }
+        None
+    }
+
+    fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
+        self.state.traffic.unanswered += 1;
+        let waited = now.steady.saturating_duration_since(late.sent.steady);
+        self.record_no_reply(waited, is_repeated, now);
+        self.end_jog(late, Happening::Unanswered);
+    }
+
+    pub(super) fn refresh_panel(&mut self) {
+        let (status, device) = (self.status.as_ref(), self.device);
+        let readings = status.map(|status| readings::readings(status, device, &self.names));
+        self.state.readings = readings.unwrap_or_default().into();
+        let checks = checks::checks(status, device, self.is_offline, self.axes.are_calibrated());
+        self.state.checks = checks.into();
+    }
+}

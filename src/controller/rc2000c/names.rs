@@ -1,0 +1,85 @@
+//! The list of stored satellites, read entry by entry.
+
+use crate::protocol::rc2000c::{NameEntry, NameIndex, SatelliteName};
+
+/// The list as far as it was read on this link.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    read: Vec<SatelliteName>,
+    /// How many there are, once an entry or a refusal has told.
+    count: Option<u8>,
+}
+
+impl Names {
+    /// The entry to ask for next; `None` when all were read.
+    pub(super) fn next(&self) -> Option<NameIndex> {
+        if self.is_complete() {
+            return None;
+        }
+        NameIndex::new(u8::try_from(self.read.len() + 1).ok()?).ok()
+    }
+
+    /// Takes an entry. A unit that names another than the next one has no list
+    /// that can be read.
+    pub(super) fn take(&mut self, entry: &NameEntry) {
+        if self.next().is_some_and(|next| next.number() == entry.index) {
+            self.read.push(entry.name);
+            self.count = Some(entry.count);
+        } else {
+            self.end();
+        }
+    }
+
+    /// There are no more: the unit says so, or does not answer.
+    pub(super) fn end(&mut self) {
+        self.count = u8::try_from(self.read.len()).ok();
+    }
+
+    pub(super) fn is_complete(&self) -> bool {
+        self.count.is_some_and(|count| self.read.len() >= usize::from(count))
+    }
+
+    pub(super) fn read(&self) -> &[SatelliteName] {
+        &self.read
+    }
+
+    /// The stored name that the operator means: the case of its letters and
+    /// blanks around it do not matter.
+    pub(super) fn find(&self, typed: &str) -> Option<SatelliteName> {
+        let is_meant =
+            |name: &&SatelliteName| name.as_str().trim().eq_ignore_ascii_case(typed.trim());
+        self.read.iter().find(is_meant).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(index: u8, count: u8, name: &str) -> NameEntry {
+        NameEntry { index, count, name: SatelliteName::new(name).unwrap() }
+    }
+
+    #[test]
+    fn entries_are_asked_for_one_by_one() {
+        let mut names = Names::default();
+        assert_eq!(names.next().map(NameIndex::number), Some(1));
+        names.take(&entry(1, 2, "SBS 6"));
+        assert!(!names.is_complete());
+        names.take(&entry(2, 2, " GALAXY 5"));
+        assert!(names.is_complete() && names.next().is_none());
+        assert_eq!(names.find("galaxy 5").unwrap().as_str(), " GALAXY 5");
+        assert_eq!(names.find("GALAXY"), None);
+    }
+
+    #[test]
+    fn a_refusal_and_a_wrong_entry_end_the_list_where_it_is() {
+        let mut names = Names::default();
+        names.end();
+        assert!(names.is_complete() && names.read().is_empty());
+        let mut names = Names::default();
+        names.take(&entry(1, 3, "SBS 6"));
+        names.take(&entry(1, 3, "SBS 6"));
+        assert!(names.is_complete() && names.read().len() == 1);
+    }
+}

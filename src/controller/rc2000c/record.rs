@@ -1,0 +1,99 @@
+//! Tells what goes over the link, frame by frame.
+
+use std::time::Duration;
+
+use super::{Rc2000c, exchange::Purpose};
+use crate::{
+    controller::{Direction, Finding, Moment, WireLine},
+    protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
+};
+
+/// Heard bytes without a frame are told in lines of this.
+const MOST_NOISE: usize = 4 * MAX_FRAME_BYTES;
+
+impl Rc2000c {
+    /// A command that was written.
+    pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
+        let is_poll = bytes.get(2) == Some(&Command::Status.code());
+        self.tell(Direction::Sent, bytes, Finding::Good, is_poll, None, now);
+    }
+
+    /// Bytes that came in and are not read yet.
+    pub(super) fn hear(&mut self, bytes: &[u8], now: Moment) {
+        self.heard_at = Some(now.steady);
+        self.heard.extend_from_slice(bytes);
+    }
+
+    /// Noise without an end is told in pieces.
+    pub(super) fn limit_noise(&mut self, now: Moment) {
+        if self.heard.len() > MOST_NOISE {
+            self.record_noise(Finding::NoHeader, now);
+        }
+    }
+
+    /// A frame was read; what stands before it in the stream was none.
+    pub(super) fn record_frame(&mut self, frame: &Frame, now: Moment) {
+        let bytes = frame.to_bytes();
+        let place = self.heard.windows(bytes.len()).position(|window| window == bytes);
+        if let Some(place) = place {
+            let rest = self.heard.split_off(place + bytes.len());
+            self.heard.truncate(place);
+            self.record_noise(Finding::NoHeader, now);
+            self.heard = rest;
+        }
+        let outstanding = [&self.outstanding, &self.halt].into_iter().flatten();
+        let request = outstanding.into_iter().find(|sent| sent.code() == frame.code());
+        let is_poll = request.is_some_and(|sent| sent.purpose == Purpose::Poll);
+        let reply_after =
+            request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
+        self.tell(Direction::Received, &bytes, Finding::Good, is_poll, reply_after, now);
+    }
+
+    /// What began like a frame was none.
+    pub(super) fn record_broken(&mut self, error: FrameError, now: Moment) {
+        let finding = match error {
+            FrameError::BadChecksum { received, computed } => {
+                Finding::BadChecksum { received, computed }
+            }
+            FrameError::BadLength { .. } | FrameError::BadByte { .. } => Finding::NotText,
+            FrameError::TooLong => Finding::TooLong,
+            FrameError::Incomplete { .. } => Finding::Unfinished,
+        };
+        self.record_noise(finding, now);
+    }
+
+    /// The line is quiet: what was heard and read as no frame is told as such.
+    pub(super) fn record_noise(&mut self, finding: Finding, now: Moment) {
+        let noise = std::mem::take(&mut self.heard);
+        if !noise.is_empty() {
+            self.tell(Direction::Received, &noise, finding, false, None, now);
+        }
+    }
+
+    /// A reply is missing, and the question goes out again or is given up.
+    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
+        let finding = Finding::NoReply { waited, is_repeated };
+        self.tell(Direction::Received, &[], finding, false, None, now);
+    }
+
+    fn tell(
+        &mut self,
+        direction: Direction,
+        bytes: &[u8],
+        finding: Finding,
+        is_poll: bool,
+        reply_after: Option<Duration>,
+        now: Moment,
+    ) {
+        self.wire.push(WireLine {
+            at: now.utc,
+            direction,
+            bytes: bytes.into(),
+            length: bytes.len(),
+            is_shortened: false,
+            finding,
+            reply_after,
+            is_poll,
+        });
+    }
+}

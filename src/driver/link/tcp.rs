@@ -1,0 +1,54 @@
+//! Links over TCP.
+
+use std::{io, sync::Arc};
+
+use tokio::net::TcpStream;
+
+use super::{
+    Dial, Stream,
+    parity::{Heard, WithParity},
+};
+use crate::protocol::rc2000c::Parity;
+
+/// Opens TCP links to `address` (host and port).
+pub fn dial_tcp(address: String) -> Dial {
+    Box::new(move || {
+        let address = address.clone();
+        Box::pin(async move { Ok(Box::new(open(&address).await?) as Box<dyn Stream>) })
+    })
+}
+
+/// Opens links to the serial server at `address`.
+///
+/// A server that is set to seven bits and even parity makes the parity; one that
+/// is set to eight bits hands it on, and this end has to make it. A wrong guess
+/// shows by a unit that stays silent or that sends the eighth bit. So a link over
+/// which nothing came that fits is followed by one with the other guess.
+pub(super) fn dial_line_server(address: String) -> Dial {
+    let mut parity = Parity::Port;
+    let mut heard: Option<Arc<Heard>> = None;
+    Box::new(move || {
+        if heard.take().is_some_and(|heard| !heard.fits()) {
+            parity = match parity {
+                Parity::Port => Parity::Software,
+                Parity::Software => Parity::Port,
+            };
+        }
+        let newest = Arc::new(Heard::default());
+        let address = address.clone();
+        let (guess, listener) = (parity, Arc::clone(&newest));
+        heard = Some(newest);
+        Box::pin(async move {
+            // A server that is not there says nothing about the parity.
+            let stream = open(&address).await.inspect_err(|_| listener.leave_open())?;
+            Ok(Box::new(WithParity::new(stream, guess, listener)) as Box<dyn Stream>)
+        })
+    })
+}
+
+async fn open(address: &str) -> io::Result<TcpStream> {
+    let stream = TcpStream::connect(address).await?;
+    // A STOP must not wait for a fuller packet.
+    stream.set_nodelay(true)?;
+    Ok(stream)
+}

@@ -1,0 +1,136 @@
+//! From the counts of a position sensor to degrees and back, by points that the
+//! operator has measured.
+
+use super::CountPoint;
+
+/// Two lines that grow by less than this differ from a flat one by noise only,
+/// degrees a count.
+const FLAT_DEG: f64 = 1e-6;
+
+/// The straight line that fits measured points best (least squares).
+///
+/// Degrees are those of the mount: 370 is another place than 10, so nothing is
+/// wrapped here.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CountLine {
+    centre_counts: f64,
+    centre_deg: f64,
+    deg_per_count: f64,
+}
+
+/// Why no line can be laid through the points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum CalibrationError {
+    /// One point or none.
+    #[error("two points are needed")]
+    TooFew,
+    /// Two points have the same counts.
+    #[error("{0} counts stand there twice")]
+    SameCounts(u16),
+    /// The degrees do not change with the counts, or are no numbers.
+    #[error("the degrees do not change with the counts")]
+    Flat,
+}
+
+impl CountLine {
+    /// The line through two points or more, in any order.
+    pub fn through(points: &[CountPoint]) -> Result<Self, CalibrationError> {
+        let mut counts: Vec<u16> = points.iter().map(|point| point.counts).collect();
+        counts.sort_unstable();
+        let twice = counts.iter().zip(counts.iter().skip(1)).find(|(a, b)| a == b);
+        if let Some((counts, _)) = twice {
+            return Err(CalibrationError::SameCounts(*counts));
+        }
+        if points.len() < 2 {
+            return Err(CalibrationError::TooFew);
+        }
+        let mean = |value: fn(&CountPoint) -> f64| {
+            points.iter().map(value).sum::<f64>() / points.len() as f64
+        };
+        let centre_counts = mean(|point| point.counts.into());
+        let centre_deg = mean(|point| point.degrees);
+        // Measured from the centre, for large counts would cost digits.
+        let (across, along) = points.iter().fold((0.0, 0.0), |(across, along), point| {
+            let off = f64::from(point.counts) - centre_counts;
+            (across + off * (point.degrees - centre_deg), along + off * off)
+        });
+        let deg_per_count = across / along;
+        // Not a number is refused too.
+        if deg_per_count.abs() >= FLAT_DEG && deg_per_count.is_finite() {
+            Ok(Self { centre_counts, centre_deg, deg_per_count })
+        } else {
+            Err(CalibrationError::Flat)
+        }
+    }
+
+    /// The angle at which the sensor has these counts, degrees as the mount
+    /// counts.
+    pub fn degrees(&self, counts: u16) -> f64 {
+        self.centre_deg + (f64::from(counts) - self.centre_counts) * self.deg_per_count
+    }
+
+    /// The counts nearest to an angle, degrees as the mount counts; `None` where
+    /// the sensor has none, outside 0 to 65535.
+    pub fn counts(&self, degrees: f64) -> Option<u16> {
+        let counts = self.centre_counts + (degrees - self.centre_deg) / self.deg_per_count;
+        let counts = counts.round();
+        (0.0..=f64::from(u16::MAX)).contains(&counts).then_some(counts as u16)
+    }
+
+    /// The angle grows while the counts fall.
+    pub fn is_reversed(&self) -> bool {
+        self.deg_per_count < 0.0
+    }
+
+    /// How far each point lies off the line, degrees, in the order of `points`.
+    pub fn residuals_deg(&self, points: &[CountPoint]) -> Vec<f64> {
+        points.iter().map(|point| point.degrees - self.degrees(point.counts)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(pairs: &[(u16, f64)]) -> Vec<CountPoint> {
+        pairs.iter().map(|&(counts, degrees)| CountPoint { counts, degrees }).collect()
+    }
+
+    #[test]
+    fn two_points_make_a_line_that_goes_past_north() {
+        let line = CountLine::through(&points(&[(30, 0.0), (9030, 450.0)])).unwrap();
+        assert!((line.degrees(7430) - 370.0).abs() < 1e-9);
+        assert_eq!((line.counts(370.0), line.counts(10.0)), (Some(7430), Some(230)));
+        assert!(!line.is_reversed());
+    }
+
+    #[test]
+    fn every_count_comes_back_also_where_the_angle_falls() {
+        let line = CountLine::through(&points(&[(65_535, -12.5), (0, 181.25)])).unwrap();
+        assert!(line.is_reversed());
+        for counts in 0..=u16::MAX {
+            assert_eq!(line.counts(line.degrees(counts)), Some(counts));
+        }
+        assert_eq!((line.counts(181.3), line.counts(-13.0)), (None, None));
+    }
+
+    #[test]
+    fn more_points_are_fitted_and_each_tells_how_far_it_is_off() {
+        let measured = points(&[(1000, 10.0), (2000, 20.3), (3000, 30.0)]);
+        let line = CountLine::through(&measured).unwrap();
+        let residuals = line.residuals_deg(&measured);
+        for (residual, wanted) in residuals.iter().zip([-0.1, 0.2, -0.1]) {
+            assert!((residual - wanted).abs() < 1e-9, "{residuals:?}");
+        }
+    }
+
+    #[test]
+    fn what_makes_no_line_is_refused_with_the_reason() {
+        let refused = |pairs: &[(u16, f64)]| CountLine::through(&points(pairs)).unwrap_err();
+        assert_eq!(refused(&[]), CalibrationError::TooFew);
+        assert_eq!(refused(&[(30, 0.0)]), CalibrationError::TooFew);
+        assert_eq!(refused(&[(30, 0.0), (40, 1.0), (30, 2.0)]), CalibrationError::SameCounts(30));
+        assert_eq!(refused(&[(30, 7.0), (40, 7.0)]), CalibrationError::Flat);
+        assert_eq!(refused(&[(30, f64::NAN), (40, 7.0)]), CalibrationError::Flat);
+    }
+}
