@@ -206,8 +206,24 @@ fn wrong_fields_of_an_rc2000c_are_named_and_its_table_is_kept_as_typed() {
         assert_eq!(typed(&window, "Azimuth counts"), TABLE);
         write(&mut window, "Azimuth counts", "30 90");
         assert!(says(&window, "Azimuth counts must hold two points or more, or none."));
+        write(&mut window, "Azimuth counts", "30 90\n3630 90");
+        assert!(says(&window, "Azimuth counts must hold angles that change with the counts."));
         write(&mut window, "Azimuth counts", "30 90\n3630 270");
+        assert!(!says(&window, "Off a straight line"), "two points are always on it");
         assert_eq!(the_antenna(&save(&mut window)).name, "RC2000C");
+    }
+}
+
+#[test]
+fn points_that_do_not_fit_are_seen_beside_the_table() {
+    for size in SIZES {
+        let mut window = bare(size);
+        add(&mut window, RC2000C);
+        write(&mut window, "Elevation counts", "1000 0\n2000 46\n3000 90");
+        assert!(says(
+            &window,
+            "Off a straight line by −0.33°, +0.67°, −0.33°, the most at 2000 counts."
+        ));
     }
 }
 

@@ -6,8 +6,12 @@ use super::{
     fields::{Checked, Description, Look},
     points,
 };
-use crate::station::{
-    Antenna, Calibration, Connection, CountPoint, Rotators, check_address, check_line, ranges,
+use crate::{
+    station::{
+        Antenna, Calibration, Connection, CountLine, CountPoint, Rotators, check_address,
+        check_line, ranges,
+    },
+    ui::format,
 };
 
 type Of = Description<Antenna>;
@@ -55,8 +59,8 @@ pub(super) const UNIT: &[Of] = &[
         _ => None,
     })
     .noted(|_| {
-        let words = "A serial port, such as /dev/ttyUSB0 or COM3, or the host and port of a \
-                     serial server that hands the bytes on as they are.";
+        let words = "A serial port, such as /dev/ttyUSB0 or COM3, or the host and port of \
+                     a serial server.";
         Some(words.to_owned())
     }),
     Of::choice(
@@ -87,14 +91,14 @@ pub(super) const CALIBRATION: &[Of] = &[
         |antenna| Some(points::write(&calibration(antenna)?.azimuth)),
         |antenna, text| put_points(antenna, text, |table| &mut table.azimuth),
     )
-    .noted(|antenna| uncalibrated(&calibration(antenna)?.azimuth)),
+    .noted(|antenna| fit(&calibration(antenna)?.azimuth)),
     Of::written(
         "Elevation counts",
         POINTS,
         |antenna| Some(points::write(&calibration(antenna)?.elevation)),
         |antenna, text| put_points(antenna, text, |table| &mut table.elevation),
     )
-    .noted(|antenna| uncalibrated(&calibration(antenna)?.elevation)),
+    .noted(|antenna| fit(&calibration(antenna)?.elevation)),
 ];
 
 const ROTATORS: [Rotators; 3] = [Rotators::Pair, Rotators::First, Rotators::Second];
@@ -135,7 +139,19 @@ fn put_points(
     Ok(())
 }
 
-fn uncalibrated(points: &[CountPoint]) -> Option<String> {
-    let words = "Not calibrated: the antenna is shown in counts and goes to no angle.";
-    points.is_empty().then(|| words.to_owned())
+/// How well the points of one axis fit a straight line.
+fn fit(points: &[CountPoint]) -> Option<String> {
+    if points.is_empty() {
+        let words = "Not calibrated: the antenna is shown in counts and goes to no angle.";
+        return Some(words.to_owned());
+    }
+    // Two points are always on it.
+    let line = CountLine::through(points).ok().filter(|_| points.len() > 2)?;
+    let residuals = line.residuals_deg(points);
+    let all: Vec<String> = residuals.iter().map(|off| format::signed(*off, 2)).collect();
+    let largest =
+        points.iter().zip(&residuals).max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
+    let (point, _) = largest?;
+    let all = all.join("°, ");
+    Some(format!("Off a straight line by {all}°, the most at {} counts.", point.counts))
 }

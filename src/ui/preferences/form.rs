@@ -1,8 +1,8 @@
 //! The cards of the form and their fields.
 
 use egui::{
-    Align, Color32, Frame, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke, TextEdit,
-    Ui, vec2,
+    Align, Color32, Frame, Label, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke,
+    TextEdit, Ui, vec2,
 };
 
 use super::{
@@ -137,7 +137,8 @@ fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Sta
         if let Some((words, colour)) = problem.or(note) {
             ui.horizontal_top(|ui| {
                 ui.add_space(LABEL + 8.0);
-                ui.label(RichText::new(words).font(text::small()).color(colour));
+                let words = RichText::new(words).font(text::small()).color(colour);
+                ui.add(Label::new(words).wrap());
             });
         }
     }
