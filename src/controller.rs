@@ -226,6 +226,12 @@ pub trait Device: Send {
 
 /// The side of a controller that moves metal. Only the gate holds it.
 pub trait Moves: Device {
+    /// Why `motion` must not be started or go on, where that is special to this
+    /// device. The gate asks it after its own rules, and again while a jog runs.
+    fn objection(&self, _motion: &Motion, _now: Moment) -> Option<&'static str> {
+        None
+    }
+
     /// Queues a motion other than an action. It is sent once, and not at all
     /// when a halt comes first.
     fn start(&mut self, motion: Motion);

@@ -28,7 +28,7 @@ pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use crate::{
-    controller::{Moves, rc2000c::Rc2000c, satrak::Satrak},
+    controller::{Moves, rc2000c::Rc2000c, rotator_genius::Genius, satrak::Satrak},
     station::{Antenna, Connection},
 };
 
@@ -158,11 +158,13 @@ impl Driver {
                 Box::new(Satrak::new(antenna.poll, element_file.clone())),
                 dial_tcp(address.clone()),
             ),
+            Connection::Genius { address, rotators } => {
+                (Box::new(Genius::new(antenna.poll, *rotators)), dial_tcp(address.clone()))
+            }
             Connection::Rc2000c { address, baud, bus_address, calibration } => (
                 Box::new(Rc2000c::new(antenna, *baud, *bus_address, calibration)),
                 dial_line(address, *baud),
             ),
-            Connection::Genius { .. } => todo!(),
         };
         let (session, handle) =
             Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));

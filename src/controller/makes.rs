@@ -11,6 +11,8 @@ pub struct Make {
     pub key: &'static str,
     /// As on the box.
     pub name: &'static str,
+    /// Why it may have refused or closed the connection, in a sentence.
+    pub closed_note: Option<&'static str>,
     /// What it can do.
     pub capabilities: Capabilities,
     /// What it remembers and can be told.

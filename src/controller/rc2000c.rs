@@ -42,6 +42,7 @@ const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
 pub const MAKE: Make = Make {
     key: "rc2000c",
     name: "Research Concepts RC2000C",
+    closed_note: None,
     capabilities: Capabilities {
         axes: ["Az", "El"],
         has_program: false,

@@ -1,6 +1,35 @@
-//! Behaviour of a Rotator Genius.
+//! Behaviour of a Rotator Genius: one request outstanding, replies matched by
+//! their own words, STOP past everything else.
+//!
+//! A device turns two rotators and has one STOP for both. What they turn is said
+//! by the station: both angles of one antenna, or its azimuth and something else.
 
-use super::{Capabilities, JogSpeed, JogSpeeds, Make};
+mod actions;
+mod device;
+mod exchange;
+mod orders;
+mod panel;
+mod record;
+mod roles;
+mod state;
+mod turning;
+
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
+
+use super::{
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, wire::WireQueue,
+};
+use crate::{
+    protocol::rotator_genius::{Decoder, Request, Status},
+    station::{PollRates, Rotators},
+};
+pub use actions::{OTHER, RESCUE};
+use exchange::{Outstanding, Purpose};
+use orders::Order;
+use turning::Turning;
 
 /// The one speed of its rotators.
 const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
@@ -9,6 +38,7 @@ const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0
 pub const PAIR: Make = Make {
     key: "genius",
     name: "4O3A Rotator Genius",
+    closed_note: Some("Perhaps another program holds the connection."),
     capabilities: Capabilities {
         axes: ["Az", "El"],
         has_program: false,
@@ -23,12 +53,119 @@ pub const PAIR: Make = Make {
         stop_note: Some("STOP stops both rotators."),
     },
     groups: &[],
-    actions: &[],
+    actions: &[actions::ARM_RESCUE],
 };
 
 /// A Rotator Genius of which one rotator turns the azimuth of the antenna and
 /// the other something else.
 pub const ALONE: Make = Make {
     capabilities: Capabilities { axes: ["Az", "Other"], has_elevation: false, ..PAIR.capabilities },
+    actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
     ..PAIR
 };
+
+/// No answer within this is none.
+const REPLY: Duration = Duration::from_secs(1);
+/// While a rescue is armed, nothing but STOP ends a motion: an answer that takes
+/// longer than this is missing.
+const RESCUE_REPLY: Duration = Duration::from_millis(400);
+/// While a rescue is armed, the device is asked this often at least.
+const RESCUE_POLL: Duration = Duration::from_millis(250);
+/// After a question had to be repeated, the answers to both may come. Nothing is
+/// asked until the surplus one must have come.
+const DRAIN: Duration = Duration::from_millis(1100);
+/// After this long without a byte, what is unfinished stays unfinished.
+const QUIET: Duration = Duration::from_millis(250);
+/// Without any good reply for this long, the link is given up.
+const PATIENCE: Duration = Duration::from_secs(8);
+
+/// A Rotator Genius, seen from the near end of its link.
+#[derive(Debug)]
+pub struct Genius {
+    rates: PollRates,
+    rotators: Rotators,
+    decoder: Decoder,
+    /// What the decoder has not finished with, for the log of the link.
+    unfinished: VecDeque<u8>,
+    /// When what is unfinished is given up.
+    quiet_at: Option<Instant>,
+    state: AntennaState,
+    /// The last one on this link.
+    status: Option<Status>,
+    /// By the number of the rotator.
+    turning: [Turning; 2],
+    /// When the status is asked for next; `None` without a link.
+    next_poll: Option<Instant>,
+    outstanding: Option<Outstanding>,
+    /// When the first status was asked for that has not come.
+    missing_since: Option<Instant>,
+    drain_until: Option<Instant>,
+    /// Until when an answer is expected to each STOP that was sent.
+    halts: VecDeque<Instant>,
+    orders: VecDeque<Order>,
+    /// To be armed with the next look at the clock.
+    is_rescue_wanted: bool,
+    rescue_until: Option<Instant>,
+    happenings: VecDeque<Happening>,
+    wire: WireQueue,
+}
+
+impl Genius {
+    /// A device that is asked at `rates` and whose rotators turn what `rotators`
+    /// says. Silent until the link is up.
+    pub fn new(rates: PollRates, rotators: Rotators) -> Self {
+        Self {
+            rates,
+            rotators,
+            decoder: Decoder::new(),
+            unfinished: VecDeque::new(),
+            quiet_at: None,
+            state: AntennaState::default(),
+            status: None,
+            turning: Default::default(),
+            next_poll: None,
+            outstanding: None,
+            missing_since: None,
+            drain_until: None,
+            halts: VecDeque::new(),
+            orders: VecDeque::new(),
+            is_rescue_wanted: false,
+            rescue_until: None,
+            happenings: VecDeque::new(),
+            wire: WireQueue::default(),
+        }
+    }
+
+    fn moving(&self) -> bool {
+        self.state.measured.is_some_and(|measured| measured.moving()) || !self.halts.is_empty()
+    }
+
+    fn motion_waits(&self) -> bool {
+        !self.orders.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
+    }
+
+    /// What is to be sent next, the most urgent first.
+    fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
+        if let Some(Order { request, motion }) = self.orders.pop_front() {
+            return Some((Request::Motion(request), Purpose::Motion(motion)));
+        }
+        let is_due = self.next_poll.is_some_and(|due| due <= now.steady);
+        is_due.then_some((Request::Read, Purpose::Poll))
+    }
+
+    fn period(&self, now: Instant) -> Duration {
+        let period = self.rates.period(self.moving());
+        if self.is_rescue_armed(now) { period.min(RESCUE_POLL) } else { period }
+    }
+
+    fn is_rescue_armed(&self, now: Instant) -> bool {
+        self.rescue_until.is_some_and(|until| now < until)
+    }
+
+    /// The next status tells what a command has brought about.
+    fn look_soon(&mut self, now: Moment) {
+        if let Some(due) = &mut self.next_poll {
+            *due = now.steady.min(*due);
+        }
+    }
+}

@@ -36,6 +36,7 @@ use settle::Settling;
 pub const MAKE: Make = Make {
     key: "satrak",
     name: "SVS Satrak",
+    closed_note: None,
     capabilities: Capabilities {
         axes: ["X", "Y"],
         has_program: true,

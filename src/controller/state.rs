@@ -31,6 +31,8 @@ pub struct AntennaState {
     pub satrak: SatrakState,
     /// Its settings, as far as they were read, and what came of changes.
     pub held: Arc<Held>,
+    /// What answers is another device, or wants to be told a code first.
+    pub is_other_device: bool,
     /// What went over the link.
     pub traffic: Traffic,
 }

@@ -44,6 +44,8 @@ pub enum Direction {
 pub enum Finding {
     /// A frame whose checksum is right.
     Good,
+    /// A good frame of a protocol without checksums, and what it says.
+    Known(&'static str),
     /// A frame with another checksum than that of its payload.
     BadChecksum {
         /// As in the line.
@@ -68,6 +70,13 @@ pub enum Finding {
         /// The question is sent a second time.
         is_repeated: bool,
     },
+}
+
+impl Finding {
+    /// Nothing is wrong with the line.
+    pub fn is_good(self) -> bool {
+        matches!(self, Self::Good | Self::Known(_))
+    }
 }
 
 /// Lines that wait for the session to take them.

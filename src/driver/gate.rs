@@ -95,6 +95,9 @@ pub enum Refusal {
         /// Upper end of its travel.
         to_deg: f64,
     },
+    /// What is special to this controller speaks against it.
+    #[error("{0}")]
+    Controller(&'static str),
     /// A step needs an antenna that stands.
     #[error("the antenna still moves")]
     StillMoving,
@@ -170,7 +173,8 @@ impl Gate {
             mount: self.mount,
             now,
         };
-        RULES.iter().try_for_each(|rule| rule(&motion, &situation))
+        RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
+        self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
     }
 
     /// Does what only this make can do, or says why not.

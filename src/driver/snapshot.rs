@@ -181,6 +181,8 @@ pub enum LinkLoss {
     Silent,
     /// Open, but no reply that can be read.
     Unreadable,
+    /// Open, but to another device, or to one that wants to be told a code.
+    OtherDevice,
 }
 
 /// The stop button of one antenna.

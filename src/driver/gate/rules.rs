@@ -178,7 +178,10 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
         }
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
+    // Without an elevation the second axis is none of the mount's.
+    let count = if situation.can.has_elevation { 2 } else { 1 };
     let axes = measured.axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
+    let axes = axes.take(count);
     for (ahead_deg, ((axis, (from_deg, to_deg)), name)) in ahead_deg.into_iter().zip(axes) {
         let Some(angle_deg) = axis.angle_deg else { continue };
         let asked_deg = angle_deg + ahead_deg;

@@ -29,6 +29,9 @@ impl Session {
 
     /// Follows the age of the last reply.
     pub(super) fn watch_link(&mut self, now: Moment, start: Instant) -> Option<LinkLoss> {
+        if self.gate.state().is_other_device {
+            return Some(LinkLoss::OtherDevice);
+        }
         let last = self.gate.state().traffic.last_reply.map_or(start, |reply| reply.max(start));
         let age = now.steady.saturating_duration_since(last);
         if age >= self.gate.device().patience() {

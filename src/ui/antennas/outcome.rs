@@ -3,7 +3,7 @@
 
 use crate::{
     controller::settings::{Field, Group, Kind, ReadFailure, SettleError, Settled, Value, Values},
-    ui::format,
+    ui::{format, words},
 };
 
 /// What stands where a value is not to be read.
@@ -88,7 +88,7 @@ pub(super) fn sentence(
             format!("{label} {reason}. Nothing was sent.")
         }
         SettleError::Refused(code) => {
-            format!("{subject}: the unit answered ERR,{code} and kept {}.", kept())
+            format!("{subject}: the unit answered {} and kept {}.", words::answer(code), kept())
         }
         SettleError::Unanswered => {
             format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())

@@ -46,7 +46,7 @@ impl Line {
     /// The usual question or answer, with nothing odd about it.
     pub(super) fn is_usual_poll(&self) -> bool {
         let is_calm = matches!(self.meaning.tone, Tone::Plain | Tone::Good);
-        self.wire().is_poll && self.wire().finding == Finding::Good && is_calm
+        self.wire().is_poll && self.wire().finding.is_good() && is_calm
     }
 
     /// Whether `needle`, in lower case, stands in its bytes, its meaning or the
@@ -140,6 +140,7 @@ fn meaning(line: &WireLine) -> Meaning {
                 (None, _) => Meaning { tone: Tone::Caution, text: "Not in the document".into() },
             };
         }
+        Finding::Known(says) => (Tone::Plain, says.to_owned()),
         Finding::BadChecksum { received, computed } => {
             (Tone::Bad, format!("Checksum {received:02X}, should be {computed:02X}. Dropped"))
         }

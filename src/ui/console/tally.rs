@@ -59,7 +59,7 @@ fn tally(antenna: &Arc<str>, now: Timestamp, log: &Log) -> Tally {
             continue;
         }
         lines += 1;
-        bad += usize::from(line.wire().finding != Finding::Good || line.meaning.tone == Tone::Bad);
+        bad += usize::from(!line.wire().finding.is_good() || line.meaning.tone == Tone::Bad);
     }
     let middle = waits.len() / 2;
     let median = (!waits.is_empty()).then(|| *waits.select_nth_unstable(middle).1);

@@ -3,7 +3,7 @@
 use super::{Spoken, short};
 use crate::{
     app::{Model, antenna::AntennaModel},
-    driver::{LinkState, StopState},
+    driver::{LinkLoss, LinkState, StopState},
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
@@ -37,6 +37,11 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::age(silent_s),
                 words::link_loss(reason)
             ));
+            let is_turned_away = matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed);
+            let spoken = match antenna.make().closed_note.filter(|_| is_turned_away) {
+                Some(note) => spoken.plain(format!("{note} ")),
+                None => spoken,
+            };
             Some(
                 what_it_did(spoken, antenna)
                     .plain(format!("Next try in {}.", format::age(retry_s.ceil()))),

@@ -39,7 +39,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         }
         Event::NotSent(refusal) => caution.plain(words::refusal(refusal)),
         Event::Refused(motion, code) => {
-            caution.plain(format!("{}: the unit answered ERR,{code}.", words::motion(*motion)))
+            let answer = words::answer(code);
+            caution.plain(format!("{}: the unit answered {answer}.", words::motion(*motion)))
         }
         Event::Unanswered(motion) => caution.plain(format!(
             "{}: the unit did not answer and does not move. It is not sent again.",
@@ -65,8 +66,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             caution.plain("The jog was stopped: the window did not hold it in time.")
         }
         Event::JogPositionOld => caution.plain("The jog was stopped: the position came too late."),
-        Event::StopRefused(code) => Spoken::new(SentenceKind::Fault)
-            .plain(format!("The unit answered ERR,{code} to STOP. Use the local panel.")),
+        Event::StopRefused(code) => Spoken::new(SentenceKind::Fault).plain(format!(
+            "The unit answered {} to STOP. Use the local panel.",
+            words::answer(code)
+        )),
         Event::AutoTrackStillOn => {
             caution.plain("Stopped. Auto-track is on: the unit may start by itself.")
         }

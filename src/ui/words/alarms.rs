@@ -15,7 +15,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} is not known to stand 3 s after STOP. Use the local panel.")
         }
         AlarmKind::StopRefused(code) => {
-            format!("{antenna} answered ERR,{code} to STOP. Use the local panel.")
+            let answer = super::answer(code);
+            format!("{antenna} answered {answer} to STOP. Use the local panel.")
         }
         AlarmKind::JogLeaseOver => {
             format!("{antenna}: the jog was stopped, the window did not hold it in time.")
@@ -28,7 +29,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
         AlarmKind::Refused(motion, code) => {
-            format!("{}: {antenna} answered ERR,{code}.", super::motion(*motion))
+            let answer = super::answer(code);
+            format!("{}: {antenna} answered {answer}.", super::motion(*motion))
         }
         AlarmKind::Unanswered(motion) => {
             format!("{}: {antenna} did not answer and does not move.", super::motion(*motion))

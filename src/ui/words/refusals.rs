@@ -57,6 +57,7 @@ pub fn refusal(refusal: &Refusal) -> String {
             format!("Not sent: the angle of {axis} is not known, nobody would see it turn.")
         }
         Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
+        Refusal::Controller(why) => format!("Not sent: {why}."),
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
@@ -73,6 +74,12 @@ pub fn follow_problem(problem: &FollowProblem) -> String {
     }
 }
 
+/// What a unit answered when it said no. A number is the code of a Satrak.
+pub fn answer(code: &str) -> String {
+    let is_number = !code.is_empty() && code.bytes().all(|byte| byte.is_ascii_digit());
+    if is_number { format!("ERR,{code}") } else { code.to_owned() }
+}
+
 /// Why a link is lost.
 pub fn link_loss(loss: &LinkLoss) -> String {
     match loss {
@@ -81,6 +88,9 @@ pub fn link_loss(loss: &LinkLoss) -> String {
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
         LinkLoss::Broken(why) => format!("the connection broke ({why})"),
         LinkLoss::Unreadable => "what the unit answers cannot be read".to_owned(),
+        LinkLoss::OtherDevice => {
+            "another device answers there, or one that wants to be told a code first".to_owned()
+        }
         LinkLoss::Silent => "the connection is open, but the unit is silent".to_owned(),
     }
 }

@@ -1,0 +1,43 @@
+//! What only a Rotator Genius can do.
+
+use std::time::Duration;
+
+use crate::controller::{
+    panel::Action,
+    settings::{Field, Kind},
+};
+
+/// Key of the action that sends the rotator that is not the antenna's.
+pub const OTHER: &str = "other";
+/// Key of the action that allows a jog outside the limits.
+pub const RESCUE: &str = "rescue";
+
+/// Key of the field of [`OTHER`], whole degrees from 0 to 360.
+pub(super) const DIRECTION: &str = "direction_deg";
+/// For how long a rescue stays armed.
+pub(super) const ARMED: Duration = Duration::from_mins(1);
+
+pub(super) const SEND_OTHER: Action = Action {
+    key: OTHER,
+    label: "Send the other rotator",
+    about: "Turns the rotator that is not this antenna's. STOP stops both.",
+    fields: &[Field::edit(DIRECTION, "Direction", Kind::Integer { least: 0, most: 360 })
+        .in_unit("°")
+        .about("As that rotator counts.")],
+    moves: true,
+    question: None,
+};
+
+pub(super) const ARM_RESCUE: Action = Action {
+    key: RESCUE,
+    label: "Arm the rescue",
+    about: "For a minute, a rotator outside its limits may be jogged back. The device does not \
+            end such a motion by itself: Azel stops it when the key is let go and when a reply \
+            is missing.",
+    fields: &[],
+    moves: false,
+    question: Some(
+        "Outside the limits nothing but STOP ends a motion, and a lost link leaves it running. \
+         Is somebody watching the antenna?",
+    ),
+};

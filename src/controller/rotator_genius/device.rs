@@ -1,0 +1,171 @@
+//! What the driver asks of a Rotator Genius.
+
+use std::time::{Duration, Instant};
+
+use super::{
+    ALONE, Genius, PAIR, PATIENCE,
+    actions::{ARMED, OTHER, RESCUE},
+    exchange::Outstanding,
+};
+use crate::{
+    controller::{
+        AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
+        Question, TrackTarget, WireLine,
+        panel::Act,
+        settings::{Change, Group},
+    },
+    protocol::rotator_genius::Decoder,
+    station::Rotators,
+};
+
+impl Device for Genius {
+    fn capabilities(&self) -> Capabilities {
+        match self.rotators {
+            Rotators::Pair => PAIR.capabilities,
+            Rotators::First | Rotators::Second => ALONE.capabilities,
+        }
+    }
+
+    fn link_up(&mut self, now: Moment) {
+        self.link_down(now);
+        self.state.link_since = Some(now.steady);
+        self.state.motion_lock = None;
+        self.state.is_other_device = false;
+        self.next_poll = Some(now.steady);
+    }
+
+    fn link_down(&mut self, now: Moment) {
+        self.record_unfinished(now);
+        self.decoder = Decoder::new();
+        self.quiet_at = None;
+        self.status = None;
+        self.turning = Default::default();
+        self.next_poll = None;
+        self.outstanding = None;
+        self.missing_since = None;
+        self.drain_until = None;
+        self.halts.clear();
+        self.orders.clear();
+        self.rescue_until = None;
+        self.is_rescue_wanted = false;
+    }
+
+    fn sent(&mut self, bytes: &[u8], now: Moment) {
+        self.record_sent(bytes, now);
+    }
+
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        self.wire.pop()
+    }
+
+    fn receive(&mut self, bytes: &[u8], now: Moment) {
+        self.take_bytes(bytes, now);
+    }
+
+    fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
+        self.halts.retain(|until| *until > now.steady);
+        self.end_unfinished(now);
+        if std::mem::take(&mut self.is_rescue_wanted) {
+            self.rescue_until = Some(now.steady + ARMED);
+            self.look_soon(now);
+        }
+        if let Some(stop) = self.expire(now) {
+            return Some(stop);
+        }
+        if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
+            return None;
+        }
+        self.drain_until = None;
+        let (request, purpose) = self.next_request(now)?;
+        let bytes = request.to_bytes();
+        let is_rescue = self.is_rescue_armed(now.steady);
+        self.outstanding = Some(Outstanding::new(request, purpose, now.steady, is_rescue));
+        Some(bytes)
+    }
+
+    fn due(&self, now: Moment) -> Instant {
+        let next = match (&self.outstanding, self.drain_until) {
+            (Some(outstanding), _) => Some(outstanding.deadline()),
+            (None, Some(until)) => Some(until),
+            (None, None) if !self.orders.is_empty() || self.is_rescue_wanted => Some(now.steady),
+            (None, None) => self.next_poll,
+        };
+        let far = now.steady + Duration::from_hours(1);
+        next.into_iter().chain(self.quiet_at).min().unwrap_or(far)
+    }
+
+    fn halt(&mut self, _: Extent, now: Moment) -> Vec<u8> {
+        self.stop_both(now)
+    }
+
+    fn prepare(&mut self, target: TrackTarget) {
+        let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
+        self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn groups(&self) -> &'static [&'static Group] {
+        PAIR.groups
+    }
+
+    fn read_group(&mut self, _: &str) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
+    fn ask(&mut self, _: Question) {}
+
+    fn disable_auto(&mut self) {}
+
+    fn motion_under_way(&self) -> bool {
+        self.motion_waits()
+    }
+
+    fn state(&self) -> &AntennaState {
+        &self.state
+    }
+
+    fn next_happening(&mut self) -> Option<Happening> {
+        self.happenings.pop_front()
+    }
+
+    fn patience(&self) -> Duration {
+        PATIENCE
+    }
+
+    fn poll_period(&self) -> Duration {
+        self.rates.period(self.moving())
+    }
+}
+
+impl Moves for Genius {
+    fn objection(&self, motion: &Motion, now: Moment) -> Option<&'static str> {
+        self.objection_to(motion, now)
+    }
+
+    fn start(&mut self, motion: Motion) {
+        // A newer wish replaces what has not gone out yet.
+        self.orders.retain(|order| matches!(order.motion, Motion::Action(_)));
+        match self.orders_for(motion) {
+            Ok(orders) => self.orders.extend(orders),
+            Err(why) => {
+                self.happenings.push_back(Happening::Refused(motion, why.to_owned()));
+            }
+        }
+    }
+
+    fn act(&mut self, act: Act) {
+        match act.action {
+            RESCUE => self.is_rescue_wanted = true,
+            OTHER => {
+                let motion = Motion::Action(OTHER);
+                self.orders.retain(|order| order.motion != motion);
+                match self.order_for(&act) {
+                    Ok(order) => self.orders.push_back(order),
+                    Err(why) => {
+                        self.happenings.push_back(Happening::Refused(motion, why.to_owned()));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+}

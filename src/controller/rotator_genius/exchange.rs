@@ -1,0 +1,234 @@
+//! One request and its reply: matching, time-outs, what the reply brings about.
+
+use std::time::{Duration, Instant};
+
+use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
+use crate::{
+    controller::{Happening, Moment, Motion},
+    protocol::rotator_genius::{
+        self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
+    },
+};
+
+/// So many bytes are looked at in one piece: less than the decoder can hold.
+const PIECE: usize = 1024;
+
+/// Why a request was sent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Purpose {
+    /// It was due.
+    Poll,
+    /// Metal is to move.
+    Motion(Motion),
+    /// A halt has overtaken it: whatever comes is of no interest.
+    Disowned,
+}
+
+/// The one request that waits for its reply.
+#[derive(Debug)]
+pub(super) struct Outstanding {
+    request: Request,
+    purpose: Purpose,
+    sent: Instant,
+    /// How long its answer may take.
+    patience: Duration,
+}
+
+impl Outstanding {
+    pub(super) fn new(request: Request, purpose: Purpose, sent: Instant, is_rescue: bool) -> Self {
+        let patience = if is_rescue { RESCUE_REPLY } else { REPLY };
+        Self { request, purpose, sent, patience }
+    }
+
+    pub(super) fn deadline(&self) -> Instant {
+        self.sent + self.patience
+    }
+
+    pub(super) fn is_motion(&self) -> bool {
+        matches!(self.purpose, Purpose::Motion(_))
+    }
+
+    pub(super) fn is_read(&self) -> bool {
+        self.request == Request::Read
+    }
+
+    /// It is asked again and again by itself.
+    pub(super) fn is_poll(&self) -> bool {
+        self.purpose == Purpose::Poll
+    }
+
+    pub(super) fn sent(&self) -> Instant {
+        self.sent
+    }
+
+    /// A halt came after it. Reading moves nothing.
+    pub(super) fn disown(&mut self) {
+        if self.is_motion() {
+            self.purpose = Purpose::Disowned;
+        }
+    }
+
+    /// Whether it is acknowledged by `to`, which never names the rotator.
+    pub(super) fn is_acknowledged_by(&self, to: Acknowledgement) -> bool {
+        match (&self.request, to) {
+            (
+                Request::Motion(unit::Motion::GoTo { target, .. }),
+                Acknowledgement::GoTo { target: told },
+            ) => told.is_none_or(|told| told == *target),
+            (
+                Request::Motion(unit::Motion::Rotate { direction, .. }),
+                Acknowledgement::RotateClockwise,
+            ) => *direction == Direction::Clockwise,
+            (
+                Request::Motion(unit::Motion::Rotate { direction, .. }),
+                Acknowledgement::RotateCounterClockwise,
+            ) => *direction == Direction::CounterClockwise,
+            (Request::Configure(_), Acknowledgement::Configure) => true,
+            _ => false,
+        }
+    }
+}
+
+impl Genius {
+    /// Takes bytes of the stream.
+    pub(super) fn take_bytes(&mut self, bytes: &[u8], now: Moment) {
+        for piece in bytes.chunks(PIECE) {
+            self.decoder.push(piece);
+            self.unfinished.extend(piece);
+            // Taken out one by one, because each one may change what is expected.
+            while let Some(received) = self.decoder.next() {
+                self.take(received, now);
+            }
+        }
+        self.quiet_at = (!self.unfinished.is_empty()).then(|| now.steady + QUIET);
+    }
+
+    /// Nothing has come for a while: what is unfinished stays so.
+    pub(super) fn end_unfinished(&mut self, now: Moment) {
+        if self.quiet_at.take_if(|quiet_at| now.steady >= *quiet_at).is_some() {
+            for received in self.decoder.idle() {
+                self.take(received, now);
+            }
+            self.unfinished.clear();
+        }
+    }
+
+    fn take(&mut self, received: Received, now: Moment) {
+        self.record_received(&received, now);
+        match received {
+            Received::Reply(Reply::Status(status)) => self.take_answer(status, now),
+            Received::Reply(Reply::Acknowledgement { to: Acknowledgement::Stop, is_accepted }) => {
+                self.take_halt_answer(is_accepted, now);
+            }
+            Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
+                let is_expected = |sent: &mut Outstanding| sent.is_acknowledged_by(to);
+                match self.outstanding.take_if(is_expected) {
+                    Some(outstanding) => self.take_verdict(&outstanding, is_accepted, now),
+                    None => self.state.traffic.unsolicited += 1,
+                }
+            }
+            Received::Noise(bytes) => {
+                self.state.traffic.damaged += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
+                tracing::debug!(length = bytes.len(), "bytes that are no reply");
+            }
+            Received::LayoutChanged(layout) => {
+                self.state.traffic.odd += 1;
+                tracing::warn!(?layout, "the status has another form now");
+            }
+            Received::OtherProtocol => {
+                self.state.is_other_device = true;
+                tracing::warn!("another protocol answers, or one that asks for a code");
+            }
+        }
+    }
+
+    fn count_reply(&mut self, now: Moment) {
+        self.state.traffic.replies += 1;
+        self.state.traffic.last_reply = Some(now.steady);
+    }
+
+    fn take_answer(&mut self, status: Status, now: Moment) {
+        let read = self.outstanding.take_if(|sent| sent.is_read());
+        let missing = self.missing_since.take();
+        let asked = missing.or(read.as_ref().map(Outstanding::sent));
+        let Some(asked) = asked else {
+            self.state.traffic.unsolicited += 1;
+            if let Some(until) = &mut self.drain_until {
+                *until = now.steady + DRAIN;
+            }
+            return;
+        };
+        self.count_reply(now);
+        if let (Some(_), Some(_)) = (missing, &read) {
+            // It may answer either question, and the other answer may still come.
+            self.drain_until = Some(now.steady + DRAIN);
+        }
+        let sent = read.as_ref().map_or(asked, Outstanding::sent);
+        self.take_status(status, asked, sent, now);
+        self.next_poll = Some(sent + self.period(now.steady));
+    }
+
+    fn take_halt_answer(&mut self, is_accepted: bool, now: Moment) {
+        if self.halts.pop_front().is_none() {
+            self.state.traffic.unsolicited += 1;
+            return;
+        }
+        self.count_reply(now);
+        if !is_accepted {
+            self.happenings.push_back(Happening::HaltRefused("F".to_owned()));
+        }
+    }
+
+    fn take_verdict(&mut self, outstanding: &Outstanding, is_accepted: bool, now: Moment) {
+        self.count_reply(now);
+        self.look_soon(now);
+        let Purpose::Motion(motion) = outstanding.purpose else { return };
+        if is_accepted {
+            if !self.orders.iter().any(|order| order.motion == motion) {
+                self.happenings.push_back(Happening::Accepted(motion));
+            }
+            return;
+        }
+        self.forget_orders(motion);
+        if let Request::Motion(request) = outstanding.request {
+            let refusal = self.refusal(request);
+            self.happenings.push_back(Happening::Refused(motion, refusal));
+        }
+    }
+
+    /// Half of a motion is none.
+    fn forget_orders(&mut self, motion: Motion) {
+        self.orders.retain(|order| order.motion != motion);
+    }
+
+    /// A status is asked for again; anything else never: the status tells whether
+    /// it came through. Gives what must be sent at once.
+    pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
+        let late = self.outstanding.take_if(|sent| now.steady >= sent.deadline())?;
+        self.state.traffic.unanswered += 1;
+        self.record_no_reply(late.patience, late.is_read(), now);
+        if late.is_read() {
+            self.missing_since.get_or_insert(late.sent);
+        }
+        if let Purpose::Motion(motion) = late.purpose {
+            self.forget_orders(motion);
+            self.happenings.push_back(Happening::Unanswered(motion));
+        }
+        self.look_soon(now);
+        // Outside the limits a motion goes on for ever when the link is gone.
+        let is_blind_rescue = self.is_rescue_armed(now.steady) && self.moving();
+        is_blind_rescue.then(|| self.stop_both(now))
+    }
+
+    /// The bytes that stop both rotators.
+    pub(super) fn stop_both(&mut self, now: Moment) -> Vec<u8> {
+        self.orders.clear();
+        if let Some(outstanding) = &mut self.outstanding {
+            outstanding.disown();
+        }
+        self.halts.push_back(now.steady + REPLY);
+        self.look_soon(now);
+        Request::Stop.to_bytes()
+    }
+}

@@ -1,0 +1,210 @@
+//! From a motion to what the device is told, and what speaks against it.
+
+use super::{
+    Genius,
+    actions::{DIRECTION, OTHER},
+    roles::Roles,
+};
+use crate::{
+    astro::Angle,
+    controller::{AxisMotion, Moment, Motion, panel::Act, settings::Value},
+    protocol::rotator_genius::{
+        self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
+    },
+};
+
+/// One command to one rotator. A motion of both axes is two of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Order {
+    pub(super) request: unit::Motion,
+    /// What it belongs to.
+    pub(super) motion: Motion,
+}
+
+const NOT_READ: &str = "the rotators were not read yet";
+const KINDS: &str = "the kinds of the rotators do not fit this antenna";
+const OTHER_TURNS: &str = "the other rotator turns, and STOP would end both";
+const NO_SENSOR: &str = "the rotator has no sensor, so the device refuses to turn it";
+const NO_POSITION: &str = "the device gives no position of the rotator";
+const OUTSIDE: &str = "the rotator is outside its limits, where nothing ends a jog: send it to a \
+                       direction, or arm the rescue";
+const OUTSIDE_UNKNOWN: &str = "whether the rotator is outside its limits is not known, and there \
+                               nothing ends a jog: send it to a direction, or arm the rescue";
+const BEYOND: &str = "the device takes azimuths from 0 to 360 degrees";
+const NO_MOTION: &str = "the device has no such motion";
+
+impl Genius {
+    pub(super) fn roles(&self) -> Option<Roles> {
+        self.status.as_ref().map(|status| Roles::of(self.rotators, status))
+    }
+
+    /// Why `motion` must not be sent, as far as this device is special.
+    pub(super) fn objection_to(&self, motion: &Motion, now: Moment) -> Option<&'static str> {
+        let Some(status) = &self.status else { return Some(NOT_READ) };
+        let Roles { axes: [first, second], is_clear, is_pair } = Roles::of(self.rotators, status);
+        match *motion {
+            Motion::Jog { x_deg_s, .. } => {
+                let (number, other) =
+                    if x_deg_s == 0.0 { (second, first) } else { (first, second) };
+                if !is_clear && (is_pair || number == first) {
+                    return Some(KINDS);
+                }
+                if self.turns(other) {
+                    return Some(OTHER_TURNS);
+                }
+                let rotator = status.rotator(number);
+                without_position(rotator).or(match rotator.is_outside_limits {
+                    Some(false) => None,
+                    _ if self.is_rescue_armed(now.steady) => None,
+                    Some(true) => Some(OUTSIDE),
+                    None => Some(OUTSIDE_UNKNOWN),
+                })
+            }
+            Motion::Position { azimuth, elevation } => {
+                if !is_clear {
+                    return Some(KINDS);
+                }
+                if azimuth.is_some_and(|azimuth| whole_azimuth(azimuth).is_none()) {
+                    return Some(BEYOND);
+                }
+                let asked = [azimuth.map(|_| first), elevation.map(|_| second)];
+                let mut rotators = asked.into_iter().flatten().map(|number| status.rotator(number));
+                rotators.find_map(without_position)
+            }
+            Motion::Action(OTHER) => without_position(status.rotator(second)),
+            _ => None,
+        }
+    }
+
+    /// As last seen, or as a command that is on its way may bring about.
+    fn turns(&self, number: RotatorNumber) -> bool {
+        let of_axis = self.roles().zip(self.state.measured).and_then(|(roles, measured)| {
+            let mut axes = roles.axes.into_iter().zip(measured.axes);
+            axes.find(|(rotator, _)| *rotator == number).map(|(_, axis)| axis.motion)
+        });
+        let waits = self.orders.iter().any(|order| rotator_of(order.request) == number);
+        waits || of_axis.is_some_and(|motion| motion != AxisMotion::Still)
+    }
+
+    /// The commands that `motion` is made of; an error says why there are none.
+    pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<Order>, &'static str> {
+        let Roles { axes: [first, second], .. } = self.roles().ok_or(NOT_READ)?;
+        let requests = match motion {
+            Motion::Jog { x_deg_s, y_deg_s } => {
+                let (rotator, rate) =
+                    if x_deg_s == 0.0 { (second, y_deg_s) } else { (first, x_deg_s) };
+                let direction =
+                    if rate > 0.0 { Direction::Clockwise } else { Direction::CounterClockwise };
+                vec![unit::Motion::Rotate { rotator, direction }]
+            }
+            Motion::Position { azimuth, elevation } => {
+                let azimuth =
+                    azimuth.map(|azimuth| whole_azimuth(azimuth).ok_or(BEYOND)).transpose()?;
+                let elevation = elevation.map(whole_elevation);
+                let parts = [(first, azimuth), (second, elevation)].into_iter();
+                let go_to = |(rotator, target): (_, Option<_>)| {
+                    target.map(|target| unit::Motion::GoTo { rotator, target })
+                };
+                parts.filter_map(go_to).collect()
+            }
+            _ => return Err(NO_MOTION),
+        };
+        Ok(requests.into_iter().map(|request| Order { request, motion }).collect())
+    }
+
+    /// The command that an action is made of.
+    pub(super) fn order_for(&self, act: &Act) -> Result<Order, &'static str> {
+        let Some(Value::Integer(degrees)) = act.values.get(DIRECTION) else {
+            return Err(BEYOND);
+        };
+        let target =
+            u16::try_from(*degrees).ok().and_then(|degrees| WholeDegrees::new(degrees).ok());
+        let target = target.ok_or(BEYOND)?;
+        let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
+        let request = unit::Motion::GoTo { rotator, target };
+        Ok(Order { request, motion: Motion::Action(act.action) })
+    }
+
+    /// What an `F` means, as far as the last status tells: the device never says.
+    pub(super) fn refusal(&self, request: unit::Motion) -> String {
+        let Some(status) = &self.status else { return "F".to_owned() };
+        let number = rotator_of(request);
+        let rotator = status.rotator(number);
+        let limits = |limit: Option<WholeDegrees>| limit.map_or("?".to_owned(), |l| l.to_string());
+        let why = match (&rotator.position, rotator.is_outside_limits) {
+            (Err(NoPosition::NoSensor), _) => "its sensor is not connected".to_owned(),
+            (Err(problem), _) => problem.to_string(),
+            (Ok(_), Some(true)) => "it is outside its limits".to_owned(),
+            (Ok(_), None) => "its limit flag has no known meaning".to_owned(),
+            (Ok(_), Some(false)) => format!(
+                "no reason is given; its limits are {} and {}",
+                limits(rotator.limit_ccw),
+                limits(rotator.limit_cw)
+            ),
+        };
+        format!("F for rotator {}: {why}", number.number())
+    }
+}
+
+pub(super) fn rotator_of(request: unit::Motion) -> RotatorNumber {
+    match request {
+        unit::Motion::GoTo { rotator, .. } | unit::Motion::Rotate { rotator, .. } => rotator,
+    }
+}
+
+fn without_position(rotator: &Rotator) -> Option<&'static str> {
+    match rotator.position {
+        Ok(_) => None,
+        Err(NoPosition::NoSensor) => Some(NO_SENSOR),
+        Err(_) => Some(NO_POSITION),
+    }
+}
+
+/// The nearest whole degree. 360 is sent only when it was asked for as such: on a
+/// mount with its stop in the north it may be a whole turn away from 359.6.
+fn whole_azimuth(azimuth: Angle) -> Option<WholeDegrees> {
+    let degrees = azimuth.degrees();
+    // Angles come from decimal degrees: allow for the rounding.
+    let degrees = if (-1e-9..0.0).contains(&degrees) { 0.0 } else { degrees };
+    let nearest = WholeDegrees::nearest(degrees).ok()?;
+    let is_rounded_to_north = nearest == WholeDegrees::MAX && degrees < 360.0 - 1e-9;
+    Some(if is_rounded_to_north { WholeDegrees::saturating(359) } else { nearest })
+}
+
+/// The nearest whole degree from the horizon over the zenith to the horizon.
+fn whole_elevation(elevation: Angle) -> WholeDegrees {
+    WholeDegrees::saturating(elevation.degrees().clamp(0.0, 180.0).round() as u16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn north_is_rounded_to_the_side_on_which_it_was_asked_for() {
+        let azimuth =
+            |degrees| whole_azimuth(Angle::from_degrees(degrees)).map(WholeDegrees::degrees);
+        for (asked, sent) in [
+            (0.0, Some(0)),
+            (0.4, Some(0)),
+            (0.6, Some(1)),
+            (359.4, Some(359)),
+            (359.6, Some(359)),
+            (360.0, Some(360)),
+            (-1e-12, Some(0)),
+            (360.4, None),
+            (370.0, None),
+            (-10.0, None),
+            (f64::NAN, None),
+        ] {
+            assert_eq!(azimuth(asked), sent, "{asked}");
+        }
+    }
+
+    #[test]
+    fn elevations_end_at_both_horizons() {
+        let elevation = |degrees| whole_elevation(Angle::from_degrees(degrees)).degrees();
+        let sent = [-3.0, 0.4, 89.5, 120.0, 200.0].map(elevation);
+        assert_eq!(sent, [0, 0, 90, 120, 180]);
+    }
+}

@@ -1,0 +1,168 @@
+//! What a Rotator Genius tells beyond where the antenna points.
+
+use std::time::Duration;
+
+use super::roles::Roles;
+use crate::{
+    controller::panel::{Check, CheckState, Reading, Tone},
+    protocol::rotator_genius::{
+        Layout, Moving, Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees,
+    },
+};
+
+/// Names of the checks of a rotator.
+struct Names {
+    sensor: &'static str,
+    limits: &'static str,
+}
+
+const NAMES: [Names; 2] = [
+    Names { sensor: "Sensor of rotator 1", limits: "Limits of rotator 1" },
+    Names { sensor: "Sensor of rotator 2", limits: "Limits of rotator 2" },
+];
+
+/// The faults and warnings of the rotators that turn this antenna.
+pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
+    let kinds = Check {
+        name: "Kinds of the rotators",
+        state: if roles.is_clear { CheckState::Good } else { CheckState::Fault },
+        advice: if roles.is_pair {
+            "The unit must report one azimuth and one elevation rotator. Change the kind of one \
+             of them in its settings."
+        } else {
+            "The unit must report the rotator of this antenna as an azimuth rotator. Change its \
+             kind in its settings, or name the other rotator in Preferences."
+        },
+    };
+    let panic = Check {
+        name: "Panic code",
+        state: match status.panic {
+            None => CheckState::Unknown,
+            Some(0) => CheckState::Good,
+            Some(_) => CheckState::Caution,
+        },
+        advice: "The document of the unit does not say what its codes mean. Look at the unit.",
+    };
+    let ours = roles.axes.into_iter().filter(|number| roles.is_ours(*number));
+    let of_rotators = ours.flat_map(|number| {
+        let (rotator, names) = (status.rotator(number), number.of(&NAMES));
+        let sensor = Check {
+            name: names.sensor,
+            state: if rotator.position.is_ok() { CheckState::Good } else { CheckState::Fault },
+            advice: "The unit gives no position and refuses to turn. Check the sensor and its \
+                     cable.",
+        };
+        let limits = Check {
+            name: names.limits,
+            state: match rotator.is_outside_limits {
+                Some(false) => CheckState::Good,
+                Some(true) => CheckState::Caution,
+                None => CheckState::Unknown,
+            },
+            advice: "Outside its limits nothing but STOP ends a motion of the rotator. Send it \
+                     to a direction, or arm the rescue and jog it back.",
+        };
+        [sensor, limits]
+    });
+    [kinds, panic].into_iter().chain(of_rotators).collect()
+}
+
+/// Everything else, rotator by rotator.
+pub(super) fn readings(
+    status: &Status,
+    roles: Roles,
+    rescue_left: Option<Duration>,
+) -> Vec<Reading> {
+    let rescue = rescue_left.filter(|left| !left.is_zero()).map(|left| {
+        let text = format!("armed, {} s left", left.as_secs_f64().ceil());
+        Reading::new("Rescue", text).in_tone(Tone::Caution)
+    });
+    let of_rotators =
+        RotatorNumber::ALL.into_iter().flat_map(|number| of_rotator(status, roles, number));
+    let panic = status
+        .panic
+        .filter(|code| *code != 0)
+        .map(|code| Reading::new("Panic code", format!("0x{code:02X}")).in_tone(Tone::Caution));
+    let form = match status.layout {
+        Layout::Wide => "72 bytes",
+        Layout::Narrow => "64 bytes",
+    };
+    let active = Reading::new("Active byte", format!("0x{:02X}", status.active));
+    let rest = [Reading::new("Form of the status", form), active];
+    rescue.into_iter().chain(of_rotators).chain(panic).chain(rest).collect()
+}
+
+fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Reading> {
+    let rotator = status.rotator(number);
+    let label = |what: &str| format!("{what} {}", number.number());
+    let kind = match rotator.kind {
+        RotatorKind::Azimuth => "azimuth",
+        RotatorKind::Elevation => "elevation",
+    };
+    let name = if rotator.name.is_empty() { "no name" } else { &rotator.name };
+    let heading = match &rotator.position {
+        Ok(angle) => Reading::new(label("Heading"), format!("{angle}°{}", turning(rotator.moving))),
+        // The usual case of a unit with one rotator.
+        Err(problem) => {
+            let tone = if roles.is_ours(number) { Tone::Bad } else { Tone::Plain };
+            Reading::new(label("Heading"), problem.to_string()).in_tone(tone)
+        }
+    };
+    let outside = match rotator.is_outside_limits {
+        Some(false) => ("", Tone::Plain),
+        Some(true) => (", outside", Tone::Caution),
+        None => (", flag not known", Tone::Caution),
+    };
+    let limits =
+        format!("{} to {}{}", degrees(rotator.limit_ccw), degrees(rotator.limit_cw), outside.0);
+    let offset = rotator.offset_deg.map_or("not told".to_owned(), |offset| format!("{offset}°"));
+    let mut readings = vec![
+        Reading::new(label("Rotator"), format!("{name}, {kind}")),
+        heading,
+        Reading::new(label("Limits"), limits).in_tone(outside.1),
+        Reading::new(label("Offset"), offset),
+    ];
+    if let Some(target) = rotator.target {
+        let line = Reading::new(label("Target"), format!("{target}°"));
+        let share = progress(rotator);
+        readings.insert(
+            2,
+            match share {
+                Some(share) => line.with_bar(share),
+                None => line,
+            },
+        );
+    }
+    readings
+}
+
+fn turning(moving: Moving) -> &'static str {
+    match moving {
+        Moving::Stopped => "",
+        Moving::Clockwise => ", turning clockwise",
+        Moving::CounterClockwise => ", turning counter-clockwise",
+    }
+}
+
+fn degrees(angle: Option<WholeDegrees>) -> String {
+    angle.map_or("?".to_owned(), |angle| format!("{angle}°"))
+}
+
+/// How much of the way from its start to its target a rotator has gone, 0 to 1.
+fn progress(rotator: &Rotator) -> Option<f64> {
+    let degrees = |angle: WholeDegrees| f64::from(angle.degrees());
+    let (start, target) = (degrees(rotator.start?), degrees(rotator.target?));
+    let here = degrees(rotator.position.ok()?);
+    let gone = |from: f64, to: f64| match rotator.moving {
+        Moving::CounterClockwise => (from - to).rem_euclid(360.0),
+        Moving::Clockwise | Moving::Stopped => (to - from).rem_euclid(360.0),
+    };
+    let (whole, part) = (gone(start, target), gone(start, here));
+    if whole == 0.0 {
+        return Some(1.0);
+    }
+    // More than the whole way is either a little past the target or a little
+    // before the start.
+    let is_before = part > whole + (360.0 - whole) / 2.0;
+    Some(if is_before { 0.0 } else { (part / whole).min(1.0) })
+}

@@ -1,0 +1,93 @@
+//! Tells what goes over the link: commands and replies as the decoder cuts them,
+//! each with what it says.
+
+use std::time::Duration;
+
+use super::{Genius, REPLY, exchange::Outstanding};
+use crate::{
+    controller::{Direction, Finding, Moment, WireLine},
+    protocol::rotator_genius::{Acknowledgement, Received, Reply, Request},
+};
+
+impl Genius {
+    /// A command that was written.
+    pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
+        let finding = Request::parse(bytes).map_or(Finding::Good, |request| {
+            Finding::Known(match request {
+                Request::Read => "Status?",
+                Request::Stop => "Stop both rotators",
+                Request::Motion(crate::protocol::rotator_genius::Motion::GoTo { .. }) => {
+                    "Turn to a direction"
+                }
+                Request::Motion(_) => "Turn until stopped",
+                Request::Configure(_) => "Set the configuration",
+            })
+        });
+        let is_poll = bytes == Request::Read.to_bytes()
+            && self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
+        self.wire.push(WireLine { finding, is_poll, ..line(Direction::Sent, bytes, now) });
+    }
+
+    /// Something that came in and has not been acted upon yet.
+    pub(super) fn record_received(&mut self, received: &Received, now: Moment) {
+        let asked = |is_it: &dyn Fn(&Outstanding) -> bool| {
+            self.outstanding.as_ref().filter(|sent| is_it(sent)).map(Outstanding::sent)
+        };
+        let (finding, asked, is_poll) = match received {
+            Received::Noise(bytes) => {
+                self.unfinished.drain(..bytes.len().min(self.unfinished.len()));
+                let line = line(Direction::Received, bytes, now);
+                return self.wire.push(WireLine { finding: Finding::NoHeader, ..line });
+            }
+            // Their bytes come as noise.
+            Received::LayoutChanged(_) | Received::OtherProtocol => return,
+            Received::Reply(Reply::Status(_)) => {
+                let is_poll = self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
+                let asked = self.missing_since.or_else(|| asked(&Outstanding::is_read));
+                (Finding::Known("Status"), asked, is_poll)
+            }
+            Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
+                let asked = if *to == Acknowledgement::Stop {
+                    self.halts.front().and_then(|until| until.checked_sub(REPLY))
+                } else {
+                    asked(&|sent| sent.is_acknowledged_by(*to))
+                };
+                let finding = if *is_accepted { "Accepted" } else { "Refused" };
+                (Finding::Known(finding), asked, false)
+            }
+        };
+        let count = self.unfinished.len().saturating_sub(self.decoder.unfinished_bytes());
+        let bytes: Vec<u8> = self.unfinished.drain(..count).collect();
+        let reply_after = asked.map(|asked| now.steady.saturating_duration_since(asked));
+        let line = line(Direction::Received, &bytes, now);
+        self.wire.push(WireLine { finding, reply_after, is_poll, ..line });
+    }
+
+    /// What is left of a reply when its link is gone.
+    pub(super) fn record_unfinished(&mut self, now: Moment) {
+        let bytes: Vec<u8> = self.unfinished.drain(..).collect();
+        if !bytes.is_empty() {
+            let line = line(Direction::Received, &bytes, now);
+            self.wire.push(WireLine { finding: Finding::Unfinished, ..line });
+        }
+    }
+
+    /// A reply is missing, and the question goes out again or is given up.
+    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
+        let finding = Finding::NoReply { waited, is_repeated };
+        self.wire.push(WireLine { finding, ..line(Direction::Received, &[], now) });
+    }
+}
+
+fn line(direction: Direction, bytes: &[u8], now: Moment) -> WireLine {
+    WireLine {
+        at: now.utc,
+        direction,
+        bytes: bytes.into(),
+        length: bytes.len(),
+        is_shortened: false,
+        finding: Finding::Good,
+        reply_after: None,
+        is_poll: false,
+    }
+}

@@ -1,0 +1,64 @@
+//! From a status to the state that all antennas share.
+
+use std::time::Instant;
+
+use super::{Genius, panel, roles::Roles};
+use crate::{
+    astro::Angle,
+    controller::{Axis, Measured, Moment, Pointing},
+    protocol::rotator_genius::Status,
+};
+
+impl Genius {
+    /// Takes what the device tells. `asked` is when the question went out that it
+    /// answers, `sent` when the last one did.
+    pub(super) fn take_status(
+        &mut self,
+        status: Status,
+        asked: Instant,
+        sent: Instant,
+        now: Moment,
+    ) {
+        let way = now.steady.saturating_duration_since(sent) / 2;
+        let roles = Roles::of(self.rotators, &status);
+        let axes = roles.axes.map(|number| {
+            let rotator = status.rotator(number);
+            let is_told = roles.is_clear || !roles.is_ours(number);
+            Axis {
+                angle_deg: Roles::axis_deg(rotator).filter(|_| is_told),
+                motion: number.of_mut(&mut self.turning).look(rotator, now.steady),
+                // The device tells that a rotator is outside, not on which side. It
+                // must not bar the way back.
+                plus_limit: false,
+                minus_limit: false,
+            }
+        });
+        self.state.measured = Some(Measured {
+            at: now.utc.checked_sub(way).unwrap_or(now.utc),
+            asked,
+            received: now.steady,
+            pointing: pointing(axes, roles.is_pair),
+            axes,
+        });
+        self.state.motion_lock = Some(false);
+        let rescue_left =
+            self.rescue_until.map(|until| until.saturating_duration_since(now.steady));
+        self.state.readings = panel::readings(&status, roles, rescue_left).into();
+        self.state.checks = panel::checks(&status, roles).into();
+        self.status = Some(status);
+    }
+}
+
+/// Where the antenna points, as far as its axes tell. Beyond the zenith it points
+/// to the other side.
+fn pointing([first, second]: [Axis; 2], is_pair: bool) -> Pointing {
+    let azimuth = first.angle_deg.map(Angle::from_degrees);
+    let elevation_deg = second.angle_deg.filter(|_| is_pair);
+    let is_tipped_over = elevation_deg.is_some_and(|elevation_deg| elevation_deg > 90.0);
+    let over = if is_tipped_over { 180.0 } else { 0.0 };
+    Pointing {
+        azimuth: azimuth.map(|azimuth| (azimuth + Angle::from_degrees(over)).wrapped_360()),
+        elevation: elevation_deg
+            .map(|deg| Angle::from_degrees(if is_tipped_over { 180.0 - deg } else { deg })),
+    }
+}

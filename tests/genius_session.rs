@@ -1,0 +1,25 @@
+//! The session of an antenna against a simulated Rotator Genius, in paused time:
+//! what the operator is shown, and what the device receives byte for byte.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test may end here"
+)]
+
+mod genius_session {
+    mod rig;
+    mod script;
+
+    mod alone;
+    mod connect;
+    mod go_to;
+    mod jog;
+    mod oddities;
+    mod pair;
+    mod rescue;
+    mod stop;
+    mod wire;
+}

@@ -1,0 +1,143 @@
+//! One rotator turns the antenna, the other something else.
+
+use azel::{
+    controller::{
+        Motion,
+        panel::Act,
+        rotator_genius::{ALONE, OTHER},
+        settings::Value,
+    },
+    driver::{Command, Event, Refusal},
+    protocol::rotator_genius::RotatorNumber,
+    sim::rotator_genius::{Fault, Options, RotatorOptions},
+    station::Rotators,
+};
+
+use super::rig::{Rig, azimuth, pair, to};
+
+fn two_azimuths() -> Options {
+    Options { rotators: [azimuth("Mast", 90), azimuth("Tower", 300)], ..pair() }
+}
+
+fn send_other(degrees: i64) -> Command {
+    let field = ALONE.action(OTHER).unwrap().fields[0].key;
+    Command::Act(Act { action: OTHER, values: [(field, Value::Integer(degrees))].into() })
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_rotator_can_be_the_antennas() {
+    for (rotators, axes, sent) in [
+        (Rotators::First, [Some(90.0), Some(300.0)], "|A1120"),
+        (Rotators::Second, [Some(300.0), Some(90.0)], "|A2120"),
+    ] {
+        let mut rig = Rig::connected(&two_azimuths(), rotators).await;
+        assert_eq!(rig.axes_deg(), axes);
+        let pointing = rig.shown().state.measured.unwrap().pointing;
+        assert_eq!(pointing.azimuth.map(|angle| angle.degrees()), axes[0]);
+        assert_eq!(pointing.elevation, None);
+        rig.send(to(Some(120.0), None));
+        rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
+        assert_eq!(rig.orders(), [sent]);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn there_is_no_elevation_and_park_is_an_azimuth() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(to(Some(10.0), Some(10.0)));
+    rig.seconds(0.1).await;
+    assert_eq!(rig.events(), [Event::NotSent(Refusal::NotOffered)]);
+    rig.send(Command::Park);
+    rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["|A1000"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_other_rotator_is_sent_by_its_action() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(send_other(310));
+    rig.seconds(0.1).await;
+    let refused = rig.events();
+    assert!(matches!(refused[..], [Event::NotSent(Refusal::Intent(_))]), "{refused:?}");
+    rig.send(Command::Manual);
+    rig.send(send_other(360));
+    rig.seconds(1.0).await;
+    // By the limits of the device 360 is 0, and the long way round.
+    assert_eq!(rig.orders(), ["|A2360"]);
+    assert!(rig.rotator(2).is_turning);
+    assert!(rig.shown().state.measured.unwrap().moving());
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_other_rotator_is_jogged_over_its_whole_range() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(Command::Manual);
+    // The travel of the mount's elevation does not count for it.
+    rig.hold([0.0, 6.0], 1.0).await;
+    rig.send(Command::EndJog);
+    rig.seconds(2.0).await;
+    assert_eq!(rig.orders(), ["|P2", "|S"]);
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn neither_is_jogged_while_the_other_turns() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(Command::Manual);
+    rig.send(send_other(200));
+    rig.seconds(1.0).await;
+    rig.hold([6.0, 0.0], 0.5).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+    rig.send(Command::EndJog);
+    rig.seconds(0.5).await;
+    assert_eq!(rig.orders(), ["|A2200"], "and what runs is not stopped for it");
+    // Back from the stop offset.
+    rig.until_still(60).await;
+    rig.hold([6.0, 0.0], 0.5).await;
+    assert_eq!(rig.orders(), ["|A2200", "|P1"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_action_that_is_refused_is_told() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::Second).await;
+    rig.send(Command::Manual);
+    rig.control.set_fault(Fault::Refuse, true);
+    rig.send(send_other(200));
+    let event = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
+    assert!(matches!(event, Event::Refused(Motion::Action(OTHER), _)), "{event:?}");
+    assert_eq!(rig.orders(), ["|A1200"]);
+    rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
+    rig.seconds(1.0).await;
+    rig.send(send_other(200));
+    rig.seconds(0.1).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+    assert_eq!(rig.orders(), ["|A1200"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_without_a_sensor_that_is_not_ours_is_no_fault() {
+    let rig = Rig::connected(&Options::default(), Rotators::First).await;
+    assert_eq!(rig.axes_deg(), [Some(173.0), None]);
+    let shown = rig.shown();
+    assert!(shown.state.checks.iter().all(|check| !check.name.ends_with('2')));
+    let plain = shown.state.readings.iter().find(|reading| reading.label == "Heading 2").unwrap();
+    assert_eq!(plain.text, "the sensor is not connected");
+    assert_eq!(plain.tone, azel::controller::panel::Tone::Plain);
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_elevation_rotator_is_no_azimuth() {
+    let options =
+        Options { rotators: [RotatorOptions::elevation(), azimuth("Tower", 300)], ..pair() };
+    let mut rig = Rig::connected(&options, Rotators::First).await;
+    assert_eq!(rig.axes_deg(), [None, Some(300.0)]);
+    assert_eq!(rig.shown().state.measured.unwrap().pointing.azimuth, None);
+    assert_eq!(rig.reading("Heading 1"), "0°");
+    rig.send(to(Some(10.0), None));
+    rig.seconds(0.1).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+}

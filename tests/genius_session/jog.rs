@@ -1,0 +1,187 @@
+//! Jogging: press turns, release stops, and nothing outlives the key.
+
+use azel::{
+    driver::{Command, Event, Intent, LinkState, Refusal},
+    protocol::rotator_genius::{Moving, RotatorNumber},
+    sim::rotator_genius::Fault,
+    station::Rotators,
+};
+
+use super::{
+    rig::Rig,
+    script::{Scripted, plain, status},
+};
+
+async fn in_manual() -> Rig {
+    let rig = Rig::pair().await;
+    rig.send(Command::Manual);
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_held_key_turns_one_rotator_and_its_release_stops() {
+    let mut rig = in_manual().await;
+    rig.hold([6.0, 0.0], 2.0).await;
+    assert_eq!(rig.orders(), ["|P1"]);
+    assert_eq!(rig.rotator(1).moving, Moving::Clockwise);
+    assert_eq!(rig.shown().jog, Some([6.0, 0.0]));
+    rig.send(Command::EndJog);
+    rig.seconds(0.02).await;
+    assert_eq!(rig.orders(), ["|P1", "|S"]);
+    rig.until_still(3).await;
+    assert!(!rig.rotator(1).is_turning, "it is not said to stand before it does");
+    assert_eq!(rig.events(), []);
+    assert_eq!(rig.shown().intent, Intent::Manual);
+}
+
+#[tokio::test(start_paused = true)]
+async fn each_way_of_each_rotator_has_its_command() {
+    let mut rig = in_manual().await;
+    for rates in [[-6.0, 0.0], [0.0, 3.0], [0.0, -0.1]] {
+        rig.hold(rates, 1.0).await;
+        rig.send(Command::EndJog);
+        rig.until_still(3).await;
+        rig.seconds(0.5).await;
+    }
+    assert_eq!(rig.orders(), ["|M1", "|S", "|P2", "|S", "|M2", "|S"]);
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_lease_that_is_not_renewed_ends_the_jog() {
+    let mut rig = in_manual().await;
+    rig.hold([6.0, 0.0], 1.0).await;
+    rig.until_event(1, |event| *event == Event::JogLeaseOver).await;
+    rig.seconds(0.02).await;
+    assert_eq!(rig.orders(), ["|P1", "|S"]);
+    let held = rig.times("|S")[0].duration_since(rig.times("|P1")[0]).as_secs_f64();
+    assert!((1.15..1.25).contains(&held), "{held}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn turning_round_stops_first_and_waits_for_standstill() {
+    let mut rig = in_manual().await;
+    rig.hold([6.0, 0.0], 2.0).await;
+    rig.hold([-6.0, 0.0], 3.0).await;
+    assert_eq!(rig.orders(), ["|P1", "|S", "|M1"]);
+    // It coasts for a second, and its reading must then stay for a while.
+    let between = rig.times("|M1")[0].duration_since(rig.times("|S")[0]).as_secs_f64();
+    assert!((1.0..2.3).contains(&between), "{between}");
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn one_axis_at_a_time() {
+    let mut rig = in_manual().await;
+    rig.send(Command::Jog { rates_deg_s: [6.0, 6.0] });
+    rig.send(Command::Step { steps_deg: [1.0, 0.0] });
+    rig.seconds(0.2).await;
+    assert_eq!(
+        rig.events(),
+        [Event::NotSent(Refusal::OneAxis), Event::NotSent(Refusal::NotOffered)]
+    );
+    assert_eq!(rig.orders(), [""; 0]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_window_that_goes_away_while_a_key_is_held_stops_the_antenna() {
+    let mut rig = in_manual().await;
+    rig.hold([0.0, 6.0], 0.5).await;
+    rig.drop_handle().await;
+    assert_eq!(rig.orders(), ["|P2", "|S"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_link_lost_in_a_jog_the_first_word_is_a_stop() {
+    let mut rig = in_manual().await;
+    rig.hold([6.0, 0.0], 1.0).await;
+    let before = rig.commands().len();
+    rig.control.drop_clients();
+    rig.seconds(0.05).await;
+    assert!(matches!(rig.shown().link, LinkState::Lost { .. }));
+    assert!(rig.rotator(1).is_turning, "the device goes on by itself");
+    rig.until_up(2).await;
+    rig.seconds(0.05).await;
+    assert_eq!(rig.commands()[before..before + 2], ["|S", "|h"]);
+    rig.until_still(3).await;
+    assert_eq!(rig.orders(), ["|P1", "|S"], "it does not start again");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_jog_that_is_refused_ends_with_the_reason() {
+    let mut rig = in_manual().await;
+    rig.control.set_fault(Fault::Refuse, true);
+    rig.hold([6.0, 0.0], 0.5).await;
+    let refused = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
+    let Event::Refused(_, why) = refused else { unreachable!() };
+    assert_eq!(why, "F for rotator 1: no reason is given; its limits are 0 and 359");
+    assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
+    assert!(!rig.rotator(1).is_turning);
+}
+
+#[tokio::test(start_paused = true)]
+async fn without_a_sensor_no_jog() {
+    let mut rig = in_manual().await;
+    rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
+    rig.seconds(1.0).await;
+    rig.hold([6.0, 0.0], 0.5).await;
+    assert_eq!(rig.events(), [Event::NotSent(Refusal::AngleUnknown { axis: "Az" })]);
+    rig.send(Command::EndJog);
+    rig.hold([0.0, 6.0], 0.5).await;
+    rig.send(Command::EndJog);
+    rig.seconds(0.1).await;
+    assert_eq!(rig.orders(), ["|P2", "|S"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_sensor_that_is_lost_in_a_jog_ends_it() {
+    let mut is_turning = false;
+    let mut asked = 0;
+    let script = move |command: &str| {
+        is_turning = (is_turning || command == "|P1") && command != "|S";
+        asked += usize::from(is_turning && command == "|h");
+        match command {
+            "|h" if is_turning && asked > 4 => vec![(10, status(999, 10, ['1', '0'], '\0'))],
+            "|h" if is_turning => vec![(10, status(100, 10, ['1', '0'], '\0'))],
+            other => plain(other),
+        }
+    };
+    let mut device = Scripted::start(Rotators::Pair, Box::new(script));
+    device.seconds(0.5).await;
+    device.handle.send(Command::Manual).unwrap();
+    for _ in 0..30 {
+        device.handle.send(Command::Jog { rates_deg_s: [6.0, 0.0] }).unwrap();
+        device.seconds(0.1).await;
+    }
+    assert_eq!(device.orders()[..2], ["|P1", "|S"]);
+    let unknown = Event::NotSent(Refusal::AngleUnknown { axis: "Az" });
+    assert!(device.events().contains(&unknown));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_jog_ends_when_the_answers_stay_away() {
+    let mut rig = in_manual().await;
+    rig.hold([6.0, 0.0], 1.0).await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.hold([6.0, 0.0], 1.5).await;
+    assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
+    assert!(rig.events().contains(&Event::JogPositionOld));
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_second_rotator_is_not_jogged_while_the_first_turns() {
+    // Somebody at the front panel turns the first one.
+    let script = |command: &str| match command {
+        "|h" => vec![(10, status(100, 10, ['1', '0'], '\0'))],
+        other => plain(other),
+    };
+    let mut device = Scripted::start(Rotators::First, Box::new(script));
+    device.seconds(0.5).await;
+    // Manual begins with a halt, which is not proved here.
+    device.handle.send(Command::Hold).unwrap();
+    device.seconds(0.1).await;
+    assert_eq!(device.orders(), ["|S"]);
+    device.handle.send(Command::Jog { rates_deg_s: [0.0, 6.0] }).unwrap();
+    device.seconds(0.2).await;
+    assert_eq!(device.orders(), ["|S"]);
+}

@@ -1,0 +1,125 @@
+//! Two rotators that turn one antenna.
+
+use azel::{
+    controller::panel::CheckState,
+    driver::{Event, Intent, Refusal},
+    protocol::rotator_genius::WholeDegrees,
+    sim::rotator_genius::{Fault, Options, RotatorOptions},
+    station::Rotators,
+};
+
+use super::rig::{Rig, azimuth, pair, to};
+
+fn swapped() -> Options {
+    let Options { rotators: [azimuth, elevation], .. } = pair();
+    Options { rotators: [elevation, azimuth], ..pair() }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_position_is_two_commands_and_arrives() {
+    let mut rig = Rig::pair().await;
+    assert_eq!(rig.axes_deg(), [Some(173.0), Some(0.0)]);
+    rig.send(to(Some(200.4), Some(44.6)));
+    let arrived = rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["|A1200", "|A2045"]);
+    assert_eq!(rig.rotator(1).target, None);
+    let Event::Arrived(aim) = arrived else { unreachable!() };
+    assert!((aim.azimuth.unwrap().degrees() - 200.4).abs() < 1e-9);
+    assert_eq!(rig.axes_deg(), [Some(200.0), Some(45.0)]);
+    assert_eq!(rig.events(), []);
+    assert!(!rig.rotator(1).is_turning && !rig.rotator(2).is_turning);
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_kinds_decide_which_rotator_is_which_axis() {
+    let mut rig = Rig::connected(&swapped(), Rotators::Pair).await;
+    assert_eq!(rig.axes_deg(), [Some(173.0), Some(0.0)]);
+    rig.send(to(Some(180.0), Some(10.0)));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["|A2180", "|A1010"]);
+    let direction = rig.shown().state.measured.unwrap().direction().unwrap();
+    assert!((direction.azimuth.degrees() - 180.0).abs() < 1.0);
+    assert!((direction.elevation.degrees() - 10.0).abs() < 1.0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn one_angle_alone_moves_one_rotator() {
+    let mut rig = Rig::pair().await;
+    rig.send(to(None, Some(30.0)));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    rig.send(to(Some(170.0), None));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["|A2030", "|A1170"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn beyond_the_zenith_the_antenna_points_to_the_other_side() {
+    let mut options = pair();
+    options.rotators[1] = RotatorOptions {
+        position: WholeDegrees::new(120).unwrap(),
+        limit_cw: WholeDegrees::new(180).unwrap(),
+        ..RotatorOptions::elevation()
+    };
+    let rig = Rig::connected(&options, Rotators::Pair).await;
+    assert_eq!(rig.axes_deg(), [Some(173.0), Some(120.0)]);
+    let direction = rig.shown().state.measured.unwrap().direction().unwrap();
+    assert!((direction.azimuth.degrees() - 353.0).abs() < 1e-9);
+    assert!((direction.elevation.degrees() - 60.0).abs() < 1e-9);
+}
+
+#[tokio::test(start_paused = true)]
+async fn two_rotators_of_one_kind_are_told_and_take_no_positions() {
+    let options = Options { rotators: [azimuth("One", 10), azimuth("Two", 20)], ..pair() };
+    let mut rig = Rig::connected(&options, Rotators::Pair).await;
+    assert_eq!(rig.axes_deg(), [None, None]);
+    assert_eq!(rig.shown().state.measured.unwrap().direction(), None);
+    let shown = rig.shown();
+    let check = shown.state.checks.iter().find(|check| check.name == "Kinds of the rotators");
+    assert_eq!(check.unwrap().state, CheckState::Fault);
+    assert_eq!(rig.reading("Heading 2"), "20°");
+    rig.send(to(Some(50.0), None));
+    rig.seconds(1.0).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+    assert_eq!(rig.orders(), [""; 0]);
+    assert_eq!(rig.shown().intent, Intent::Standby);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_without_a_sensor_is_told_and_not_sent_anywhere() {
+    let mut rig = Rig::pair().await;
+    rig.control
+        .set_fault(Fault::NoSensor(azel::protocol::rotator_genius::RotatorNumber::Two), true);
+    rig.seconds(1.0).await;
+    assert_eq!(rig.axes_deg(), [Some(173.0), None]);
+    let shown = rig.shown();
+    let check = shown.state.checks.iter().find(|check| check.name == "Sensor of rotator 2");
+    assert_eq!(check.unwrap().state, CheckState::Fault);
+    rig.send(to(Some(180.0), Some(20.0)));
+    rig.seconds(0.2).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+    assert_eq!(rig.orders(), [""; 0]);
+    // The other axis is as good as ever.
+    rig.send(to(Some(180.0), None));
+    rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["|A1180"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn both_rotators_are_shown_with_all_that_they_tell() {
+    let mut rig = Rig::pair().await;
+    assert_eq!(rig.reading("Rotator 1"), "Tower, azimuth");
+    assert_eq!(rig.reading("Rotator 2"), "Elevation, elevation");
+    assert_eq!(rig.reading("Limits 1"), "0° to 359°");
+    assert_eq!(rig.reading("Offset 1"), "0°");
+    rig.send(to(Some(213.0), None));
+    rig.seconds(5.0).await;
+    let shown = rig.shown();
+    let target = shown.state.readings.iter().find(|reading| reading.label == "Target 1").unwrap();
+    assert_eq!(target.text, "213°");
+    let share = target.share.unwrap();
+    // After 5 s at 4 degrees a second, with a ramp of a second.
+    assert!((0.3..0.6).contains(&share), "{share}");
+    assert!(rig.reading("Heading 1").ends_with("°, turning clockwise"));
+}

@@ -1,0 +1,135 @@
+//! A peer that answers as a test tells it, where the simulated device cannot.
+
+use std::{
+    sync::{Arc, Mutex},
+    time::Duration,
+};
+
+use azel::{
+    driver::{AntennaHandle, Dial, Event, Stream},
+    protocol::rotator_genius::Request,
+    station::Rotators,
+};
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::{Instant, sleep},
+};
+
+use super::rig::{antenna, session};
+
+/// What a script says to a command: replies, each after a delay in milliseconds.
+pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, Vec<u8>)> + Send>;
+
+/// A session with a scripted peer.
+pub(super) struct Scripted {
+    pub(super) handle: AntennaHandle,
+    received: Arc<Mutex<Vec<(Instant, String)>>>,
+    events: Vec<Event>,
+}
+
+impl Scripted {
+    pub(super) fn start(rotators: Rotators, script: Script) -> Self {
+        let (near, far) = tokio::io::duplex(4096);
+        let received = Arc::new(Mutex::new(Vec::new()));
+        tokio::spawn(serve(far, script, Arc::clone(&received)));
+        let mut near = Some(near);
+        let dial: Dial = Box::new(move || {
+            let near = near.take();
+            Box::pin(async move {
+                let near = near.ok_or(std::io::ErrorKind::ConnectionRefused)?;
+                Ok(Box::new(near) as Box<dyn Stream>)
+            })
+        });
+        let (session, handle) = session(&antenna(rotators), dial);
+        tokio::spawn(session.run());
+        Self { handle, received, events: Vec::new() }
+    }
+
+    /// A peer that says `bytes` to the first question, and no more.
+    pub(super) fn raw(bytes: &'static [u8]) -> Self {
+        let mut bytes = Some(bytes);
+        let script =
+            move |_: &str| bytes.take().map(|bytes| (10, bytes.to_vec())).into_iter().collect();
+        Self::start(Rotators::Pair, Box::new(script))
+    }
+
+    pub(super) async fn seconds(&mut self, seconds: f64) {
+        let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+        while Instant::now() < end {
+            sleep(Duration::from_millis(10)).await;
+            self.events.extend(std::iter::from_fn(|| self.handle.next_event()));
+        }
+    }
+
+    pub(super) fn events(&mut self) -> Vec<Event> {
+        std::mem::take(&mut self.events)
+    }
+
+    /// All commands that came in.
+    pub(super) fn sent(&self) -> Vec<String> {
+        self.received.lock().unwrap().iter().map(|(_, command)| command.clone()).collect()
+    }
+
+    /// All but the questions.
+    pub(super) fn orders(&self) -> Vec<String> {
+        self.sent().into_iter().filter(|command| command != "|h").collect()
+    }
+
+    /// When this command came in.
+    pub(super) fn times(&self, command: &str) -> Vec<Instant> {
+        let received = self.received.lock().unwrap();
+        received.iter().filter(|(_, other)| other == command).map(|(at, _)| *at).collect()
+    }
+}
+
+async fn serve(
+    far: DuplexStream,
+    mut script: Script,
+    received: Arc<Mutex<Vec<(Instant, String)>>>,
+) {
+    let (mut reader, writer) = tokio::io::split(far);
+    let writer = Arc::new(tokio::sync::Mutex::new(writer));
+    let mut pending = Vec::new();
+    let mut buffer = [0; 1024];
+    loop {
+        match reader.read(&mut buffer).await {
+            Ok(count) if count > 0 => pending.extend(&buffer[..count]),
+            _ => return,
+        }
+        while let Some(length) = pending.get(1).and_then(|letter| Request::length(*letter))
+            && pending.len() >= length
+        {
+            let command: String = pending.drain(..length).map(char::from).collect();
+            received.lock().unwrap().push((Instant::now(), command.clone()));
+            for (delay_ms, reply) in script(&command) {
+                let writer = Arc::clone(&writer);
+                tokio::spawn(async move {
+                    sleep(Duration::from_millis(delay_ms)).await;
+                    // The session may be gone by then.
+                    let _ = writer.lock().await.write_all(&reply).await;
+                });
+            }
+        }
+    }
+}
+
+/// A wide status of a pair: azimuth rotator, then elevation rotator; whole
+/// degrees, which way they are driven, and the limit byte of the first.
+pub(super) fn status(azimuth: u16, elevation: u16, moving: [char; 2], limit: char) -> Vec<u8> {
+    let [one, two] = moving;
+    let text = format!(
+        "|h2\0{azimuth:>3}359  0A{one}   0999999{limit}Tower       \
+         {elevation:>3} 90  0E{two}   0999999\0Elevation   "
+    );
+    text.chars().map(|c| u8::try_from(c).unwrap()).collect()
+}
+
+/// What a plain device answers after 10 ms to what a script leaves alone.
+pub(super) fn plain(command: &str) -> Vec<(u64, Vec<u8>)> {
+    let reply = match command.get(1..2) {
+        Some("h") => status(100, 10, ['0', '0'], '\0'),
+        Some(letter) => format!("|{letter}K").into_bytes(),
+        None => return Vec::new(),
+    };
+    vec![(10, reply)]
+}
