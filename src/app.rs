@@ -51,7 +51,7 @@ use self::{
 };
 use crate::{
     driver::{self, Clock, Driver, Wake},
-    station::{self, LoadError, Station},
+    station::{self, DemoAddresses, LoadError, Station},
     ui,
 };
 
@@ -171,7 +171,10 @@ impl App {
             // The address is known once the simulator runs.
             Err(LoadError::Missing) => {
                 self.model.demo = true;
-                self.use_station(Station { antennas: Vec::new(), ..Station::demo("") });
+                self.use_station(Station {
+                    antennas: Vec::new(),
+                    ..Station::demo(&DemoAddresses::default())
+                });
             }
             Err(error) => {
                 let text = error.to_string();

@@ -4,26 +4,26 @@
 mod antenna;
 mod calibration;
 mod connection;
+mod demo;
 mod file;
 mod following;
 mod mount;
+pub mod ranges;
 mod read;
 
 pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
 pub use calibration::{CalibrationError, CountLine};
 pub use connection::{Calibration, Connection, CountPoint, Rotators};
+pub(crate) use connection::{check_address, check_line};
+pub use demo::{DEMO_ELEMENT_FILE, DemoAddresses};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub use following::{AfterPass, Following};
 pub use mount::Mount;
-pub(crate) use read::check_address;
 pub use read::{Note, NoteReason, from_toml};
 
 use serde::{Serialize, Serializer};
 
 use crate::astro::{Angle, HorizonMask, Site};
-
-/// The element file that the simulated Satrak holds.
-pub const DEMO_ELEMENT_FILE: &str = "active.txt";
 
 /// Where the operator works and with what.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,23 +55,6 @@ impl Station {
     /// The elevation floor as an angle.
     pub fn elevation_floor(&self) -> Angle {
         Angle::from_degrees(self.elevation_floor_deg)
-    }
-
-    /// The station that is shown before there are settings: a simulated Satrak
-    /// listening at `satrak_address`, and well-known weather and research
-    /// satellites.
-    pub fn demo(satrak_address: &str) -> Self {
-        Self {
-            name: "Demo station".to_owned(),
-            antennas: vec![Antenna {
-                connection: Connection::Satrak {
-                    address: satrak_address.to_owned(),
-                    element_file: DEMO_ELEMENT_FILE.to_owned(),
-                },
-                ..Antenna::satrak("Satrak", satrak_address)
-            }],
-            ..Self::default()
-        }
     }
 }
 

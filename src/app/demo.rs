@@ -1,5 +1,6 @@
 //! The demo station's antennas: simulators in this process, behind real
-//! sockets on the loopback. The rest of the program does not know.
+//! sockets on the loopback and a pseudo-terminal. The rest of the program does
+//! not know.
 
 use std::{collections::BTreeMap, io, net::SocketAddr, thread};
 
@@ -7,37 +8,83 @@ use jiff::Timestamp;
 
 use crate::{
     orbit::Elements,
-    sim::satrak::{Options, Simulator},
-    station::{DEMO_ELEMENT_FILE, Station},
+    protocol::rotator_genius::WholeDegrees,
+    sim::{rc2000c, rotator_genius, satrak},
+    station::{DEMO_ELEMENT_FILE, DemoAddresses, Station},
 };
+
+/// Any free port that only this machine reaches.
+const LOOPBACK: SocketAddr =
+    SocketAddr::new(std::net::IpAddr::V4(std::net::Ipv4Addr::LOCALHOST), 0);
 
 /// Running simulators. Dropping it ends them.
 pub(super) struct Demo {
-    /// Where the Satrak listens.
-    pub(super) satrak: SocketAddr,
+    /// Where they answer.
+    pub(super) addresses: DemoAddresses,
     _end: tokio::sync::oneshot::Sender<()>,
 }
 
 impl Demo {
-    /// Starts the simulators of `station`, whose unit holds `elements`.
+    /// Starts the simulators of `station`, whose Satrak holds `elements`.
     pub(super) fn start(station: &Station, elements: Vec<Elements>) -> io::Result<Self> {
-        let options = Options {
+        let satrak = satrak::Options {
             elements: BTreeMap::from([(DEMO_ELEMENT_FILE.to_owned(), elements)]),
-            ..Options::new(station.site, Timestamp::now())
+            ..satrak::Options::new(station.site, Timestamp::now())
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let listen = SocketAddr::from(([127, 0, 0, 1], 0));
-        let simulator = runtime.block_on(Simulator::bind(listen, options))?;
-        let satrak = simulator.local_addr()?;
+        // Links belong to the runtime that serves them.
+        let (satrak, genius, (rc2000c, rc2000c_address)) = runtime.block_on(async {
+            io::Result::Ok((
+                satrak::Simulator::bind(LOOPBACK, satrak).await?,
+                rotator_genius::Simulator::bind(LOOPBACK, genius()).await?,
+                rc2000c().await?,
+            ))
+        })?;
+        let addresses = DemoAddresses {
+            satrak: satrak.local_addr()?.to_string(),
+            genius: genius.local_addr()?.to_string(),
+            rc2000c: rc2000c_address,
+        };
         let (end, ended) = tokio::sync::oneshot::channel::<()>();
-        thread::Builder::new().name("azel-simulator".to_owned()).spawn(move || {
+        thread::Builder::new().name("azel-simulators".to_owned()).spawn(move || {
             runtime.block_on(async {
                 tokio::select! {
-                    () = simulator.run() => {}
+                    () = satrak.run() => {}
+                    () = genius.run() => {}
+                    () = rc2000c.run() => {}
                     _ = ended => {}
                 }
             });
         })?;
-        Ok(Self { satrak, _end: end })
+        Ok(Self { addresses, _end: end })
     }
+}
+
+/// Azimuth all around and elevation to the zenith.
+fn genius() -> rotator_genius::Options {
+    let azimuth = rotator_genius::RotatorOptions {
+        limit_cw: WholeDegrees::MAX,
+        ..rotator_genius::RotatorOptions::default()
+    };
+    rotator_genius::Options {
+        rotators: [azimuth, rotator_genius::RotatorOptions::elevation()],
+        ..rotator_genius::Options::default()
+    }
+}
+
+/// On a pseudo-terminal, as on a serial port, and the path of that.
+#[cfg(unix)]
+#[allow(clippy::unused_async, reason = "elsewhere it waits for a port")]
+async fn rc2000c() -> io::Result<(rc2000c::PtySimulator, String)> {
+    let simulator = rc2000c::PtySimulator::open(&rc2000c::Options::default())?;
+    let path = simulator.path().display().to_string();
+    Ok((simulator, path))
+}
+
+/// As behind a serial server, and where that listens.
+#[cfg(not(unix))]
+async fn rc2000c() -> io::Result<(rc2000c::Simulator, String)> {
+    let simulator = rc2000c::Simulator::bind(LOOPBACK, &rc2000c::Options::default()).await?;
+    let address = simulator.local_addr()?.to_string();
+    Ok((simulator, address))
 }

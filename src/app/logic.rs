@@ -84,7 +84,7 @@ impl App {
         let elements = catalog.iter().cloned().collect();
         match Demo::start(&self.model.station, elements) {
             Ok(demo) => {
-                let antennas = Station::demo(&demo.satrak.to_string()).antennas;
+                let antennas = Station::demo(&demo.addresses).antennas;
                 self.demo = Some(demo);
                 let station = Station { antennas, ..self.model.station.clone() };
                 self.use_station(station);

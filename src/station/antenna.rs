@@ -162,6 +162,17 @@ impl Antenna {
         }
     }
 
+    /// An antenna with the controller that has this key in the station file, the
+    /// usual figures and name of its make; `None` where there is no such.
+    pub fn of_controller(key: &str, address: &str) -> Option<Self> {
+        Some(match key {
+            "satrak" => Self::satrak("Satrak", address),
+            "genius" => Self::genius("Genius", address),
+            "rc2000c" => Self::rc2000c("RC2000C", address),
+            _ => return None,
+        })
+    }
+
     /// Whether two names are too alike for the operator to tell two antennas
     /// apart.
     pub fn same_name(a: &str, b: &str) -> bool {

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::{CalibrationError, CountLine, ranges};
+
 /// Which controller, and where it answers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "controller", rename_all = "lowercase")]
@@ -69,6 +71,26 @@ pub struct CountPoint {
     pub degrees: f64,
 }
 
+impl CountPoint {
+    /// Whether points make a scale, in any order; the reason when they do not.
+    /// None at all are a scale that is not known yet.
+    pub(crate) fn check(points: &[Self]) -> Result<(), String> {
+        if points.is_empty() {
+            return Ok(());
+        }
+        let range = ranges::CALIBRATED_DEG;
+        if !points.iter().all(|point| range.contains(&point.degrees)) {
+            let words = format!("must hold angles from {} to {}°", range.start(), range.end());
+            return Err(words.replace('-', "−"));
+        }
+        CountLine::through(points).map(|_| ()).map_err(|error| match error {
+            CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
+            CalibrationError::SameCounts(counts) => format!("must not hold {counts} counts twice"),
+            CalibrationError::Flat => "must hold angles that change with the counts".to_owned(),
+        })
+    }
+}
+
 impl Connection {
     /// Where the controller answers, for the operator's eyes.
     pub fn address(&self) -> &str {
@@ -76,6 +98,66 @@ impl Connection {
             Self::Satrak { address, .. }
             | Self::Genius { address, .. }
             | Self::Rc2000c { address, .. } => address,
+        }
+    }
+}
+
+/// Whether `address` is a host and a port; the reason when it is not.
+pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
+    let Some((host, port)) = address.rsplit_once(':') else {
+        return Err("must be a host and a port, such as 192.168.10.21:4001");
+    };
+    if host.is_empty() || host.contains(|c: char| c.is_whitespace() || c == '/') {
+        return Err("must have a host without blanks and slashes before the port");
+    }
+    match port.parse::<u16>() {
+        Ok(1..) => Ok(()),
+        _ => Err("must have a port from 1 to 65535 behind the host"),
+    }
+}
+
+/// Whether `address` is a serial port or else a host and a port; the reason when
+/// it is neither.
+pub(crate) fn check_line(address: &str) -> Result<(), &'static str> {
+    if address.is_empty() {
+        return Err("must be a serial port, such as /dev/ttyUSB0 or COM3, or a host and a port");
+    }
+    // Names of ports by their place on the machine hold colons too.
+    let is_port = address.starts_with(['/', '\\']) || !address.contains(':');
+    if is_port { Ok(()) } else { check_address(address) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_a_serial_port_or_a_host_and_a_port() {
+        for good in ["/dev/ttyUSB0", "COM3", "/dev/serial/by-path/pci-0000:00:14.0-port0", "h:1"] {
+            assert_eq!(check_line(good), Ok(()), "{good}");
+        }
+        for bad in ["", "host:", "host:0", "host:70000", ":4001"] {
+            assert!(check_line(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_scale_has_two_points_and_a_slope() {
+        let check = |points: &[(u16, f64)]| {
+            let points = points.iter().map(|&(counts, degrees)| CountPoint { counts, degrees });
+            CountPoint::check(&points.collect::<Vec<_>>())
+        };
+        assert_eq!(check(&[]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, 270.0), (200, 181.0)]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, -90.0)]), Ok(()));
+        for bad in [
+            &[(100, 90.0)][..],
+            &[(100, 90.0), (100, 91.0)],
+            &[(100, 90.0), (200, 90.0)],
+            &[(100, 90.0), (200, 9000.0)],
+            &[(100, f64::NAN), (200, 90.0)],
+        ] {
+            assert!(check(bad).is_err(), "{bad:?}");
         }
     }
 }

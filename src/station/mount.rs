@@ -66,3 +66,55 @@ impl Mount {
             .map_or(azimuth, Angle::from_degrees)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn azel(from: f64, to: f64) -> Mount {
+        Mount::AzEl {
+            azimuth_from_deg: from,
+            azimuth_to_deg: to,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        }
+    }
+
+    fn axis(mount: &Mount, azimuth_deg: f64, near_deg: Option<f64>) -> f64 {
+        mount.axis_azimuth(Angle::from_degrees(azimuth_deg), near_deg).degrees()
+    }
+
+    #[test]
+    fn the_axis_turns_the_shorter_way_within_its_travel() {
+        let wide = azel(-90.0, 450.0);
+        for (azimuth_deg, near_deg, expected) in [
+            (10.0, Some(350.0), 370.0),
+            (10.0, Some(100.0), 10.0),
+            (300.0, Some(0.0), -60.0),
+            (300.0, Some(200.0), 300.0),
+            (100.0, Some(440.0), 100.0),
+            (90.0, Some(440.0), 450.0),
+            (-60.0, None, -60.0),
+        ] {
+            let found = axis(&wide, azimuth_deg, near_deg);
+            assert!((found - expected).abs() < 1e-9, "{azimuth_deg} near {near_deg:?}: {found}");
+        }
+        assert!((axis(&azel(180.0, 540.0), 90.0, None) - 450.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_azimuth_without_a_position_stays_as_it_is() {
+        assert!((axis(&azel(90.0, 270.0), 45.0, Some(100.0)) - 45.0).abs() < 1e-9);
+        let xy =
+            Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
+        assert!((axis(&xy, 370.0, Some(0.0)) - 370.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn both_axes_have_their_ends() {
+        assert_eq!(azel(0.0, 450.0).travel_deg(), [(0.0, 450.0), (0.0, 90.0)]);
+        let xy =
+            Mount::Xy { lower_axis_azimuth_deg: 30.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
+        assert_eq!(xy.travel_deg(), [(5.0, 175.0); 2]);
+    }
+}

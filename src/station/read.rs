@@ -3,9 +3,11 @@
 
 mod antenna;
 
+use std::ops::RangeInclusive;
+
 use toml::{Table, Value};
 
-use super::{Antenna, Station};
+use super::{Antenna, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -36,7 +38,11 @@ pub fn from_toml(mut table: Table) -> (Station, Vec<Note>) {
         name: fields.text("name", &default.name),
         site: fields.site(),
         horizon_mask: fields.horizon_mask(),
-        elevation_floor_deg: fields.number("elevation_floor_deg", 0.0, 89.0, 10.0),
+        elevation_floor_deg: fields.number(
+            "elevation_floor_deg",
+            &ranges::ELEVATION_FLOOR_DEG,
+            10.0,
+        ),
         favourites: fields.favourites(default.favourites),
         antennas: fields.antennas(),
     };
@@ -76,8 +82,8 @@ impl Fields<'_> {
         }
     }
 
-    /// A number from `low` to `high`, whole or with decimals.
-    fn number(&mut self, key: &str, low: f64, high: f64, default: f64) -> f64 {
+    /// A number within `range`, whole or with decimals.
+    fn number(&mut self, key: &str, range: &RangeInclusive<f64>, default: f64) -> f64 {
         let value = match self.table.remove(key) {
             None => return default,
             Some(Value::Float(number)) => Some(number),
@@ -85,8 +91,9 @@ impl Fields<'_> {
             Some(_) => None,
         };
         match value {
-            Some(number) if (low..=high).contains(&number) => number,
+            Some(number) if range.contains(&number) => number,
             _ => {
+                let (low, high) = (range.start(), range.end());
                 self.invalid(key, format!("must be a number from {low} to {high}"));
                 default
             }
@@ -173,19 +180,5 @@ impl Fields<'_> {
         for key in unknown {
             self.note(&key, NoteReason::Unknown);
         }
-    }
-}
-
-/// Whether `address` is a host and a port; the reason when it is not.
-pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
-    let Some((host, port)) = address.rsplit_once(':') else {
-        return Err("must be a host and a port, such as 192.168.10.21:4001");
-    };
-    if host.is_empty() || host.contains(char::is_whitespace) {
-        return Err("the host is missing or holds a blank");
-    }
-    match port.parse::<u16>() {
-        Ok(1..) => Ok(()),
-        _ => Err("the port must be a number from 1 to 65535"),
     }
 }

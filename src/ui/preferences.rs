@@ -1,7 +1,12 @@
 //! The station's settings: site, satellites and antennas, in a plain form.
 
+mod antenna_fields;
+mod connection_fields;
 mod draft;
+mod fields;
 mod form;
+mod points;
+mod station_fields;
 
 use egui::{Align2, Color32, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use jiff::Timestamp;
@@ -73,7 +78,7 @@ pub fn show(
         ui.set_clip_rect(body);
         ui.label(RichText::new("Station settings").font(text::title()));
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            form::show(ui, &mut draft, &before, rect.width() >= TWO_COLUMNS_FROM);
+            form::show(ui, &mut draft, rect.width() >= TWO_COLUMNS_FROM);
         });
     });
 

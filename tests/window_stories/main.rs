@@ -23,6 +23,7 @@ mod panel;
 mod panel_layout;
 mod passes;
 mod preferences;
+mod preferences_makes;
 mod rig;
 mod running;
 mod sentences;

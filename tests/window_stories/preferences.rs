@@ -121,7 +121,7 @@ fn what_was_typed_survives_another_view() {
 #[test]
 fn an_antenna_is_added_and_removed() {
     for size in SIZES {
-        for (button, antennas) in [("Add a Satrak", 2), ("Remove antenna 1", 0)] {
+        for (button, antennas) in [("Add SVS Satrak", 2), ("Remove antenna 1", 0)] {
             let mut window = form(size);
             window.get_by_role_and_label(Role::Button, button).scroll_to_me();
             settle(&mut window);
@@ -195,9 +195,9 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
 fn two_antennas_of_one_name_are_not_saved() {
     for size in SIZES {
         let mut window = form(size);
-        window.get_by_role_and_label(Role::Button, "Add a Satrak").scroll_to_me();
+        window.get_by_role_and_label(Role::Button, "Add SVS Satrak").scroll_to_me();
         settle(&mut window);
-        window.get_by_role_and_label(Role::Button, "Add a Satrak").click();
+        window.get_by_role_and_label(Role::Button, "Add SVS Satrak").click();
         settle(&mut window);
         let names = |window: &Window| {
             let fields = window.get_all_by_role_and_label(Role::TextInput, "Name");

@@ -166,14 +166,17 @@ fn thinned(track: &[Sample]) -> Vec<Sample> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{PassSearch, bundled, passes};
+    use crate::{
+        orbit::{PassSearch, bundled, passes},
+        station::DemoAddresses,
+    };
 
     #[test]
     fn an_outline_has_the_ends_and_the_verdict_of_the_whole_track() {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
         let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let station = Station::demo("127.0.0.1:1");
+        let station = Station::demo(&DemoAddresses::default());
         let search = PassSearch::new(station.site, from, add_seconds(from, 86_400.0));
         let vantage = Arc::new(Vantage::of(&station));
         let found = passes(&propagator, &search, &|| false);

@@ -4,7 +4,10 @@ use std::{
 };
 
 use super::*;
-use crate::orbit::{bundled, read_element_bytes, write_omm_json};
+use crate::{
+    orbit::{bundled, read_element_bytes, write_omm_json},
+    station::DemoAddresses,
+};
 
 const ISS: u32 = 25_544;
 const NOAA_20: u32 = 43_013;
@@ -37,7 +40,10 @@ impl Desk {
         Self {
             forecasts: Forecasts::default(),
             catalog: Arc::new(catalog),
-            station: Station { favourites: vec![NOAA_20], ..Station::demo("127.0.0.1:1") },
+            station: Station {
+                favourites: vec![NOAA_20],
+                ..Station::demo(&DemoAddresses::default())
+            },
             choice: ListChoice { scope: Scope::All, ..ListChoice::default() },
             now: now(),
             wake: Arc::new(move || {

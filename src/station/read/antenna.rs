@@ -1,71 +1,103 @@
 //! Reads one antenna.
 
+use std::ops::RangeInclusive;
+
 use serde::de::DeserializeOwned;
 use toml::Value;
 
-use super::{Fields, check_address};
+use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, Calibration, Connection, CountPoint, Direction, Mount, Rotators,
+    AfterPass, Antenna, Calibration, Connection, CountPoint, Direction, Following, MotionLimits,
+    Mount, PollRates, Rotators, check_address, check_line, ranges,
 };
-
-/// Speeds of a serial line that a controller knows, bits a second.
-const BAUDS: [u32; 6] = [300, 600, 1200, 2400, 4800, 9600];
 
 impl Fields<'_> {
     /// An antenna needs a controller and an address: nothing stands in for them.
     pub(super) fn antenna(&mut self) -> Option<Antenna> {
         let default = self.inner("connection", connection)?;
         let name = self.text("name", &default.name);
-        let limit = default.limits;
-        let follow = default.follow;
         Some(Antenna {
             name,
             mount: self.inner("mount", |mount| mount.mount(default.mount)),
-            beam_width_deg: self.number("beam_width_deg", 0.01, 180.0, default.beam_width_deg),
-            park: self.inner("park", |park| Direction {
-                azimuth_deg: park.number("azimuth_deg", 0.0, 360.0, default.park.azimuth_deg),
-                elevation_deg: park.number("elevation_deg", 0.0, 90.0, default.park.elevation_deg),
-            }),
-            limits: self.inner("limits", |limits| {
-                let mut read = limit;
-                read.minimum_elevation_deg =
-                    limits.number("minimum_elevation_deg", 0.0, 90.0, read.minimum_elevation_deg);
-                read.maximum_rate_deg_s =
-                    limits.number("maximum_rate_deg_s", 0.01, 30.0, read.maximum_rate_deg_s);
-                read.maximum_step_deg =
-                    limits.number("maximum_step_deg", 0.01, 90.0, read.maximum_step_deg);
-                read
-            }),
-            poll: self.inner("poll", |poll| {
-                let mut read = default.poll;
-                read.idle_hz = poll.number("idle_hz", 2.0, 10.0, read.idle_hz);
-                read.moving_hz = poll.number("moving_hz", 2.0, 10.0, read.moving_hz);
-                read
-            }),
-            follow: self.inner("follow", |fields| {
-                let mut read = follow;
-                read.period_s = fields.number("period_s", 0.05, 600.0, read.period_s);
-                read.dead_band_deg = fields.number("dead_band_deg", 0.0, 90.0, read.dead_band_deg);
-                read.latency_s = fields.number("latency_s", 0.0, 60.0, read.latency_s);
-                let after = [
-                    ("hold", AfterPass::Hold),
-                    ("park", AfterPass::Park),
-                    ("next", AfterPass::Next),
-                ];
-                read.after = fields.one_of("after", &after, read.after);
-                read
-            }),
+            beam_width_deg: self.number(
+                "beam_width_deg",
+                &ranges::BEAM_WIDTH_DEG,
+                default.beam_width_deg,
+            ),
+            park: self.inner("park", |park| park.direction(default.park)),
+            limits: self.inner("limits", |limits| limits.limits(default.limits)),
+            poll: self.inner("poll", |poll| poll.poll(default.poll)),
+            follow: self.inner("follow", |follow| follow.following(default.follow)),
             connection: default.connection,
         })
     }
 
-    fn baud(&mut self, default: u32) -> u32 {
-        let read = self.number("baud", 300.0, 9600.0, default.into()) as u32;
-        if BAUDS.contains(&read) {
-            return read;
+    fn direction(&mut self, default: Direction) -> Direction {
+        let Direction { azimuth_deg, elevation_deg } = default;
+        Direction {
+            azimuth_deg: self.number("azimuth_deg", &ranges::AZIMUTH_DEG, azimuth_deg),
+            elevation_deg: self.number("elevation_deg", &ranges::ELEVATION_DEG, elevation_deg),
         }
-        self.invalid("baud", "must be 300, 600, 1200, 2400, 4800 or 9600");
-        default
+    }
+
+    fn limits(&mut self, default: MotionLimits) -> MotionLimits {
+        let MotionLimits { minimum_elevation_deg, maximum_rate_deg_s, maximum_step_deg } = default;
+        MotionLimits {
+            minimum_elevation_deg: self.number(
+                "minimum_elevation_deg",
+                &ranges::ELEVATION_DEG,
+                minimum_elevation_deg,
+            ),
+            maximum_rate_deg_s: self.number(
+                "maximum_rate_deg_s",
+                &ranges::MAXIMUM_RATE_DEG_S,
+                maximum_rate_deg_s,
+            ),
+            maximum_step_deg: self.number(
+                "maximum_step_deg",
+                &ranges::MAXIMUM_STEP_DEG,
+                maximum_step_deg,
+            ),
+        }
+    }
+
+    fn poll(&mut self, default: PollRates) -> PollRates {
+        PollRates {
+            idle_hz: self.number("idle_hz", &ranges::POLL_HZ, default.idle_hz),
+            moving_hz: self.number("moving_hz", &ranges::POLL_HZ, default.moving_hz),
+        }
+    }
+
+    fn following(&mut self, default: Following) -> Following {
+        let after =
+            [("hold", AfterPass::Hold), ("park", AfterPass::Park), ("next", AfterPass::Next)];
+        let Following { period_s, dead_band_deg, latency_s, .. } = default;
+        Following {
+            period_s: self.number("period_s", &ranges::FOLLOW_PERIOD_S, period_s),
+            dead_band_deg: self.number("dead_band_deg", &ranges::DEAD_BAND_DEG, dead_band_deg),
+            latency_s: self.number("latency_s", &ranges::LATENCY_S, latency_s),
+            after: self.one_of("after", &after, default.after),
+        }
+    }
+
+    fn baud(&mut self, default: u32) -> u32 {
+        let Some(value) = self.table.remove("baud") else { return default };
+        let read = value.as_integer().and_then(|baud| u32::try_from(baud).ok());
+        read.filter(|baud| ranges::BAUDS.contains(baud)).unwrap_or_else(|| {
+            let known = ranges::BAUDS.map(|baud| baud.to_string()).join(", ");
+            self.invalid("baud", format!("must be one of {known}"));
+            default
+        })
+    }
+
+    fn bus_address(&mut self, default: u8) -> u8 {
+        let Some(value) = self.table.remove("bus_address") else { return default };
+        let read = value.as_integer().and_then(|number| u8::try_from(number).ok());
+        read.filter(|number| ranges::BUS_ADDRESS.contains(number)).unwrap_or_else(|| {
+            let (low, high) = ranges::BUS_ADDRESS.into_inner();
+            self.invalid("bus_address", format!("must be a whole number from {low} to {high}"));
+            default
+        })
     }
 
     fn points(&mut self, key: &str) -> Vec<CountPoint> {
@@ -75,7 +107,15 @@ impl Fields<'_> {
             degrees: f64,
         }
         let points: Vec<Point> = self.list(key);
-        points.into_iter().map(|Point { counts, degrees }| CountPoint { counts, degrees }).collect()
+        let points: Vec<CountPoint> = points
+            .into_iter()
+            .map(|Point { counts, degrees }| CountPoint { counts, degrees })
+            .collect();
+        if let Err(why) = CountPoint::check(&points) {
+            self.invalid(key, why);
+            return Vec::new();
+        }
+        points
     }
 
     fn list<T: DeserializeOwned>(&mut self, key: &str) -> Vec<T> {
@@ -107,37 +147,43 @@ impl Fields<'_> {
                 Mount::Xy {
                     lower_axis_azimuth_deg: self.number(
                         "lower_axis_azimuth_deg",
-                        0.0,
-                        180.0,
+                        &ranges::LOWER_AXIS_AZIMUTH_DEG,
                         lower_axis_azimuth_deg,
                     ),
-                    travel_from_deg: self.number("travel_from_deg", -180.0, 90.0, travel_from_deg),
-                    travel_to_deg: self.number("travel_to_deg", 90.0, 360.0, travel_to_deg),
+                    travel_from_deg: self.number(
+                        "travel_from_deg",
+                        &ranges::TRAVEL_FROM_DEG,
+                        travel_from_deg,
+                    ),
+                    travel_to_deg: self.number(
+                        "travel_to_deg",
+                        &ranges::TRAVEL_TO_DEG,
+                        travel_to_deg,
+                    ),
                 }
             }
             Mount::AzEl {
-                azimuth_from_deg,
-                azimuth_to_deg,
-                elevation_from_deg,
-                elevation_to_deg,
+                azimuth_from_deg: from,
+                azimuth_to_deg: to,
+                elevation_from_deg: low,
+                elevation_to_deg: high,
             } => {
                 self.mount_type("azel");
-                let from = self.number("azimuth_from_deg", -360.0, 360.0, azimuth_from_deg);
+                let from = self.number("azimuth_from_deg", &ranges::AZIMUTH_FROM_DEG, from);
+                let low = self.number("elevation_from_deg", &ranges::ELEVATION_FROM_DEG, low);
                 Mount::AzEl {
                     azimuth_from_deg: from,
                     azimuth_to_deg: self.number(
                         "azimuth_to_deg",
-                        from + 1.0,
-                        from + 1080.0,
-                        azimuth_to_deg.max(from + 1.0),
+                        &above(from, &ranges::AZIMUTH_SPAN_DEG, &ranges::AZIMUTH_TO_DEG),
+                        to.max(from + ranges::AZIMUTH_SPAN_DEG.start()),
                     ),
-                    elevation_from_deg: self.number(
-                        "elevation_from_deg",
-                        -90.0,
-                        89.0,
-                        elevation_from_deg,
+                    elevation_from_deg: low,
+                    elevation_to_deg: self.number(
+                        "elevation_to_deg",
+                        &above(low, &ranges::ELEVATION_SPAN_DEG, &ranges::ELEVATION_TO_DEG),
+                        high.max(low + ranges::ELEVATION_SPAN_DEG.start()),
                     ),
-                    elevation_to_deg: self.number("elevation_to_deg", 0.0, 180.0, elevation_to_deg),
                 }
             }
         }
@@ -157,19 +203,13 @@ impl Fields<'_> {
 fn connection(fields: &mut Fields<'_>) -> Option<Antenna> {
     let controller = fields.text("controller", "");
     let address = fields.text("address", "");
-    let element_file = fields.text("element_file", "");
-    let mut antenna = match &*controller {
-        "satrak" => Antenna::satrak("Satrak", &address),
-        "genius" => Antenna::genius("Genius", &address),
-        "rc2000c" => Antenna::rc2000c("RC2000C", &address),
-        _ => {
-            fields.invalid("controller", "must be \"satrak\", \"genius\" or \"rc2000c\"");
-            return None;
-        }
+    let Some(mut antenna) = Antenna::of_controller(&controller, &address) else {
+        fields.invalid("controller", "must be \"satrak\", \"genius\" or \"rc2000c\"");
+        return None;
     };
-    let mut is_serial = false;
+    let mut check: fn(&str) -> Result<(), &'static str> = check_address;
     match &mut antenna.connection {
-        Connection::Satrak { element_file: file, .. } => *file = element_file,
+        Connection::Satrak { element_file, .. } => *element_file = fields.text("element_file", ""),
         Connection::Genius { rotators, .. } => {
             let known = [
                 ("pair", Rotators::Pair),
@@ -179,20 +219,29 @@ fn connection(fields: &mut Fields<'_>) -> Option<Antenna> {
             *rotators = fields.one_of("rotators", &known, *rotators);
         }
         Connection::Rc2000c { baud, bus_address, calibration, .. } => {
-            is_serial = !address.trim().is_empty() && check_address(&address).is_err();
+            check = check_line;
             *baud = fields.baud(*baud);
-            *bus_address = fields.number("bus_address", 49.0, 111.0, (*bus_address).into()) as u8;
+            *bus_address = fields.bus_address(*bus_address);
             *calibration = fields.inner("calibration", |inner| Calibration {
                 azimuth: inner.points("azimuth"),
                 elevation: inner.points("elevation"),
             });
         }
     }
-    match check_address(&address) {
-        Err(why) if !is_serial => {
+    match check(&address) {
+        Ok(()) => Some(antenna),
+        Err(why) => {
             fields.invalid("address", why);
             None
         }
-        _ => Some(antenna),
     }
+}
+
+/// What the upper end of an axis may be whose lower end is `from`.
+fn above(
+    from: f64,
+    span: &RangeInclusive<f64>,
+    range: &RangeInclusive<f64>,
+) -> RangeInclusive<f64> {
+    (from + span.start()).max(*range.start())..=(from + span.end()).min(*range.end())
 }

@@ -1,12 +1,24 @@
 //! The cards of the form and their fields.
 
 use egui::{
-    Align, Color32, Frame, Layout, Margin, Response, RichText, ScrollArea, Stroke, TextEdit, Ui,
-    vec2,
+    Align, Color32, Frame, Label, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke,
+    TextEdit, Ui, vec2,
 };
 
-use super::draft::{Draft, Field, Kind};
-use crate::ui::{text, theme, widgets::card as card_frame};
+use super::{
+    draft::Draft,
+    fields::{Field, Look, Standing},
+};
+use crate::{
+    controller::Make,
+    ui::{
+        text, theme,
+        widgets::{
+            card as card_frame,
+            segmented::{self, Segment},
+        },
+    },
+};
 
 const LABEL: f32 = 192.0;
 const ROW: f32 = 24.0;
@@ -14,19 +26,20 @@ const ROW: f32 = 24.0;
 const NUMBER: f32 = 112.0;
 /// For a name or an address.
 const WORDS: f32 = 240.0;
-/// A long horizon mask is scrolled beyond this height.
-const MASK: f32 = 140.0;
+/// For one of a few.
+const CHOICE: f32 = 312.0;
+/// A long text of many lines is scrolled beyond this height.
+const LINES: f32 = 140.0;
 /// Between the two columns.
 const GAP: f32 = 16.0;
 /// A column is not wider than its fields need.
 const COLUMN: f32 = 560.0;
 
-/// Shows all fields, in two columns where there is room. `before` is the
-/// draft as nothing was typed yet.
-pub(super) fn show(ui: &mut Ui, draft: &mut Draft, before: &Draft, two_columns: bool) {
+/// Shows all fields, in two columns where there is room.
+pub(super) fn show(ui: &mut Ui, draft: &mut Draft, two_columns: bool) {
     if !two_columns {
-        site(ui, draft, before);
-        antennas(ui, draft, before);
+        site(ui, draft);
+        antennas(ui, draft);
         return;
     }
     let width = COLUMN.min((ui.available_width() - GAP) / 2.0);
@@ -39,26 +52,26 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, before: &Draft, two_columns: 
                 fill(ui);
             });
         };
-        column(ui, &mut |ui| site(ui, draft, before));
-        column(ui, &mut |ui| antennas(ui, draft, before));
+        column(ui, &mut |ui| site(ui, draft));
+        column(ui, &mut |ui| antennas(ui, draft));
     });
 }
 
-fn site(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
+fn site(ui: &mut Ui, draft: &mut Draft) {
     card(ui, "Site and satellites", |ui| {
-        let problems: Vec<Option<String>> = draft.station.iter().map(Field::problem).collect();
-        fields(ui, "station", &mut draft.station, &problems, Some(&before.station));
+        let standings = draft.ground_standings();
+        fields(ui, "station", &mut draft.ground.fields, &standings);
     });
 }
 
-fn antennas(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
+fn antennas(ui: &mut Ui, draft: &mut Draft) {
     let mut removed = None;
     for index in 0..draft.antennas.len() {
-        let problems = draft.antenna_problems(index);
+        let standings = draft.antenna_standings(index);
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
-        card(ui, &format!("Antenna {}", index + 1), |ui| {
-            let before = before.antennas.get(index).map(<[Field; 14]>::as_slice);
-            fields(ui, &format!("antenna {index}"), antenna, &problems, before);
+        card(ui, &format!("Antenna {}: {}", index + 1, antenna.make().name), |ui| {
+            fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
+            ui.add_space(4.0);
             if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
                 removed = Some(index);
             }
@@ -67,10 +80,22 @@ fn antennas(ui: &mut Ui, draft: &mut Draft, before: &Draft) {
     if let Some(index) = removed {
         draft.antennas.remove(index);
     }
-    if ui.button("Add a Satrak").clicked() {
-        draft.add_antenna();
-    }
-    ui.add_space(8.0);
+    card(ui, "One more antenna", |ui| {
+        ui.horizontal_wrapped(|ui| {
+            for make in distinct_makes() {
+                if ui.button(format!("Add {}", make.name)).clicked() {
+                    draft.add_antenna(make.key);
+                }
+            }
+        });
+    });
+}
+
+/// One of each key: what else tells two makes apart is set in the form.
+fn distinct_makes() -> impl Iterator<Item = &'static Make> {
+    let is_first = |index: usize, key| Make::ALL.iter().position(|of| of.key == key) == Some(index);
+    let all = Make::ALL.iter().copied().enumerate();
+    all.filter(move |(index, make)| is_first(*index, make.key)).map(|(_, make)| make)
 }
 
 fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
@@ -80,22 +105,20 @@ fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-fn fields(
-    ui: &mut Ui,
-    group: &str,
-    fields: &mut [Field],
-    problems: &[Option<String>],
-    before: Option<&[Field]>,
-) {
+fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Standing]) {
     let t = theme::tokens(ui);
-    for (index, (field, problem)) in fields.iter_mut().zip(problems).enumerate() {
-        let same = before.and_then(|before| before.get(index)).is_some_and(|old| old == field);
-        let border = match (problem, same) {
-            (Some(_), _) => Some(t.bad),
-            (None, false) => Some(t.sat),
-            (None, true) => None,
+    let mut section = "";
+    for (field, standing) in fields.iter_mut().zip(standings).filter(|(_, of)| of.is_used) {
+        if field.section != section {
+            section = field.section;
+            ui.add_space(4.0);
+            ui.label(RichText::new(section).font(text::small()).color(t.t3));
+        }
+        let border = match &standing.problem {
+            Some(_) => Some(t.bad),
+            None => field.is_edited().then_some(t.sat),
         };
-        let (label, unit) = (field.label, field.kind.unit());
+        let (label, unit) = (field.description.label, field.description.unit);
         ui.horizontal_top(|ui| {
             let words = RichText::new(label).font(text::body()).color(t.t2);
             let left = Layout::left_to_right(Align::Center);
@@ -109,17 +132,19 @@ fn fields(
             let words = RichText::new(unit).font(text::body()).color(t.t3);
             ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
         });
-        if let Some(problem) = problem {
-            ui.horizontal(|ui| {
+        let problem = standing.problem.as_ref().map(|why| (format!("{label} {why}."), t.bad));
+        let note = standing.note.clone().map(|words| (words, t.t3));
+        if let Some((words, colour)) = problem.or(note) {
+            ui.horizontal_top(|ui| {
                 ui.add_space(LABEL + 8.0);
-                let words = format!("{label} {problem}.");
-                ui.label(RichText::new(words).font(text::small()).color(t.bad));
+                let words = RichText::new(words).font(text::small()).color(colour);
+                ui.add(Label::new(words).wrap());
             });
         }
     }
 }
 
-fn edit(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) -> Response {
+fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color32>) -> Response {
     let focused = border.unwrap_or(theme::tokens(ui).sat);
     ui.visuals_mut().selection.stroke = Stroke::new(2.0, focused);
     if let Some(colour) = border {
@@ -128,35 +153,60 @@ fn edit(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) ->
             widget.bg_stroke = Stroke::new(2.0, colour);
         }
     }
-    let id = (group, field.label);
-    let edit = match field.kind {
-        // Long, and to be seen whole.
-        Kind::Numbers => TextEdit::multiline(&mut field.text)
+    let label = field.description.label;
+    let text = &mut field.text;
+    let edit = match field.description.look {
+        Look::Wrapped => TextEdit::multiline(text)
             .return_key(None)
             .desired_rows(1)
             .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
-        Kind::Mask => return mask(ui, group, field, border),
-        Kind::Range { .. } => TextEdit::singleline(&mut field.text).desired_width(NUMBER),
-        _ => TextEdit::singleline(&mut field.text).desired_width(WORDS),
+        Look::Lines { hint } => return lines(ui, (group, label), text, hint, border),
+        Look::Choice(words) => return choice(ui, (group, label), text, words),
+        Look::Number => TextEdit::singleline(text).desired_width(NUMBER),
+        Look::Words => TextEdit::singleline(text).desired_width(WORDS),
     };
-    ui.add(edit.id_salt(id))
+    ui.add(edit.id_salt((group, label)))
 }
 
 /// Many lines, scrolled within one border.
-fn mask(ui: &mut Ui, group: &str, field: &mut Field, border: Option<Color32>) -> Response {
+fn lines(
+    ui: &mut Ui,
+    salt: (&str, &str),
+    text: &mut String,
+    hint: &str,
+    border: Option<Color32>,
+) -> Response {
     let t = theme::tokens(ui);
-    let id = ui.make_persistent_id((group, field.label));
+    let id = ui.make_persistent_id(salt);
     let border = border.or_else(|| ui.memory(|memory| memory.has_focus(id)).then_some(t.sat));
     // A thicker border must not move what lies below.
     let (stroke, outside) =
         border.map_or((Stroke::new(1.0, t.edge), 1), |colour| (Stroke::new(2.0, colour), 0));
     let frame = Frame::new().fill(t.bg0).stroke(stroke).corner_radius(4).outer_margin(outside);
-    let area = ScrollArea::vertical().min_scrolled_height(MASK).max_height(MASK);
-    let edit = TextEdit::multiline(&mut field.text)
+    let area = ScrollArea::vertical().min_scrolled_height(LINES).max_height(LINES);
+    let edit = TextEdit::multiline(text)
         .id(id)
         .frame(Frame::new().inner_margin(Margin::symmetric(10, 4)))
-        .hint_text("azimuth elevation, one point a line")
+        .hint_text(hint)
         .desired_rows(3)
         .desired_width(WORDS);
-    frame.show(ui, |ui| area.id_salt(field.label).show(ui, |ui| ui.add(edit)).inner).inner
+    frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner).inner
+}
+
+/// One of a few words, side by side.
+fn choice(
+    ui: &mut Ui,
+    salt: (&str, &str),
+    text: &mut String,
+    words: &'static [&'static str],
+) -> Response {
+    let state = |word: &str| if word == text { Segment::Chosen } else { Segment::Free };
+    let segments: Vec<(&str, Segment)> = words.iter().map(|word| (*word, state(word))).collect();
+    let (rect, response) = ui.allocate_exact_size(vec2(CHOICE, ROW), Sense::hover());
+    let (group, label) = salt;
+    let clicked = segmented::show(ui, &format!("{group} {label}"), rect, label, &segments);
+    if let Some(word) = clicked.and_then(|index| words.get(index)) {
+        (*word).clone_into(text);
+    }
+    response
 }

@@ -1,0 +1,77 @@
+//! The station that is shown before there are settings.
+
+use super::{Antenna, Calibration, Connection, CountPoint, Direction, Mount, Rotators, Station};
+
+/// The element file that the simulated Satrak holds.
+pub const DEMO_ELEMENT_FILE: &str = "active.txt";
+
+/// Where the three simulated controllers answer.
+#[derive(Debug, Clone, Default)]
+pub struct DemoAddresses {
+    /// Host and port.
+    pub satrak: String,
+    /// Host and port.
+    pub genius: String,
+    /// A serial port, or host and port.
+    pub rc2000c: String,
+}
+
+impl Station {
+    /// The station that is shown before there are settings: one simulated
+    /// controller of each make, and well-known weather and research satellites.
+    pub fn demo(addresses: &DemoAddresses) -> Self {
+        Self {
+            name: "Demo station".to_owned(),
+            antennas: vec![
+                satrak(&addresses.satrak),
+                genius(&addresses.genius),
+                rc2000c(&addresses.rc2000c),
+            ],
+            ..Self::default()
+        }
+    }
+}
+
+fn satrak(address: &str) -> Antenna {
+    Antenna {
+        connection: Connection::Satrak {
+            address: address.to_owned(),
+            element_file: DEMO_ELEMENT_FILE.to_owned(),
+        },
+        ..Antenna::satrak("Satrak", address)
+    }
+}
+
+fn genius(address: &str) -> Antenna {
+    Antenna {
+        connection: Connection::Genius { address: address.to_owned(), rotators: Rotators::Pair },
+        mount: Mount::AzEl {
+            azimuth_from_deg: 0.0,
+            azimuth_to_deg: 360.0,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        },
+        ..Antenna::genius("Genius", address)
+    }
+}
+
+/// The mount of the simulated RC2000C turns from east over south to west, 20
+/// counts a degree.
+fn rc2000c(address: &str) -> Antenna {
+    let mut antenna = Antenna::rc2000c("RC2000C", address);
+    antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 90.0,
+        azimuth_to_deg: 270.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    antenna.park = Direction { azimuth_deg: 180.0, elevation_deg: 45.0 };
+    if let Connection::Rc2000c { calibration, .. } = &mut antenna.connection {
+        let point = |counts, degrees| CountPoint { counts, degrees };
+        *calibration = Calibration {
+            azimuth: vec![point(30, 90.0), point(3630, 270.0)],
+            elevation: vec![point(30, 0.0), point(1830, 90.0)],
+        };
+    }
+    antenna
+}

@@ -1,0 +1,121 @@
+//! The fields of the site and of what the station follows.
+
+use super::{
+    connection_fields::not_empty,
+    fields::{Description, Look, Section},
+};
+use crate::{
+    astro::{HorizonMask, MaskTextError, Site},
+    station::{Antenna, Station, ranges},
+};
+
+/// A station without its antennas, with a site that need not be one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Ground {
+    name: String,
+    latitude_deg: f64,
+    longitude_deg: f64,
+    altitude_m: f64,
+    elevation_floor_deg: f64,
+    favourites: Vec<u32>,
+    horizon_mask: Option<HorizonMask>,
+}
+
+impl Ground {
+    pub(super) fn of(station: &Station) -> Self {
+        let site = station.site;
+        Self {
+            name: station.name.clone(),
+            latitude_deg: rounded(site.latitude().degrees()),
+            longitude_deg: rounded(site.longitude().degrees()),
+            altitude_m: site.altitude_m(),
+            elevation_floor_deg: station.elevation_floor_deg,
+            favourites: station.favourites.clone(),
+            horizon_mask: station.horizon_mask.clone(),
+        }
+    }
+
+    /// The station with these antennas.
+    pub(super) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
+        Some(Station {
+            site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
+            name: self.name,
+            horizon_mask: self.horizon_mask,
+            elevation_floor_deg: self.elevation_floor_deg,
+            favourites: self.favourites,
+            antennas,
+        })
+    }
+}
+
+/// Enough digits for a centimetre, without the noise of the conversion.
+fn rounded(degrees: f64) -> f64 {
+    (degrees * 1e7).round() / 1e7
+}
+
+type Of = Description<Ground>;
+
+/// All that a station has besides its antennas.
+pub(super) const SECTIONS: &[Section<Ground>] = &[(
+    "",
+    &[
+        Of::text("Name", not_empty, |ground| Some(&mut ground.name)),
+        Of::number("Latitude", -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
+        Of::number("Longitude, east", -180.0..=360.0, "°", |ground| {
+            Some(&mut ground.longitude_deg)
+        }),
+        Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
+        Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
+            Some(&mut ground.elevation_floor_deg)
+        }),
+        Of::written(
+            "Satellites",
+            Look::Wrapped,
+            |ground| Some(favourites(ground)),
+            read_favourites,
+        ),
+        Of::written(
+            "Horizon mask",
+            Look::Lines { hint: "azimuth elevation, one point a line" },
+            |ground| {
+                Some(ground.horizon_mask.as_ref().map(ToString::to_string).unwrap_or_default())
+            },
+            read_mask,
+        ),
+    ],
+)];
+
+/// Catalogue numbers, with commas between.
+fn favourites(ground: &Ground) -> String {
+    let numbers: Vec<String> = ground.favourites.iter().map(u32::to_string).collect();
+    numbers.join(", ")
+}
+
+fn read_favourites(ground: &mut Ground, text: &str) -> Result<(), String> {
+    let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
+    let numbers: Option<Vec<u32>> =
+        parts.map(|part| part.parse().ok().filter(|number| *number <= 999_999_999)).collect();
+    ground.favourites =
+        numbers.ok_or("must be catalogue numbers with commas between, such as 43013, 25544")?;
+    Ok(())
+}
+
+fn read_mask(ground: &mut Ground, text: &str) -> Result<(), String> {
+    ground.horizon_mask = if text.is_empty() {
+        None
+    } else {
+        Some(HorizonMask::parse(text).map_err(|error| mask_problem(&error))?)
+    };
+    Ok(())
+}
+
+/// Why a text is no mask, to stand behind the name of its field.
+fn mask_problem(error: &MaskTextError) -> String {
+    match error {
+        MaskTextError::Format { line } => {
+            format!("line {line} must be an azimuth and an elevation, such as 120 8.5")
+        }
+        MaskTextError::Point { .. } => error.to_string().replace('-', "−"),
+        MaskTextError::Mask(_) => "must hold points, such as 120 8.5, or nothing".to_owned(),
+    }
+}
