@@ -342,7 +342,11 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
     if let Mount::AzEl { azimuth_to_deg, .. } = &mut mount {
         *azimuth_to_deg = 450.0;
     }
-    let metal = Metal { state: case.state.clone(), started: Arc::default() };
+    let metal = Metal {
+        can: Make::of(&case.antenna.connection).capabilities,
+        state: case.state.clone(),
+        started: Arc::default(),
+    };
     let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
     // The axis stands at 90.
     for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {
