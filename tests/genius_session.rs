@@ -21,6 +21,7 @@ mod genius_session {
     mod pair;
     mod rescue;
     mod settings;
+    mod socket;
     mod stop;
     mod wire;
 }

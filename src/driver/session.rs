@@ -26,7 +26,7 @@ use super::{
     WireLog, gate::Gate,
 };
 use crate::{
-    controller::{Make, Moment, Moves, Pointing, TrackTarget},
+    controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
     station::Antenna,
 };
 use command::Waiting;
@@ -203,9 +203,18 @@ impl Session {
         Some(now.steady.saturating_duration_since(measured.asked))
     }
 
-    /// Whether anything moves, or was sent or queued that may make it move.
+    /// Whether the antenna turns. Without an elevation the second axis turns
+    /// something else.
+    fn turns(&self) -> bool {
+        let count = if self.make.capabilities.has_elevation { 2 } else { 1 };
+        let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
+        axes.take(count).any(|axis| axis.motion != AxisMotion::Still)
+    }
+
+    /// Whether the antenna moves, or was sent or queued what may make it move.
     fn may_move(&mut self) -> bool {
-        self.active()
+        self.turns()
+            || self.gate.state().program.is_some_and(|program| program.enabled)
             || self.pending.is_some()
             || self.waiting.is_some()
             || self.jog.is_some()
@@ -214,7 +223,7 @@ impl Session {
             || self.gate.device().motion_under_way()
     }
 
-    /// Whether the device was last seen moving or about to.
+    /// Whether the device was last seen moving anything or about to.
     fn active(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| measured.moving())

@@ -101,6 +101,37 @@ async fn neither_is_jogged_while_the_other_turns() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn what_the_other_one_does_is_not_ended_for_this_antenna() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(Command::Manual);
+    rig.send(send_other(100));
+    rig.seconds(1.0).await;
+    rig.send(to(Some(120.0), None));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    assert!(rig.rotator(2).is_turning, "it has a longer way");
+    rig.send(Command::Manual);
+    rig.seconds(1.0).await;
+    assert_eq!(rig.orders(), ["|A2100", "|A1120"]);
+    rig.send(Command::Standby);
+    rig.until_still(3).await;
+    assert!(!rig.rotator(2).is_turning);
+    assert_eq!(rig.orders(), ["|A2100", "|A1120", "|S"]);
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_is_proved_by_both_rotators() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.send(Command::Manual);
+    rig.send(send_other(100));
+    rig.seconds(2.0).await;
+    rig.stop();
+    rig.until_event(3, |event| *event == Event::Stopped).await;
+    assert!(!rig.rotator(2).is_turning);
+    assert_eq!(rig.orders(), ["|A2100", "|S"]);
+}
+
+#[tokio::test(start_paused = true)]
 async fn an_action_that_is_refused_is_told() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::Second).await;
     rig.send(Command::Manual);

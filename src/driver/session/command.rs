@@ -126,7 +126,8 @@ impl Session {
 
     /// Ends what runs and takes up an intent in which nothing moves by itself.
     fn leave_for(&mut self, intent: Intent, now: Moment) {
-        if self.may_move() {
+        // In Standby nothing of the device is to move.
+        if self.may_move() || (intent == Intent::Standby && self.active()) {
             self.halt_quietly(now);
         }
         self.aim = None;

@@ -140,7 +140,7 @@ impl Session {
         self.program_was_on = tracks;
         let found = if tracks {
             Found::Tracking
-        } else if measured.moving() {
+        } else if self.turns() {
             Found::Moving
         } else {
             Found::Still
@@ -183,9 +183,10 @@ impl Session {
         let off = measured.pointing.separation(aim);
         let near = off.is_some_and(|off| off.degrees() <= within_deg);
         let Some(since) = self.pending else { return };
-        if measured.asked <= since || measured.moving() {
+        let turns = self.turns();
+        if measured.asked <= since || turns {
             // Under way: the clock for the first effect starts anew.
-            if measured.moving() {
+            if turns {
                 self.pending = Some(now.steady);
             }
             return;

@@ -34,7 +34,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::age(silent_s),
                 words::link_loss(reason)
             ));
-            let is_turned_away = matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed);
+            // A connection that is closed at once may show as reset.
+            let is_turned_away =
+                matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed | LinkLoss::Broken(_));
             let spoken = match antenna.make().closed_note.filter(|_| is_turned_away) {
                 Some(note) => spoken.plain(format!("{note} ")),
                 None => spoken,

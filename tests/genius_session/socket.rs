@@ -1,0 +1,61 @@
+//! The whole way: the driver's thread, a TCP port, and the device behind it.
+
+use std::{
+    sync::{Arc, mpsc},
+    time::Duration,
+};
+
+use azel::{
+    driver::{AntennaHandle, Clock, Driver, LinkLoss, LinkState, Snapshot, StopState},
+    sim::rotator_genius::Simulator,
+    station::Antenna,
+};
+
+use super::rig::{pair, to};
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Waits for the driver to say that something has changed until it is shown.
+fn until(handle: &AntennaHandle, woken: &mpsc::Receiver<()>, is_so: impl Fn(&Snapshot) -> bool) {
+    while !is_so(&handle.snapshot()) {
+        woken.recv_timeout(PATIENCE).unwrap();
+    }
+}
+
+#[test]
+fn an_antenna_over_tcp_is_read_sent_and_stopped_and_a_second_client_turned_away() {
+    let runtime = tokio::runtime::Runtime::new().unwrap();
+    let any = ([127, 0, 0, 1], 0).into();
+    let simulator = runtime.block_on(Simulator::bind(any, pair())).unwrap();
+    let address = simulator.local_addr().unwrap().to_string();
+    let control = simulator.control();
+    runtime.spawn(simulator.run());
+
+    let (woke, woken) = mpsc::channel();
+    // Nobody may be waiting any more.
+    let wake = Arc::new(move || woke.send(()).unwrap_or_default());
+    let clock = Clock::new(jiff::Timestamp::now);
+    let driver = Driver::start(clock, wake).unwrap();
+    let antenna = Antenna::genius("Mast", &address);
+    let first = driver.open(&antenna);
+    until(&first, &woken, |shown| shown.state.measured.is_some());
+    let measured = first.snapshot().state.measured.unwrap();
+    assert_eq!(measured.axes.map(|axis| axis.angle_deg), [Some(173.0), Some(0.0)]);
+
+    let second = driver.open(&antenna);
+    until(&second, &woken, |shown| {
+        // Closed, or reset when the question comes too late.
+        let LinkState::Lost { reason, .. } = &shown.link else { return false };
+        matches!(reason, LinkLoss::Closed | LinkLoss::Broken(_))
+    });
+
+    first.send(to(Some(300.0), Some(80.0))).unwrap();
+    until(&first, &woken, |shown| shown.state.measured.unwrap().moving());
+    first.stop();
+    until(&first, &woken, |shown| matches!(shown.stop, StopState::Stopped { .. }));
+    let mut orders: Vec<String> =
+        control.received().into_iter().map(|(_, it)| it).filter(|it| it != "|h").collect();
+    orders.dedup();
+    assert_eq!(orders, ["|A1300", "|A2080", "|S"]);
+}
