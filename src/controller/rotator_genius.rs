@@ -195,3 +195,6 @@ impl Genius {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

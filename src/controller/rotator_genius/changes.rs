@@ -14,9 +14,17 @@ use crate::{
     protocol::rotator_genius::Request,
 };
 
+/// What is to be done for a change now.
+enum Next {
+    /// This is to be sent.
+    Send(Request),
+    /// It is over.
+    Over(Result<(), SettleError>),
+}
+
 impl Genius {
     /// Takes up the next change when none is under way.
-    pub(super) fn begin_change(&mut self, now: Moment) {
+    fn begin_change(&mut self, now: Moment) {
         while self.settling.is_none()
             && let Some(change) = self.changes.pop_front()
         {
@@ -30,27 +38,36 @@ impl Genius {
         }
     }
 
-    /// The next request of the change under way. It is over when there is none.
+    /// The next request of the changes, of which those that have none are over.
     pub(super) fn settling_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        let settling = self.settling.as_ref()?;
-        let result = match settling.step() {
-            Step::Look | Step::ReadBack => return Some((Request::Read, Purpose::Settle)),
-            Step::Done => settling.result(),
+        loop {
+            self.begin_change(now);
+            match self.next_step(self.settling.as_ref()?) {
+                Next::Send(request) => return Some((request, Purpose::Settle)),
+                Next::Over(result) => self.end_change(result, now),
+            }
+        }
+    }
+
+    fn next_step(&self, settling: &Settling) -> Next {
+        match settling.step() {
+            Step::Look | Step::ReadBack => Next::Send(Request::Read),
+            Step::Done => Next::Over(settling.result()),
             // A device that is configured lets go of what it turns.
-            Step::Send if self.moving() || self.motion_waits() => Err(SettleError::Moving),
+            Step::Send if self.moving() || self.motion_waits() => {
+                Next::Over(Err(SettleError::Moving))
+            }
             Step::Send => {
                 let number = rotator_of(settling.group.key).ok_or(SettleError::NoSuchSetting);
                 let sent = number.and_then(|number| {
                     configuration(number, &settling.change.values, settling.before())
                 });
-                match sent {
-                    Ok(sent) => return Some((Request::Configure(sent), Purpose::Settle)),
-                    Err(error) => Err(error),
-                }
+                sent.map_or_else(
+                    |error| Next::Over(Err(error)),
+                    |sent| Next::Send(Request::Configure(sent)),
+                )
             }
-        };
-        self.end_change(result, now);
-        None
+        }
     }
 
     /// A status has come that a change waits for.

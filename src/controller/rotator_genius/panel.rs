@@ -166,3 +166,41 @@ fn progress(rotator: &Rotator) -> Option<f64> {
     let is_before = part > whole + (360.0 - whole) / 2.0;
     Some(if is_before { 0.0 } else { (part / whole).min(1.0) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_to_the_target_is_counted_as_it_is_gone() {
+        use Moving::{Clockwise, CounterClockwise};
+        let whole = |degrees| WholeDegrees::new(degrees).ok();
+        let share = |start, here, target, moving| {
+            progress(&Rotator {
+                position: Ok(WholeDegrees::saturating(here)),
+                limit_cw: None,
+                limit_ccw: None,
+                kind: RotatorKind::Azimuth,
+                moving,
+                offset_deg: None,
+                target: whole(target),
+                start: whole(start),
+                is_outside_limits: None,
+                name: String::new(),
+            })
+        };
+        for (start, here, target, moving, expected) in [
+            (100, 125, 200, Clockwise, 0.25),
+            (350, 10, 30, Clockwise, 0.5),
+            (30, 10, 350, CounterClockwise, 0.5),
+            (100, 99, 200, Clockwise, 0.0),
+            (100, 202, 200, Clockwise, 1.0),
+            (100, 101, 0, CounterClockwise, 0.0),
+            (100, 100, 100, Clockwise, 1.0),
+        ] {
+            let share = share(start, here, target, moving).unwrap();
+            assert!((share - expected).abs() < 1e-9, "{start} {here} {target}: {share}");
+        }
+        assert_eq!(share(100, 100, 999, Clockwise), None);
+    }
+}

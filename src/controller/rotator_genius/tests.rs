@@ -1,0 +1,110 @@
+use std::time::{Duration, Instant};
+
+use jiff::Timestamp;
+use proptest::prelude::*;
+
+use super::*;
+use crate::{
+    astro::Angle,
+    controller::{
+        Device, Extent, Motion, Moves,
+        panel::Act,
+        settings::{Change, Value, Values},
+    },
+};
+
+const STATUS: &[u8] =
+    b"|h2\x00173359  0A0   0999999\x00Tower         0 90  0E1   0 45  0\x00Elevation   ";
+
+/// Something that happens to a device.
+#[derive(Debug, Clone)]
+enum Step {
+    Wait(u64),
+    Receive(Vec<u8>),
+    Start(Motion),
+    Act(&'static str, i64),
+    Settle,
+    Halt,
+    LinkUp,
+    LinkDown,
+}
+
+fn bytes() -> impl Strategy<Value = Vec<u8>> {
+    let noise = prop::collection::vec(any::<u8>(), 0..40);
+    let torn =
+        (0..STATUS.len(), 0..STATUS.len()).prop_map(|(a, b)| STATUS[a.min(b)..a.max(b)].to_vec());
+    let words: Vec<&[u8]> = vec![b"|AK", b"|AF", b"|PK", b"|MK", b"|SK", b"|SF", b"|cK", b"V3"];
+    let word = prop::sample::select(words).prop_map(<[u8]>::to_vec);
+    prop_oneof![4 => Just(STATUS.to_vec()), 1 => torn, 1 => noise, 4 => word]
+}
+
+fn motion() -> impl Strategy<Value = Motion> {
+    let angle = || prop::option::of((-400.0..800.0).prop_map(Angle::from_degrees));
+    let rates = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+    prop_oneof![
+        (angle(), angle()).prop_map(|(azimuth, elevation)| Motion::Position { azimuth, elevation }),
+        prop::sample::select(rates.to_vec())
+            .prop_map(|(x_deg_s, y_deg_s)| Motion::Jog { x_deg_s, y_deg_s }),
+        Just(Motion::StartProgram),
+        Just(Motion::Step { x_deg: 1.0, y_deg: 0.0 }),
+    ]
+}
+
+fn step() -> impl Strategy<Value = Step> {
+    prop_oneof![
+        6 => (0_u64..1500).prop_map(Step::Wait),
+        6 => bytes().prop_map(Step::Receive),
+        3 => motion().prop_map(Step::Start),
+        1 => (prop::sample::select(vec![OTHER, RESCUE, "none"]), -10_i64..400)
+            .prop_map(|(action, degrees)| Step::Act(action, degrees)),
+        1 => Just(Step::Settle),
+        1 => Just(Step::Halt),
+        1 => Just(Step::LinkUp),
+        1 => Just(Step::LinkDown),
+    ]
+}
+
+fn settling() -> Change {
+    let values = [("stop_offset_deg", Value::Integer(2))].into();
+    Change { ticket: 1, group: "rotator_1", values, seen: None, is_unlocked: true }
+}
+
+proptest! {
+    #[test]
+    fn whatever_happens_it_sends_whole_commands_and_never_spins(
+        steps in prop::collection::vec(step(), 0..60),
+        rotators in prop::sample::select(vec![Rotators::Pair, Rotators::First, Rotators::Second]),
+    ) {
+        let rates = PollRates { idle_hz: 2.0, moving_hz: 4.0 };
+        let mut genius = Genius::new(rates, rotators);
+        let mut now = Moment { steady: Instant::now(), utc: Timestamp::UNIX_EPOCH };
+        genius.link_up(now);
+        for step in steps {
+            match step {
+                Step::Wait(ms) => now.steady += Duration::from_millis(ms),
+                Step::Receive(bytes) => genius.receive(&bytes, now),
+                Step::Start(motion) => {
+                    let _ = genius.objection(&motion, now);
+                    genius.start(motion);
+                }
+                Step::Act(action, degrees) => {
+                    let values: Values = [(actions::DIRECTION, Value::Integer(degrees))].into();
+                    genius.act(Act { action, values });
+                }
+                Step::Settle => genius.settle(settling(), now),
+                Step::Halt => prop_assert_eq!(genius.halt(Extent::Motion, now), b"|S"),
+                Step::LinkUp => genius.link_up(now),
+                Step::LinkDown => genius.link_down(now),
+            }
+            let mut sent = 0;
+            while let Some(bytes) = genius.poll(now) {
+                prop_assert!(Request::parse(&bytes).is_ok(), "{bytes:?}");
+                genius.sent(&bytes, now);
+                sent += 1;
+                prop_assert!(sent < 10, "it sends without an end");
+            }
+            prop_assert!(genius.due(now) > now.steady, "nothing is left to do now");
+            while genius.next_wire_line().is_some() {}
+        }
+    }
+}
