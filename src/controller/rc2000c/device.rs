@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    HeldJog, MAKE, Names, RENEWAL, Rc2000c,
+    HeldJog, MAKE, Names, Past, RENEWAL, Rc2000c,
     exchange::{Outstanding, Purpose},
     refusal::is_tracking,
 };
@@ -30,6 +30,7 @@ impl Device for Rc2000c {
         self.state.motion_lock = None;
         self.state.program = None;
         self.status = None;
+        self.past = Past::default();
         self.device = None;
         self.is_offline = false;
         self.wants_device = true;
