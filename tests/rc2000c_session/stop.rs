@@ -6,6 +6,7 @@ use azel::{
     astro::Angle,
     driver::{Command, Event, Intent, LinkState, StopState},
     sim::rc2000c::{Fault, Options, Quirk},
+    station::Connection,
 };
 
 use super::rig::{Rig, antenna};
@@ -119,4 +120,25 @@ async fn orders_that_wait_are_dropped_by_a_stop() {
     rig.until_event(3, |event| *event == Event::Stopped).await;
     rig.seconds(3.0).await;
     assert!(rig.times("4").is_empty(), "{:?}", rig.orders());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_is_proved_on_the_slowest_lines_too() {
+    for baud in [300, 600, 1200] {
+        let mut slow = antenna();
+        if let Connection::Rc2000c { baud: held, .. } = &mut slow.connection {
+            *held = baud;
+        }
+        let mut rig = Rig::start(&Options { baud, ..Options::default() }, &slow);
+        rig.send(Command::Connect);
+        rig.until_found().await;
+        rig.send(Command::Hold);
+        rig.send(far());
+        rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
+        rig.seconds(2.0).await;
+        rig.stop();
+        rig.until_event(8, |event| *event == Event::Stopped).await;
+        assert!(!rig.control.state().is_turning, "{baud}");
+        assert!(rig.times("3X").len() <= 2, "{baud}: {:?}", rig.orders());
+    }
 }

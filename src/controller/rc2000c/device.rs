@@ -111,6 +111,10 @@ impl Device for Rc2000c {
         Request::Stop.to_bytes(self.address)
     }
 
+    fn halt_patience(&self) -> Duration {
+        self.line.halt_wait()
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));
