@@ -90,7 +90,7 @@ impl Desk {
         .await;
         let failed = |event: &Event| matches!(event, Event::Refused(Motion::Action(_), _));
         assert!(!self.events.iter().any(failed), "{:?}", self.events);
-        assert_eq!(self.handle.snapshot().state.traffic.unanswered, 0);
+        assert_eq!(self.handle.snapshot().state.traffic.damaged, 0);
         self.send(Command::Disconnect);
         self.until("off", |desk| desk.handle.snapshot().link == LinkState::Off).await;
     }

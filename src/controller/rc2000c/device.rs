@@ -91,10 +91,10 @@ impl Device for Rc2000c {
 
     fn due(&self, now: Moment) -> Instant {
         let far = now.steady + Duration::from_hours(1);
-        let waits = [&self.outstanding, &self.halt].into_iter().flatten();
-        let deadlines = waits.map(|sent| sent.deadline);
+        let waits = self.halt.as_ref().or(self.outstanding.as_ref());
+        let deadline = waits.map(|sent| sent.deadline);
         let next = self.is_free().then(|| self.next_due(now)).flatten();
-        deadlines.chain(self.silent_at()).chain(next).min().unwrap_or(far)
+        deadline.into_iter().chain(self.silent_at()).chain(next).min().unwrap_or(far)
     }
 
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {

@@ -226,6 +226,10 @@ impl Rc2000c {
             self.miss(&late, false, now);
             self.look_soon(now);
         }
+        // Two would be on the line at once.
+        if self.halt.is_some() {
+            return None;
+        }
         let mut late = self.outstanding.take_if(|sent| now.steady >= sent.deadline)?;
         let is_repeated =
             matches!(late.purpose, Purpose::Poll | Purpose::Question) && late.tries < MOST_TRIES;

@@ -140,6 +140,18 @@ fn a_halt_goes_past_a_reply_and_ends_what_waits() {
 }
 
 #[test]
+fn a_question_that_a_halt_has_overtaken_waits_for_it_before_it_is_repeated() {
+    let mut bench = Bench::idle();
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
+    bench.now.steady += Duration::from_millis(900);
+    bench.unit.halt(Extent::Motion, bench.now);
+    assert_eq!(bench.poll_after(200), None);
+    assert!(bench.unit.due(bench.now) > bench.now.steady, "it never spins");
+    bench.hear(&idle_reply_to(b'3'));
+    assert_eq!(bench.poll().as_deref(), Some(STATUS));
+}
+
+#[test]
 fn half_a_frame_that_does_not_go_on_hides_no_other() {
     let mut bench = Bench::idle();
     assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
