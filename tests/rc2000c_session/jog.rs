@@ -100,15 +100,21 @@ async fn a_lease_that_is_not_renewed_ends_the_jog() {
 /// As after a computer that slept: the renewal and the end are due at once.
 #[tokio::test(start_paused = true)]
 async fn a_session_that_was_held_up_ends_the_jog_and_does_not_renew_it() {
-    let mut rig = Rig::in_manual().await;
-    rig.hold([FAST, 0.0], 1.0).await;
-    let sent = rig.times("3W").len();
-    tokio::time::advance(Duration::from_millis(450)).await;
-    rig.seconds(0.1).await;
-    assert_eq!(rig.times("3W").len(), sent);
-    assert_eq!(rig.orders().last().unwrap(), "3XS0000");
-    rig.seconds(3.0).await;
-    assert_eq!(rig.events(), [Event::JogLeaseOver]);
+    // Wherever in its round the jog is.
+    for place in 0..16 {
+        let mut rig = Rig::in_manual().await;
+        rig.hold([FAST, 0.0], 0.6).await;
+        rig.seconds(f64::from(place) * 0.015).await;
+        rig.send(Command::Jog { rates_deg_s: [FAST, 0.0] });
+        rig.seconds(0.01).await;
+        let sent = rig.times("3W").len();
+        tokio::time::advance(Duration::from_millis(350)).await;
+        rig.seconds(0.2).await;
+        assert_eq!(rig.times("3W").len(), sent, "{place}");
+        assert_eq!(rig.orders().last().unwrap(), "3XS0000", "{place}");
+        rig.seconds(3.0).await;
+        assert_eq!(rig.events(), [Event::JogLeaseOver]);
+    }
 }
 
 #[tokio::test(start_paused = true)]
