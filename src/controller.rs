@@ -186,6 +186,12 @@ pub trait Device: Send {
     /// left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
+    /// After this long a halt that is not proved is sent again: by then a state
+    /// that was asked for after it has come in.
+    fn halt_patience(&self) -> Duration {
+        Duration::from_secs(1)
+    }
+
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
     fn prepare(&mut self, target: TrackTarget);

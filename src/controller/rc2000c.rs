@@ -11,6 +11,7 @@ mod device;
 mod exchange;
 mod line;
 mod names;
+mod past;
 mod readings;
 mod record;
 mod refusal;
@@ -34,6 +35,7 @@ use axes::Axes;
 use exchange::{Outstanding, Purpose};
 use line::Line;
 use names::Names;
+use past::Past;
 
 const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
 const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
@@ -78,6 +80,8 @@ pub struct Rc2000c {
     decoder: Decoder,
     state: AntennaState,
     status: Option<Status>,
+    /// What earlier ones were, to see what moves.
+    past: Past,
     /// It is to be asked which device it is.
     wants_device: bool,
     device: Option<DeviceType>,
@@ -136,6 +140,7 @@ impl Rc2000c {
             decoder: Decoder::new(address),
             state: AntennaState::default(),
             status: None,
+            past: Past::default(),
             wants_device: false,
             device: None,
             is_offline: false,
@@ -222,3 +227,6 @@ impl Rc2000c {
         self.poll_at = self.poll_at.map(|at| at.min(now.steady));
     }
 }
+
+#[cfg(test)]
+mod tests;

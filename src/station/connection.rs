@@ -29,7 +29,8 @@ pub enum Connection {
         /// A serial port, such as `/dev/ttyUSB0` or `COM3`, or the host and port
         /// of a serial server that hands the bytes on as they are.
         address: String,
-        /// Bits a second of the serial port; unused with a serial server.
+        /// Bits a second of the line. A serial server is set to it by its own
+        /// means; here it tells how long replies take.
         baud: u32,
         /// On the bus, 49 to 111.
         bus_address: u8,

@@ -175,4 +175,4 @@ fn turning(angle_grows: bool) -> AxisMotion {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    HeldJog, MAKE, Names, RENEWAL, Rc2000c,
+    HeldJog, MAKE, Names, Past, RENEWAL, Rc2000c,
     exchange::{Outstanding, Purpose},
     refusal::is_tracking,
 };
@@ -30,6 +30,7 @@ impl Device for Rc2000c {
         self.state.motion_lock = None;
         self.state.program = None;
         self.status = None;
+        self.past = Past::default();
         self.device = None;
         self.is_offline = false;
         self.wants_device = true;
@@ -90,10 +91,10 @@ impl Device for Rc2000c {
 
     fn due(&self, now: Moment) -> Instant {
         let far = now.steady + Duration::from_hours(1);
-        let waits = [&self.outstanding, &self.halt].into_iter().flatten();
-        let deadlines = waits.map(|sent| sent.deadline);
+        let waits = self.halt.as_ref().or(self.outstanding.as_ref());
+        let deadline = waits.map(|sent| sent.deadline);
         let next = self.is_free().then(|| self.next_due(now)).flatten();
-        deadlines.chain(self.silent_at()).chain(next).min().unwrap_or(far)
+        deadline.into_iter().chain(self.silent_at()).chain(next).min().unwrap_or(far)
     }
 
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
@@ -108,6 +109,10 @@ impl Device for Rc2000c {
         self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
         self.look_soon(now);
         Request::Stop.to_bytes(self.address)
+    }
+
+    fn halt_patience(&self) -> Duration {
+        self.line.halt_wait()
     }
 
     fn prepare(&mut self, target: TrackTarget) {

@@ -148,8 +148,9 @@ impl Rc2000c {
     fn take_status(&mut self, status: Status, answered: &Outstanding, now: Moment) {
         // A unit that was not allowed to answer is asked who it is once it is.
         self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
-        let before = self.status.replace(status);
-        let axes = self.axes.read(&status, before.as_ref());
+        let axes = self.axes.read(&status, self.past.before(now.steady));
+        self.past.push(status, now.steady);
+        self.status = Some(status);
         let way = now.steady.saturating_duration_since(answered.sent.steady) / 2;
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
@@ -165,7 +166,8 @@ impl Rc2000c {
             auto: None,
         });
         self.hold_polarization(&status);
-        self.poll_at = Some(now.steady + self.rates.period(self.moving()));
+        // From question to question, so that a slow line does not make it slower.
+        self.poll_at = Some(answered.sent.steady + self.rates.period(self.moving()));
     }
 
     /// A stop of the axes leaves the polarization turning. It is sent to where it
@@ -223,6 +225,10 @@ impl Rc2000c {
         if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.deadline) {
             self.miss(&late, false, now);
             self.look_soon(now);
+        }
+        // Two would be on the line at once.
+        if self.halt.is_some() {
+            return None;
         }
         let mut late = self.outstanding.take_if(|sent| now.steady >= sent.deadline)?;
         let is_repeated =

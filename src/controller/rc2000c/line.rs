@@ -31,13 +31,26 @@ impl Line {
     /// How long the reply to `request` may take.
     pub(super) fn reply_wait(self, request: &Request) -> Duration {
         let characters = request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes();
-        LATENCY + self.character * u32::try_from(characters).unwrap_or(u32::MAX)
+        LATENCY + self.time_of(characters)
     }
 
     /// How long any reply may take.
     pub(super) fn longest_wait(self) -> Duration {
-        let characters = MAX_COMMAND_BYTES + MAX_FRAME_BYTES;
-        LATENCY + self.character * u32::try_from(characters).unwrap_or(u32::MAX)
+        LATENCY + self.exchange()
+    }
+
+    /// How long a halt and the question after it take with their replies.
+    pub(super) fn halt_wait(self) -> Duration {
+        LATENCY.max((self.exchange() + GAP) * 2)
+    }
+
+    /// The longest command and the longest reply on the wire.
+    fn exchange(self) -> Duration {
+        self.time_of(MAX_COMMAND_BYTES + MAX_FRAME_BYTES)
+    }
+
+    fn time_of(self, characters: usize) -> Duration {
+        self.character * u32::try_from(characters).unwrap_or(u32::MAX)
     }
 
     /// After this long without a character nothing of a frame is to come.
@@ -57,6 +70,8 @@ mod tests {
         let wait = |baud| Line::new(baud).reply_wait(&status).as_millis();
         // 43 characters of ten bits, and a second.
         assert_eq!([wait(9600), wait(300)], [1044, 2433]);
+        assert_eq!(Line::new(9600).halt_wait(), Duration::from_secs(1));
+        assert_eq!(Line::new(300).halt_wait().as_millis(), 3699);
         assert_eq!(Line::new(9600).silence(), Duration::from_millis(100));
         assert_eq!(Line::new(300).silence().as_millis(), 666);
     }

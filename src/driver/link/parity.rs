@@ -16,32 +16,35 @@ use crate::protocol::rc2000c::Parity;
 
 /// Longer writes go out in pieces of this.
 const PIECE: usize = 64;
-/// What was heard, in rising order; nothing is 0.
-const FITS: u8 = 1;
-const IS_WRONG: u8 = 2;
+/// What was learned, in rising order; nothing is 0.
+const SILENT: u8 = 1;
+const FITS: u8 = 2;
+const IS_WRONG: u8 = 3;
 
 /// Whether what came over a link fits the way in which it was read.
 #[derive(Debug, Default)]
 pub(super) struct Heard(AtomicU8);
 
 impl Heard {
-    /// Something came, and all of it fits.
-    pub(super) fn fits(&self) -> bool {
-        self.0.load(Ordering::Relaxed) == FITS
+    /// The link is open: from now on silence tells something too.
+    pub(super) fn opened(&self) {
+        self.learn(SILENT);
     }
 
-    /// Nothing was learned: the same may be tried again.
-    pub(super) fn leave_open(&self) {
-        self.0.store(FITS, Ordering::Relaxed);
+    /// Nothing speaks against reading the next link likewise.
+    pub(super) fn fits(&self) -> bool {
+        !matches!(self.0.load(Ordering::Relaxed), SILENT | IS_WRONG)
     }
 
     fn listen(&self, bytes: &[u8]) {
-        if bytes.is_empty() {
-            return;
+        if !bytes.is_empty() {
+            self.learn(if bytes.is_ascii() { FITS } else { IS_WRONG });
         }
-        // The greater stays: what was wrong once is wrong.
-        let now = if bytes.is_ascii() { FITS } else { IS_WRONG };
-        self.0.fetch_max(now, Ordering::Relaxed);
+    }
+
+    /// What was wrong once is wrong.
+    fn learn(&self, finding: u8) {
+        self.0.fetch_max(finding, Ordering::Relaxed);
     }
 }
 
@@ -112,6 +115,8 @@ mod tests {
         let (near, mut far) = duplex(1024);
         let heard = Arc::new(Heard::default());
         let mut line = WithParity::new(near, Parity::Software, Arc::clone(&heard));
+        assert!(heard.fits(), "a link that was never open says nothing");
+        heard.opened();
         assert!(!heard.fits(), "nothing came yet");
         let text: Vec<u8> = (0..0x80).collect();
         line.write_all(&text).await.unwrap();

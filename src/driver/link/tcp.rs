@@ -39,8 +39,8 @@ pub(super) fn dial_line_server(address: String) -> Dial {
         let (guess, listener) = (parity, Arc::clone(&newest));
         heard = Some(newest);
         Box::pin(async move {
-            // A server that is not there says nothing about the parity.
-            let stream = open(&address).await.inspect_err(|_| listener.leave_open())?;
+            let stream = open(&address).await?;
+            listener.opened();
             Ok(Box::new(WithParity::new(stream, guess, listener)) as Box<dyn Stream>)
         })
     })

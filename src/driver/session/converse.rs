@@ -77,9 +77,11 @@ impl Session {
         self.away_since = None;
         self.told_lost = false;
         while !self.wanted {
+            self.publish(self.now());
+            let turn = next_word(&mut self.wires.commands, &self.wires.stop).await;
+            // The word may have come hours later.
             let now = self.now();
-            self.publish(now);
-            match next_word(&mut self.wires.commands, &self.wires.stop).await {
+            match turn {
                 Turn::Over => return false,
                 Turn::Stop => {
                     self.halt_and_forget(now);

@@ -10,8 +10,6 @@ use crate::{
 
 /// A stop that is not proved after this long is told as such.
 const PROOF: Duration = Duration::from_secs(3);
-/// A stop is harmless, so it is sent again this often until it is proved.
-const AGAIN: Duration = Duration::from_secs(1);
 /// For how long the button shows that all is stopped.
 const SHOWN: Duration = Duration::from_secs(10);
 
@@ -20,6 +18,8 @@ const SHOWN: Duration = Duration::from_secs(10);
 pub(super) struct Halting {
     since: Instant,
     sent_at: Instant,
+    /// A stop is harmless, so it is sent again until it is proved.
+    again_at: Instant,
     /// The operator pressed STOP, rather than let go of a key.
     pressed: bool,
     /// It was told that standstill is not proved.
@@ -69,6 +69,7 @@ impl Session {
         self.halting = Some(Halting {
             since: running.as_ref().map_or(now.steady, |halting| halting.since),
             sent_at: now.steady,
+            again_at: now.steady + self.gate.device().halt_patience(),
             pressed: pressed || running.as_ref().is_some_and(|halting| halting.pressed),
             told: running.is_some_and(|halting| halting.told),
         });
@@ -96,10 +97,11 @@ impl Session {
         }
         let unproved = now.steady.saturating_duration_since(halting.since) >= PROOF;
         let newly_unproved = unproved && !std::mem::replace(&mut halting.told, unproved);
-        let again = now.steady.saturating_duration_since(halting.sent_at) >= AGAIN;
+        let again = now.steady >= halting.again_at;
         // Without a link the first thing sent on the next one is the halt.
         if again && self.link.is_open() {
             halting.sent_at = now.steady;
+            halting.again_at = now.steady + self.gate.device().halt_patience();
             self.urgent = self.gate.device().halt(Extent::Everything, now);
         }
         if newly_unproved {
@@ -111,7 +113,7 @@ impl Session {
     pub(super) fn halt_due(&self) -> Option<Instant> {
         if let Some(halting) = &self.halting {
             let proof = (!halting.told).then_some(halting.since + PROOF);
-            let again = self.link.is_open().then_some(halting.sent_at + AGAIN);
+            let again = self.link.is_open().then_some(halting.again_at);
             return proof.into_iter().chain(again).min();
         }
         self.stopped_at.map(|at| at + SHOWN)

@@ -5,9 +5,9 @@ use crate::{
 };
 
 /// An idle unit at 1525 and 750 counts.
-pub(crate) const IDLE: &[u8] = b"\x06\x32\x31SBS 6        1525  75039       #@;S\x03\x42";
+pub(in super::super) const IDLE: &[u8] = b"\x06\x32\x31SBS 6       1525  75039      #@;S\x03\x42";
 
-fn status(bytes: &[u8]) -> Status {
+pub(in super::super) fn status(bytes: &[u8]) -> Status {
     let mut decoder = Decoder::new(Address::FACTORY);
     decoder.push(bytes);
     let frame = decoder.next().unwrap().unwrap();
@@ -52,7 +52,8 @@ fn beyond_north_the_axis_counts_on_and_the_pointing_does_not() {
     let far = Status { azimuth: Position::Counts(6030), ..status(IDLE) };
     let axes = calibrated().read(&far, None);
     assert_eq!(axes[0].angle_deg, Some(390.0));
-    assert_eq!(Axes::pointing(axes).azimuth.map(Angle::degrees), Some(30.0));
+    let azimuth = Axes::pointing(axes).azimuth.unwrap();
+    assert!((azimuth.degrees() - 30.0).abs() < 1e-9);
 }
 
 #[test]

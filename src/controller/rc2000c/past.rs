@@ -1,0 +1,63 @@
+//! What the unit told a moment ago: an axis that runs out after a stop, or away
+//! without a command, shows by its number alone.
+
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
+
+use crate::protocol::rc2000c::Status;
+
+/// In this time even the slowest axis shows another number. Replies to commands
+/// may follow one another much faster.
+const LONG_ENOUGH: Duration = Duration::from_millis(250);
+
+/// The last statuses and when they came in, oldest first.
+#[derive(Debug, Default)]
+pub(super) struct Past(VecDeque<(Instant, Status)>);
+
+impl Past {
+    pub(super) fn push(&mut self, status: Status, now: Instant) {
+        // The second one is old enough, so nobody looks at the first any more.
+        while self.0.get(1).is_some_and(|(at, _)| is_old(*at, now)) {
+            self.0.pop_front();
+        }
+        self.0.push_back((now, status));
+    }
+
+    /// The newest status that is old enough to compare with; the oldest one where
+    /// none is.
+    pub(super) fn before(&self, now: Instant) -> Option<&Status> {
+        let old = self.0.iter().rev().find(|(at, _)| is_old(*at, now));
+        old.or(self.0.front()).map(|(_, status)| status)
+    }
+}
+
+fn is_old(at: Instant, now: Instant) -> bool {
+    now.saturating_duration_since(at) >= LONG_ENOUGH
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        controller::rc2000c::axes::tests::{IDLE, status},
+        protocol::rc2000c::Position,
+    };
+
+    #[test]
+    fn a_status_is_compared_with_one_that_is_old_enough() {
+        let start = Instant::now();
+        let at = |ms| start + Duration::from_millis(ms);
+        let idle = status(IDLE);
+        let mut past = Past::default();
+        assert_eq!(past.before(start), None);
+        for ms in (0..1000).step_by(60) {
+            past.push(Status { azimuth: Position::Counts(ms), ..idle }, at(ms.into()));
+        }
+        let counts = |ms| past.before(at(ms)).map(|status| status.azimuth);
+        assert_eq!(counts(1020), Some(Position::Counts(720)));
+        assert_eq!(counts(5000), Some(Position::Counts(960)));
+        assert!(past.0.len() < 8, "{}", past.0.len());
+    }
+}

@@ -1,0 +1,137 @@
+//! Directions, which need the calibration of both axes.
+
+use azel::{
+    astro::Angle,
+    controller::{Motion, panel::CheckState},
+    driver::{Command, Event, Intent, Refusal},
+    sim::rc2000c::{Fault, Options, Quirk},
+};
+
+use super::rig::{Rig, antenna, check, uncalibrated};
+
+fn to(az_deg: f64, el_deg: f64) -> Command {
+    let angle = |degrees| Some(Angle::from_degrees(degrees));
+    Command::Position { azimuth: angle(az_deg), elevation: angle(el_deg) }
+}
+
+async fn in_position() -> Rig {
+    let mut rig = Rig::connected(&Options::default(), &antenna()).await;
+    rig.send(Command::Hold);
+    rig.seconds(0.1).await;
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_direction_goes_out_as_counts_once_and_arrives() {
+    let mut rig = in_position().await;
+    rig.send(to(170.0, 40.0));
+    rig.seconds(1.0).await;
+    let frames = rig.control.received();
+    let moves: Vec<_> = frames.iter().filter(|(_, frame)| frame.code() == b'2').collect();
+    assert_eq!(moves.len(), 1);
+    assert_eq!(moves[0].1.to_bytes(), b"\x02\x32\x32 0163000830\x03\x2e");
+    assert!(rig.shown().state.measured.unwrap().moving());
+    assert!(rig.shown().pending);
+    rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.counts(), [1630, 830]);
+    assert_eq!(rig.orders().len(), 1, "it is sent once");
+    let direction = rig.shown().state.measured.unwrap().direction().unwrap();
+    assert!((direction.azimuth_deg() - 170.0).abs() < 1e-6);
+    assert_eq!(rig.shown().intent, Intent::Position);
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_axis_that_stays_is_told_its_present_counts() {
+    let mut rig = in_position().await;
+    rig.send(Command::Position { azimuth: None, elevation: Some(Angle::from_degrees(40.0)) });
+    rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["2 0152500830"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn without_a_calibration_or_known_counts_nothing_is_sent() {
+    let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
+    rig.send(Command::Hold);
+    rig.send(to(170.0, 40.0));
+    let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
+    let Event::Refused(Motion::Position { .. }, reason) = event else { panic!("{event:?}") };
+    assert_eq!(reason, "the azimuth is not calibrated");
+    assert!(rig.times("2").is_empty());
+
+    let mut rig = in_position().await;
+    rig.control.set_quirk(Quirk::AngleDisplay, true);
+    rig.seconds(1.0).await;
+    rig.send(Command::Position { azimuth: None, elevation: Some(Angle::from_degrees(40.0)) });
+    let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
+    let Event::Refused(_, reason) = event else { panic!("{event:?}") };
+    assert_eq!(reason, "the azimuth is to stay, but its counts are not known");
+    assert!(rig.times("2").is_empty());
+}
+
+#[tokio::test(start_paused = true)]
+async fn with_an_angle_display_a_whole_direction_still_goes_out_as_counts() {
+    let mut rig = in_position().await;
+    rig.control.set_quirk(Quirk::AngleDisplay, true);
+    rig.seconds(1.0).await;
+    rig.send(to(170.0, 40.0));
+    rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.times("2 0163000830").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_the_mount_does_not_reach_stays_here() {
+    let mut rig = in_position().await;
+    rig.send(to(280.0, 40.0));
+    rig.seconds(0.5).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Travel { axis: "Az", .. })]));
+    assert!(rig.orders().is_empty());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_refusal_ends_the_intent_with_the_likely_reason() {
+    let mut rig = in_position().await;
+    rig.control.set_fault(Fault::Refuse, true);
+    rig.send(to(170.0, 40.0));
+    let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
+    let Event::Refused(Motion::Position { .. }, reason) = event else { panic!("{event:?}") };
+    assert_eq!(reason, "the position lies beyond a limit of the unit");
+    assert_eq!(rig.shown().intent, Intent::Standby);
+    assert_eq!(rig.times("2").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_lost_reply_is_not_followed_by_the_command_again() {
+    let mut rig = in_position().await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.send(to(170.0, 40.0));
+    rig.seconds(0.3).await;
+    rig.control.set_fault(Fault::Silence, false);
+    rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
+    assert_eq!(rig.orders(), ["2 0163000830"], "the state has told that it came through");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_remote_mode_that_is_disabled_on_the_way_is_told() {
+    let mut rig = in_position().await;
+    rig.control.set_fault(Fault::RemoteDisabled, true);
+    rig.send(to(170.0, 40.0));
+    let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
+    let Event::Refused(_, reason) = event else { panic!("{event:?}") };
+    assert_eq!(reason, "remote mode is disabled on the unit");
+    assert_eq!(check(&rig.shown(), "Remote mode"), Some(CheckState::Fault));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_new_direction_stops_the_way_to_the_old_one() {
+    let mut rig = in_position().await;
+    rig.send(to(200.0, 40.0));
+    rig.seconds(2.0).await;
+    rig.send(to(160.0, 40.0));
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    let orders = rig.orders();
+    assert_eq!(orders.first().unwrap(), "2 0223000830");
+    assert_eq!(orders.last().unwrap(), "2 0143000830");
+    assert!(orders[1..orders.len() - 1].iter().all(|text| text == "3XS0000"), "{orders:?}");
+    assert!(orders.len() > 2);
+}

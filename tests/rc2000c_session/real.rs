@@ -1,0 +1,150 @@
+//! The whole way in real time: through a serial server on TCP, with and without
+//! parity of its own, and through a pseudo-terminal.
+
+use std::time::Duration;
+
+use azel::{
+    controller::{Motion, settings::Value},
+    driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
+    sim::rc2000c::{Control, Options, Quirk, Simulator},
+};
+use tokio::time::{Instant, sleep};
+
+use super::rig::{antenna, reading, session};
+
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A fast line, for these tests run in real time.
+fn options() -> Options {
+    Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
+}
+
+struct Desk {
+    handle: AntennaHandle,
+    events: Vec<Event>,
+}
+
+impl Desk {
+    fn at(address: &str) -> Self {
+        let (session, handle) = session(&antenna(), dial_line(address, 9600));
+        tokio::spawn(session.run());
+        Self { handle, events: Vec::new() }
+    }
+
+    fn send(&self, command: Command) {
+        self.handle.send(command).unwrap();
+    }
+
+    async fn until(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            self.events.extend(std::iter::from_fn(|| self.handle.next_event()));
+            if is_so(self) {
+                return;
+            }
+            assert!(
+                Instant::now() < end,
+                "{what}\n{:?}\n{:#?}",
+                self.events,
+                self.handle.snapshot()
+            );
+            sleep(Duration::from_millis(10)).await;
+        }
+    }
+
+    async fn until_event(&mut self, event: Event) {
+        self.until(&format!("{event:?}"), |desk| desk.events.contains(&event)).await;
+        self.events.clear();
+    }
+
+    /// Connect, jog, stop, go to counts, leave.
+    async fn tour(&mut self, control: &Control) {
+        self.send(Command::Connect);
+        self.until_event(Event::Connected(Found::Still)).await;
+        self.until("the list", |desk| {
+            reading(&desk.handle.snapshot(), "Stored satellites")
+                .is_some_and(|text| text.ends_with("ANIK E2"))
+        })
+        .await;
+        self.send(Command::Manual);
+        let before = control.state().el_counts;
+        let end = Instant::now() + Duration::from_secs(1);
+        while Instant::now() < end {
+            self.send(Command::Jog { rates_deg_s: [0.0, 2.0] });
+            sleep(Duration::from_millis(100)).await;
+        }
+        assert!(control.state().el_counts > before + 10);
+        self.handle.stop();
+        self.until_event(Event::Stopped).await;
+        self.send(Command::Manual);
+        let values = [("az_counts", Value::Integer(1530)), ("el_counts", Value::Integer(750))];
+        let act = azel::controller::panel::Act {
+            action: "to_counts",
+            values: values.into_iter().collect(),
+        };
+        self.send(Command::Act(act));
+        self.until("there", |_| {
+            let state = control.state();
+            [state.az_counts, state.el_counts] == [1530, 750] && !state.is_turning
+        })
+        .await;
+        let failed = |event: &Event| matches!(event, Event::Refused(Motion::Action(_), _));
+        assert!(!self.events.iter().any(failed), "{:?}", self.events);
+        assert_eq!(self.handle.snapshot().state.traffic.damaged, 0);
+        self.send(Command::Disconnect);
+        self.until("off", |desk| desk.handle.snapshot().link == LinkState::Off).await;
+    }
+}
+
+#[tokio::test]
+async fn over_a_serial_server() {
+    let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), &options()).await.unwrap();
+    let address = simulator.local_addr().unwrap().to_string();
+    let control = simulator.control();
+    tokio::spawn(simulator.run());
+    Desk::at(&address).tour(&control).await;
+}
+
+#[tokio::test]
+async fn a_serial_server_with_eight_bits_is_understood_at_the_second_try() {
+    let options = Options { quirks: [Quirk::ParityBit].into_iter().collect(), ..options() };
+    let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), &options).await.unwrap();
+    let address = simulator.local_addr().unwrap().to_string();
+    tokio::spawn(simulator.run());
+    let mut desk = Desk::at(&address);
+    desk.send(Command::Connect);
+    desk.until_event(Event::LinkLost(LinkLoss::Silent)).await;
+    desk.until_event(Event::Connected(Found::Still)).await;
+    let traffic = desk.handle.snapshot().state.traffic;
+    assert_eq!((traffic.damaged, traffic.odd), (0, 0));
+}
+
+#[cfg(unix)]
+#[tokio::test]
+async fn over_a_serial_port() {
+    use azel::sim::rc2000c::PtySimulator;
+
+    // Some containers have none.
+    if !std::path::Path::new("/dev/ptmx").exists() {
+        return;
+    }
+    let simulator = PtySimulator::open(&options()).unwrap();
+    let path = simulator.path().to_str().unwrap().to_owned();
+    let control = simulator.control();
+    let server = tokio::spawn(simulator.run());
+    let mut desk = Desk::at(&path);
+    desk.tour(&control).await;
+    // Again, and then the cable is pulled.
+    desk.send(Command::Connect);
+    desk.until_event(Event::Connected(Found::Still)).await;
+    server.abort();
+    desk.until("lost", |desk| matches!(desk.handle.snapshot().link, LinkState::Lost { .. })).await;
+}
+
+#[tokio::test]
+async fn a_port_that_is_not_there_is_told_in_words() {
+    let mut desk = Desk::at("/dev/no-such-port-as-this");
+    desk.send(Command::Connect);
+    let reason = LinkLoss::Refused("no such serial port".to_owned());
+    desk.until_event(Event::LinkLost(reason)).await;
+}
