@@ -6,6 +6,6 @@ pub mod follow;
 pub mod pass_export;
 mod trackability;
 
-pub use azimuth_route::{AzimuthRange, AzimuthRoute, RangeTooSmall};
+pub use azimuth_route::{AzimuthRange, AzimuthRoute, NoTravel};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use trackability::{Sample, Trackability, trackability};

@@ -3,7 +3,10 @@
 use jiff::Timestamp;
 
 use crate::{
-    controller::{Motion, PrepareError, TrackTarget},
+    controller::{
+        Motion, PrepareError, TrackTarget,
+        panel::{Check, CheckState},
+    },
     driver::{Event, FollowProblem, Found, LinkLoss},
     protocol::satrak::FaultKind,
     station::Note,
@@ -62,6 +65,8 @@ pub enum AlarmKind {
     NotTaken,
     /// A fault of the unit.
     Fault(FaultKind),
+    /// A fault or warning of the unit, as it names them itself.
+    Check(Check),
     /// The unit's clock is this far ahead of ours, seconds.
     ClockOff(f64),
     /// The unit's clock was never set.
@@ -104,7 +109,8 @@ impl Alarm {
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
-            | AlarmKind::JogPositionOld => Priority::Warning,
+            | AlarmKind::JogPositionOld
+            | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -191,6 +197,7 @@ impl AlarmKind {
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
                 | Self::Fault(_)
+                | Self::Check(_)
                 | Self::ClockOff(_)
                 | Self::ClockNotSet
                 | Self::DecimalCommas
@@ -219,6 +226,13 @@ fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
 /// does answer.
 fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     matches!((news, standing), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(_)))
+}
+
+/// Whether what was raised of a check is over by now: it is good, or something
+/// else. A unit that does not say is not taken for one that is well.
+pub fn is_over(raised: &Check, now: &[Check]) -> bool {
+    let same = now.iter().find(|check| check.name == raised.name);
+    same.is_none_or(|check| check.state != raised.state && check.state != CheckState::Unknown)
 }
 
 /// The alarm that an event calls for, if any.
@@ -305,6 +319,17 @@ mod tests {
             alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), time());
             assert_eq!(alarms.list().len(), 3, "another antenna, another loss");
         }
+    }
+
+    #[test]
+    fn a_check_is_over_when_it_is_told_to_be_good_or_worse() {
+        let check = |name, state| Check { name, state, advice: "Look at it." };
+        let raised = check("Drive", CheckState::Caution);
+        assert!(!is_over(&raised, &[raised]));
+        assert!(!is_over(&raised, &[check("Drive", CheckState::Unknown)]));
+        assert!(is_over(&raised, &[check("Drive", CheckState::Good)]));
+        assert!(is_over(&raised, &[check("Drive", CheckState::Fault)]));
+        assert!(is_over(&raised, &[check("Clock", CheckState::Caution)]));
     }
 
     #[test]

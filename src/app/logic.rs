@@ -4,14 +4,14 @@ use std::{sync::Arc, time::Duration, time::Instant};
 
 use super::{
     App,
-    alarms::{AlarmKind, alarm_of},
+    alarms::{AlarmKind, alarm_of, is_over},
     demo::Demo,
     model::CatalogState,
 };
 use crate::{
     astro::time::add_seconds,
-    controller::AxisMotion,
-    driver::{Event, StopState},
+    controller::{AxisMotion, panel::CheckState},
+    driver::{Event, LinkState, StopState},
     station::Station,
 };
 
@@ -148,6 +148,18 @@ impl App {
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
             alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        let checks = &snapshot.state.checks;
+        if snapshot.link == LinkState::Off {
+            // Nobody wants to know while the unit is left to others.
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_)));
+        } else {
+            for check in checks.iter() {
+                if matches!(check.state, CheckState::Caution | CheckState::Fault) {
+                    alarms.raise(of, AlarmKind::Check(*check), now);
+                }
+            }
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)));
         }
         if snapshot.state.satrak.decimal_commas {
             alarms.raise(of, AlarmKind::DecimalCommas, now);

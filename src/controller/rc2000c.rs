@@ -48,6 +48,7 @@ pub const MAKE: Make = Make {
         has_program: false,
         takes_positions: true,
         arrives_within_deg: 0.5,
+        position_step_deg: 0.0,
         has_elevation: true,
         jog: JogSpeeds::Named(&[SLOW, FAST]),
         jogs_one_axis: true,

@@ -44,6 +44,7 @@ pub const PAIR: Make = Make {
         has_program: false,
         takes_positions: true,
         arrives_within_deg: 1.5,
+        position_step_deg: 1.0,
         has_elevation: true,
         jog: SPEEDS,
         jogs_one_axis: true,

@@ -42,6 +42,7 @@ pub const MAKE: Make = Make {
         has_program: true,
         takes_positions: true,
         arrives_within_deg: 0.3,
+        position_step_deg: 0.0,
         has_elevation: true,
         jog: JogSpeeds::AnyRate,
         jogs_one_axis: false,

@@ -194,9 +194,15 @@ impl Gate {
     }
 
     /// The motion to an azimuth of the sky, with the position of the axis that is
-    /// nearest.
+    /// nearest. One beyond the sky that the axis has is meant as the axis counts.
     pub(super) fn nearest(&self, motion: Motion) -> Motion {
         let Motion::Position { azimuth: Some(azimuth), elevation } = motion else { return motion };
+        let [(from_deg, to_deg), _] = self.mount.travel_deg();
+        let asked_deg = azimuth.degrees();
+        let is_of_sky = (0.0..360.0).contains(&asked_deg);
+        if !is_of_sky && (from_deg..=to_deg).contains(&asked_deg) {
+            return motion;
+        }
         let near_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
         let azimuth = Some(self.mount.axis_azimuth(azimuth, near_deg));
         Motion::Position { azimuth, elevation }

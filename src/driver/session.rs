@@ -27,10 +27,10 @@ use super::{
 };
 use crate::{
     controller::{Make, Moment, Moves, Pointing, TrackTarget},
-    station::{AfterPass, Antenna},
+    station::Antenna,
 };
 use command::Waiting;
-use follow::Following;
+use follow::{Following, Manner};
 use halting::Halting;
 use jog::Jog;
 use step::Stepping;
@@ -51,8 +51,8 @@ pub struct Session {
     gate: Gate,
     make: &'static Make,
     park: Pointing,
-    /// What it does when a pass is over.
-    after: AfterPass,
+    /// How it follows.
+    manner: Manner,
     /// The operator wants a link.
     wanted: bool,
     dial: Dial,
@@ -118,7 +118,7 @@ impl Session {
             gate,
             make,
             park: antenna.park_direction().into(),
-            after: antenna.follow.after,
+            manner: Manner::of(antenna, make.capabilities),
             wanted,
             dial,
             clock,

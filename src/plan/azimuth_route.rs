@@ -11,26 +11,27 @@ use crate::astro::Angle;
 const TURN_DEG: f64 = 360.0;
 
 /// The ends of an azimuth axis, in degrees from north over east as the axis
-/// counts: 0 to 360 for most, 0 to 450 or -180 to 540 for others.
+/// counts: 0 to 360 for most, 0 to 450 or -180 to 540 for others, or less than a
+/// turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AzimuthRange {
     from_deg: f64,
     to_deg: f64,
 }
 
-/// Ends between which not every direction lies, or that are no numbers.
+/// Ends between which nothing lies, or that are no numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("an azimuth axis from {from_deg} to {to_deg} does not reach every direction")]
-pub struct RangeTooSmall {
+#[error("an azimuth axis does not travel from {from_deg} to {to_deg}")]
+pub struct NoTravel {
     from_deg: f64,
     to_deg: f64,
 }
 
 impl AzimuthRange {
-    /// An axis from `from_deg` to `to_deg`, a full turn apart at least.
-    pub fn new(from_deg: f64, to_deg: f64) -> Result<Self, RangeTooSmall> {
-        let is_whole = from_deg.is_finite() && to_deg - from_deg >= TURN_DEG && to_deg.is_finite();
-        is_whole.then_some(Self { from_deg, to_deg }).ok_or(RangeTooSmall { from_deg, to_deg })
+    /// An axis from `from_deg` to `to_deg`, which is the greater.
+    pub fn new(from_deg: f64, to_deg: f64) -> Result<Self, NoTravel> {
+        let is_one = from_deg.is_finite() && to_deg > from_deg && to_deg.is_finite();
+        is_one.then_some(Self { from_deg, to_deg }).ok_or(NoTravel { from_deg, to_deg })
     }
 
     fn holds(self, axis_deg: f64) -> bool {
@@ -44,12 +45,17 @@ impl AzimuthRange {
         turns.take_while(move |position| *position <= self.to_deg)
     }
 
-    /// The position that points to `azimuth` and is nearest to `near_deg`.
+    /// The position that points to `azimuth` and is nearest to `near_deg`. Where
+    /// none does, the end that points there best.
     pub fn nearest(self, azimuth: Angle, near_deg: f64) -> f64 {
         let positions = self.positions(azimuth.degrees());
         let by_distance = |a: &f64, b: &f64| (a - near_deg).abs().total_cmp(&(b - near_deg).abs());
-        // A full turn lies between the ends, so there is one.
-        positions.min_by(by_distance).unwrap_or(self.from_deg)
+        positions.min_by(by_distance).unwrap_or_else(|| self.nearest_end(azimuth))
+    }
+
+    fn nearest_end(self, azimuth: Angle) -> f64 {
+        let off = |end_deg: f64| (azimuth - Angle::from_degrees(end_deg)).wrapped_180().abs();
+        if off(self.to_deg) < off(self.from_deg) { self.to_deg } else { self.from_deg }
     }
 }
 
@@ -59,7 +65,7 @@ pub struct AzimuthRoute {
     range: AzimuthRange,
     /// When, and where the axis is then, degrees.
     points: Vec<(Timestamp, f64)>,
-    /// When the axis swings round by a turn because it is at an end.
+    /// When the axis swings round because it is at an end.
     swings: Vec<Timestamp>,
 }
 
@@ -74,6 +80,11 @@ impl AzimuthRoute {
         let mut start = 0;
         while let Some((_, first)) = unwrapped.get(start) {
             let rest = unwrapped.get(start..).unwrap_or_default();
+            if range.positions(*first).next().is_none() {
+                route.wait_at_end(samples.get(start));
+                start += 1;
+                continue;
+            }
             let near = route.points.last().map(|(_, axis)| *axis).or(axis_now_deg);
             let mut best: Option<(usize, f64, f64)> = None;
             for position in range.positions(*first) {
@@ -89,14 +100,33 @@ impl AzimuthRoute {
             }
             // Rounding may put a position just outside an end.
             let (lasts, shift, _) = best.unwrap_or((1, 0.0, 0.0));
-            if let Some((time, _)) = unwrapped.get(start).filter(|_| start > 0) {
-                route.swings.push(*time);
-            }
             let leg = rest.iter().take(lasts.max(1));
-            route.points.extend(leg.map(|(time, at)| (*time, at + shift)));
+            for (time, at) in leg {
+                route.go_on(*time, at + shift);
+            }
             start += lasts.max(1);
         }
         route
+    }
+
+    /// No position points to `sample`: the end that does so best is kept.
+    fn wait_at_end(&mut self, sample: Option<&Sample>) {
+        if let Some(Sample { time, direction }) = sample {
+            self.go_on(*time, self.range.nearest_end(direction.azimuth));
+        }
+    }
+
+    fn go_on(&mut self, time: Timestamp, axis_deg: f64) {
+        let before = self.points.last().map(|(_, before_deg)| *before_deg);
+        if before.is_some_and(|before_deg| (axis_deg - before_deg).abs() > TURN_DEG / 2.0) {
+            self.swings.push(time);
+        }
+        self.points.push((time, axis_deg));
+    }
+
+    /// Where the axis is to be at the samples it was made of, degrees.
+    pub fn positions_deg(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|(_, axis_deg)| *axis_deg)
     }
 
     /// Where the axis is to be at `time` to point to `azimuth`, degrees as the
@@ -112,7 +142,7 @@ impl AzimuthRoute {
         self.points.first().map(|(_, axis)| *axis)
     }
 
-    /// When the axis swings round by a turn, during which it does not point.
+    /// When the axis swings round, during which it does not point.
     pub fn swings(&self) -> &[Timestamp] {
         &self.swings
     }
@@ -217,8 +247,20 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_must_reach_every_direction() {
-        assert!(AzimuthRange::new(0.0, 359.0).is_err());
+    fn an_axis_of_less_than_a_turn_waits_at_the_better_end() {
+        let samples = pass(sweep(280, 440));
+        let route = route(&samples, (0.0, 300.0), None);
+        let degrees: Vec<i32> = route.positions_deg().map(|axis| axis.round() as i32).collect();
+        assert_eq!(degrees[..=20], (280..=300).collect::<Vec<_>>());
+        assert!(degrees[20..50].iter().all(|axis| *axis == 300), "{degrees:?}");
+        assert!(degrees[51..=80].iter().all(|axis| *axis == 0), "{degrees:?}");
+        assert_eq!(degrees[80..], (0..=80).collect::<Vec<_>>());
+        assert_eq!(route.swings().len(), 1);
+    }
+
+    #[test]
+    fn an_axis_must_travel() {
+        assert!(AzimuthRange::new(10.0, 10.0).is_err());
         assert!(AzimuthRange::new(f64::NAN, 360.0).is_err());
         assert!(AzimuthRange::new(0.0, f64::INFINITY).is_err());
         assert!(route(&[], PLAIN, None).start_deg().is_none());

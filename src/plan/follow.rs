@@ -2,11 +2,19 @@
 //! that the error is least and the drives are spared. Pure functions; where the
 //! antenna stands and what time it is come in.
 
+mod axis;
+mod drives;
+mod path;
+mod planner;
 mod stats;
 mod target;
+mod within_rate;
 
 use jiff::Timestamp;
 
+pub use axis::AxisNow;
+pub use drives::{Drives, SetPoint};
+pub use planner::{Next, Planner};
 pub use stats::FollowStats;
 pub use target::{Course, Target};
 

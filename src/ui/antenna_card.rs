@@ -4,6 +4,10 @@
 mod drive;
 mod faults;
 mod header;
+mod lower;
+mod more;
+mod readings;
+mod speed;
 mod steps;
 mod track;
 
@@ -15,17 +19,20 @@ use super::{
     widgets::{
         axes_table::{self, AxisRow, WantedColumn},
         beam_bar::{self, BeamModel},
-        fold::{self, FoldModel},
+        button::{self, Button},
         go_to::Target,
         mode_selector::{self, Mode, ModeModel},
         paint,
         sentence::{self, Sentence},
-        travel_gauge::{self, TravelModel},
+        travel_gauge::TravelModel,
     },
 };
+use crate::controller::panel::{Act, CheckState, Reading};
 pub use drive::{DriveModel, DriveState};
-pub use faults::{CheckRow, CheckState, FaultsModel};
+pub use faults::FaultsModel;
 pub use header::{Control, HeaderModel};
+pub use more::MoreModel;
+use more::MoreState;
 pub use track::{TrackModel, TrackState};
 
 /// Width of the card.
@@ -57,12 +64,17 @@ pub struct CardModel<'a> {
     pub track: Option<TrackModel<'a>>,
     /// Jogging and going to a direction.
     pub drive: DriveModel<'a>,
-    /// Checks of the unit.
-    pub faults: FaultsModel<'a>,
+    /// What the unit tells of itself.
+    pub readings: &'a [Reading],
+    /// Checks of the unit; none for a unit that has none.
+    pub faults: Option<FaultsModel<'a>>,
+    /// What only this make can do.
+    pub more: MoreModel<'a>,
 }
 
-/// What the operator typed, held and folded; one for each antenna.
-#[derive(Debug, Clone, Default)]
+/// What the operator typed, held and folded. It has no `Debug`: a password may
+/// be in it.
+#[derive(Clone, Default)]
 pub struct CardState {
     /// Jog and go-to.
     pub drive: DriveState,
@@ -72,9 +84,22 @@ pub struct CardState {
     pub travel_open: bool,
     /// The faults are unfolded in a small window.
     pub faults_open: bool,
+    /// What the unit tells is unfolded in a small window.
+    pub readings_open: bool,
+    /// The actions are unfolded.
+    pub more_open: bool,
+    more: MoreState,
 }
 
 impl CardState {
+    /// To be called when the card shows another antenna: what was typed is not
+    /// for that one. What is unfolded stays so.
+    pub fn change_antenna(&mut self) {
+        self.drive = DriveState::default();
+        self.track = TrackState::default();
+        self.more = MoreState::default();
+    }
+
     /// To be called when the card is not shown any more: a jog key that was
     /// held is released.
     pub fn hide(&mut self) -> Option<CardAction> {
@@ -83,8 +108,12 @@ impl CardState {
 }
 
 /// What the operator did.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum CardAction {
+    /// Open the link.
+    Connect,
+    /// Close the link.
+    Disconnect,
     /// Wants another mode.
     SetMode(Mode),
     /// Holds a jog key. Comes in every frame in which it is held.
@@ -115,6 +144,8 @@ pub enum CardAction {
     TrackSelected,
     /// Let the unit start passes by itself, or not.
     SetAutoTrack(bool),
+    /// Do what only this make can do.
+    Act(Act),
 }
 
 /// A place that moves down the card.
@@ -171,11 +202,18 @@ fn fill(
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
     let mut at =
         Cursor { left: rect.left() + padding, right: rect.right() - padding, y: rect.top() };
-    header::show(ui, &mut at, &model.header, rect, short);
+    header::show(ui, &mut at, &model.header, rect, short, actions);
 
     at.skip(if short { 10.0 } else { 12.0 });
     let block = sentence::show(ui, at.at(), at.width(), &model.sentence);
     at.y = block.bottom() + if short { 6.0 } else { 10.0 };
+    if model.header.control == Control::Released {
+        let key = at.take(button::HEIGHT);
+        if Button::primary("Connect").show(ui, "connect", key).clicked() {
+            actions.push(CardAction::Connect);
+        }
+        at.skip(8.0);
+    }
 
     let table = at.take(axes_table::height(model.axes.len()));
     axes_table::show(ui, table, model.wanted, model.axes);
@@ -184,7 +222,7 @@ fn fill(
     }
     if !short && !model.travel.is_empty() {
         at.skip(8.0);
-        travel(ui, &mut at, model.travel, true);
+        lower::travel(ui, &mut at, model.travel, true);
     }
 
     at.skip(if short { 8.0 } else { 12.0 });
@@ -201,97 +239,13 @@ fn fill(
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let top = ui.cursor().top();
             at.y = top;
-            lower(ui, rect, &mut at, model, state, actions, short);
+            lower::show(ui, rect, &mut at, model, state, actions, short);
             ui.allocate_rect(
                 Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), at.y - top)),
                 egui::Sense::hover(),
             );
         });
     });
-}
-
-/// Everything below the mode.
-fn lower(
-    ui: &mut Ui,
-    card: Rect,
-    at: &mut Cursor,
-    model: &CardModel<'_>,
-    state: &mut CardState,
-    actions: &mut Vec<CardAction>,
-    short: bool,
-) {
-    track::show(ui, at, model.track.as_ref(), &mut state.track, actions);
-    at.skip(if short { 8.0 } else { 12.0 });
-    drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
-    at.skip(4.0);
-    if !short {
-        faults::show(ui, at, card, &model.faults);
-        return;
-    }
-    let line =
-        |y: f32| Rect::from_min_max(pos2(card.left(), y), pos2(card.right(), y + fold::HEIGHT));
-    if !model.travel.is_empty() {
-        let value = travel_in_words(model.travel);
-        let travel_line = FoldModel { title: "Travel", value: &value, mark: None };
-        fold::show(ui, line(at.y), &travel_line, &mut state.travel_open);
-        at.skip(fold::HEIGHT);
-        if state.travel_open {
-            travel(ui, at, model.travel, false);
-            at.skip(4.0);
-        }
-    }
-    let (value, mark) = faults::in_words(ui, &model.faults);
-    let faults_line = FoldModel { title: "Faults", value: &value, mark: Some(mark) };
-    fold::show(ui, line(at.y), &faults_line, &mut state.faults_open);
-    at.skip(fold::HEIGHT);
-    if state.faults_open {
-        faults::show(ui, at, card, &model.faults);
-    }
-}
-
-fn travel(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>], with_head: bool) {
-    let t = theme::tokens(ui);
-    if with_head {
-        let head = at.take(18.0);
-        let words = "Travel, as the unit reports it";
-        paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
-        if let Some(range) = common_range(axes) {
-            paint::text(
-                ui,
-                head.right_center(),
-                Align2::RIGHT_CENTER,
-                range,
-                text::caption(),
-                t.t3,
-            );
-        }
-    }
-    for axis in axes {
-        travel_gauge::show(ui, at.take(travel_gauge::HEIGHT), axis);
-    }
-}
-
-/// The travel in words, if all axes have the same.
-fn common_range(axes: &[TravelModel<'_>]) -> Option<String> {
-    let (low, high) = axes.first()?.travel_deg;
-    let same = |deg: f64, other: f64| (deg - other).abs() < 0.05;
-    let all = axes.iter().all(|axis| same(axis.travel_deg.0, low) && same(axis.travel_deg.1, high));
-    all.then(|| format!("{low:.0}° to {high:.0}°").replace('-', "−"))
-}
-
-fn travel_in_words(axes: &[TravelModel<'_>]) -> String {
-    let words: Vec<String> = axes
-        .iter()
-        .map(|axis| {
-            let deg = axis.position_deg.map_or_else(
-                || axes_table::UNKNOWN.to_owned(),
-                |deg| format!("{deg:.1}°").replace('-', "−"),
-            );
-            let limit = if axis.lower_limit || axis.upper_limit { " limit" } else { "" };
-            format!("{} {deg}{limit}", axis.name)
-        })
-        .collect();
-    words.join("  ")
 }
 
 /// The shape of a verdict.

@@ -11,7 +11,6 @@ mod field_state;
 mod foot;
 mod form;
 mod head;
-mod inputs;
 mod list;
 mod outcome;
 mod row;

@@ -11,7 +11,9 @@ use egui::{Rect, Ui};
 
 use super::{
     antenna_card::{self, CardState},
-    banner, pass_header,
+    banner,
+    confirm::Question,
+    pass_header,
     pass_list::PassListState,
     sky_plot::SkyPlotState,
     theme,
@@ -82,6 +84,7 @@ pub fn show(
     rect: Rect,
     model: &Model,
     state: &mut OperateState,
+    question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
     let list_width = state.list_width.map(|width| width as f32);
@@ -89,6 +92,7 @@ pub fn show(
     let t = theme::tokens(ui);
     if state.shown_antenna != model.selected_antenna {
         state.leave_card(commands);
+        state.card.change_antenna();
         state.shown_antenna = model.selected_antenna;
     }
     if let Some(strip) = areas.banner {
@@ -113,7 +117,7 @@ pub fn show(
         passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
     if let Some(antenna) = model.antenna() {
-        card::show(ui, areas.card, model, antenna, &mut state.card, commands);
+        card::show(ui, areas.card, model, antenna, &mut state.card, question, commands);
     } else {
         card::none(ui, areas.card, model, commands);
     }

@@ -3,6 +3,7 @@
 
 mod antenna;
 mod beam_view;
+mod bearing;
 mod bodies;
 mod corners;
 mod geometry;
@@ -32,7 +33,7 @@ use self::{
 };
 use super::{text, theme, tokens::Tokens};
 
-pub use scene::{Keyholes, Measured, OtherSatellite, SkyScene, Track};
+pub use scene::{Bearing, Keyholes, Measured, OtherSatellite, SkyScene, Track};
 
 /// What the plot remembers from frame to frame.
 #[derive(Debug, Clone, Default)]
@@ -139,6 +140,7 @@ fn paint_sky(
         bodies::others(painter, dome, scene.others, &mut labels, t);
     }
     antenna::reserve(dome, scene, &mut labels);
+    bearing::label(&mut labels, dome, scene, t);
 
     let mut events = Vec::new();
     if let Some(track) = &scene.track {
@@ -161,6 +163,7 @@ fn paint_sky(
     state.labels = labels.into_memory();
 
     track::paint_events(painter, dome, &events, t);
+    bearing::paint(painter, dome, scene, t);
     antenna::paint(painter, dome, scene, t);
     let position = scene.track.and_then(|track| track.position);
     if let Some(at) = position.and_then(|position| dome.visible(position)) {

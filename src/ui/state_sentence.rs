@@ -8,11 +8,12 @@ use jiff::Timestamp;
 use super::{
     format,
     widgets::sentence::{Sentence, SentenceKind, Span},
+    words,
 };
 use crate::{
     app::{Model, antenna::AntennaModel, forecast::Followed},
     astro::time::seconds_between,
-    controller::{Phase, Pointing},
+    controller::{JogSpeeds, Phase, Pointing, panel::CheckState},
     driver::{Intent, StopState},
 };
 
@@ -93,20 +94,29 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     {
         return Some(Spoken::new(SentenceKind::Fault).plain(format!(
             "Motion is locked by a fault: {}. {}",
-            super::words::fault_name(kind),
-            super::words::fault_advice(kind)
+            words::fault_name(kind),
+            words::fault_advice(kind)
         )));
     }
+    if state.motion_lock == Some(true)
+        && let Some(check) = state.checks.iter().find(|check| check.state == CheckState::Fault)
+    {
+        let words = format!("Motion is locked by a fault: {}. {}", check.name, check.advice);
+        return Some(Spoken::new(SentenceKind::Fault).plain(words));
+    }
     let measured = state.measured.filter(|measured| !measured.moving())?;
-    for (axis, name) in measured.axes.iter().zip(["X", "Y"]) {
-        let (set, back) = match (axis.plus_limit, axis.minus_limit) {
-            (true, _) => ("+", "−"),
-            (_, true) => ("−", "+"),
+    for (axis, name) in measured.axes.iter().zip(antenna.make().capabilities.axes) {
+        let plus = match (axis.plus_limit, axis.minus_limit) {
+            (true, _) => true,
+            (_, true) => false,
             _ => continue,
         };
-        return Some(Spoken::new(SentenceKind::Fault).plain(format!(
-            "Stopped: {name}{set} limit switch is set. Jog {name}{back} to leave the limit."
-        )));
+        let (end, back) = (words::way(name, plus), words::way(name, !plus));
+        return Some(
+            Spoken::new(SentenceKind::Fault).plain(format!(
+                "Stopped: {end} limit switch is set. Jog {back} to leave the limit."
+            )),
+        );
     }
     None
 }
@@ -199,15 +209,13 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
 
 fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let snapshot = &antenna.snapshot;
+    let [first, second] = antenna.make().capabilities.axes;
     if let Some([x, y]) = snapshot.jog {
-        let (axis, rate) = if x == 0.0 { ("Y", y) } else { ("X", x) };
-        return Some(Spoken::new(SentenceKind::Commanded).plain(format!(
-            "Jogging {axis} at {} °/s while the key is held.",
-            format::signed(rate, 2)
-        )));
+        let (axis, rate) = if x == 0.0 { (second, y) } else { (first, x) };
+        return Some(Spoken::new(SentenceKind::Commanded).plain(jogging(antenna, axis, rate)));
     }
     if let Some([x, y]) = snapshot.step {
-        let (axis, by_deg) = if x == 0.0 { ("Y", y) } else { ("X", x) };
+        let (axis, by_deg) = if x == 0.0 { (second, y) } else { (first, x) };
         return Some(
             Spoken::new(SentenceKind::Commanded)
                 .plain(format!("Moving {axis} by {}° in one step.", format::signed(by_deg, 2))),
@@ -217,6 +225,23 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let aim = snapshot.aim.filter(|_| moving || snapshot.pending)?;
     let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };
     Some(Spoken::new(SentenceKind::Commanded).plain(format!("{verb} {}.", format::pointing(aim))))
+}
+
+/// A jog, by the name of its speed where it has one: the figure is not known.
+fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
+    let speeds = antenna.make().capabilities.jog;
+    let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
+    let Some(speed) = speeds.nearest(rate_deg_s, most_deg_s) else {
+        let rate = format::signed(rate_deg_s, 2);
+        return format!("Jogging {axis} at {rate} °/s while the key is held.");
+    };
+    let way = words::way(axis, rate_deg_s > 0.0);
+    match speeds {
+        JogSpeeds::Named([_, _, ..]) => {
+            format!("Jogging {way} at speed {} while the key is held.", speed.name)
+        }
+        _ => format!("Jogging {way} while the key is held."),
+    }
 }
 
 fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {

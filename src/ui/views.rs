@@ -101,7 +101,8 @@ impl Views {
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
         match model.view {
             View::Operate => {
-                operate::show(ui, window, rest, model, &mut self.operate, commands);
+                let (state, question) = (&mut self.operate, &mut self.question);
+                operate::show(ui, window, rest, model, state, question, commands);
             }
             View::Elements => {
                 self.operate.leave_card(commands);

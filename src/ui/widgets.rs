@@ -10,6 +10,7 @@ pub mod card;
 pub mod fold;
 pub mod go_to;
 pub mod hold_button;
+pub mod input;
 pub mod jog_pad;
 pub mod link_chip;
 pub mod mode_selector;

@@ -39,6 +39,18 @@ fn action_name(key: &str) -> &'static str {
     actions.into_iter().find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 
+/// The end of an axis, or the way towards it, as the jog keys call it.
+pub fn way(axis: &str, plus: bool) -> String {
+    match (axis, plus) {
+        ("Az", true) => "CW".to_owned(),
+        ("Az", false) => "CCW".to_owned(),
+        ("El", true) => "Up".to_owned(),
+        ("El", false) => "Down".to_owned(),
+        (axis, true) => format!("{axis}+"),
+        (axis, false) => format!("{axis}−"),
+    }
+}
+
 /// What an intent is called.
 pub fn intent(intent: Intent) -> &'static str {
     match intent {

@@ -38,7 +38,7 @@ fn nothing_is_cut(window: &Window, size: [f32; 2]) {
 }
 
 /// No control lies on another one.
-fn nothing_overlaps(window: &Window) {
+pub(crate) fn nothing_overlaps(window: &Window) {
     let buttons: Vec<(Option<String>, Rect)> = window
         .get_all_by_role(Role::Button)
         .map(|node| (node.accesskit_node().label(), node.rect()))

@@ -193,7 +193,11 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
         assert_eq!(told(snapshot, lost), format!("{silent}{did}Next try in 3.0 s."));
     }
     for (link, wanted) in [
-        (LinkState::Off, "Not known: Satrak is not connected."),
+        (
+            LinkState::Off,
+            "Not known: Satrak is not connected. Another program may use it. Connect takes up the \
+             link again.",
+        ),
         (
             LinkState::Connecting { since: rig::model(rig::quiet()).steady },
             "Not known: connecting to Satrak at 192.168.10.21:4001.",

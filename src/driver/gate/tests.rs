@@ -334,3 +334,22 @@ fn by_hand_the_axes_stay_within_their_travel() {
     }
     assert_eq!(case.ask(jog(-2.0, 0.0)), Ok(()), "the way back is free");
 }
+
+#[test]
+fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
+    let case = Case::new(Intent::Position);
+    let mut mount = Antenna::rc2000c("Dish", "").mount;
+    if let Mount::AzEl { azimuth_to_deg, .. } = &mut mount {
+        *azimuth_to_deg = 450.0;
+    }
+    let metal = Metal {
+        can: Make::of(&case.antenna.connection).capabilities,
+        state: case.state.clone(),
+        started: Arc::default(),
+    };
+    let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
+    // The axis stands at 90.
+    for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {
+        assert_eq!(gate.nearest(position(asked_deg, 45.0)), position(meant_deg, 45.0));
+    }
+}

@@ -74,8 +74,9 @@ pub(super) enum Waiting {
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
         // A hold is renewed many times a second; not worth a line each. Settings
-        // are logged where they are made, without their values.
-        if !matches!(command, Command::Jog { .. } | Command::Settle(_)) {
+        // are logged where they are made, without their values, and a target by its
+        // name.
+        if !matches!(command, Command::Jog { .. } | Command::Settle(_) | Command::Follow(_)) {
             tracing::info!(antenna = self.name, ?command, "command");
         }
         match command {
@@ -221,7 +222,14 @@ impl Session {
                 self.following = None;
                 self.pending = None;
             }
-            _ => self.tell(Event::NotSent(Refusal::PositionUnknown)),
+            _ => {
+                // Whoever wants something else does not want this to go on.
+                if self.follows() {
+                    self.following = None;
+                    self.intent = Intent::Standby;
+                }
+                self.tell(Event::NotSent(Refusal::PositionUnknown));
+            }
         }
     }
 }

@@ -1,36 +1,98 @@
-//! Following a target position by position, on the session's own clock.
+//! Following a target position by position, on the session's own clock. It goes
+//! on while a link is lost and comes back, and ends with anything else that the
+//! operator wants.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use super::{Event, Session};
+use super::{Command, Event, Session};
 use crate::{
-    controller::Moment,
-    driver::{FollowProblem, FollowView, Intent},
-    plan::{Follow, FollowPhase, FollowStats, Sample, follow::Course},
-    station::AfterPass,
+    controller::{AxisMotion, Capabilities, Measured, Moment, Motion},
+    driver::{FollowProblem, FollowView, Intent, Refusal},
+    plan::{
+        Follow, FollowPhase, FollowStats, Sample,
+        follow::{AxisNow, Drives, Next, Planner},
+    },
+    station::{self, AfterPass, Antenna},
 };
+
+/// So many commands in a row may stay without an answer and without effect.
+const MOST_LOST: u32 = 3;
+
+/// How an antenna follows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Manner {
+    drives: Drives,
+    following: station::Following,
+}
+
+impl Manner {
+    pub(super) fn of(antenna: &Antenna, can: Capabilities) -> Self {
+        let drives = Drives {
+            mount: antenna.mount,
+            limits: antenna.limits,
+            step_deg: can.position_step_deg,
+            has_elevation: can.has_elevation,
+        };
+        Self { drives, following: antenna.follow }
+    }
+}
 
 /// A target that is followed.
 pub(super) struct Following {
-    follow: Follow,
-    course: Course,
-    /// The phase that was told last.
-    told: Option<FollowPhase>,
+    planner: Planner,
+    phase: FollowPhase,
     stats: FollowStats,
-    next_look: Option<Instant>,
+    next_look: Instant,
+    /// The look is due, but something else has to end first, which brings it.
+    is_held_up: bool,
+    /// When the last command went to the gate.
+    sent: Option<Instant>,
+    /// Commands in a row that were lost.
+    lost: u32,
+    /// When the position came in that was compared last.
+    compared: Option<Instant>,
     predicted: Option<Sample>,
 }
 
 impl Following {
     pub(super) fn view(&self) -> FollowView {
+        let target = &self.planner.follow().target;
         FollowView {
-            name: self.follow.target.name().into_owned(),
-            catalog_number: self.follow.target.catalog_number(),
-            phase: self.told.unwrap_or(FollowPhase::Following),
+            name: target.name().into_owned(),
+            catalog_number: target.catalog_number(),
+            phase: self.phase,
             stats: self.stats,
-            next_look: self.next_look,
+            next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
             predicted: self.predicted,
         }
+    }
+
+    fn name(&self) -> String {
+        self.planner.follow().target.name().into_owned()
+    }
+
+    /// How well the antenna points, once for each measurement.
+    fn compare(&mut self, measured: Measured) {
+        if self.compared.replace(measured.received) == Some(measured.received) {
+            return;
+        }
+        let is_up = self.phase == FollowPhase::Following;
+        let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
+        self.predicted = direction.map(|direction| Sample { time: measured.at, direction });
+        if let Some(off) =
+            direction.and_then(|direction| measured.pointing.separation(direction.into()))
+        {
+            self.stats.take(off);
+        }
+    }
+
+    /// The axes, as far as they show what the last command has brought about.
+    fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
+        let shows_it = self.sent.is_none_or(|sent| measured.asked >= sent + latency);
+        measured.axes.map(|axis| AxisNow {
+            position_deg: axis.angle_deg,
+            stands: shows_it && axis.motion == AxisMotion::Still,
+        })
     }
 }
 
@@ -38,49 +100,178 @@ impl Session {
     /// Takes up a target. What moves for another reason is stopped first.
     pub(super) fn follow(&mut self, follow: Follow, now: Moment) {
         let name = follow.target.name().into_owned();
-        let prepared = Course::new(&follow.target, follow.site).map_err(FollowProblem::Orbit);
-        let checked = prepared.and_then(|course| match follow.phase(now.utc) {
-            FollowPhase::Over => Err(FollowProblem::NoPass),
-            FollowPhase::Waiting { .. } | FollowPhase::Following => Ok(course),
-        });
-        let course = match checked {
-            Ok(course) => course,
+        tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
+        let Manner { drives, following } = self.manner;
+        let follow =
+            if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
+        let phase = follow.phase(now.utc);
+        let planned = if !self.make.capabilities.takes_positions {
+            Err(Refusal::NotOffered.into())
+        } else if phase == FollowPhase::Over {
+            Err(FollowProblem::NoPass)
+        } else {
+            Planner::new(follow, drives, following).map_err(FollowProblem::Orbit)
+        };
+        let planner = match planned {
+            Ok(planner) => planner,
             Err(problem) => return self.tell(Event::CannotFollow(name, problem)),
         };
         // From one target to another there is no need to stop.
         if self.following.is_none() && self.may_move() {
             self.halt_quietly(now);
         }
-        let follow = if self.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         self.intent = Intent::Track;
         self.aim = None;
         self.target = None;
         self.following = Some(Following {
-            follow,
-            course,
-            told: None,
+            planner,
+            phase,
             stats: FollowStats::default(),
-            next_look: Some(now.steady),
+            next_look: now.steady,
+            is_held_up: false,
+            sent: None,
+            lost: 0,
+            compared: None,
             predicted: None,
         });
+        self.tell_phase(phase, name);
     }
 
-    /// Says where the target is in its passes, and leaves it when it is over.
-    pub(super) fn watch_follow(&mut self, now: Moment) {
-        let Some(following) = &mut self.following else { return };
-        let phase = following.follow.phase(now.utc);
-        if following.told.replace(phase) == Some(phase) {
-            return;
-        }
-        let name = following.follow.target.name().into_owned();
+    fn tell_phase(&self, phase: FollowPhase, name: String) {
         match phase {
             FollowPhase::Waiting { aos } => self.tell(Event::Awaits { name, aos }),
             FollowPhase::Following => self.tell(Event::Follows(name)),
+            FollowPhase::Over => {}
+        }
+    }
+
+    /// Whether the present intent is to follow position by position.
+    pub(super) fn follows(&self) -> bool {
+        self.intent == Intent::Track && self.following.is_some()
+    }
+
+    /// When the antenna is looked at next by the clock.
+    pub(super) fn follow_due(&self) -> Option<Instant> {
+        let following = self.following.as_ref().filter(|_| self.follows())?;
+        (!following.is_held_up).then_some(following.next_look)
+    }
+
+    /// Keeps the antenna on its target.
+    pub(super) fn watch_follow(&mut self, now: Moment) {
+        let measured = self.gate.state().measured;
+        let Some(following) = &mut self.following else { return };
+        if let Some(measured) = measured {
+            following.compare(measured);
+        }
+        let phase = following.planner.follow().phase(now.utc);
+        if phase != following.phase {
+            self.enter_phase(phase, now);
+        }
+        if self.follows() {
+            self.look(now);
+        }
+    }
+
+    fn enter_phase(&mut self, phase: FollowPhase, now: Moment) {
+        let Some(following) = &mut self.following else { return };
+        let name = following.name();
+        let before = std::mem::replace(&mut following.phase, phase);
+        if before == FollowPhase::Following {
+            following.predicted = None;
+            let stats = std::mem::take(&mut following.stats);
+            self.tell(Event::FollowOver { name: name.clone(), stats });
+        }
+        self.tell_phase(phase, name);
+        match phase {
+            FollowPhase::Waiting { .. } => {}
+            FollowPhase::Following => self.aim = None,
             FollowPhase::Over => {
-                let stats = following.stats;
-                self.tell(Event::FollowOver { name, stats });
                 self.intent = Intent::Position;
+                self.aim = None;
+                if self.manner.following.after == AfterPass::Park {
+                    self.carry_out(Command::Park, now);
+                }
             }
+        }
+    }
+
+    /// Sends the next position when it is time for it.
+    fn look(&mut self, now: Moment) {
+        let is_busy = self.halting.is_some()
+            || self.doubt.is_some()
+            || self.unread
+            || self.gate.device().motion_under_way();
+        let measured = self.gate.state().measured.filter(|_| !is_busy);
+        let Some(following) = &mut self.following else { return };
+        if now.steady < following.next_look {
+            return;
+        }
+        following.is_held_up = measured.is_none();
+        let Some(measured) = measured else { return };
+        let Manner { following: settings, .. } = self.manner;
+        following.next_look = now.steady + settings.period();
+        let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
+        let axes = following.axes(measured, latency);
+        match following.planner.look(now.utc, axes) {
+            Ok(None) => {}
+            Ok(Some(next)) => self.send_next(next, now),
+            Err(error) => self.end_follow(FollowProblem::Orbit(error), now),
+        }
+    }
+
+    fn send_next(&mut self, next: Next, now: Moment) {
+        let motion = Motion::Position {
+            azimuth: next.set_point.azimuth,
+            elevation: next.set_point.elevation,
+        };
+        match self.gate.start(motion, Intent::Track, self.halting.is_some(), now) {
+            Ok(()) => {
+                let aim = self.gate.aim(&motion);
+                self.stopped_at = None;
+                let Some(following) = &mut self.following else { return };
+                following.planner.sent(next);
+                following.sent = Some(now.steady);
+                following.stats.commands += 1;
+                // What is up is compared with itself, not with the last step.
+                self.aim = aim.filter(|_| following.phase != FollowPhase::Following);
+            }
+            // What is not known yet will be.
+            Err(
+                Refusal::PositionUnknown
+                | Refusal::PositionOld(_)
+                | Refusal::FaultsUnknown
+                | Refusal::Stopping,
+            ) => {}
+            Err(refusal) => self.end_follow(refusal.into(), now),
+        }
+    }
+
+    fn end_follow(&mut self, problem: FollowProblem, now: Moment) {
+        let Some(name) = self.following.as_ref().map(Following::name) else { return };
+        self.give_up(Event::CannotFollow(name, problem), now);
+    }
+
+    /// A position was not answered and has had no effect: `true` when another may
+    /// be sent, for where the target is by then.
+    pub(super) fn may_send_another(&mut self) -> bool {
+        let Some(following) = self.following.as_mut() else { return false };
+        following.lost += 1;
+        following.planner.forget_sent();
+        following.lost < MOST_LOST
+    }
+
+    /// A position was taken by the device.
+    pub(super) fn position_taken(&mut self) {
+        if let Some(following) = &mut self.following {
+            following.lost = 0;
+        }
+    }
+
+    /// The device was read anew: what it was told on another link may be gone.
+    pub(super) fn follow_on(&mut self) {
+        if let Some(following) = &mut self.following {
+            following.planner.forget_sent();
+            following.sent = None;
         }
     }
 }

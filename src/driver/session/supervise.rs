@@ -41,7 +41,7 @@ impl Session {
         self.start_waiting(now);
         match self.intent {
             Intent::Position | Intent::Park => self.watch_position(now),
-            Intent::Track if self.following.is_some() => self.watch_follow(now),
+            Intent::Track if self.follows() => self.watch_follow(now),
             Intent::Track => self.watch_track(now),
             Intent::Standby | Intent::Manual => {}
         }
@@ -54,7 +54,8 @@ impl Session {
         let by_timer =
             self.intent == Intent::Track && self.waiting.is_none() && self.halting.is_none();
         let effect = self.pending.filter(|_| by_timer).map(|since| since + TRACK_EFFECT);
-        jog.into_iter().chain(effect).chain(self.halt_due()).min()
+        let look = self.follow_due();
+        jog.into_iter().chain(effect).chain(look).chain(self.halt_due()).min()
     }
 
     fn take(&mut self, happening: Happening, now: Moment) {
@@ -71,15 +72,10 @@ impl Session {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
+            Happening::Accepted(Motion::Position { .. }) => self.position_taken(),
             Happening::Accepted(_) => {}
             Happening::Refused(motion, code) => {
                 self.forget_motion(motion, Event::Refused(motion, code), now);
-            }
-            // What the device ends by itself is over, whatever came of it.
-            Happening::Unanswered(motion @ Motion::Jog { .. })
-                if self.make.capabilities.ends_jogs =>
-            {
-                self.forget_motion(motion, Event::Unanswered(motion), now);
             }
             Happening::Unanswered(motion) => {
                 // Nothing was asked since the motion went out.
@@ -118,7 +114,7 @@ impl Session {
         let turned = before_deg.zip(self.axes_deg()).is_some_and(|(before, after)| {
             before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
         });
-        if !self.active() && !turned {
+        if !self.active() && !turned && !self.may_send_another() {
             self.forget_motion(motion, Event::Unanswered(motion), now);
         }
     }
@@ -149,7 +145,8 @@ impl Session {
         } else {
             Found::Still
         };
-        let by_device = self.intent == Intent::Track && self.following.is_none();
+        self.follow_on();
+        let by_device = self.intent == Intent::Track && !self.follows();
         if by_device && found != Found::Tracking {
             self.intent = Intent::Standby;
             self.target = None;
@@ -170,12 +167,9 @@ impl Session {
 
     /// A device that starts to track by itself surprises whoever stands beside it.
     fn watch_program(&mut self) {
-        if self.unread {
-            return;
-        }
-        let is_on = self.gate.state().program.is_some_and(|program| program.enabled);
-        let was_on = std::mem::replace(&mut self.program_was_on, is_on);
-        if is_on && !was_on && self.intent != Intent::Track {
+        let Some(program) = self.gate.state().program.filter(|_| !self.unread) else { return };
+        let was_on = std::mem::replace(&mut self.program_was_on, program.enabled);
+        if program.enabled && !was_on && self.intent != Intent::Track {
             self.tell(Event::StartedByItself);
         }
     }

@@ -3,17 +3,20 @@
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::{
-    CardAction, Cursor,
+    CardAction, Cursor, speed,
     steps::{self, StepState},
 };
-use crate::ui::{
-    icons::{self, Icon},
-    text, theme,
-    widgets::{
-        button::SMALL_HEIGHT,
-        go_to::{self, GoToAction, GoToModel, GoToState},
-        jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
-        paint, rate_slider,
+use crate::{
+    controller::JogSpeeds,
+    ui::{
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::SMALL_HEIGHT,
+            go_to::{self, GoToAction, GoToModel, GoToState},
+            jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
+            paint,
+        },
     },
 };
 
@@ -33,14 +36,18 @@ pub struct DriveModel<'a> {
     pub keys: JogKeys,
     /// Why jogging is refused now.
     pub jog_locked: Option<&'a str>,
-    /// Directions in which a limit stops the antenna.
+    /// Why some of the keys do nothing.
+    pub jog_note: Option<&'a str>,
+    /// Directions in which a limit stops the antenna, or that are not turned.
     pub blocked: &'a [JogDirection],
     /// The measured rate of the axis that moves, in degrees per second.
     pub real_deg_s: Option<f64>,
+    /// How fast it jogs.
+    pub speeds: JogSpeeds,
     /// The most that the unit does, in degrees per second.
     pub most_deg_s: f64,
-    /// The largest step of an axis, in degrees.
-    pub most_step_deg: f64,
+    /// The largest step of an axis, in degrees; none for a unit without steps.
+    pub most_step_deg: Option<f64>,
     /// Why going to a direction is refused now.
     pub go_to_locked: Option<&'a str>,
     /// Azimuths that are taken, in degrees.
@@ -53,6 +60,8 @@ pub struct DriveModel<'a> {
     pub go_to_refusal: Option<&'a str>,
     /// What the preview found: time to arrive, limits that are touched.
     pub go_to_note: Option<&'a str>,
+    /// What STOP does beyond stopping this antenna.
+    pub stop_note: Option<&'a str>,
 }
 
 /// What the operator holds and typed.
@@ -69,8 +78,8 @@ pub struct DriveState {
 
 impl DriveState {
     /// Takes the next rate up (`by` positive) or down.
-    pub fn change_rate(&mut self, by: i32, most_deg_s: f64) {
-        self.rate_deg_s = rate_slider::stepped(self.rate_deg_s, by, most_deg_s);
+    pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, most_deg_s: f64) {
+        self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, most_deg_s);
     }
 
     /// Lets go of the jog key. Returns true if one was held.
@@ -113,8 +122,7 @@ pub(super) fn show(
 
     let column = area.with_min_x(area.left() + side + if short { 16.0 } else { 20.0 });
     let rate = column.with_max_y(column.top() + 22.0);
-    let locked = model.jog_locked.is_some();
-    rate_slider::show(ui, rate, model.most_deg_s, locked, &mut state.rate_deg_s);
+    speed::show(ui, rate, model, &mut state.rate_deg_s);
     let height = if short { go_to::SMALL_HEIGHT } else { go_to::HEIGHT };
     let fields = column.with_min_y(column.bottom() - height);
     let go_to_model = GoToModel {
@@ -131,8 +139,8 @@ pub(super) fn show(
     at.skip(6.0);
     // So that nothing moves when a sentence comes.
     let end = at.y + MESSAGES;
-    if model.jog_locked.is_none() {
-        steps::show(ui, at, model, &mut state.steps, state.jog, actions);
+    if let Some(most_deg) = model.most_step_deg.filter(|_| model.jog_locked.is_none()) {
+        steps::show(ui, at, model, most_deg, &mut state.steps, state.jog, actions);
         at.skip(STEPS_GAP);
     }
     messages(ui, at, model, state);
@@ -146,17 +154,17 @@ fn jog(
     state: &mut DriveState,
     actions: &mut Vec<CardAction>,
 ) {
+    let rate_deg_s = speed::rate_deg_s(state.rate_deg_s, model.speeds, model.most_deg_s);
     let jog_model = JogModel {
         keys: model.keys,
         locked: model.jog_locked.is_some(),
         blocked: model.blocked,
-        asked_deg_s: state.rate_deg_s.min(model.most_deg_s),
+        asked: &speed::in_words(rate_deg_s, model.speeds, model.most_deg_s),
         real_deg_s: model.real_deg_s,
     };
     let held = jog_pad::show(ui, pad, &jog_model, &mut state.jog);
     if let Some(direction) = held {
         let (x, y) = direction.signs();
-        let rate_deg_s = state.rate_deg_s.min(model.most_deg_s);
         actions.push(CardAction::Jog { x, y, rate_deg_s });
     } else if state.jogging {
         actions.push(CardAction::JogReleased);
@@ -168,16 +176,18 @@ fn jog(
 fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
     let t = theme::tokens(ui);
     let refusal = state.go_to.refusal().or(model.go_to_refusal);
-    let step = state.steps.size_deg(model.most_step_deg).err();
+    let step = model.most_step_deg.and_then(|most_deg| state.steps.size_deg(most_deg).err());
     let step = step.as_deref().filter(|_| model.jog_locked.is_none());
     let lock = model.jog_locked;
     let other_lock = model.go_to_locked.filter(|reason| Some(*reason) != lock);
-    let found: [(Option<&str>, Icon, Color32, Color32); 5] = [
+    let found: [(Option<&str>, Icon, Color32, Color32); 7] = [
         (step, Icon::Warning, t.bad, t.bad),
         (refusal, Icon::Warning, t.bad, t.bad),
         (lock, Icon::Lock, t.t2, t.t2),
         (other_lock, Icon::Lock, t.t2, t.t2),
+        (model.jog_note.filter(|_| lock.is_none()), Icon::Info, t.t2, t.t2),
         (model.go_to_note.filter(|_| refusal.is_none()), Icon::Info, t.cmd, t.t1),
+        (model.stop_note, Icon::Octagon, t.t2, t.t2),
     ];
     for (index, (words, icon, mark, colour)) in found.into_iter().enumerate() {
         let Some(words) = words else { continue };

@@ -3,69 +3,46 @@
 use egui::{Align2, Color32, Popup, PopupCloseBehavior, Rect, Sense, Ui, pos2, vec2};
 
 use super::{Cursor, verdict_icon};
-use crate::ui::{
-    icons::{self, Icon},
-    text::{self, Weight},
-    theme,
-    tokens::Tokens,
-    widgets::{
-        button::{Button, SMALL_HEIGHT},
-        paint,
+use crate::{
+    controller::panel::{Check, CheckState},
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+        },
     },
 };
 
 const LIST_WIDTH: f32 = 340.0;
 const DETAILS_WIDTH: f32 = 58.0;
 
-/// What a check found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CheckState {
-    /// As it should be.
-    Good,
-    /// Works, but has to be looked after.
-    Caution,
-    /// Does not work.
-    Fault,
-    /// The unit did not say.
-    Unknown,
-}
-
-impl CheckState {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Good => "good",
-            Self::Caution => "caution",
-            Self::Fault => "fault",
-            Self::Unknown => "not known",
-        }
-    }
-
-    fn colour(self, t: &Tokens) -> Color32 {
-        match self {
-            Self::Good => t.ok,
-            Self::Caution => t.warn,
-            Self::Fault => t.bad,
-            Self::Unknown => t.t3,
-        }
+fn word(state: CheckState) -> &'static str {
+    match state {
+        CheckState::Good => "good",
+        CheckState::Caution => "caution",
+        CheckState::Fault => "fault",
+        CheckState::Unknown => "not known",
     }
 }
 
-/// One check.
-#[derive(Debug, Clone, Copy)]
-pub struct CheckRow<'a> {
-    /// What is checked.
-    pub name: &'a str,
-    /// What was found.
-    pub state: CheckState,
-    /// What to do when it is not good.
-    pub advice: &'a str,
+fn colour(state: CheckState, t: &Tokens) -> Color32 {
+    match state {
+        CheckState::Good => t.ok,
+        CheckState::Caution => t.warn,
+        CheckState::Fault => t.bad,
+        CheckState::Unknown => t.t3,
+    }
 }
 
 /// All checks of a unit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FaultsModel<'a> {
     /// In the order of the list.
-    pub checks: &'a [CheckRow<'a>],
+    pub checks: &'a [Check],
     /// When the unit last reported them, as it is shown.
     pub checked_at: &'a str,
 }
@@ -121,7 +98,7 @@ pub(super) fn in_words(ui: &Ui, model: &FaultsModel<'_>) -> (String, (Icon, Colo
             format!("{first}: {named}")
         }
     };
-    (words, (verdict_icon(worst), worst.colour(theme::tokens(ui))))
+    (words, (verdict_icon(worst), colour(worst, theme::tokens(ui))))
 }
 
 /// Shows the line with its button.
@@ -132,7 +109,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: Rect, model: &FaultsModel<'_>
         ui.painter().hline(card.x_range(), y, (1.0, t.line));
     }
     let worst = model.worst();
-    let colour = worst.colour(t);
+    let colour = colour(worst, t);
     let glyph = paint::square(pos2(row.left() + 9.0, row.center().y), 18.0);
     icons::paint(ui.painter(), glyph, verdict_icon(worst), colour);
     let button = Button::normal("Details");
@@ -173,19 +150,19 @@ fn list(ui: &mut Ui, model: &FaultsModel<'_>) {
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
         }
         let y = row.top() + 13.0;
-        let colour = check.state.colour(t);
+        let colour = colour(check.state, t);
         let glyph = paint::square(pos2(row.left() + 10.0, y), 14.0);
         icons::paint(ui.painter(), glyph, verdict_icon(check.state), colour);
         let at = pos2(row.left() + 26.0, y);
         paint::text(ui, at, Align2::LEFT_CENTER, check.name, text::body_medium(), t.t1);
         let at = pos2(row.right() - 4.0, y);
         let font = text::sized(12.0, Weight::Medium);
-        paint::text(ui, at, Align2::RIGHT_CENTER, check.state.word(), font, colour);
+        paint::text(ui, at, Align2::RIGHT_CENTER, word(check.state), font, colour);
         if let Some(galley) = galley {
             ui.painter().galley(pos2(row.left() + 26.0, row.top() + 24.0), galley, t.t2);
         }
         let said = advice.unwrap_or_default();
-        let name = format!("{}: {}. {said}", check.name, check.state.word());
+        let name = format!("{}: {}. {said}", check.name, word(check.state));
         paint::name_text(ui, ("check", check.name), row, name.trim_end());
     }
 }
@@ -194,8 +171,8 @@ fn list(ui: &mut Ui, model: &FaultsModel<'_>) {
 mod tests {
     use super::*;
 
-    fn check(name: &'static str, state: CheckState) -> CheckRow<'static> {
-        CheckRow { name, state, advice: "" }
+    fn check(name: &'static str, state: CheckState) -> Check {
+        Check { name, state, advice: "" }
     }
 
     #[test]
@@ -203,8 +180,7 @@ mod tests {
         let good = check("Power", CheckState::Good);
         let fault = check("Drive X", CheckState::Fault);
         let unknown = check("Clock", CheckState::Unknown);
-        let of =
-            |checks: &[CheckRow<'_>]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
+        let of = |checks: &[Check]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
         assert_eq!(of(&[good, good]), ("No faults".into(), "All 2 checks good, 11:06:08Z".into()));
         assert_eq!(of(&[good, unknown, fault]), ("1 fault".into(), "Drive X".into()));
         let silent = ("Not known".into(), "1 of 2 checks have no answer, 11:06:08Z".into());

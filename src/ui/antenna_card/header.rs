@@ -1,14 +1,17 @@
-//! Name of the antenna and who controls it.
+//! Name of the antenna, who controls it, and the key that lets go of it.
 
-use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::Cursor;
+use super::{CardAction, Cursor};
 use crate::ui::{
-    icons,
+    icons::{self, Icon},
     text::{self, Weight},
     theme,
     widgets::{link_chip::LinkGlyph, paint},
 };
+
+/// Side of the key that opens the menu of the link.
+const MENU: f32 = 24.0;
 
 /// Who may move the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +22,8 @@ pub enum Control<'a> {
     Other(&'a str),
     /// The unit does not say, or does not answer.
     Unknown,
+    /// This console has no link and wants none.
+    Released,
 }
 
 /// The head of the card.
@@ -34,7 +39,14 @@ pub struct HeaderModel<'a> {
     pub control: Control<'a>,
 }
 
-pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>, card: Rect, short: bool) {
+pub(super) fn show(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: &HeaderModel<'_>,
+    card: Rect,
+    short: bool,
+    actions: &mut Vec<CardAction>,
+) {
     let t = theme::tokens(ui);
     let row = at.take(if short { 44.0 } else { 56.0 });
     ui.painter().hline(card.x_range(), row.bottom() - 0.5, (1.0, t.line));
@@ -43,7 +55,13 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>, card: Rect
     let glyph = paint::square(pos2(row.left() + 8.0, y), 15.0);
     icons::paint(ui.painter(), glyph, icon, colour);
 
-    let tag_left = control_tag(ui, row, model.control);
+    let mut end = row;
+    if model.control != Control::Released {
+        let key = paint::square(pos2(row.right() - MENU / 2.0 + 4.0, y), MENU);
+        link_menu(ui, key, model.name, actions);
+        end = row.with_max_x(key.left() - 2.0);
+    }
+    let tag_left = control_tag(ui, end, model.control);
     let name_room = row.with_min_x(row.left() + 24.0).with_max_x(tag_left - 6.0);
     if short {
         paint::text_in(ui, name_room, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
@@ -58,6 +76,24 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>, card: Rect
     named.on_hover_text(format!("{}\n{}", model.name, model.second_line));
 }
 
+/// A key with the menu of the link.
+fn link_menu(ui: &Ui, rect: Rect, antenna: &str, actions: &mut Vec<CardAction>) {
+    let t = theme::tokens(ui);
+    let name = format!("Link of {antenna}");
+    let response = paint::control(ui, "link menu", rect, Role::Button, true, &name);
+    if response.hovered() {
+        ui.painter().rect_filled(rect, 4.0, t.bg3);
+    }
+    icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
+    paint::focus_ring(ui, &response, 4);
+    Popup::menu(&response).accessible_name(name).show(|ui| {
+        let about = "Closes the link, so that another program may have the unit.";
+        if ui.button("Disconnect").on_hover_text(about).clicked() {
+            actions.push(CardAction::Disconnect);
+        }
+    });
+}
+
 /// Paints who controls and returns the left end of it.
 fn control_tag(ui: &Ui, row: Rect, control: Control<'_>) -> f32 {
     let t = theme::tokens(ui);
@@ -65,6 +101,7 @@ fn control_tag(ui: &Ui, row: Rect, control: Control<'_>) -> f32 {
         Control::You => ("You have control", t.ok),
         Control::Other(who) => (who, t.warn),
         Control::Unknown => ("Control not known", t.t3),
+        Control::Released => ("Not connected", t.t3),
     };
     let font = text::sized(11.0, Weight::SemiBold);
     let width = (paint::text_width(ui, words, font.clone()) + 12.0).min(0.5 * row.width());

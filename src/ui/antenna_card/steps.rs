@@ -49,6 +49,7 @@ pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
     model: &DriveModel<'_>,
+    most_deg: f64,
     state: &mut StepState,
     jog: JogState,
     actions: &mut Vec<CardAction>,
@@ -56,7 +57,7 @@ pub(super) fn show(
     let row = at.take(SMALL_HEIGHT);
     let t = theme::tokens(ui);
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
-    let size = state.size_deg(model.most_step_deg);
+    let size = state.size_deg(most_deg);
     let field = row.with_min_x(row.left() + LABEL).with_max_x(row.left() + LABEL + FIELD);
     let id = ui.make_persistent_id("step size");
     AngleField { refused: size.is_err(), hint: "", name: "Step size, degrees" }.show(
@@ -70,18 +71,16 @@ pub(super) fn show(
     paint::text(ui, unit, Align2::LEFT_CENTER, "°", text::small(), t.t2);
     let mut focused = jog.has_focus();
     let mut asked = None;
-    let names = ORDER.into_iter().filter_map(|direction| {
-        let (word, name) = model.keys.label(direction)?;
-        Some((direction, word, name.replacen("Jog", "Step", 1)))
-    });
     let mut right = row.right();
-    for (direction, word, name) in names.collect::<Vec<_>>().into_iter().rev() {
+    for direction in ORDER.into_iter().rev() {
+        let label = model.keys.label(direction);
         let min = pos2(right - KEY, row.top());
         let place = Rect::from_min_size(min, vec2(KEY, SMALL_HEIGHT));
         right = place.left() - GAP;
         let free = size.is_ok() && !model.blocked.contains(&direction);
-        let button = Button::normal(word).locked(!free);
-        let response = button.show(ui, ("step", direction), place).accessible_name(name);
+        let button = Button::normal(label.word).locked(!free);
+        let response = button.show(ui, ("step", direction), place);
+        let response = response.accessible_name(format!("Step {}", label.name));
         focused |= keeps_arrows(ui, &response);
         if response.clicked() {
             response.request_focus();

@@ -1,9 +1,12 @@
 use super::*;
-use crate::ui::widgets::{
-    jog_pad::{JogDirection, JogKeys},
-    link_chip::LinkGlyph,
-    sentence::{SentenceKind, Span},
-    testing,
+use crate::{
+    controller::{JogSpeeds, panel::Check},
+    ui::widgets::{
+        jog_pad::{JogDirection, JogKeys},
+        link_chip::LinkGlyph,
+        sentence::{SentenceKind, Span},
+        testing,
+    },
 };
 use egui::{Event, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -31,9 +34,9 @@ const fn travel(name: &str, position_deg: f64) -> TravelModel<'_> {
 
 const TRAVEL: [TravelModel<'_>; 2] = [travel("X", 82.9), travel("Y", 37.8)];
 
-const CHECKS: [CheckRow<'_>; 2] = [
-    CheckRow { name: "Power", state: CheckState::Good, advice: "" },
-    CheckRow { name: "Drive X", state: CheckState::Fault, advice: "Look at the drive cabinet." },
+const CHECKS: [Check; 2] = [
+    Check { name: "Power", state: CheckState::Good, advice: "" },
+    Check { name: "Drive X", state: CheckState::Fault, advice: "Look at the drive cabinet." },
 ];
 
 fn model() -> CardModel<'static> {
@@ -66,6 +69,7 @@ fn model() -> CardModel<'static> {
         travel: &TRAVEL,
         modes: ModeModel { offered: &Mode::ALL, current: Some(Mode::Track), pending: None },
         track: Some(TrackModel {
+            head: "The unit holds",
             held: Some("NOAA 20"),
             selected: Some("METEOR-M2 4"),
             tracks_selected: false,
@@ -75,18 +79,23 @@ fn model() -> CardModel<'static> {
         drive: DriveModel {
             keys: JogKeys::Xy,
             jog_locked: None,
+            jog_note: None,
             blocked: &[],
             real_deg_s: Some(0.48),
+            speeds: JogSpeeds::AnyRate,
             most_deg_s: 3.0,
-            most_step_deg: 5.0,
+            most_step_deg: Some(5.0),
             go_to_locked: None,
             azimuth_range_deg: (0.0, 360.0),
             elevation_range_deg: Some((0.0, 90.0)),
             commanded_deg: (Some(185.5), Some(37.4)),
             go_to_refusal: None,
             go_to_note: None,
+            stop_note: None,
         },
-        faults: FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" },
+        readings: &[],
+        faults: Some(FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" }),
+        more: MoreModel::default(),
     }
 }
 

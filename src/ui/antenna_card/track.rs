@@ -18,7 +18,9 @@ use crate::ui::{
 /// Satellites of a unit that can track.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrackModel<'a> {
-    /// The satellite whose elements the unit holds.
+    /// What is said of the satellite on the left.
+    pub head: &'a str,
+    /// The satellite whose elements the unit holds, or that is followed.
     pub held: Option<&'a str>,
     /// The satellite that is selected in the window.
     pub selected: Option<&'a str>,
@@ -85,14 +87,7 @@ fn park_row(ui: &Ui, row: Rect, state: &mut TrackState, actions: &mut Vec<CardAc
 /// Left what the unit holds, right what is selected or the button to track it.
 fn satellite_row(ui: &Ui, row: Rect, model: &TrackModel<'_>, actions: &mut Vec<CardAction>) {
     let held = row.with_max_x(row.left() + 0.45 * row.width() - 8.0);
-    two_lines(
-        ui,
-        "held",
-        held,
-        Align2::LEFT_CENTER,
-        "The unit holds",
-        model.held.unwrap_or("none"),
-    );
+    two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
     let rest = row.with_min_x(held.right() + 8.0);
     let Some(selected) = model.selected.filter(|_| !model.tracks_selected) else {
         let name = model.selected.unwrap_or("none");

@@ -9,18 +9,15 @@ mod window;
 
 use egui::{Align, Frame, Layout, Margin, RichText, Stroke, Ui, style::ScrollAnimation, vec2};
 
-use super::{
-    field_row,
-    form::Form,
-    row,
-    section::{self, Section},
-    unit::Unit,
-};
+use super::{field_row, form::Form, row, section::Section, unit::Unit};
 use crate::{
     app::UiCommand,
     controller::settings::{Access, Field},
-    ui::{text, theme},
+    ui::{icons::Icon, text, theme},
 };
+
+const NONE: &str = "This unit keeps no settings that can be read or changed over its link. Mount, \
+                    limits and connection stand in the Preferences.";
 
 /// Between the columns, and around them.
 const GAP: f32 = 16.0;
@@ -28,9 +25,8 @@ const PADDING: i8 = 12;
 /// A card is not wider than its fields need.
 const WIDEST: f32 = 760.0;
 
-/// The cards of the two columns, where there are two.
+/// The cards of a Satrak in the left one of two columns.
 const LEFT: [Section; 4] = [Section::General, Section::Gps, Section::Window, Section::Checks];
-const RIGHT: [Section; 3] = [Section::Satellite, Section::Clock, Section::Service];
 
 /// What a card can do beside editing its fields.
 pub(super) struct Desk<'a> {
@@ -48,15 +44,20 @@ pub(super) fn show(
     desk: &mut Desk<'_>,
 ) {
     let room = ui.available_width();
+    let all = Section::of(unit.antenna.make());
+    if all.is_empty() {
+        return row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
+    }
     let least = row::LEAST_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
     let half = (room - GAP) / 2.0;
     if half < least {
-        column(ui, room.min(WIDEST), unit, form, &Section::ALL, (&mut *scroll_to, desk));
+        column(ui, room.min(WIDEST), unit, form, &all, (&mut *scroll_to, desk));
         return;
     }
+    let (left, right) = columns(&all);
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        for sections in [LEFT.as_slice(), &RIGHT] {
+        for sections in [left.as_slice(), &right] {
             let size = vec2(half.min(WIDEST), 0.0);
             ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
@@ -64,6 +65,19 @@ pub(super) fn show(
             });
         }
     });
+}
+
+/// The cards of the two columns: those of a Satrak have their places, others
+/// take turns.
+fn columns(all: &[Section]) -> (Vec<Section>, Vec<Section>) {
+    let is_plain = |section: &Section| matches!(section, Section::Plain { .. });
+    let places = all.iter().enumerate().map(|(place, section)| {
+        let is_left = if is_plain(section) { place % 2 == 0 } else { LEFT.contains(section) };
+        (is_left, *section)
+    });
+    let (left, right): (Vec<_>, Vec<_>) = places.partition(|(is_left, _)| *is_left);
+    let sections = |column: Vec<(bool, Section)>| column.into_iter().map(|(_, of)| of).collect();
+    (sections(left), sections(right))
 }
 
 fn column(
@@ -100,8 +114,8 @@ fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
 }
 
 fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &mut Desk<'_>) {
-    if section == Section::Service {
-        return service::show(ui, unit, form, desk);
+    if section.is_service() {
+        return service::show(ui, unit, form, section, desk);
     }
     title(ui, section.title());
     match section {
@@ -115,6 +129,12 @@ fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &
         Section::Satellite => satellite::show(ui, unit, form, desk),
         Section::Clock => clock::show(ui, unit, form, desk.commands),
         Section::Checks => checks::show(ui, unit, form),
+        Section::Plain { keys, .. } => {
+            row::head(ui);
+            for key in keys {
+                fields(ui, unit, form, key, |_| true);
+            }
+        }
         Section::Service => {}
     }
 }
@@ -140,7 +160,7 @@ fn fields(
     key: &'static str,
     is_wanted: fn(&Field) -> bool,
 ) {
-    let Some(group) = section::group(key) else { return };
+    let Some(group) = unit.description(key) else { return };
     let mut is_revealed = form.is_revealed;
     field_row::show_all(ui, unit, group, form.draft(group.key), &mut is_revealed, is_wanted);
     form.is_revealed = is_revealed;

@@ -6,7 +6,6 @@ use egui::{Color32, Rect, Role, Sense, Ui, pos2, vec2};
 use super::{
     draft::Draft,
     field_state::{self, FieldState},
-    inputs::Input,
     outcome::{self, HIDDEN},
     row::{self, Columns},
     unit::Unit,
@@ -19,7 +18,7 @@ use crate::{
         icons::{self, Icon},
         text, theme,
         tokens::Tokens,
-        widgets::{axes_table::UNKNOWN, hold_button, paint},
+        widgets::{axes_table::UNKNOWN, hold_button, input::Input, paint},
     },
 };
 

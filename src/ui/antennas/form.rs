@@ -12,16 +12,12 @@ use super::{
     draft::{Draft, Sent},
     field_state::{self, FieldState},
     outcome,
-    section::{self, Section},
     unit::Unit,
     unlock::Unlock,
 };
 use crate::{
     app::UiCommand,
-    controller::{
-        satrak::GROUPS,
-        settings::{Access, Change, Group, Guard, Values},
-    },
+    controller::settings::{Access, Change, Group, Guard, Values},
     driver::Command,
     ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
 };
@@ -87,10 +83,10 @@ impl Form {
     }
 
     /// How the fields of these groups stand.
-    pub(super) fn count(&self, unit: &Unit<'_>, groups: &[&'static str]) -> Count {
+    pub(super) fn count(&self, unit: &Unit<'_>, groups: &[&str]) -> Count {
         let mut count = Count::default();
         for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
-            let Some(group) = section::group(key) else { continue };
+            let Some(group) = unit.description(key) else { continue };
             for field in group.fields {
                 let (state, value) = field_state::of(unit, group, field, draft);
                 let add = |to: &mut usize, is_so: bool| *to += usize::from(is_so);
@@ -108,8 +104,7 @@ impl Form {
 
     /// The same over the whole unit.
     pub(super) fn count_all(&self, unit: &Unit<'_>) -> Count {
-        let groups: Vec<&str> =
-            Section::ALL.iter().flat_map(|section| section.groups()).copied().collect();
+        let groups: Vec<&str> = unit.antenna.groups().iter().map(|group| group.key).collect();
         self.count(unit, &groups)
     }
 
@@ -122,7 +117,7 @@ impl Form {
         if self.asked.0 != link {
             self.asked = (link, BTreeSet::new());
         }
-        for group in GROUPS {
+        for group in unit.antenna.groups() {
             if !unit.is_fresh(group.key) && self.asked.1.insert(group.key) {
                 commands.push(UiCommand::Antenna(unit.index, Command::ReadGroup(group.key)));
             }
@@ -132,7 +127,9 @@ impl Form {
     /// Puts what is ready on the unit, a change for each group.
     pub(super) fn apply(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
         self.begin_report();
-        let all: Vec<(&'static Group, Values)> = GROUPS
+        let all: Vec<(&'static Group, Values)> = unit
+            .antenna
+            .groups()
             .iter()
             .filter_map(|group| {
                 let draft = self.drafts.get(group.key).filter(|draft| draft.sent().is_none())?;
@@ -150,7 +147,7 @@ impl Form {
     /// Takes over values of a copy as if they had been typed.
     pub(super) fn take_over(&mut self, unit: &Unit<'_>, taken: Vec<Taken>) {
         for Taken { group: key, field: field_key, value } in taken {
-            let group = section::group(key);
+            let group = unit.description(key);
             let Some(field) = group.and_then(|group| group.field(field_key)) else { continue };
             self.draft(key).type_in(field, field.kind.text(&value), unit.values(key));
         }
@@ -183,7 +180,7 @@ impl Form {
     /// Takes what came of the changes that were sent.
     pub(super) fn take_outcomes(&mut self, unit: &Unit<'_>) {
         for (key, draft) in &mut self.drafts {
-            let (Some(sent), Some(group)) = (draft.sent(), section::group(key)) else { continue };
+            let (Some(sent), Some(group)) = (draft.sent(), unit.description(key)) else { continue };
             let state = unit.group(key);
             let settled = state.and_then(|state| state.settled.clone()).filter(|settled| {
                 settled.change.ticket == sent.ticket && settled.change.values == sent.values

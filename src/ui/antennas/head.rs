@@ -6,7 +6,6 @@ use super::unit::Unit;
 use crate::{
     app::UiCommand,
     astro::time::seconds_between,
-    controller::satrak::GROUPS,
     driver::Command,
     ui::{
         format, text, theme,
@@ -28,7 +27,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let antenna = unit.index;
-    let is_read = GROUPS.iter().any(|group| unit.values(group.key).is_some());
+    let groups = unit.antenna.groups();
+    let is_read = groups.iter().any(|group| unit.values(group.key).is_some());
     let mut right = rect.right() - PADDING;
     let mut button = |words: &'static str, can: bool| {
         let button = Button::normal(words).locked(!can);
@@ -43,9 +43,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     if button("Compare with file", is_read) {
         commands.push(UiCommand::CompareSettings { antenna });
     }
-    if button("Read again", unit.is_open()) {
+    if button("Read again", unit.is_open() && !groups.is_empty()) {
         let read = |key| UiCommand::Antenna(antenna, Command::ReadGroup(key));
-        commands.extend(GROUPS.iter().map(|group| read(group.key)));
+        commands.extend(groups.iter().map(|group| read(group.key)));
     }
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right);
     let title = format!("{} settings", unit.name());
@@ -78,9 +78,13 @@ fn read(unit: &Unit<'_>) -> String {
     if !unit.is_open() {
         return "no link, what was read before is shown".to_owned();
     }
+    let groups = unit.antenna.groups();
+    if groups.is_empty() {
+        return "keeps no settings that can be read from here".to_owned();
+    }
     let missing: Vec<&str> =
-        GROUPS.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();
-    let oldest = GROUPS.iter().filter_map(|group| unit.read_at(group.key)).min();
+        groups.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();
+    let oldest = groups.iter().filter_map(|group| unit.read_at(group.key)).min();
     match (missing.as_slice(), oldest) {
         ([], Some(oldest)) => format!("all groups read {}", format::time_z(oldest)),
         (missing, _) => format!("not read: {}", missing.join(", ")),

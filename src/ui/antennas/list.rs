@@ -45,7 +45,7 @@ pub(super) fn show(
         }
         let Some((unit, form)) = of_this else { continue };
         y += 4.0;
-        for section in Section::ALL {
+        for section in Section::of(unit.antenna.make()) {
             let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
             y = place.bottom();
             if section_line(ui, place, section, unit, form) {
@@ -124,7 +124,7 @@ fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &Unit<'_>, form: &F
         let at = rect.with_min_x(right.x).with_max_x(rect.right());
         paint::name_text(ui, ("counts", section.title()), at, &name);
     }
-    if section == Section::Service && form.unlock.is_none() && said.is_empty() {
+    if section.is_service() && form.unlock.is_none() && said.is_empty() {
         icons::paint(ui.painter(), paint::square(right - vec2(8.0, 0.0), 14.0), Icon::Lock, t.t3);
     }
     clicked

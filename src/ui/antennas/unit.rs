@@ -5,7 +5,8 @@ use jiff::Timestamp;
 use crate::{
     app::{Model, antenna::AntennaModel},
     astro::time::add_seconds,
-    controller::settings::{GroupState, ReadFailure, Values},
+    controller::settings::{Group, GroupState, ReadFailure, Values},
+    driver::Intent,
 };
 
 /// A unit as this frame shows it, with what its form may do.
@@ -27,6 +28,11 @@ impl<'a> Unit<'a> {
 
     pub(super) fn name(&self) -> &'a str {
         &self.antenna.config.name
+    }
+
+    /// The description of one of its groups.
+    pub(super) fn description(&self, key: &str) -> Option<&'static Group> {
+        self.antenna.groups().iter().copied().find(|group| group.key == key)
     }
 
     pub(super) fn group(&self, key: &str) -> Option<&'a GroupState> {
@@ -60,8 +66,12 @@ impl<'a> Unit<'a> {
         self.read_at(key).is_some_and(|at| at >= add_seconds(self.model.now, -up_s))
     }
 
-    /// The unit's own program is on, or not known to be off.
+    /// The unit's own program is on, or not known to be off; a unit without one
+    /// is made to follow from here.
     pub(super) fn tracks(&self) -> bool {
+        if !self.antenna.make().capabilities.has_program {
+            return self.antenna.snapshot.intent == Intent::Track;
+        }
         self.antenna.snapshot.state.program.is_none_or(|program| program.enabled)
     }
 

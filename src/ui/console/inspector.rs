@@ -13,6 +13,7 @@ use crate::{
             button::{Button, SMALL_HEIGHT},
             paint,
         },
+        words,
     },
 };
 
@@ -87,7 +88,8 @@ fn title(line: &Line) -> String {
     };
     match line.frame().and_then(|frame| frame.command()) {
         Some((word, _)) => format!("{word} {kind}"),
-        None => "No known frame".to_owned(),
+        None if line.is_satrak() => "No known frame".to_owned(),
+        None => words::capitalised(kind),
     }
 }
 
@@ -129,7 +131,7 @@ fn bytes(ui: &mut Ui, line: &Line) {
     let wire = line.wire();
     let length = format::number(wire.length as f64, 0);
     let sum = match wire.finding {
-        Finding::Good if wire.is_shortened => "",
+        Finding::Good if wire.is_shortened || !line.is_satrak() => "",
         Finding::Good => ", checksum good",
         Finding::BadChecksum { .. } => ", checksum wrong",
         _ => "",

@@ -61,6 +61,11 @@ impl Line {
         frame(self.wire())
     }
 
+    /// It is a frame of a Satrak, good or not.
+    pub(super) fn is_satrak(&self) -> bool {
+        is_satrak(self.wire())
+    }
+
     /// hh:mm:ss with milliseconds, UTC.
     pub(super) fn time(&self) -> String {
         self.wire().at.to_zoned(TimeZone::UTC).strftime("%H:%M:%S.%3f").to_string()
@@ -131,13 +136,28 @@ fn frame(line: &WireLine) -> Option<Frame> {
     })
 }
 
+/// It begins as every frame of a Satrak does, and no other unit's.
+fn is_satrak(line: &WireLine) -> bool {
+    line.bytes.first() == Some(&b'$')
+}
+
+/// What a unit of another make was asked or has said stands in its bytes.
+fn foreign(direction: Direction, length: usize) -> Meaning {
+    let kind = if direction == Direction::Sent { "Request" } else { "Reply" };
+    let plural = if length == 1 { "" } else { "s" };
+    Meaning { tone: Tone::Plain, text: format!("{kind}, {length} byte{plural}") }
+}
+
 fn meaning(line: &WireLine) -> Meaning {
     let (tone, text) = match line.finding {
         Finding::Good => {
             return match (frame(line), line.direction) {
                 (Some(frame), Direction::Sent) => Meaning::of_request(&frame),
                 (Some(frame), Direction::Received) => Meaning::of_reply(&frame),
-                (None, _) => Meaning { tone: Tone::Caution, text: "Not in the document".into() },
+                (None, _) if is_satrak(line) => {
+                    Meaning { tone: Tone::Caution, text: "Not in the document".into() }
+                }
+                (None, direction) => foreign(direction, line.length),
             };
         }
         Finding::Known(says) => (Tone::Plain, says.to_owned()),
@@ -219,6 +239,13 @@ mod tests {
         wire.is_shortened = true;
         let line = line(0, wire);
         assert_eq!(line.meaning.text, "FTP source of the elements, values hidden");
+    }
+
+    #[test]
+    fn what_another_make_says_is_told_by_its_bytes() {
+        let line = line(0, wire(1, Direction::Received, "|h00OK"));
+        assert_eq!((line.meaning.tone, &*line.meaning.text), (Tone::Plain, "Reply, 8 bytes"));
+        assert!(!line.is_satrak() && line.frame().is_none());
     }
 
     #[test]

@@ -2,14 +2,14 @@
 //! before anything goes out, and nothing but questions goes out.
 
 use egui::{
-    Align, Align2, ComboBox, Key, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder,
+    Align, Align2, Color32, ComboBox, Key, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder,
     WidgetInfo, pos2, vec2,
 };
 
 use super::{PADDING, raw, typed};
 use crate::{
-    app::{Model, UiCommand},
-    controller::Question,
+    app::{Model, UiCommand, antenna::AntennaModel},
+    controller::{Question, satrak},
     driver,
     protocol::satrak::{Frame, Meaning, Query, Request},
     ui::{
@@ -30,6 +30,8 @@ const ANTENNA: f32 = 112.0;
 const PICK: f32 = 96.0;
 const SEND: f32 = 72.0;
 const FRAME: f32 = 240.0;
+const NO_QUESTIONS: &str =
+    "Questions are sent by hand to a Satrak only. This unit is asked all the time by itself.";
 
 /// Draws the line for the selected antenna.
 pub(super) fn show(
@@ -45,6 +47,10 @@ pub(super) fn show(
     let inner = rect.shrink2(vec2(PADDING, 12.0));
     let (line, below) = inner.split_top_bottom_at_y(inner.top() + BUTTON);
     antenna(ui, line.with_max_x(line.left() + ANTENNA), model);
+    let made = model.antenna().map(AntennaModel::make);
+    if made.is_some_and(|make| make.key != satrak::MAKE.key) {
+        return say(ui, below, Icon::Info, NO_QUESTIONS, t.t2);
+    }
     let send = line.with_min_x(line.right() - SEND);
     let frame = line.with_min_x(send.left() - GAP - FRAME).with_max_x(send.left() - GAP);
     let field = line.with_min_x(line.left() + ANTENNA + GAP).with_max_x(frame.left() - GAP);
@@ -72,11 +78,7 @@ pub(super) fn show(
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),
     };
-    let at = pos2(below.left() + 7.0, below.bottom() - 10.0);
-    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
-    let room = below.with_min_x(below.left() + 22.0).with_min_y(below.bottom() - 20.0);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
-    paint::name_text(ui, "send line", room, &words);
+    say(ui, below, icon, &words, colour);
 
     let button = Button::primary("Send").locked(ready.is_none());
     let is_clicked = button.show(ui, "send query", send).clicked();
@@ -84,6 +86,15 @@ pub(super) fn show(
         let command = driver::Command::Ask(Question::Satrak(query));
         commands.push(UiCommand::Antenna(model.selected_antenna, command));
     }
+}
+
+/// What is said below the line.
+fn say(ui: &Ui, below: Rect, icon: Icon, words: &str, colour: Color32) {
+    let at = pos2(below.left() + 7.0, below.bottom() - 10.0);
+    icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
+    let room = below.with_min_x(below.left() + 22.0).with_min_y(below.bottom() - 20.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), colour);
+    paint::name_text(ui, "send line", room, words);
 }
 
 /// Which antenna is asked: the one that is selected everywhere.

@@ -12,7 +12,7 @@ use crate::{
     station::Mount,
     ui::{
         format,
-        sky_plot::{self, Keyholes, Measured, OtherSatellite, SkyScene, Track},
+        sky_plot::{self, Bearing, Keyholes, Measured, OtherSatellite, SkyScene, Track},
         state_sentence::state_sentence,
     },
 };
@@ -82,6 +82,7 @@ pub(super) fn show(
             .and_then(|antenna| antenna.snapshot.state.measured)
             .and_then(|measured| measured.direction())
             .map(|direction| Measured { direction, lost: lost.as_deref() }),
+        bearing: antenna.and_then(|antenna| bearing(antenna, state, lost.as_deref())),
         predicted: antenna
             .and_then(|antenna| antenna.prediction)
             .map(|prediction| prediction.direction),
@@ -126,6 +127,26 @@ fn keyholes(antenna: &AntennaModel) -> Option<Keyholes> {
     Some(Keyholes {
         lower_axis_azimuth: Angle::from_degrees(lower_axis_azimuth_deg),
         radius: Angle::from_degrees(travel_from_deg.clamp(1.0, 45.0)),
+    })
+}
+
+/// The antenna while its azimuth is known, and its elevation is not.
+fn bearing<'a>(
+    antenna: &'a AntennaModel,
+    state: &OperateState,
+    lost: Option<&'a str>,
+) -> Option<Bearing<'a>> {
+    let pointing = antenna.snapshot.state.measured?.pointing;
+    if pointing.elevation.is_some() {
+        return None;
+    }
+    let target = state.card.drive.go_to.previewed();
+    Some(Bearing {
+        name: &antenna.config.name,
+        measured: Some(pointing.azimuth?),
+        commanded: antenna.snapshot.aim.and_then(|aim| aim.azimuth),
+        ghost: target.map(|target| Angle::from_degrees(target.azimuth_deg)),
+        lost,
     })
 }
 

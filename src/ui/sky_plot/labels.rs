@@ -33,6 +33,8 @@ pub(super) enum Key {
     Sun,
     /// The Moon.
     Moon,
+    /// The antenna of which only the azimuth is known.
+    Bearing,
     /// Name of a satellite that is not selected, by its catalogue number.
     Other(u32),
 }

@@ -54,7 +54,8 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
         }),
     ];
     let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
-    always.into_iter().chain(mask).chain([("Keyhole", keyhole as Sample)])
+    let keyhole = scene.keyholes.map(|_| ("Keyhole", keyhole as Sample));
+    always.into_iter().chain(mask).chain(keyhole)
 }
 
 fn mask(painter: &Painter, at: Pos2, t: &Tokens) {

@@ -2,7 +2,7 @@
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use super::{geometry::Dome, scene::SkyScene, track::Event};
+use super::{bearing, geometry::Dome, scene::SkyScene, track::Event};
 use crate::{
     astro::AzEl,
     ui::{format, tokens::Tokens},
@@ -79,6 +79,12 @@ pub(super) fn events_and_antenna(
             None => "Antenna".to_owned(),
         };
         note("antenna", measured.direction, &name);
+    }
+    if let Some(bearing) = &scene.bearing
+        && let (Some(azimuth), Some(at)) = (bearing.measured, bearing::mark(dome, bearing))
+    {
+        let words = bearing::words(bearing, azimuth);
+        name_mark(ui, canvas.with("bearing"), at, &format!("Antenna {words}, no elevation"));
     }
 }
 

@@ -35,6 +35,8 @@ pub struct SkyScene<'a> {
     pub beam_width: Angle,
     /// Where the antenna points.
     pub measured: Option<Measured<'a>>,
+    /// The antenna, while only its azimuth is known.
+    pub bearing: Option<Bearing<'a>>,
     /// Where the satellite was at the time of the measurement.
     pub predicted: Option<AzEl>,
     /// Measured minus predicted of the last 60 s in degrees, oldest first:
@@ -98,6 +100,21 @@ pub struct OtherSatellite<'a> {
 pub struct Measured<'a> {
     /// Where it pointed.
     pub direction: AzEl,
+    /// The age of the report, such as "14 s", once the link is lost.
+    pub lost: Option<&'a str>,
+}
+
+/// An antenna without a known elevation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bearing<'a> {
+    /// Name of the antenna.
+    pub name: &'a str,
+    /// Where it points.
+    pub measured: Option<Angle>,
+    /// Where it is told to point.
+    pub commanded: Option<Angle>,
+    /// Preview of a motion to here.
+    pub ghost: Option<Angle>,
     /// The age of the report, such as "14 s", once the link is lost.
     pub lost: Option<&'a str>,
 }

@@ -66,6 +66,7 @@ pub(super) fn empty() -> SkyScene<'static> {
         ghost: None,
         beam_width: Angle::from_degrees(0.88),
         measured: None,
+        bearing: None,
         predicted: None,
         recent_errors: &[],
         readout: &[],

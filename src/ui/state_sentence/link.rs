@@ -21,10 +21,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 .plain(format!("Not known: {name} is connected and being read.")),
         ),
         LinkState::Up { .. } | LinkState::Stale { .. } => None,
-        LinkState::Off => Some(
-            Spoken::new(SentenceKind::Holding)
-                .plain(format!("Not known: {name} is not connected.")),
-        ),
+        LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
         LinkState::Connecting { .. } => Some(
             Spoken::new(SentenceKind::Holding)
                 .plain(format!("Not known: connecting to {name} at {address}.")),
@@ -48,6 +45,21 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             )
         }
     }
+}
+
+/// Why nothing is asked, and what begins it.
+fn off(antenna: &AntennaModel) -> String {
+    let name = &antenna.config.name;
+    if antenna.make().capabilities.waits_for_word {
+        return format!(
+            "Not known: {name} is not connected. Nothing is asked of it before Connect, because \
+             that may take its panel from somebody who stands in front of it."
+        );
+    }
+    format!(
+        "Not known: {name} is not connected. Another program may use it. Connect takes up the \
+         link again."
+    )
 }
 
 /// The unit answers with numbers that cannot be read, and the likely cause.

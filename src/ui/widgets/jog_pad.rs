@@ -1,10 +1,11 @@
 //! Four keys that move an antenna as long as one of them is held.
 
 mod hold;
+mod keys;
 
 use std::time::Duration;
 
-use egui::{Align2, EventFilter, Key, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId};
+use egui::{Align2, EventFilter, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{
@@ -15,84 +16,10 @@ use crate::ui::{
 
 use hold::Frame;
 pub use hold::JogState;
+pub use keys::{JogDirection, JogKeys, KeyLabel};
 
 /// A held key is reported at least so often.
 const WHILE_HELD: Duration = Duration::from_millis(100);
-
-/// Where a key moves the antenna. On an az/el mount X is the azimuth and Y the
-/// elevation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum JogDirection {
-    /// Up the first axis.
-    XPlus,
-    /// Down the first axis.
-    XMinus,
-    /// Up the second axis.
-    YPlus,
-    /// Down the second axis.
-    YMinus,
-}
-
-impl JogDirection {
-    /// All directions in the order of Tab.
-    pub const ALL: [Self; 4] = [Self::YPlus, Self::XMinus, Self::XPlus, Self::YMinus];
-
-    /// Signs of the two axes.
-    pub fn signs(self) -> (i8, i8) {
-        match self {
-            Self::XPlus => (1, 0),
-            Self::XMinus => (-1, 0),
-            Self::YPlus => (0, 1),
-            Self::YMinus => (0, -1),
-        }
-    }
-
-    /// The direction that an arrow key stands for.
-    pub fn of_arrow(key: Key) -> Option<Self> {
-        Self::ALL.into_iter().find(|direction| direction.arrow() == key)
-    }
-
-    fn arrow(self) -> Key {
-        match self {
-            Self::XPlus => Key::ArrowRight,
-            Self::XMinus => Key::ArrowLeft,
-            Self::YPlus => Key::ArrowUp,
-            Self::YMinus => Key::ArrowDown,
-        }
-    }
-}
-
-/// What the keys are called, by the kind of mount.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum JogKeys {
-    /// X/Y mount.
-    #[default]
-    Xy,
-    /// Azimuth over elevation.
-    AzEl,
-    /// A rotator with one axis.
-    Rotator,
-}
-
-impl JogKeys {
-    /// The word on a key and its name, or nothing if there is no such key.
-    pub fn label(self, direction: JogDirection) -> Option<(&'static str, &'static str)> {
-        use JogDirection::{XMinus, XPlus, YMinus, YPlus};
-        match (self, direction) {
-            (Self::Xy, XPlus) => Some(("X+", "Jog X+")),
-            (Self::Xy, XMinus) => Some(("X−", "Jog X−")),
-            (Self::Xy, YPlus) => Some(("Y+", "Jog Y+")),
-            (Self::Xy, YMinus) => Some(("Y−", "Jog Y−")),
-            (Self::AzEl, XPlus) => Some(("Az →", "Jog azimuth up")),
-            (Self::AzEl, XMinus) => Some(("← Az", "Jog azimuth down")),
-            (Self::AzEl, YPlus) => Some(("El ↑", "Jog elevation up")),
-            (Self::AzEl, YMinus) => Some(("El ↓", "Jog elevation down")),
-            (Self::Rotator, XPlus) => Some(("CW", "Jog clockwise")),
-            (Self::Rotator, XMinus) => Some(("CCW", "Jog counterclockwise")),
-            (Self::Rotator, YPlus | YMinus) => None,
-        }
-    }
-}
 
 /// What the pad shows.
 #[derive(Debug, Clone, Copy, Default)]
@@ -103,8 +30,9 @@ pub struct JogModel<'a> {
     pub locked: bool,
     /// Directions in which a limit stops the antenna.
     pub blocked: &'a [JogDirection],
-    /// The rate that is asked for, in degrees per second.
-    pub asked_deg_s: f64,
+    /// How fast it is asked for, in a word or a number; empty where there is no
+    /// choice.
+    pub asked: &'a str,
     /// The measured rate of the axis that moves, in degrees per second.
     pub real_deg_s: Option<f64>,
 }
@@ -124,17 +52,18 @@ pub fn show(
     let mut frame = Frame::new(model.locked);
     let mut keys = Vec::new();
     for direction in JogDirection::ALL {
-        let Some((word, name)) = model.keys.label(direction) else { continue };
+        let label = model.keys.label(direction);
         let (x, y) = direction.signs();
         let reach = (rect.width() - side) / 2.0;
         let place =
             paint::square(rect.center() + Vec2::new(f32::from(x), -f32::from(y)) * reach, side);
         let free = !model.locked && !model.blocked.contains(&direction);
-        let response = paint::held_control(ui, ("jog", direction), place, free, name);
+        let name = format!("Jog {}", label.name);
+        let response = paint::held_control(ui, ("jog", direction), place, free, &name);
         if free {
             look_at(ui, &mut frame, direction, &response);
         }
-        keys.push((direction, word, free, response));
+        keys.push((direction, label, free, response));
     }
     frame.blocked = JogDirection::ALL
         .map(|direction| !keys.iter().any(|(at, _, free, _)| *at == direction && *free));
@@ -144,8 +73,8 @@ pub fn show(
         // Without a frame nobody would hear that the key is still held.
         ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
     }
-    for (direction, word, free, response) in &keys {
-        paint_key(ui, word, *free, model.locked, held == Some(*direction), response);
+    for (direction, label, free, response) in &keys {
+        paint_key(ui, *label, *free, model.locked, held == Some(*direction), response);
     }
     paint_middle(ui, rect, model, held.is_some());
     held
@@ -170,7 +99,7 @@ fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Respo
     }
 }
 
-fn paint_key(ui: &Ui, word: &str, free: bool, locked: bool, held: bool, response: &Response) {
+fn paint_key(ui: &Ui, label: KeyLabel, free: bool, locked: bool, held: bool, response: &Response) {
     let t = theme::tokens(ui);
     let rect = response.rect;
     let colour = if held {
@@ -185,9 +114,16 @@ fn paint_key(ui: &Ui, word: &str, free: bool, locked: bool, held: bool, response
         paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, colour));
         if locked { t.t3 } else { t.bad }
     };
-    let size = if word.chars().count() > 3 { 12.0 } else { 13.0 };
-    let font = text::sized(size, Weight::SemiBold);
-    paint::text(ui, rect.center(), Align2::CENTER_CENTER, word, font, colour);
+    let strong = text::sized(13.0, Weight::SemiBold);
+    if label.mark.is_empty() {
+        paint::text(ui, rect.center(), Align2::CENTER_CENTER, label.word, strong, colour);
+    } else {
+        let (above, below) = rect.split_top_bottom_at_fraction(0.5);
+        let (above, below) = (above.with_min_y(above.top() + 3.0), below);
+        paint::text(ui, above.center(), Align2::CENTER_CENTER, label.mark, strong, colour);
+        let room = below.with_max_y(below.bottom() - 3.0);
+        paint::text_in(ui, room, Align2::CENTER_CENTER, label.word, text::caption(), colour);
+    }
     paint::focus_ring(ui, response, RADIUS);
 }
 
@@ -205,7 +141,7 @@ fn paint_middle(ui: &Ui, rect: Rect, model: &JogModel<'_>, held: bool) {
         );
         (real, t.t1)
     } else {
-        (format!("{:.2}", model.asked_deg_s), t.t2)
+        (model.asked.to_owned(), t.t2)
     };
     let font = text::sized(12.0, Weight::SemiBold);
     paint::text(ui, rect.center(), Align2::CENTER_CENTER, words, font, colour);

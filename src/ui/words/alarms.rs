@@ -56,6 +56,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::Fault(kind) => {
             format!("{antenna}: {}. {}", super::fault_name(*kind), super::fault_advice(*kind))
         }
+        AlarmKind::Check(check) => format!("{antenna}: {}. {}", check.name, check.advice),
         AlarmKind::ClockOff(ahead_s) => {
             let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
             format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))

@@ -25,10 +25,8 @@ pub fn refusal(refusal: &Refusal) -> String {
             "Not sent: the unit has not said yet which faults it has. Try again.".to_owned()
         }
         Refusal::Limit { axis, plus } => {
-            let (sign, back) = if *plus { ("+", "−") } else { ("−", "+") };
-            format!(
-                "Not sent: {axis}{sign} limit switch is set. Jog {axis}{back} to leave the limit."
-            )
+            let (end, back) = (super::way(axis, *plus), super::way(axis, !*plus));
+            format!("Not sent: {end} limit switch is set. Jog {back} to leave the limit.")
         }
         Refusal::Nothing => "Not sent: no motion was asked for.".to_owned(),
         Refusal::TooFast { asked_deg_s, allowed_deg_s } => format!(

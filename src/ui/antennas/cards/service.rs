@@ -4,7 +4,7 @@ use egui::{Align2, Sense, Ui, vec2};
 
 use super::{Desk, fields, subtitle};
 use crate::ui::{
-    antennas::{form::Form, row, section, section::Section, unit::Unit},
+    antennas::{form::Form, row, section::Section, unit::Unit},
     format,
     icons::{self, Icon},
     text, theme,
@@ -17,11 +17,17 @@ use crate::ui::{
 const ABOUT: &str = "A wrong value here points the antenna wrong or moves it. Opens for 10 minutes \
                      after the station name is typed, while the antenna stands.";
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Desk<'_>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    section: Section,
+    desk: &mut Desk<'_>,
+) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     let lock = paint::square(rect.left_center() + vec2(8.0, 0.0), 16.0);
-    let title = Section::Service.title();
+    let title = section.title();
     if form.unlock.is_none() {
         icons::paint(ui.painter(), lock, Icon::Lock, t.t2);
     } else {
@@ -45,8 +51,11 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
     ui.add_space(4.0);
     row::note(ui, None, ABOUT, t.t2);
     row::head(ui);
-    for key in Section::Service.groups() {
-        subtitle(ui, section::group(key).map_or("", |group| group.title));
+    for key in section.groups() {
+        let own_title = unit.description(key).map_or("", |group| group.title);
+        if own_title != title {
+            subtitle(ui, own_title);
+        }
         fields(ui, unit, form, key, |_| true);
     }
 }

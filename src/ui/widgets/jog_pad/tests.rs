@@ -1,6 +1,6 @@
 use super::*;
 use crate::ui::widgets::testing;
-use egui::{Event, Pos2, pos2, vec2};
+use egui::{Event, Key, Pos2, pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
 
 #[derive(Default)]
@@ -17,7 +17,7 @@ fn pad(pad: Pad) -> Harness<'static, Pad> {
         let model = JogModel {
             locked: pad.locked,
             blocked: &pad.blocked,
-            asked_deg_s: 0.5,
+            asked: "0.50",
             real_deg_s: Some(0.48),
             ..JogModel::default()
         };
@@ -169,4 +169,13 @@ fn a_locked_pad_does_nothing() {
     window.drag_at(key_at(&window, "Jog Y+"));
     window.run_steps(2);
     assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn the_keys_say_what_they_turn_on_every_mount() {
+    let names = |keys: JogKeys| JogDirection::ALL.map(|direction| keys.label(direction).name);
+    assert_eq!(names(JogKeys::Xy), ["Y+", "X−", "X+", "Y−"]);
+    assert_eq!(names(JogKeys::AzEl), ["up", "counterclockwise", "clockwise", "down"]);
+    let alone = ["Other +", "counterclockwise", "clockwise", "Other −"];
+    assert_eq!(names(JogKeys::AzOther), alone);
 }

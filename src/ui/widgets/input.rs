@@ -4,11 +4,11 @@ use egui::{
     Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
 };
 
+use super::paint;
 use crate::ui::{
     icons::{self, Icon},
     text::{self, Weight},
     theme,
-    widgets::paint,
 };
 
 const RADIUS: u8 = 4;
@@ -16,12 +16,14 @@ const RADIUS: u8 = 4;
 const INSET: f32 = 6.0;
 
 /// A field at its place.
-pub(super) struct Input<'a> {
-    pub(super) rect: Rect,
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// Where it stands.
+    pub rect: Rect,
     /// What it is called.
-    pub(super) name: &'a str,
+    pub name: &'a str,
     /// The border of a field that is not as the unit holds it.
-    pub(super) border: Option<Color32>,
+    pub border: Option<Color32>,
 }
 
 impl Input<'_> {
@@ -40,7 +42,7 @@ impl Input<'_> {
     }
 
     /// Shows a text to type; `true` when it was changed.
-    pub(super) fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
+    pub fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
         let t = theme::tokens(ui);
         let id = ui.make_persistent_id(("input", self.name));
         let stroke = self.stroke(ui, ui.memory(|memory| memory.has_focus(id)));
@@ -62,7 +64,7 @@ impl Input<'_> {
     }
 
     /// Shows one of a few; returns another one that was chosen.
-    pub(super) fn choice(&self, ui: &Ui, chosen: &str, offered: &[&str]) -> Option<String> {
+    pub fn choice(&self, ui: &Ui, chosen: &str, offered: &[&str]) -> Option<String> {
         let t = theme::tokens(ui);
         let salt = ("input", self.name);
         let response = paint::control(ui, salt, self.rect, Role::ComboBox, true, self.name);
@@ -88,7 +90,7 @@ impl Input<'_> {
     }
 
     /// Shows what cannot be changed here.
-    pub(super) fn inert(&self, ui: &Ui, words: &str) {
+    pub fn inert(&self, ui: &Ui, words: &str) {
         let t = theme::tokens(ui);
         paint::dashed_border(ui, self.rect, f32::from(RADIUS), (1.0, t.edge));
         let room = self.rect.shrink2(vec2(INSET, 0.0));

@@ -1,0 +1,145 @@
+//! What to tell one axis.
+
+use super::{drives::Drives, path::Path};
+use crate::station::Following;
+
+/// How often the time of arrival is improved.
+const ROUNDS: usize = 4;
+/// Angles come from decimal degrees: allow for the rounding.
+const ROUNDING_DEG: f64 = 1e-9;
+/// No drive stops further before its goal than this, degrees.
+const MOST_IGNORED_DEG: f64 = 10.0;
+
+/// An axis as it was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisNow {
+    /// As the mount counts, degrees; `None` when it is not known.
+    pub position_deg: Option<f64>,
+    /// It has come to rest since the last command.
+    pub stands: bool,
+}
+
+impl AxisNow {
+    fn rest_deg(self) -> Option<f64> {
+        self.position_deg.filter(|_| self.stands)
+    }
+}
+
+/// What an axis was told last.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Told {
+    /// Degrees; `None` when it is not known.
+    to_deg: Option<f64>,
+    /// Where it stood until then, degrees.
+    from_deg: Option<f64>,
+}
+
+/// What an axis should do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wish {
+    position_deg: f64,
+    /// It would be off by too much otherwise.
+    pub(super) is_due: bool,
+}
+
+/// One axis of an antenna that follows.
+#[derive(Debug)]
+pub(super) struct Axis {
+    /// The first or the second, 0 or 1.
+    index: usize,
+    drives: Drives,
+    following: Following,
+    pub(super) told: Told,
+    /// The longest way that it was seen not to set out for, degrees.
+    ignored_deg: f64,
+}
+
+impl Axis {
+    pub(super) fn new(index: usize, drives: Drives, following: Following) -> Self {
+        Self { index, drives, following, told: Told::default(), ignored_deg: 0.0 }
+    }
+
+    /// A drive may stop some degrees early and let the axis run out. Then it does
+    /// not set out at all for a way that is as short.
+    pub(super) fn learn(&mut self, now: AxisNow) {
+        let Some(at_deg) = now.rest_deg() else { return };
+        let Some((from_deg, to_deg)) = self.told.from_deg.take().zip(self.told.to_deg) else {
+            return;
+        };
+        let way_deg = (to_deg - from_deg).abs();
+        let has_stayed = (at_deg - from_deg).abs() < self.drives.step_deg / 2.0;
+        if has_stayed && way_deg <= MOST_IGNORED_DEG {
+            self.ignored_deg = self.ignored_deg.max(way_deg);
+        }
+    }
+
+    /// Where it should go, and whether it is time to say so.
+    pub(super) fn wish(&self, path: &Path, now_s: f64, now: AxisNow) -> Wish {
+        let period_s = self.following.period().as_secs_f64();
+        let begins_s = now_s + self.following.latency_s;
+        let lead_deg = self.band_deg() - self.half_step_deg();
+        let mut way_s = 0.0_f64;
+        let mut position_deg = 0.0;
+        let mut from_s = begins_s;
+        for _ in 0..ROUNDS {
+            // It turns first and then stands: its mean error over the period is
+            // least for where the target is in the middle of both.
+            let middle_s = begins_s + way_s.max(f64::midpoint(period_s, way_s));
+            from_s = middle_s - period_s / 2.0;
+            // A swing is made in one go.
+            let wanted_deg = path.swing_end_deg(self.index, from_s).unwrap_or_else(|| {
+                let to_s = from_s + period_s;
+                let (least, most) = path.longest_span_deg(self.index, from_s, to_s, 2.0 * lead_deg);
+                f64::midpoint(least, most)
+            });
+            position_deg = self.far_enough_deg(wanted_deg, now);
+            let way_deg = now.position_deg.map_or(0.0, |at_deg| (position_deg - at_deg).abs());
+            way_s = way_deg / self.drives.limits.maximum_rate_deg_s;
+        }
+        let is_told = |told_deg: f64| (told_deg - position_deg).abs() <= ROUNDING_DEG;
+        let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
+        let is_near = |at_deg: f64| {
+            (at_deg - least).abs().max((at_deg - most).abs()) <= self.band_deg() + ROUNDING_DEG
+        };
+        let stays_well = now.rest_deg().or(self.told.to_deg).is_some_and(is_near);
+        Wish { position_deg, is_due: !stays_well && !self.told.to_deg.is_some_and(is_told) }
+    }
+
+    /// What to tell it while at least one axis has to be told something; `None`
+    /// when it is left alone.
+    pub(super) fn command(&self, wish: Wish, now: AxisNow) -> Option<f64> {
+        if wish.is_due || !self.drives.takes_single_axes() {
+            return Some(wish.position_deg);
+        }
+        // An axis that stands well is spared; one under way goes on.
+        if now.stands { None } else { self.told.to_deg.or(Some(wish.position_deg)) }
+    }
+
+    /// What is known of it once it was told `position_deg`.
+    pub(super) fn told(&self, position_deg: Option<f64>, now: AxisNow) -> Told {
+        let told = |to_deg| Told { to_deg: Some(to_deg), from_deg: now.rest_deg() };
+        position_deg.map_or(self.told, told)
+    }
+
+    /// How far off it may be before it is told a new position. It is sent as far
+    /// ahead of the target, so that it is as far off on either side.
+    fn band_deg(&self) -> f64 {
+        let least_deg = self.ignored_deg / 2.0 + self.half_step_deg();
+        self.following.dead_band_deg.max(least_deg)
+    }
+
+    fn half_step_deg(&self) -> f64 {
+        self.drives.step_deg / 2.0
+    }
+
+    /// The nearest position that can be told, and for which it will set out.
+    fn far_enough_deg(&self, wanted_deg: f64, now: AxisNow) -> f64 {
+        let near_deg = self.drives.tellable_deg(self.index, wanted_deg);
+        let Some(at_deg) = now.rest_deg() else { return near_deg };
+        if self.ignored_deg <= 0.0 || (near_deg - at_deg).abs() > self.ignored_deg {
+            return near_deg;
+        }
+        let way_deg = (self.ignored_deg + self.drives.step_deg).copysign(wanted_deg - at_deg);
+        self.drives.tellable_deg(self.index, at_deg + way_deg)
+    }
+}

@@ -1,0 +1,203 @@
+//! The two drives of an antenna: where they have to stand to point somewhere,
+//! and how they are told.
+
+use crate::{
+    astro::{
+        Angle, AzEl,
+        xy_mount::{self, AxisAngles},
+    },
+    plan::{AzimuthRange, AzimuthRoute, Sample},
+    station::{MotionLimits, Mount},
+};
+
+/// Highest elevation that is commanded, degrees: no mount is tipped over.
+const HIGHEST_DEG: f64 = 90.0;
+
+/// What the drives of an antenna can do, as far as positions go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drives {
+    /// How the axes are arranged.
+    pub mount: Mount,
+    /// What the operator allows.
+    pub limits: MotionLimits,
+    /// Positions are whole numbers of this many degrees; 0 for any.
+    pub step_deg: f64,
+    /// There is an elevation to command.
+    pub has_elevation: bool,
+}
+
+/// A position to command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetPoint {
+    /// On an azimuth axis its position, which may lie beyond a turn; `None`
+    /// leaves it where it stands.
+    pub azimuth: Option<Angle>,
+    /// `None` leaves it as it is.
+    pub elevation: Option<Angle>,
+}
+
+impl Drives {
+    /// Where both axes have to stand along `samples`, degrees as the mount
+    /// counts. The azimuth axis begins on the turn that lasts, of several the one
+    /// nearest to `azimuth_now_deg`. What lies out of reach is waited for as near
+    /// as can be.
+    pub(super) fn positions(
+        &self,
+        samples: &[Sample],
+        azimuth_now_deg: Option<f64>,
+    ) -> [Vec<f64>; 2] {
+        let (lowest_deg, highest_deg) = self.elevations_deg();
+        let reachable = |sample: &Sample| {
+            let elevation = sample.direction.elevation_deg().clamp(lowest_deg, highest_deg);
+            AzEl { elevation: Angle::from_degrees(elevation), ..sample.direction }
+        };
+        match self.mount {
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+                let axes = samples.iter().map(|sample| {
+                    let axes = xy_mount::axes_from_azel(reachable(sample), lower_axis);
+                    self.within_travel([axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0))
+                });
+                axes.map(|[lower, upper]| (lower, upper)).unzip().into()
+            }
+            Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
+                let elevations = samples.iter().map(|sample| reachable(sample).elevation_deg());
+                let azimuths = match AzimuthRange::new(azimuth_from_deg, azimuth_to_deg) {
+                    Ok(range) => AzimuthRoute::along(samples, range, azimuth_now_deg)
+                        .positions_deg()
+                        .map(|axis_deg| axis_deg.clamp(azimuth_from_deg, azimuth_to_deg))
+                        .collect(),
+                    Err(_) => vec![azimuth_from_deg; samples.len()],
+                };
+                [azimuths, elevations.collect()]
+            }
+        }
+    }
+
+    /// What an error of the first axis counts for in the sky while the second
+    /// stands at `second_deg`.
+    pub(super) fn weight(&self, second_deg: f64) -> f64 {
+        let second = match self.mount {
+            Mount::Xy { .. } => second_deg - 90.0,
+            Mount::AzEl { .. } => second_deg,
+        };
+        second.to_radians().cos().powi(2)
+    }
+
+    /// The nearest position that can be told to an axis, 0 or 1.
+    pub(super) fn tellable_deg(&self, axis: usize, position_deg: f64) -> f64 {
+        let (from_deg, to_deg) =
+            self.mount.travel_deg().get(axis).copied().unwrap_or((f64::MIN, f64::MAX));
+        let (from_deg, to_deg) = match (self.mount, axis) {
+            (Mount::AzEl { .. }, 1) => self.elevations_deg(),
+            _ => (from_deg, to_deg),
+        };
+        // An X/Y mount is told a direction, in which no axis has a step.
+        if self.step_deg <= 0.0 || matches!(self.mount, Mount::Xy { .. }) {
+            return position_deg.clamp(from_deg, to_deg);
+        }
+        let (first, last) = ((from_deg / self.step_deg).ceil(), (to_deg / self.step_deg).floor());
+        if first > last {
+            return position_deg.clamp(from_deg, to_deg);
+        }
+        (position_deg / self.step_deg).round().clamp(first, last) * self.step_deg
+    }
+
+    /// The command that brings the axes to these positions; an axis of an az/el
+    /// mount with `None` is left where it is.
+    pub(super) fn set_point(&self, [first, second]: [Option<f64>; 2]) -> SetPoint {
+        match self.mount {
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                let [lower, upper] =
+                    [first, second].map(|axis| Angle::from_degrees(axis.unwrap_or(90.0) - 90.0));
+                let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+                let direction = xy_mount::azel_from_axes(AxisAngles { lower, upper }, lower_axis);
+                let (lowest_deg, highest_deg) = self.elevations_deg();
+                let elevation = direction.elevation_deg().clamp(lowest_deg, highest_deg);
+                SetPoint {
+                    azimuth: Some(direction.azimuth),
+                    elevation: Some(Angle::from_degrees(elevation)),
+                }
+            }
+            Mount::AzEl { .. } => SetPoint {
+                azimuth: first.map(Angle::from_degrees),
+                elevation: second.filter(|_| self.has_elevation).map(Angle::from_degrees),
+            },
+        }
+    }
+
+    /// Whether each axis can be told without the other.
+    pub(super) fn takes_single_axes(&self) -> bool {
+        matches!(self.mount, Mount::AzEl { .. })
+    }
+
+    /// Whether the antenna may point as low as `direction`.
+    pub fn may_reach(&self, direction: AzEl) -> bool {
+        !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
+    }
+
+    fn elevations_deg(&self) -> (f64, f64) {
+        let floor_deg = self.limits.minimum_elevation_deg;
+        let (lowest_deg, highest_deg) = match self.mount {
+            Mount::Xy { .. } => (floor_deg, HIGHEST_DEG),
+            Mount::AzEl { elevation_from_deg, elevation_to_deg, .. } => {
+                (floor_deg.max(elevation_from_deg), elevation_to_deg.min(HIGHEST_DEG))
+            }
+        };
+        (lowest_deg, highest_deg.max(lowest_deg))
+    }
+
+    fn within_travel(&self, axes_deg: [f64; 2]) -> [f64; 2] {
+        let [(a, b), (c, d)] = self.mount.travel_deg();
+        let [first, second] = axes_deg;
+        [first.max(a).min(b), second.max(c).min(d)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::station::Antenna;
+
+    fn drives(antenna: &Antenna, step_deg: f64) -> Drives {
+        Drives { mount: antenna.mount, limits: antenna.limits, step_deg, has_elevation: true }
+    }
+
+    fn at(azimuth_deg: f64, elevation_deg: f64) -> Sample {
+        let direction = AzEl::from_degrees(azimuth_deg, elevation_deg);
+        Sample { time: jiff::Timestamp::UNIX_EPOCH, direction }
+    }
+
+    #[test]
+    fn a_set_point_points_where_the_axes_do_on_either_mount() {
+        for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
+            let drives = drives(&antenna, 0.0);
+            let sample = at(213.0, 41.0);
+            let [first, second] = drives.positions(&[sample], None);
+            let point = drives.set_point([Some(first[0]), Some(second[0])]);
+            let direction =
+                AzEl { azimuth: point.azimuth.unwrap(), elevation: point.elevation.unwrap() };
+            assert!(direction.separation(sample.direction).degrees() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn below_the_floor_the_elevation_waits_at_it() {
+        for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
+            let drives = drives(&antenna, 0.0);
+            let [first, second] = drives.positions(&[at(90.0, 1.0)], None);
+            let point = drives.set_point([Some(first[0]), Some(second[0])]);
+            assert!((point.elevation.unwrap().degrees() - 5.0).abs() < 1e-9);
+            assert!((point.azimuth.unwrap().degrees() - 90.0).abs() < 1e-9);
+            assert!(!drives.may_reach(AzEl::from_degrees(90.0, 1.0)));
+        }
+    }
+
+    #[test]
+    fn whole_steps_stay_within_the_travel() {
+        let drives = drives(&Antenna::genius("", ""), 1.0);
+        assert_eq!(drives.tellable_deg(0, 359.7).to_bits(), 360.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(0, 12.4).to_bits(), 12.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(1, 92.0).to_bits(), 90.0_f64.to_bits());
+    }
+}

@@ -1,0 +1,189 @@
+//! Where both axes have to stand along a pass, worked out before it begins.
+
+use jiff::Timestamp;
+
+use super::{drives::Drives, target::Course, within_rate::within_rate};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    plan::Sample,
+};
+
+/// Between two points of a path at least, seconds.
+const LEAST_STEP_S: f64 = 0.5;
+/// A path has so many points at most.
+const MOST_POINTS: f64 = 2400.0;
+/// An axis that turns faster than this share of its rate is swinging: it comes
+/// from one place to another as fast as it can.
+const FULL_RATE: f64 = 0.999;
+
+/// Where both axes have to stand, at equal intervals, never faster than they
+/// turn. Before its beginning and after its end they stand.
+#[derive(Debug, Clone)]
+pub(super) struct Path {
+    from: Timestamp,
+    to: Timestamp,
+    step_s: f64,
+    /// Degrees an axis turns in a step at its full rate.
+    most_deg: f64,
+    axes: [Vec<f64>; 2],
+}
+
+impl Path {
+    /// Along `course` from `from` to `to`, ends early where the target decays.
+    /// `None` where it has done so already.
+    pub(super) fn along(
+        course: &Course,
+        drives: &Drives,
+        (from, to): (Timestamp, Timestamp),
+        azimuth_now_deg: Option<f64>,
+    ) -> Option<Self> {
+        let span_s = seconds_between(from, to).max(0.0);
+        let step_s = (span_s / MOST_POINTS).max(LEAST_STEP_S);
+        let steps = (span_s / step_s).ceil() as u32;
+        let samples: Vec<Sample> = (0..=steps)
+            .map_while(|step| {
+                let time = add_seconds(from, f64::from(step) * step_s);
+                course.direction(time).map(|direction| Sample { time, direction })
+            })
+            .collect();
+        let most_deg = drives.limits.maximum_rate_deg_s * step_s;
+        let [first, second] = drives.positions(&samples, azimuth_now_deg);
+        let weight: Vec<f64> = second.iter().map(|at| drives.weight(*at)).collect();
+        let alike = vec![1.0; second.len()];
+        let axes = [within_rate(&first, &weight, most_deg), within_rate(&second, &alike, most_deg)];
+        let to = samples.last()?.time;
+        Some(Self { from, to, step_s, most_deg, axes })
+    }
+
+    /// When it ends.
+    pub(super) fn to(&self) -> Timestamp {
+        self.to
+    }
+
+    /// Seconds from its beginning.
+    pub(super) fn seconds(&self, at: Timestamp) -> f64 {
+        seconds_between(self.from, at)
+    }
+
+    /// The lowest and the highest position of an axis between two times, both in
+    /// seconds from the beginning, the earlier first.
+    pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
+        let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
+        let between = self.between(axis, from_s, to_s);
+        between.fold((start.min(end), start.max(end)), widened)
+    }
+
+    /// The same, and for as much longer as the span stays within `within_deg`.
+    pub(super) fn longest_span_deg(
+        &self,
+        axis: usize,
+        from_s: f64,
+        to_s: f64,
+        within_deg: f64,
+    ) -> (f64, f64) {
+        let mut span = self.span_deg(axis, from_s, to_s);
+        for at in self.between(axis, to_s, f64::INFINITY) {
+            let wider = widened(span, at);
+            if wider.1 - wider.0 > within_deg {
+                break;
+            }
+            span = wider;
+        }
+        span
+    }
+
+    /// Where an axis ends up that is swinging at this time; `None` when it is not.
+    pub(super) fn swing_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
+        let first = self.index(at_s);
+        let rest = self.axes.get(axis)?.get(first..)?;
+        let swings = |pair: &&[f64]| {
+            let [before, after] = pair else { return false };
+            (after - before).abs() >= FULL_RATE * self.most_deg
+        };
+        let grows = |pair: &[f64]| {
+            let [before, after] = pair else { return false };
+            after > before
+        };
+        let begun = rest.windows(2).next().filter(swings)?;
+        let steps = rest.windows(2).take_while(swings);
+        let steps = steps.take_while(|pair| grows(pair) == grows(begun)).count();
+        rest.get(steps).copied()
+    }
+
+    fn position_deg(&self, axis: usize, at_s: f64) -> f64 {
+        let Some(points) = self.axes.get(axis) else { return 0.0 };
+        let first = self.index(at_s);
+        let before = points.get(first).copied().unwrap_or_default();
+        let after = points.get(first + 1).copied().unwrap_or(before);
+        let share = (at_s / self.step_s - first as f64).clamp(0.0, 1.0);
+        before + (after - before) * share
+    }
+
+    /// The points strictly between two times.
+    fn between(&self, axis: usize, from_s: f64, to_s: f64) -> impl Iterator<Item = f64> {
+        let points = self.axes.get(axis).map(Vec::as_slice).unwrap_or_default();
+        let first = (from_s / self.step_s).floor().max(-1.0) + 1.0;
+        let after = (to_s / self.step_s).ceil().clamp(0.0, points.len() as f64);
+        points.get(first as usize..after as usize).unwrap_or_default().iter().copied()
+    }
+
+    /// The point at or before this time.
+    fn index(&self, at_s: f64) -> usize {
+        let last = self.axes[0].len().saturating_sub(1);
+        ((at_s / self.step_s).floor().max(0.0) as usize).min(last)
+    }
+}
+
+fn widened((least, most): (f64, f64), at: f64) -> (f64, f64) {
+    (least.min(at), most.max(at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rises by a degree a second for ten seconds, then swings down at 5 degrees
+    /// a second for four.
+    fn path() -> Path {
+        let up = (0..=20).map(|step| f64::from(step) * 0.5);
+        let down = (1..=8).map(|step| 10.0 - 2.5 * f64::from(step));
+        let axis: Vec<f64> = up.chain(down).chain([-10.0; 4]).collect();
+        let from = Timestamp::UNIX_EPOCH;
+        Path {
+            from,
+            to: add_seconds(from, 16.0),
+            step_s: 0.5,
+            most_deg: 2.5,
+            axes: [axis.clone(), axis],
+        }
+    }
+
+    #[test]
+    fn between_its_points_it_is_straight_and_beyond_its_ends_it_stands() {
+        let path = path();
+        for (at_s, wanted) in [(-9.0, 0.0), (0.25, 0.25), (10.1, 9.5), (99.0, -10.0)] {
+            let at = path.position_deg(0, at_s);
+            assert!((at - wanted).abs() < 1e-9, "{at_s} {at}");
+        }
+    }
+
+    #[test]
+    fn a_span_holds_every_position_between_two_times() {
+        let path = path();
+        assert_eq!(path.span_deg(0, 9.0, 11.0), (5.0, 10.0));
+        assert_eq!(path.span_deg(0, -5.0, -1.0), (0.0, 0.0));
+        assert_eq!(path.span_deg(1, 50.0, 60.0), (-10.0, -10.0));
+        assert_eq!(path.longest_span_deg(0, -5.0, -1.0, 3.0), (0.0, 3.0));
+        assert_eq!(path.longest_span_deg(0, 9.0, 11.0, 3.0), (5.0, 10.0));
+    }
+
+    #[test]
+    fn a_swing_is_known_by_its_rate_and_its_end() {
+        let path = path();
+        assert_eq!(path.swing_end_deg(0, 3.0), None);
+        assert_eq!(path.swing_end_deg(0, 10.2), Some(-10.0));
+        assert_eq!(path.swing_end_deg(0, 13.9), Some(-10.0));
+        assert_eq!(path.swing_end_deg(0, 14.1), None);
+        assert_eq!(path.swing_end_deg(0, 99.0), None);
+    }
+}

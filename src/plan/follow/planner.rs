@@ -1,0 +1,133 @@
+//! What to command next.
+
+use jiff::Timestamp;
+
+use super::{
+    Follow,
+    axis::{Axis, AxisNow, Told},
+    drives::{Drives, SetPoint},
+    path::Path,
+    target::Course,
+};
+use crate::{
+    astro::{
+        AzEl,
+        time::{add_seconds, seconds_between},
+    },
+    orbit::PropagationError,
+    station::Following,
+};
+
+/// A path is worked out for this long at most, seconds.
+const PATH_S: f64 = 3.0 * 3600.0;
+/// A path is continued this long before it ends, beyond what a command looks
+/// ahead, seconds.
+const MARGIN_S: f64 = 60.0;
+
+/// What to command now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Next {
+    /// The command.
+    pub set_point: SetPoint,
+    told: [Told; 2],
+}
+
+/// Plans the commands for one target. Time and positions come in.
+#[derive(Debug)]
+pub struct Planner {
+    follow: Follow,
+    course: Course,
+    drives: Drives,
+    following: Following,
+    /// With the end of the pass that it belongs to.
+    path: Option<(Path, Timestamp)>,
+    axes: [Axis; 2],
+}
+
+impl Planner {
+    /// For `follow`; an error where its elements describe no orbit.
+    pub fn new(
+        follow: Follow,
+        drives: Drives,
+        following: Following,
+    ) -> Result<Self, PropagationError> {
+        let course = Course::new(&follow.target, follow.site)?;
+        let axes = [0, 1].map(|index| Axis::new(index, drives, following));
+        Ok(Self { follow, course, drives, following, path: None, axes })
+    }
+
+    /// What is followed.
+    pub fn follow(&self) -> &Follow {
+        &self.follow
+    }
+
+    /// Where the target stands at `at`, if the antenna may point as low as that;
+    /// `None` once it has decayed.
+    pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
+        self.course.direction(at).filter(|direction| self.drives.may_reach(*direction))
+    }
+
+    /// What to command at `now` so that the antenna is right when the next look
+    /// comes; `None` while what it was told, or where it stands, is good enough.
+    /// An error once the target is nowhere any more.
+    pub fn look(
+        &mut self,
+        now: Timestamp,
+        axes: [AxisNow; 2],
+    ) -> Result<Option<Next>, PropagationError> {
+        let [first_now, second_now] = axes;
+        if !self.has_path(now) {
+            let found = self.new_path(now, first_now.position_deg);
+            self.path = Some(found.ok_or(PropagationError::Decayed)?);
+        }
+        let Some((path, _)) = &self.path else { return Ok(None) };
+        let now_s = path.seconds(now);
+        let [first, second] = &mut self.axes;
+        first.learn(first_now);
+        second.learn(second_now);
+        let first_wish = first.wish(path, now_s, first_now);
+        let second_wish = second.wish(path, now_s, second_now);
+        let second_is_due = second_wish.is_due && self.drives.has_elevation;
+        if !first_wish.is_due && !second_is_due {
+            return Ok(None);
+        }
+        let first_deg = first.command(first_wish, first_now);
+        let second_deg = second.command(second_wish, second_now);
+        Ok(Some(Next {
+            set_point: self.drives.set_point([first_deg, second_deg]),
+            told: [first.told(first_deg, first_now), second.told(second_deg, second_now)],
+        }))
+    }
+
+    /// `next` was sent.
+    pub fn sent(&mut self, next: Next) {
+        for (axis, told) in self.axes.iter_mut().zip(next.told) {
+            axis.told = told;
+        }
+    }
+
+    /// It is not known any more what the antenna was told.
+    pub fn forget_sent(&mut self) {
+        for axis in &mut self.axes {
+            axis.told = Told::default();
+        }
+    }
+
+    fn has_path(&self, now: Timestamp) -> bool {
+        let Some((path, ends)) = &self.path else { return false };
+        let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
+        let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
+        now < *ends && !is_short
+    }
+
+    fn new_path(&self, now: Timestamp, azimuth_deg: Option<f64>) -> Option<(Path, Timestamp)> {
+        let always = (now, Timestamp::MAX);
+        let (aos, los) = self.follow.pass(now).unwrap_or(always);
+        let from = aos.max(now);
+        let to = los.min(add_seconds(from, PATH_S));
+        Some((Path::along(&self.course, &self.drives, (from, to), azimuth_deg)?, los))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,225 @@
+use std::collections::VecDeque;
+
+use super::*;
+use crate::{
+    astro::{Angle, Site},
+    orbit::{Pass, PassSearch, Propagator, bundled, passes},
+    plan::{FollowStats, Target},
+    station::{AfterPass, Antenna, MotionLimits, Mount},
+};
+
+/// How finely the metal is simulated, seconds.
+const TICK_S: f64 = 0.05;
+
+/// Two axes that go to where they were told, at their rate and after a while.
+struct Metal {
+    axes_deg: [f64; 2],
+    goals_deg: [f64; 2],
+    orders: VecDeque<(f64, [Option<f64>; 2])>,
+    rate_deg_s: f64,
+    latency_s: f64,
+    /// An axis does not set out for a way as short as this, degrees.
+    ignored_deg: f64,
+}
+
+impl Metal {
+    fn tell(&mut self, now_s: f64, point: SetPoint) {
+        let axes = [point.azimuth, point.elevation].map(|axis| axis.map(Angle::degrees));
+        self.orders.push_back((now_s + self.latency_s, axes));
+    }
+
+    fn advance(&mut self, now_s: f64) {
+        while let Some((_, axes)) = self.orders.pop_front_if(|(at_s, _)| *at_s <= now_s) {
+            let each = self.goals_deg.iter_mut().zip(axes).zip(self.axes_deg);
+            for ((goal, told), at) in each {
+                let is_reached = *goal == at;
+                let told = told.filter(|told| !is_reached || (told - at).abs() > self.ignored_deg);
+                *goal = told.unwrap_or(*goal);
+            }
+        }
+        for (axis, goal) in self.axes_deg.iter_mut().zip(self.goals_deg) {
+            let most_deg = self.rate_deg_s * TICK_S;
+            *axis += (goal - *axis).clamp(-most_deg, most_deg);
+        }
+    }
+
+    fn now(&self) -> [AxisNow; 2] {
+        let stands =
+            |axis: usize| self.orders.is_empty() && self.axes_deg[axis] == self.goals_deg[axis];
+        [0, 1].map(|axis| AxisNow { position_deg: Some(self.axes_deg[axis]), stands: stands(axis) })
+    }
+}
+
+struct Run {
+    stats: FollowStats,
+    azimuths_deg: Vec<f64>,
+}
+
+fn site() -> Site {
+    Site::new(41.01, 29.17, 100.0).unwrap()
+}
+
+fn azel(range_deg: (f64, f64), rate_deg_s: f64, step_deg: f64) -> Drives {
+    let antenna = Antenna::rc2000c("", "");
+    Drives {
+        mount: Mount::AzEl {
+            azimuth_from_deg: range_deg.0,
+            azimuth_to_deg: range_deg.1,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        },
+        limits: MotionLimits {
+            minimum_elevation_deg: 0.0,
+            maximum_rate_deg_s: rate_deg_s,
+            ..antenna.limits
+        },
+        step_deg,
+        has_elevation: true,
+    }
+}
+
+fn following(period_s: f64, dead_band_deg: f64) -> Following {
+    Following { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
+}
+
+/// The first pass of a satellite in three days for which this holds.
+fn pass_where(is_it: impl Fn(&Propagator, &Pass) -> bool) -> (Target, Pass) {
+    let catalog = bundled().unwrap();
+    for number in [43013, 25544, 37849, 25994, 27424, 49260] {
+        let elements = catalog.get(number).unwrap();
+        let propagator = Propagator::new(elements).unwrap();
+        let from = elements.epoch();
+        let search = PassSearch::new(site(), from, add_seconds(from, 10.0 * 86_400.0));
+        for pass in passes(&propagator, &search, &|| false) {
+            if !pass.starts_before && is_it(&propagator, &pass) {
+                return (Target::Satellite(Box::new(elements.clone())), pass);
+            }
+        }
+    }
+    panic!("no such pass")
+}
+
+fn goes_through_north(propagator: &Propagator, pass: &Pass) -> bool {
+    let look = |share: f64| {
+        let at = add_seconds(pass.aos.time, pass.duration_s() * share);
+        propagator.look_from(site(), at).unwrap().direction.azimuth_deg()
+    };
+    let azimuths: Vec<f64> = (0..=50).map(|step| look(f64::from(step) / 50.0)).collect();
+    let crossing = azimuths.windows(2).position(|two| (two[1] - two[0]).abs() > 180.0);
+    crossing.is_some_and(|at| (15..35).contains(&at))
+}
+
+fn max_deg(pass: &Pass) -> f64 {
+    pass.max_elevation().degrees()
+}
+
+fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run {
+    run_with(target, pass, drives, following, 0.0)
+}
+
+fn run_with(
+    target: Target,
+    pass: &Pass,
+    drives: Drives,
+    following: Following,
+    ignored_deg: f64,
+) -> Run {
+    let passes = vec![(pass.aos.time, pass.los.time)];
+    let follow = Follow { target, site: site(), passes };
+    let mut planner = Planner::new(follow, drives, following).unwrap();
+    let mut metal = Metal {
+        axes_deg: [180.0, 45.0],
+        goals_deg: [180.0, 45.0],
+        orders: VecDeque::new(),
+        rate_deg_s: drives.limits.maximum_rate_deg_s,
+        latency_s: following.latency_s,
+        ignored_deg,
+    };
+    let begin = add_seconds(pass.aos.time, -240.0);
+    let mut run = Run { stats: FollowStats::default(), azimuths_deg: Vec::new() };
+    let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
+    let mut next_look_s = 0.0;
+    for tick in 0..ticks {
+        let now_s = f64::from(tick) * TICK_S;
+        let now = add_seconds(begin, now_s);
+        if now_s >= next_look_s {
+            next_look_s += following.period_s;
+            if let Some(next) = planner.look(now, metal.now()).unwrap() {
+                planner.sent(next);
+                metal.tell(now_s, next.set_point);
+                run.stats.commands += 1;
+            }
+        }
+        metal.advance(now_s);
+        if now >= pass.aos.time {
+            let [azimuth, elevation] = metal.axes_deg;
+            let at = AzEl::from_degrees(azimuth, elevation);
+            if let Some(direction) = planner.reachable(now) {
+                run.stats.take(direction.separation(at));
+            }
+            run.azimuths_deg.push(azimuth);
+        }
+    }
+    run
+}
+
+fn shown(what: &str, stats: FollowStats) -> (f64, f64, u32) {
+    let [rms, worst] = [stats.rms(), stats.worst()].map(|off| off.unwrap().degrees());
+    println!("{what:40} rms {rms:6.3} worst {worst:7.3} commands {}", stats.commands);
+    (rms, worst, stats.commands)
+}
+
+#[test]
+fn a_usual_pass_is_followed_within_the_dead_band() {
+    let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
+    let drives = azel((0.0, 360.0), 4.0, 0.0);
+    for (dead_band_deg, most) in [(0.0, 0.06), (0.2, 0.2), (1.0, 0.9)] {
+        let run = run(target.clone(), &pass, drives, following(1.0, dead_band_deg));
+        let (rms, ..) = shown(&format!("usual, dead band {dead_band_deg}"), run.stats);
+        assert!(rms < most, "{rms}");
+    }
+}
+
+#[test]
+fn whole_degrees_are_followed_to_their_rounding() {
+    let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
+    let run = run(target, &pass, azel((0.0, 360.0), 4.0, 1.0), following(1.0, 0.5));
+    let (rms, worst, _) = shown("usual, whole degrees", run.stats);
+    // The roundings of two axes, each up to half a degree.
+    assert!(rms < 0.5 && worst < 1.0, "{rms} {worst}");
+}
+
+#[test]
+fn a_drive_that_ignores_short_ways_is_found_out() {
+    let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
+    let drives = azel((0.0, 360.0), 4.0, 1.0);
+    let run = run_with(target, &pass, drives, following(1.0, 0.5), 2.0);
+    let (rms, worst, _) = shown("usual, whole degrees, more than 2 at once", run.stats);
+    assert!(rms < 1.2 && worst < 3.5, "{rms} {worst}");
+}
+
+#[test]
+fn through_north_an_overlap_needs_no_swing() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
+    });
+    let plain = run(target.clone(), &pass, azel((0.0, 360.0), 4.0, 0.0), following(1.0, 0.2));
+    let overlap = run(target, &pass, azel((0.0, 450.0), 4.0, 0.0), following(1.0, 0.2));
+    let (_, lost, _) = shown("north, 0 to 360", plain.stats);
+    let (rms, kept, _) = shown("north, 0 to 450", overlap.stats);
+    assert!(lost > 45.0 && kept < 0.5 && rms < 0.2, "{lost} {kept} {rms}");
+    let turned =
+        |run: &Run| run.azimuths_deg.windows(2).map(|two| (two[1] - two[0]).abs()).sum::<f64>();
+    assert!(turned(&plain) > turned(&overlap) + 100.0);
+}
+
+#[test]
+fn near_the_zenith_the_axis_turns_early_and_catches_up() {
+    let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
+    for rate_deg_s in [2.0, 6.0] {
+        let drives = azel((0.0, 360.0), rate_deg_s, 0.0);
+        let run = run(target.clone(), &pass, drives, following(1.0, 0.2));
+        let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} degrees a second"), run.stats);
+        assert!(rms < 20.0 / rate_deg_s && worst < 60.0 / rate_deg_s, "{rms} {worst}");
+    }
+}

@@ -1,0 +1,297 @@
+//! What only this make can do: a key for each action, with what it has to be
+//! told.
+
+use std::collections::BTreeMap;
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{CardAction, Cursor};
+use crate::{
+    controller::{
+        panel::{Act, Action},
+        settings::{Field, Kind, Values},
+    },
+    ui::{
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            input::Input,
+            paint,
+        },
+    },
+};
+
+const GAP: f32 = 8.0;
+/// The label of a field may take this part of the width.
+const LABEL: f32 = 0.42;
+/// Room for the unit behind a field.
+const UNIT: f32 = 40.0;
+
+/// The actions of a unit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MoreModel<'a> {
+    /// All of them.
+    pub actions: &'static [Action],
+    /// Why none can be asked for now.
+    pub locked: Option<&'a str>,
+    /// Why none that moves metal can be asked for now.
+    pub moves_locked: Option<&'a str>,
+}
+
+impl<'a> MoreModel<'a> {
+    fn lock(&self, action: &Action) -> Option<&'a str> {
+        self.locked.or(self.moves_locked.filter(|_| action.moves))
+    }
+}
+
+/// What was typed for the actions. It has no `Debug`: a password may be in it.
+#[derive(Clone, Default)]
+pub(super) struct MoreState {
+    /// By the keys of action and field.
+    typed: BTreeMap<(&'static str, &'static str), String>,
+    /// The action that was not taken, and why.
+    refused: Option<(&'static str, String)>,
+}
+
+impl MoreState {
+    fn text(&self, action: &Action, field: &Field) -> String {
+        let typed = self.typed.get(&(action.key, field.key)).cloned();
+        typed.unwrap_or_else(|| match field.kind {
+            Kind::Flag => "Off".to_owned(),
+            Kind::Choice([(_, first), ..]) => (*first).to_owned(),
+            _ => String::new(),
+        })
+    }
+
+    fn type_in(&mut self, action: &'static Action, field: &'static Field, text: String) {
+        self.refused = None;
+        self.typed.insert((action.key, field.key), text);
+    }
+
+    /// The action with what was typed; a sentence where that cannot be used.
+    fn read(&self, action: &'static Action) -> Result<Act, String> {
+        let read = |field: &'static Field| match field.kind.read(&self.text(action, field)) {
+            Ok(value) => Ok((field.key, value)),
+            Err(unfit) => Err(format!("{} {unfit}.", field.label)),
+        };
+        let values: Values = action.fields.iter().map(read).collect::<Result<_, _>>()?;
+        Ok(Act { action: action.key, values })
+    }
+}
+
+/// The names of the actions, for the fold.
+pub(super) fn in_words(model: &MoreModel<'_>) -> String {
+    let labels: Vec<&str> = model.actions.iter().map(|action| action.label).collect();
+    labels.join(", ")
+}
+
+/// Shows the actions, those with nothing to be told side by side.
+pub(super) fn show(
+    ui: &mut Ui,
+    at: &mut Cursor,
+    model: &MoreModel<'_>,
+    state: &mut MoreState,
+    actions: &mut Vec<CardAction>,
+) {
+    at.skip(4.0);
+    let moves_locked =
+        model.moves_locked.filter(|_| model.actions.iter().any(|action| action.moves));
+    if let Some(why) = model.locked.or(moves_locked) {
+        say(ui, at, "locked actions", Icon::Lock, why, theme::tokens(ui).t2);
+    }
+    let mut right_end = at.right;
+    for action in model.actions {
+        let button = Button::normal(action.label).locked(model.lock(action).is_some());
+        let width = button.width(ui).min(at.width());
+        if action.fields.is_empty() {
+            // Beside the last one, where there is room.
+            if right_end + GAP + width > at.right {
+                at.skip(SMALL_HEIGHT + GAP);
+                right_end = at.left - GAP;
+            }
+            let min = pos2(right_end + GAP, at.y - SMALL_HEIGHT - GAP);
+            let place = Rect::from_min_size(min, vec2(width, SMALL_HEIGHT));
+            right_end = place.right();
+            ask(ui, place, button, action, state, actions);
+        } else {
+            right_end = at.right;
+            for field in action.fields {
+                field_row(ui, at.take(SMALL_HEIGHT), action, field, state);
+                at.skip(4.0);
+            }
+            let row = at.take(SMALL_HEIGHT);
+            at.skip(GAP);
+            ask(ui, row.with_min_x(row.right() - width), button, action, state, actions);
+        }
+        let refusal = state.refused.as_ref().filter(|(key, _)| *key == action.key);
+        if let Some((_, words)) = refusal {
+            right_end = at.right;
+            say(ui, at, "refused action", Icon::Warning, words, theme::tokens(ui).bad);
+        }
+    }
+}
+
+/// A sentence with its mark.
+fn say(ui: &Ui, at: &mut Cursor, salt: &str, icon: Icon, words: &str, colour: egui::Color32) {
+    let mark = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
+    icons::paint(ui.painter(), mark, icon, colour);
+    let start = at.at() + vec2(20.0, 0.0);
+    let taken = paint::paragraph(ui, start, at.width() - 20.0, words, text::small(), colour);
+    paint::name_text(ui, salt, taken, words);
+    at.y = taken.bottom() + GAP;
+}
+
+fn ask(
+    ui: &Ui,
+    place: Rect,
+    button: Button<'_>,
+    action: &'static Action,
+    state: &mut MoreState,
+    actions: &mut Vec<CardAction>,
+) {
+    let response = button.show(ui, ("action", action.key), place).on_hover_text(action.about);
+    if !response.clicked() {
+        return;
+    }
+    match state.read(action) {
+        Ok(act) => actions.push(CardAction::Act(act)),
+        Err(why) => state.refused = Some((action.key, why)),
+    }
+}
+
+fn field_row(
+    ui: &mut Ui,
+    row: Rect,
+    action: &'static Action,
+    field: &'static Field,
+    state: &mut MoreState,
+) {
+    let t = theme::tokens(ui);
+    let label = row.with_max_x(row.left() + LABEL * row.width());
+    paint::text_in(ui, label, Align2::LEFT_CENTER, field.label, text::small(), t.t2);
+    let about = if field.about.is_empty() { action.about } else { field.about };
+    let salt = ("action label", action.key, field.key);
+    paint::name_text(ui, salt, label, field.label).on_hover_text(about);
+    let room = row.with_min_x(label.right() + GAP);
+    let rect = if field.unit.is_empty() { room } else { room.with_max_x(room.right() - UNIT) };
+    let unit = row.with_min_x(rect.right() + 4.0);
+    paint::text_in(ui, unit, Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
+    let name = format!("{}: {}", action.label, field.label);
+    let refused = state.refused.as_ref().is_some_and(|(key, _)| *key == action.key);
+    let unfit = refused && field.kind.read(&state.text(action, field)).is_err();
+    let input = Input { rect, name: &name, border: unfit.then_some(t.bad) };
+    let mut typed = state.text(action, field);
+    let choices: Vec<&str> = match field.kind {
+        Kind::Flag => vec!["Off", "On"],
+        Kind::Choice(choices) => choices.iter().map(|(_, name)| *name).collect(),
+        _ => {
+            if input.text(ui, &mut typed, matches!(field.kind, Kind::Password(_))) {
+                state.type_in(action, field, typed);
+            }
+            return;
+        }
+    };
+    if let Some(chosen) = input.choice(ui, &typed, &choices) {
+        state.type_in(action, field, chosen);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{controller::settings::Value, ui::widgets::testing};
+    use egui_kittest::{Harness, kittest::Queryable as _};
+
+    const FIELDS: &[Field] = &[
+        Field::write("to", "Heading", Kind::Integer { least: 0, most: 360 }).in_unit("°"),
+        Field::write("way", "Way round", Kind::Choice(&[(0, "Shortest"), (1, "Long")])),
+    ];
+    const ACTIONS: &[Action] = &[
+        Action {
+            key: "turn",
+            label: "Turn the other",
+            about: "Sends the other rotator to a heading.",
+            fields: FIELDS,
+            moves: true,
+            question: None,
+        },
+        Action {
+            key: "reset",
+            label: "Reset alarms",
+            about: "Takes back the alarms.",
+            fields: &[],
+            moves: false,
+            question: None,
+        },
+        Action {
+            key: "read",
+            label: "Read the list",
+            about: "Reads the names of the satellites.",
+            fields: &[],
+            moves: false,
+            question: None,
+        },
+    ];
+
+    #[derive(Default)]
+    struct Story {
+        moves_locked: Option<&'static str>,
+        state: MoreState,
+        asked: Vec<CardAction>,
+    }
+
+    fn section(story: Story) -> Harness<'static, Story> {
+        let mut window = testing::window([320.0, 220.0], story, |ui, story| {
+            let mut at = Cursor { left: 10.0, right: 290.0, y: 4.0 };
+            let model =
+                MoreModel { actions: ACTIONS, locked: None, moves_locked: story.moves_locked };
+            show(ui, &mut at, &model, &mut story.state, &mut story.asked);
+        });
+        window.run();
+        window
+    }
+
+    #[test]
+    fn an_action_goes_out_with_what_was_typed_or_says_what_is_missing() {
+        let mut window = section(Story::default());
+        window.get_by_label("Turn the other").click();
+        window.run();
+        assert!(window.state().asked.is_empty());
+        window.get_by_label("Heading is not a whole number.");
+        window.get_by_label("Turn the other: Heading").focus();
+        window.run();
+        window.get_by_label("Turn the other: Heading").type_text("270");
+        window.run();
+        assert!(window.query_by_label("Heading is not a whole number.").is_none());
+        window.get_by_label("Turn the other").click();
+        window.run();
+        let values = Values::from([("to", Value::Integer(270)), ("way", Value::Choice(0))]);
+        assert_eq!(window.state().asked, [CardAction::Act(Act { action: "turn", values })]);
+    }
+
+    #[test]
+    fn keys_without_fields_stand_side_by_side() {
+        let window = section(Story::default());
+        let (first, second) = (
+            window.get_by_label("Reset alarms").rect(),
+            window.get_by_label("Read the list").rect(),
+        );
+        assert!((first.top() - second.top()).abs() < 0.1 && second.left() > first.right());
+        assert!(first.top() > window.get_by_label("Turn the other").rect().bottom());
+    }
+
+    #[test]
+    fn what_moves_is_locked_with_its_reason_and_the_rest_is_not() {
+        let reason = "What moves the antenna is locked. Choose Manual or Position.";
+        let mut window = section(Story { moves_locked: Some(reason), ..Story::default() });
+        window.get_by_label(reason);
+        window.get_by_label("Turn the other").click();
+        window.run();
+        assert!(window.state().asked.is_empty());
+        window.get_by_label("Reset alarms").click();
+        window.run();
+        let reset = Act { action: "reset", values: Values::default() };
+        assert_eq!(window.state().asked, [CardAction::Act(reset)]);
+    }
+}

@@ -1,0 +1,107 @@
+//! What a unit tells of itself, line by line.
+
+use egui::{Align2, Color32, Rect, Ui, pos2};
+
+use super::Cursor;
+use crate::{
+    controller::panel::{Reading, Tone},
+    ui::{
+        icons::{self, Icon},
+        text, theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+const LINE: f32 = 22.0;
+/// Below a line with a bar.
+const BAR: f32 = 6.0;
+/// The label may take this part of the width.
+const LABEL: f32 = 0.45;
+
+/// The mark and the colour of a value.
+fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
+    match tone {
+        Tone::Plain => (None, t.t1),
+        Tone::Caution => (Some(Icon::Warning), t.warn),
+        Tone::Bad => (Some(Icon::Cross), t.bad),
+    }
+}
+
+/// The line that matters most, for the fold: the gravest, else the first.
+pub(super) fn in_words(ui: &Ui, readings: &[Reading]) -> (String, Option<(Icon, Color32)>) {
+    let of = |tone: Tone| readings.iter().find(|reading| reading.tone == tone);
+    let Some(reading) = of(Tone::Bad).or_else(|| of(Tone::Caution)).or(readings.first()) else {
+        return (String::new(), None);
+    };
+    let (icon, colour) = look(reading.tone, theme::tokens(ui));
+    (format!("{} {}", reading.label, reading.text), icon.map(|icon| (icon, colour)))
+}
+
+/// Shows the lines.
+pub(super) fn show(ui: &Ui, at: &mut Cursor, readings: &[Reading], with_head: bool) {
+    let t = theme::tokens(ui);
+    if with_head {
+        let head = at.take(20.0);
+        let words = "Told by the unit";
+        paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
+    }
+    for reading in readings {
+        let line = at.take(LINE);
+        show_line(ui, line, reading, t);
+        if let Some(share) = reading.share {
+            bar(ui, at.take(BAR), share, t);
+        }
+    }
+    at.skip(6.0);
+}
+
+fn show_line(ui: &Ui, line: Rect, reading: &Reading, t: &Tokens) {
+    let room = line.with_max_x(line.left() + LABEL * line.width());
+    let label = paint::text_in(ui, room, Align2::LEFT_CENTER, &reading.label, text::small(), t.t2);
+    let (icon, colour) = look(reading.tone, t);
+    let mut room = line.with_min_x(label.right() + 8.0);
+    if icon.is_some() {
+        room = room.with_min_x(room.left() + 18.0);
+    }
+    let font = text::small_strong();
+    let value = paint::text_in(ui, room, Align2::RIGHT_CENTER, &reading.text, font, colour);
+    if let Some(icon) = icon {
+        let mark = paint::square(pos2(value.left() - 10.0, line.center().y), 13.0);
+        icons::paint(ui.painter(), mark, icon, colour);
+    }
+    let words = format!("{}: {}", reading.label, reading.text);
+    paint::name_text(ui, ("reading", &reading.label), line, &words).on_hover_text(words);
+}
+
+fn bar(ui: &Ui, room: Rect, share: f64, t: &Tokens) {
+    let track = Rect::from_min_max(room.left_top(), pos2(room.right(), room.top() + 4.0));
+    ui.painter().rect_filled(track, 0.0, t.bg3);
+    let full = track.left() + share.clamp(0.0, 1.0) as f32 * track.width();
+    ui.painter().rect_filled(track.with_max_x(full), 0.0, t.ant);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::testing;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn every_line_is_said_and_the_gravest_stands_for_all() {
+        let readings = [
+            Reading::new("Satellite", "TÜRKSAT 4A"),
+            Reading::new("AGC", "43 %").with_bar(0.43).in_tone(Tone::Caution),
+            Reading::new("Alarm", "none"),
+        ];
+        let window = testing::window([320.0, 120.0], readings, |ui, readings| {
+            let mut at = Cursor { left: 10.0, right: 310.0, y: 4.0 };
+            show(ui, &mut at, readings, true);
+            assert_eq!(in_words(ui, readings).0, "AGC 43 %");
+            assert_eq!(in_words(ui, readings.get(2..).unwrap_or_default()).0, "Alarm none");
+            assert_eq!(in_words(ui, &[]).0, "");
+        });
+        window.get_by_label("Satellite: TÜRKSAT 4A");
+        window.get_by_label("AGC: 43 %");
+    }
+}

@@ -1,0 +1,107 @@
+//! How fast the jog keys move the antenna: any rate on a slider, one of a few by
+//! name, or nothing to choose.
+
+use egui::{Rect, Ui};
+
+use super::DriveModel;
+use crate::{
+    controller::{JogSpeed, JogSpeeds},
+    ui::{
+        format,
+        widgets::{
+            rate_slider,
+            segmented::{self, Segment},
+        },
+    },
+};
+
+/// The rate that is sent for the one that was chosen, degrees a second. Where
+/// the speeds have names it is the one that stands for the nearest of them.
+pub(super) fn rate_deg_s(chosen_deg_s: f64, speeds: JogSpeeds, most_deg_s: f64) -> f64 {
+    let named = speeds.nearest(chosen_deg_s, most_deg_s);
+    named.map_or(chosen_deg_s.min(most_deg_s), |speed| speed.share * most_deg_s)
+}
+
+/// The rate, or the name of the speed; nothing where there is no choice.
+pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, most_deg_s: f64) -> String {
+    match speeds {
+        JogSpeeds::AnyRate => format::number(chosen_deg_s, 2),
+        JogSpeeds::Named([_, _, ..]) => {
+            let speed = speeds.nearest(chosen_deg_s, most_deg_s);
+            speed.map_or_else(String::new, |speed| speed.name.to_owned())
+        }
+        JogSpeeds::Named(_) => String::new(),
+    }
+}
+
+/// The rate `by` steps up, degrees a second.
+pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, most_deg_s: f64) -> f64 {
+    let JogSpeeds::Named(named) = speeds else {
+        return rate_slider::stepped(chosen_deg_s, by, most_deg_s);
+    };
+    let now = speeds.nearest(chosen_deg_s, most_deg_s);
+    let place = named.iter().position(|speed| Some(*speed) == now).unwrap_or_default();
+    let last = named.len().saturating_sub(1);
+    let wanted = place.saturating_add_signed(by as isize).min(last);
+    named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * most_deg_s)
+}
+
+/// Shows what there is to choose in `rect`; changes `chosen_deg_s`.
+pub(super) fn show(ui: &Ui, rect: Rect, model: &DriveModel<'_>, chosen_deg_s: &mut f64) {
+    let most_deg_s = model.most_deg_s;
+    match model.speeds {
+        JogSpeeds::AnyRate => {
+            rate_slider::show(ui, rect, most_deg_s, model.jog_locked.is_some(), chosen_deg_s);
+        }
+        JogSpeeds::Named(named @ [_, _, ..]) => {
+            let now = model.speeds.nearest(*chosen_deg_s, most_deg_s);
+            let segment = |speed: &JogSpeed| {
+                let is_chosen = Some(*speed) == now;
+                (speed.name, if is_chosen { Segment::Chosen } else { Segment::Free })
+            };
+            let segments: Vec<_> = named.iter().map(segment).collect();
+            let clicked = segmented::show(ui, "speed", rect, "Jog speed", &segments);
+            if let Some(speed) = clicked.and_then(|index| named.get(index)) {
+                *chosen_deg_s = speed.share * most_deg_s;
+            }
+        }
+        JogSpeeds::Named(_) => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWO: JogSpeeds = JogSpeeds::Named(&[
+        JogSpeed { name: "Slow", share: 0.25 },
+        JogSpeed { name: "Fast", share: 1.0 },
+    ]);
+    const ONE: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
+
+    #[test]
+    fn what_is_sent_is_one_of_the_speeds_that_there_are() {
+        let is = |rate: f64, wanted: f64| assert!((rate - wanted).abs() < 1e-9, "{rate}");
+        is(rate_deg_s(0.7, TWO, 2.0), 0.5);
+        is(rate_deg_s(9.0, TWO, 2.0), 2.0);
+        is(rate_deg_s(0.5, ONE, 6.0), 6.0);
+        is(rate_deg_s(0.5, JogSpeeds::AnyRate, 3.0), 0.5);
+        is(rate_deg_s(9.0, JogSpeeds::AnyRate, 3.0), 3.0);
+    }
+
+    #[test]
+    fn a_step_up_takes_the_next_name_and_ends_at_the_last() {
+        let is = |rate: f64, wanted: f64| assert!((rate - wanted).abs() < 1e-9, "{rate}");
+        is(stepped(0.5, 1, TWO, 2.0), 2.0);
+        is(stepped(2.0, 1, TWO, 2.0), 2.0);
+        is(stepped(2.0, -3, TWO, 2.0), 0.5);
+        is(stepped(6.0, -1, ONE, 6.0), 6.0);
+    }
+
+    #[test]
+    fn only_a_choice_is_named() {
+        assert_eq!(in_words(0.5, JogSpeeds::AnyRate, 3.0), "0.50");
+        assert_eq!(in_words(2.0, TWO, 2.0), "Fast");
+        assert_eq!(in_words(6.0, ONE, 6.0), "");
+    }
+}

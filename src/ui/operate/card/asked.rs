@@ -1,0 +1,85 @@
+//! What was asked for on the card.
+
+use crate::{
+    app::{Model, UiCommand, antenna::AntennaModel},
+    astro::Angle,
+    controller::panel::Act,
+    driver::{Command, Intent},
+    ui::{
+        antenna_card::CardAction,
+        confirm::Question,
+        widgets::{go_to::Target, mode_selector::Mode},
+    },
+};
+
+/// Takes what was asked for.
+pub(super) struct Desk<'a> {
+    pub(super) model: &'a Model,
+    /// The antenna whose card is shown.
+    pub(super) antenna: &'a AntennaModel,
+    pub(super) question: &'a mut Option<Question>,
+    pub(super) commands: &'a mut Vec<UiCommand>,
+}
+
+impl Desk<'_> {
+    pub(super) fn take(&mut self, action: CardAction) {
+        let command = match action {
+            CardAction::Connect => Command::Connect,
+            CardAction::Disconnect => return self.disconnect(),
+            CardAction::Act(act) => return self.act(act),
+            CardAction::SetMode(Mode::Standby) => Command::Standby,
+            CardAction::SetMode(Mode::Manual) => Command::Manual,
+            CardAction::SetMode(Mode::Position) => Command::Hold,
+            CardAction::SetMode(Mode::Park) => Command::Park,
+            CardAction::SetMode(Mode::Track) | CardAction::TrackSelected => {
+                return self.commands.extend(UiCommand::track_selected(self.model));
+            }
+            CardAction::Jog { x, y, rate_deg_s } => {
+                Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
+            }
+            CardAction::JogReleased => Command::EndJog,
+            CardAction::Step { x, y, step_deg } => {
+                Command::Step { steps_deg: [f64::from(x) * step_deg, f64::from(y) * step_deg] }
+            }
+            CardAction::GoTo(Target { azimuth_deg, elevation_deg }) => Command::Position {
+                azimuth: Some(Angle::from_degrees(azimuth_deg)),
+                elevation: elevation_deg.map(Angle::from_degrees),
+            },
+            CardAction::SetAutoTrack(on) => Command::AutoTrack(on),
+            // The plot reads the ghost from the fields themselves.
+            CardAction::PreviewGoTo(_) => return,
+        };
+        self.commands.push(self.for_antenna(command));
+    }
+
+    fn for_antenna(&self, command: Command) -> UiCommand {
+        UiCommand::Antenna(self.model.selected_antenna, command)
+    }
+
+    /// Asked about while something would go on unwatched.
+    fn disconnect(&mut self) {
+        let command = self.for_antenna(Command::Disconnect);
+        let snapshot = &self.antenna.snapshot;
+        let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
+        let program = snapshot.state.program.is_some_and(|program| program.enabled);
+        if !(moving || program || snapshot.intent == Intent::Track) {
+            return self.commands.push(command);
+        }
+        let text = format!(
+            "Disconnect from {}? It moves or tracks. Nobody here watches it from then on.",
+            self.antenna.config.name
+        );
+        *self.question = Some(Question { text, yes: "Disconnect", command });
+    }
+
+    fn act(&mut self, act: Act) {
+        let action = self.antenna.make().action(act.action);
+        let command = self.for_antenna(Command::Act(act));
+        match action.and_then(|action| Some((action.question?, action.label))) {
+            Some((text, yes)) => {
+                *self.question = Some(Question { text: text.to_owned(), yes, command });
+            }
+            None => self.commands.push(command),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The axes of an antenna as the card shows them.
+
+use crate::{
+    app::antenna::AntennaModel,
+    astro::Angle,
+    controller::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
+    station::Mount,
+    ui::widgets::{
+        axes_table::AxisRow,
+        jog_pad::{JogDirection, JogKeys},
+        travel_gauge::TravelModel,
+    },
+};
+
+pub(super) type Row = AxisRow<'static>;
+
+/// The angles of the sky that the antenna turns, wanted and measured.
+pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
+    let snapshot = &antenna.snapshot;
+    let actual = snapshot.state.measured.map(|measured| measured.pointing);
+    let wanted = snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()));
+    let rates = antenna.rates_deg_s;
+    let error = wanted.zip(actual).map(|(wanted, actual)| {
+        let off = |actual: Option<Angle>, wanted: Option<Angle>| {
+            Some((actual? - wanted?).wrapped_180().degrees())
+        };
+        (off(actual.azimuth, wanted.azimuth), off(actual.elevation, wanted.elevation))
+    });
+    let azimuth_deg = |at: Pointing| at.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
+    let elevation_deg = |at: Pointing| at.elevation.map(Angle::degrees);
+    let azimuth = AxisRow {
+        name: "Az",
+        wanted_deg: wanted.and_then(azimuth_deg),
+        actual_deg: actual.and_then(azimuth_deg),
+        error_deg: error.and_then(|(azimuth, _)| azimuth),
+        rate_deg_s: rates.map(|(azimuth, _)| azimuth),
+    };
+    let elevation = AxisRow {
+        name: "El",
+        wanted_deg: wanted.and_then(elevation_deg),
+        actual_deg: actual.and_then(elevation_deg),
+        error_deg: error.and_then(|(_, elevation)| elevation),
+        rate_deg_s: rates.map(|(_, elevation)| elevation),
+    };
+    let has_elevation = antenna.make().capabilities.has_elevation;
+    std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
+}
+
+/// The axes in their travel. What turns something else has none of its own.
+pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
+    let can = antenna.make().capabilities;
+    let measured = antenna.snapshot.state.measured;
+    let count = if can.has_elevation { 2 } else { 1 };
+    let axes = can.axes.into_iter().zip(antenna.config.mount.travel_deg()).take(count);
+    let gauge = |(index, (name, travel_deg)): (usize, (&'static str, (f64, f64)))| {
+        let axis = measured.and_then(|measured| measured.axes.get(index).copied());
+        let (from, to) = travel_deg;
+        let scale_deg = match antenna.config.mount {
+            Mount::Xy { .. } => (0.0, 180.0),
+            Mount::AzEl { .. } => travel_deg,
+        };
+        TravelModel {
+            name,
+            scale_deg,
+            travel_deg,
+            position_deg: axis.and_then(|axis| axis.angle_deg),
+            lower_limit: axis.is_some_and(|axis| axis.minus_limit),
+            upper_limit: axis.is_some_and(|axis| axis.plus_limit),
+            turns: to - from > 360.0,
+        }
+    };
+    axes.enumerate().map(gauge).collect()
+}
+
+/// What the jog keys turn.
+pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
+    match antenna.config.mount {
+        Mount::Xy { .. } => JogKeys::Xy,
+        Mount::AzEl { .. } if antenna.make().capabilities.has_elevation => JogKeys::AzEl,
+        Mount::AzEl { .. } => JogKeys::AzOther,
+    }
+}
+
+/// Directions in which a limit switch is set, or in which nobody would see the
+/// axis turn.
+pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection> {
+    let unseen = measured.axes.map(|axis| axis.angle_deg.is_none() && !can.ends_jogs);
+    let [x, y] = measured.axes;
+    let [x_unseen, y_unseen] = unseen;
+    [
+        (x.plus_limit || x_unseen, JogDirection::XPlus),
+        (x.minus_limit || x_unseen, JogDirection::XMinus),
+        (y.plus_limit || y_unseen, JogDirection::YPlus),
+        (y.minus_limit || y_unseen, JogDirection::YMinus),
+    ]
+    .into_iter()
+    .filter_map(|(set, direction)| set.then_some(direction))
+    .collect()
+}
+
+/// Which axes are not turned because nobody would see it.
+pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
+    let can = antenna.make().capabilities;
+    let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
+    match measured.axes.map(|axis| axis.angle_deg.is_none()) {
+        [true, true] => Some("No angle is known, so neither axis is turned by hand."),
+        [true, false] => Some("The first axis has no known angle and is not turned by hand."),
+        [false, true] if can.has_elevation => {
+            Some("The elevation has no known angle and is not turned by hand.")
+        }
+        [false, true] => Some("The other rotator has no known angle and is not turned by hand."),
+        [false, false] => None,
+    }
+}
+
+/// How fast the axis turns that is jogged, degrees a second, signed. Where the
+/// speeds have names it is measured, else it is what the unit was told.
+pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
+    let can = antenna.make().capabilities;
+    let jog = antenna.snapshot.jog?;
+    if can.jog == JogSpeeds::AnyRate {
+        let measured = antenna.snapshot.state.measured?;
+        return jog
+            .into_iter()
+            .zip(measured.axes)
+            .find(|(rate, axis)| *rate != 0.0 && axis.motion != AxisMotion::Still)
+            .map(|(rate, _)| rate);
+    }
+    let (azimuth, elevation) = antenna.rates_deg_s?;
+    let [x, _] = jog;
+    if x == 0.0 { can.has_elevation.then_some(elevation) } else { Some(azimuth) }
+}

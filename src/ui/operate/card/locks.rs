@@ -1,0 +1,78 @@
+//! Why something cannot be asked for now.
+
+use crate::{
+    app::antenna::AntennaModel,
+    driver::{Intent, LinkState},
+};
+
+/// Why something cannot be asked for now, each in a sentence.
+pub(super) struct Locks {
+    /// Anything at all.
+    pub(super) link: Option<&'static str>,
+    pub(super) jog: Option<&'static str>,
+    pub(super) go_to: Option<&'static str>,
+    pub(super) track: Option<&'static str>,
+    /// What only this make can do, where metal moves by it.
+    pub(super) action: Option<&'static str>,
+}
+
+impl Locks {
+    /// `has_checks` says whether the card has a place where faults are named.
+    pub(super) fn of(antenna: &AntennaModel, has_checks: bool) -> Self {
+        let snapshot = &antenna.snapshot;
+        let intent = snapshot.intent;
+        let program = snapshot.state.program.is_some_and(|program| program.enabled);
+        let link = match snapshot.link {
+            LinkState::Off => Some("Locked: not connected."),
+            LinkState::Up { .. } | LinkState::Stale { .. } => None,
+            LinkState::Connecting { .. } | LinkState::Lost { .. } => {
+                Some("Locked: the unit does not answer.")
+            }
+        };
+        let fault = (snapshot.state.motion_lock == Some(true)).then_some(if has_checks {
+            "Locked by a fault. Look at Faults."
+        } else {
+            "Locked by the unit. Look at what it tells."
+        });
+        let common = link.or(fault);
+        let jog = match intent {
+            _ if program => Some("Locked while tracking. Choose Manual or Position."),
+            Intent::Manual => None,
+            _ => Some("Jog is locked. Choose Manual."),
+        };
+        let go_to = match intent {
+            _ if program => Some("Locked while tracking. Choose Manual or Position."),
+            Intent::Position | Intent::Park | Intent::Manual => None,
+            _ => Some("Go to is locked. Choose Position."),
+        };
+        let action = match intent {
+            Intent::Manual | Intent::Position => None,
+            _ => Some("What moves the antenna is locked. Choose Manual or Position."),
+        };
+        let blind = no_direction(antenna);
+        Self {
+            link,
+            jog: common.or(jog),
+            go_to: common.or(blind).or(go_to),
+            track: common.or(blind),
+            action: common.or(action),
+        }
+    }
+}
+
+/// Why the antenna cannot be sent to a direction, whatever the operator does
+/// here.
+fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
+    let can = antenna.make().capabilities;
+    if !can.takes_positions {
+        return (!can.has_program).then_some("This controller cannot be sent to a direction.");
+    }
+    let pointing = antenna.snapshot.state.measured?.pointing;
+    let elevation_known = pointing.elevation.is_some() || !can.has_elevation;
+    match (pointing.azimuth.is_some(), elevation_known) {
+        (true, true) => None,
+        (false, false) => Some("No directions: azimuth and elevation are not calibrated."),
+        (false, true) => Some("No directions: the azimuth is not known or not calibrated."),
+        (true, false) => Some("No directions: the elevation is not known or not calibrated."),
+    }
+}

@@ -1,0 +1,17 @@
+//! Targets that are followed position by position, over real passes, against the
+//! simulated controllers in paused time.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    reason = "a test may end here"
+)]
+
+mod host_tracking {
+    mod rig;
+    mod sky;
+
+    mod satrak;
+}

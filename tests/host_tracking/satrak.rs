@@ -1,0 +1,209 @@
+//! A Satrak that is sent from position to position, though it could track by
+//! itself.
+
+use azel::{
+    astro::{AzEl, time::add_seconds},
+    controller::satrak::Satrak,
+    driver::{Command, Event, FollowProblem, Intent},
+    plan::{Follow, FollowPhase, Target},
+    sim::satrak::{Control, Options},
+    station::{AfterPass, Antenna},
+};
+use jiff::SignedDuration;
+
+use super::{
+    rig::{Rig, figures},
+    sky::{self, Scene, site},
+};
+
+/// A session that has read its unit, `lead_s` seconds before the pass of `scene`.
+async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Control) {
+    let utc_origin = add_seconds(scene.pass.aos.time, -lead_s);
+    let control = Control::new(&Options::new(site(), utc_origin));
+    let unit = control.clone();
+    let satrak = Satrak::new(antenna.poll, String::new());
+    let mut rig = Rig::start(Box::new(satrak), antenna, utc_origin, move |far| {
+        let unit = unit.clone();
+        async move { unit.serve(far).await }
+    });
+    rig.until("all is read", 5.0, |shown| shown.state.satrak.settings.is_some()).await;
+    rig.events();
+    (rig, control)
+}
+
+fn antenna() -> Antenna {
+    Antenna::satrak("Dish", "in memory")
+}
+
+fn gotos(control: &Control) -> usize {
+    control.received().iter().filter(|(_, payload)| payload.starts_with("GOTO=")).count()
+}
+
+fn direction(control: &Control) -> AzEl {
+    let state = control.state();
+    AzEl::from_degrees(state.az_deg, state.el_deg)
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&antenna(), &scene, 120.0).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let told = rig.until_event(1.0, |event| matches!(event, Event::Awaits { .. })).await;
+    let name = scene.elements.name().to_owned();
+    assert_eq!(told, Event::Awaits { name: name.clone(), aos: scene.pass.aos.time });
+    rig.seconds(60.0).await;
+    let (aos, los) = (scene.pass.aos, scene.pass.los);
+    assert!(!control.state().is_moving);
+    let floor = AzEl { elevation: AzEl::from_degrees(0.0, 5.0).elevation, ..aos.direction };
+    assert!(direction(&control).separation(floor).degrees() < 0.2);
+    let shown = rig.shown();
+    assert_eq!((shown.intent, shown.pending), (Intent::Track, false));
+    assert_eq!(rig.phase(), Some(FollowPhase::Waiting { aos: aos.time }));
+    let sent_before = gotos(&control);
+
+    rig.until_utc(scene.pass.tca.time).await;
+    let view = rig.shown().following.clone().unwrap();
+    assert_eq!(view.phase, FollowPhase::Following);
+    assert!(view.predicted.is_some() && view.next_look.is_some());
+    assert_eq!(rig.events(), [Event::Follows(name)]);
+
+    let stats = rig.until_over().await;
+    let (rms, worst) = figures("Satrak, usual", stats);
+    assert!(rms < 0.15 && worst < 0.6, "{rms} {worst}");
+    // One for each fifth of a degree of either axis, and not more.
+    assert!(gotos(&control) - sent_before < 900);
+    assert!(scene.pass.tca.time < los.time);
+    let sent = gotos(&control);
+    rig.seconds(30.0).await;
+    assert_eq!((rig.shown().intent, rig.phase()), (Intent::Position, Some(FollowPhase::Over)));
+    assert_eq!(gotos(&control), sent, "it holds");
+    assert!(!control.received().iter().any(|(_, payload)| payload.starts_with("STOP")));
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn stop_and_every_other_wish_end_it_for_good() {
+    let scene = sky::usual();
+    for command in [
+        None,
+        Some(Command::Standby),
+        Some(Command::Manual),
+        Some(Command::Hold),
+        Some(Command::Park),
+    ] {
+        let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+        rig.send(Command::Follow(Box::new(scene.follow())));
+        rig.until_utc(add_seconds(scene.pass.aos.time, 120.0)).await;
+        assert_eq!(rig.phase(), Some(FollowPhase::Following));
+        match command.clone() {
+            None => rig.stop(),
+            Some(command) => rig.send(command),
+        }
+        rig.seconds(0.05).await;
+        assert_eq!(rig.phase(), None, "{command:?}");
+        let sent = gotos(&control);
+        rig.seconds(90.0).await;
+        let parked = usize::from(command == Some(Command::Park));
+        assert_eq!(gotos(&control), sent + parked, "{command:?}");
+        assert!(!control.state().is_moving);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn it_goes_on_after_the_link_was_lost() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
+    rig.set_off(true);
+    rig.seconds(40.0).await;
+    let sent = gotos(&control);
+    rig.set_off(false);
+    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.seconds(20.0).await;
+    assert!(gotos(&control) > sent);
+    assert_eq!(rig.phase(), Some(FollowPhase::Following));
+    let predicted = rig.shown().following.as_ref().unwrap().predicted.unwrap();
+    assert!(direction(&control).separation(predicted.direction).degrees() < 0.6);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_wish_or_a_stop_without_a_link_is_not_forgotten_when_it_is_back() {
+    let scene = sky::usual();
+    for command in [None, Some(Command::Standby), Some(Command::Manual)] {
+        let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+        rig.send(Command::Follow(Box::new(scene.follow())));
+        rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
+        rig.set_off(true);
+        rig.seconds(5.0).await;
+        match command.clone() {
+            None => rig.stop(),
+            Some(command) => rig.send(command),
+        }
+        rig.seconds(1.0).await;
+        let sent = gotos(&control);
+        rig.set_off(false);
+        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.seconds(20.0).await;
+        assert_eq!((gotos(&control), rig.phase()), (sent, None), "{command:?}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_next_pass_is_waited_for_or_the_antenna_parks() {
+    let scene = sky::usual();
+    let day = SignedDuration::from_hours(24);
+    let mut follow = scene.follow();
+    follow.passes.push((scene.pass.aos.time + day, scene.pass.los.time + day));
+    for after in [AfterPass::Next, AfterPass::Park] {
+        let mut antenna = antenna();
+        antenna.follow.after = after;
+        let (mut rig, control) = connected(&antenna, &scene, 60.0).await;
+        rig.send(Command::Follow(Box::new(follow.clone())));
+        rig.until_over().await;
+        rig.seconds(60.0).await;
+        if after == AfterPass::Next {
+            let aos = scene.pass.aos.time + day;
+            assert_eq!(rig.phase(), Some(FollowPhase::Waiting { aos }));
+        } else {
+            assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Park));
+            assert!(direction(&control).elevation_deg() > 89.5);
+        }
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_cannot_be_followed_is_told_and_nothing_moves() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+    let day = SignedDuration::from_hours(24);
+    let mut over = scene.follow();
+    over.passes = vec![(scene.pass.aos.time - day, scene.pass.los.time - day)];
+    rig.send(Command::Follow(Box::new(over)));
+    rig.seconds(5.0).await;
+    let name = scene.elements.name().to_owned();
+    assert_eq!(rig.events(), [Event::CannotFollow(name, FollowProblem::NoPass)]);
+    assert_eq!((gotos(&control), rig.shown().intent), (0, Intent::Standby));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_direction_the_sun_and_the_moon_are_followed_too() {
+    let scene = sky::usual();
+    for target in [Target::Fixed(AzEl::from_degrees(200.0, 40.0)), Target::Sun, Target::Moon] {
+        let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+        let follow = Follow { target: target.clone(), site: site(), passes: Vec::new() };
+        rig.send(Command::Follow(Box::new(follow)));
+        rig.seconds(4000.0).await;
+        assert_eq!(rig.phase(), Some(FollowPhase::Following));
+        if let Some(predicted) = rig.shown().following.as_ref().unwrap().predicted {
+            let off = direction(&control).separation(predicted.direction).degrees();
+            assert!(off < 0.15, "{target:?} {off}");
+        }
+        // They move by less than 17 degrees in the time.
+        assert!(gotos(&control) < 400, "{target:?} {}", gotos(&control));
+        if matches!(target, Target::Fixed(_)) {
+            assert_eq!(gotos(&control), 1);
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What a Rotator Genius and an RC2000C may report, ready for the stories.
+
+use std::sync::Arc;
+
+use azel::{
+    app::Model,
+    astro::Angle,
+    controller::{
+        AxisMotion, Measured, Pointing,
+        panel::{Check, CheckState, Reading, Tone},
+    },
+    driver::{Intent, LinkState, Snapshot},
+    station::{Antenna, Connection, Mount, Rotators},
+};
+
+use crate::{
+    rig::{self, quiet},
+    states,
+};
+
+/// A Rotator Genius that turns azimuth and elevation.
+pub(crate) fn pair() -> Antenna {
+    Antenna::genius("Genius", "192.168.1.250:9006")
+}
+
+/// A Rotator Genius of which one rotator turns the antenna.
+pub(crate) fn alone() -> Antenna {
+    let address = "192.168.1.250:9006".to_owned();
+    let connection = Connection::Genius { address, rotators: Rotators::First };
+    Antenna { connection, ..Antenna::genius("Mast", "") }
+}
+
+/// An RC2000C whose azimuth axis turns by more than a turn.
+pub(crate) fn rc2000c() -> Antenna {
+    let mut antenna = Antenna::rc2000c("RC2000C", "192.168.1.30:4001");
+    if let Mount::AzEl { azimuth_to_deg, .. } = &mut antenna.mount {
+        *azimuth_to_deg = 450.0;
+    }
+    antenna
+}
+
+/// The station with `config` as its antenna in the state of `snapshot`.
+pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
+    let mut model = rig::model(quiet());
+    model.station.antennas = vec![config.clone()];
+    model.antennas = vec![rig::antenna(config, snapshot)];
+    for antenna in &mut model.antennas {
+        antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    }
+    model
+}
+
+fn at(azimuth_deg: Option<f64>, elevation_deg: Option<f64>) -> Measured {
+    let mut measured = states::measured(0.0, 0.0, AxisMotion::Still);
+    measured.pointing = Pointing {
+        azimuth: azimuth_deg.map(Angle::from_degrees),
+        elevation: elevation_deg.map(Angle::from_degrees),
+    };
+    measured.axes[0].angle_deg = azimuth_deg;
+    measured.axes[1].angle_deg = elevation_deg;
+    measured
+}
+
+fn standing(intent: Intent, measured: Measured) -> Snapshot {
+    let mut snapshot = Snapshot { intent, ..quiet() };
+    snapshot.state.measured = Some(measured);
+    snapshot.state.motion_lock = Some(false);
+    snapshot
+}
+
+/// Both rotators stand and tell of themselves.
+pub(crate) fn pair_at(intent: Intent) -> Snapshot {
+    let mut snapshot = standing(intent, at(Some(43.0), Some(12.0)));
+    snapshot.state.readings = Arc::new([
+        Reading::new("1 Tower", "043°").with_bar(0.4),
+        Reading::new("2 Elevation", "012° of 0 to 90"),
+    ]);
+    snapshot
+}
+
+/// The rotator of the antenna and the other one stand; the other one has no
+/// sensor where `sees_other` is false.
+pub(crate) fn alone_at(intent: Intent, sees_other: bool) -> Snapshot {
+    let mut measured = at(Some(43.0), None);
+    measured.axes[1].angle_deg = sees_other.then_some(200.0);
+    standing(intent, measured)
+}
+
+const ALARMS: [Check; 3] = [
+    Check { name: "Azimuth drive", state: CheckState::Good, advice: "" },
+    Check {
+        name: "Elevation drive",
+        state: CheckState::Fault,
+        advice: "The sensor did not move with the drive: look at the motor, then reset.",
+    },
+    Check { name: "Remote mode", state: CheckState::Caution, advice: "Switch it on at the panel." },
+];
+
+fn told() -> Arc<[Reading]> {
+    Arc::new([
+        Reading::new("Satellite", "TÜRKSAT 4A"),
+        Reading::new("Azimuth counts", "30512"),
+        Reading::new("Elevation counts", "12044"),
+        Reading::new("Polarization", "H, 45 units"),
+        Reading::new("AGC 1", "43 %").with_bar(0.43),
+        Reading::new("Alarm", "none"),
+    ])
+}
+
+/// Nobody has connected to it.
+pub(crate) fn rc2000c_off() -> Snapshot {
+    Snapshot { link: LinkState::Off, ..quiet() }
+}
+
+/// It stands, calibrated.
+pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
+    let mut snapshot = standing(intent, at(Some(370.0), Some(42.4)));
+    snapshot.state.readings = told();
+    snapshot.state.checks = ALARMS.map(|check| Check { state: CheckState::Good, ..check }).into();
+    snapshot
+}
+
+/// A drive does not turn, and its limit switch is set.
+pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
+    let mut snapshot = rc2000c_at(intent);
+    snapshot.state.motion_lock = Some(true);
+    snapshot.state.checks = ALARMS.into();
+    let mut readings = told().to_vec();
+    readings[5] = Reading::new("Alarm", "3, elevation jammed").in_tone(Tone::Bad);
+    snapshot.state.readings = readings.into();
+    if let Some(measured) = &mut snapshot.state.measured {
+        measured.axes[1].plus_limit = true;
+    }
+    snapshot
+}
+
+/// It stands, and its counts are not calibrated.
+pub(crate) fn rc2000c_uncalibrated(intent: Intent) -> Snapshot {
+    let mut snapshot = rc2000c_at(intent);
+    snapshot.state.measured = Some(at(None, None));
+    snapshot
+}

@@ -1,0 +1,336 @@
+//! Driving antennas whose controllers differ from a Satrak: what the card
+//! offers, and what comes of each of its controls.
+
+use azel::{
+    app::{Model, UiCommand, View},
+    astro::Angle,
+    controller::AxisMotion,
+    driver::{Command, Intent},
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    makes,
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
+};
+
+const AZIMUTH: &str = "Go to azimuth, degrees";
+const ELEVATION: &str = "Go to elevation, degrees";
+
+fn antenna(command: Command) -> UiCommand {
+    UiCommand::Antenna(0, command)
+}
+
+fn type_into(window: &mut Window, field: &str, words: &str) {
+    window.get_by_label(field).focus();
+    settle(window);
+    window.get_by_label(field).type_text(words);
+    settle(window);
+}
+
+/// Holds a jog key for some frames.
+fn hold(window: &mut Window, key: &str) -> Vec<UiCommand> {
+    let key = window.get_by_label(key).rect().center();
+    window.drag_at(key);
+    let mut commands = asked(window);
+    window.drop_at(key);
+    commands.extend(asked(window));
+    commands.dedup();
+    commands
+}
+
+fn jog(x_deg_s: f64, y_deg_s: f64) -> [UiCommand; 2] {
+    let rates_deg_s = [x_deg_s, y_deg_s];
+    [antenna(Command::Jog { rates_deg_s }), antenna(Command::EndJog)]
+}
+
+fn genius(intent: Intent) -> Model {
+    makes::model(makes::pair(), makes::pair_at(intent))
+}
+
+fn rc2000c(intent: Intent) -> Model {
+    makes::model(makes::rc2000c(), makes::rc2000c_at(intent))
+}
+
+#[test]
+fn nothing_is_asked_of_an_rc2000c_before_connect() {
+    for size in SIZES {
+        let mut window = rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()));
+        assert!(says(&window, "Nothing is asked of it before Connect"));
+        assert!(says(&window, "take its panel from somebody"));
+        assert!(says(&window, "Locked: not connected."));
+        window.get_by_label_contains("RC2000C: Not connected");
+        assert!(window.query_by_label("Link of RC2000C").is_none());
+        window.drag_at(window.get_by_label("Jog clockwise").rect().center());
+        assert_eq!(asked(&mut window), []);
+        window.get_by_role_and_label(Role::Button, "Connect").focus();
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Connect)]);
+    }
+}
+
+#[test]
+fn every_antenna_can_be_let_go_of_with_the_keyboard() {
+    for size in SIZES {
+        for model in
+            [rig::model(states::holding()), genius(Intent::Standby), rc2000c(Intent::Manual)]
+        {
+            let name = format!("Link of {}", model.antennas[0].config.name);
+            let mut window = rig::window(size, model);
+            window.get_by_label(&name).focus();
+            settle(&mut window);
+            window.key_press(Key::Enter);
+            settle(&mut window);
+            window.get_by_role_and_label(Role::Button, "Disconnect").focus();
+            settle(&mut window);
+            window.key_press(Key::Enter);
+            assert_eq!(asked(&mut window), [antenna(Command::Disconnect)], "{name}");
+        }
+    }
+}
+
+#[test]
+fn letting_go_of_what_moves_is_asked_about() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::moving()));
+        window.get_by_label("Link of Satrak").click();
+        settle(&mut window);
+        window.get_by_role_and_label(Role::Button, "Disconnect").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "Disconnect from Satrak? It moves or tracks."));
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Disconnect)]);
+    }
+}
+
+#[test]
+fn after_letting_go_of_a_satrak_it_can_be_taken_up_again() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(makes::rc2000c_off()));
+        assert!(says(&window, "Another program may use it. Connect takes up the link again."));
+        window.get_by_role_and_label(Role::Button, "Connect").click();
+        assert_eq!(asked(&mut window), [antenna(Command::Connect)]);
+    }
+}
+
+#[test]
+fn the_keys_of_a_pair_turn_one_rotator_each_at_its_one_speed() {
+    for size in SIZES {
+        let mut window = rig::window(size, genius(Intent::Manual));
+        for (key, commands) in [
+            ("Jog clockwise", jog(6.0, 0.0)),
+            ("Jog counterclockwise", jog(-6.0, 0.0)),
+            ("Jog up", jog(0.0, 6.0)),
+            ("Jog down", jog(0.0, -6.0)),
+        ] {
+            assert_eq!(hold(&mut window, key), commands, "{key}");
+        }
+        assert!(window.query_by_role(Role::Slider).is_none(), "one speed is no choice");
+        assert!(window.query_by_label("Jog speed").is_none());
+        assert!(window.query_by_label("Step size, degrees").is_none());
+        assert!(says(&window, "STOP stops both rotators."));
+    }
+}
+
+#[test]
+fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
+    for size in SIZES {
+        let snapshot = makes::alone_at(Intent::Manual, true);
+        let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
+        assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 6.0));
+        assert_eq!(hold(&mut window, "Jog Other −"), jog(0.0, -6.0));
+        assert!(window.query_by_label(ELEVATION).is_none());
+        assert!(!says(&window, "El: "), "no row in the table");
+        assert!(says(&window, "Antenna Mast 043°, no elevation"), "a line in the sky");
+        type_into(&mut window, AZIMUTH, "270");
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        let azimuth = Some(Angle::from_degrees(270.0));
+        let wanted = antenna(Command::Position { azimuth, elevation: None });
+        assert_eq!(asked(&mut window), [wanted]);
+    }
+}
+
+#[test]
+fn what_nobody_would_see_turn_is_not_turned() {
+    for size in SIZES {
+        let snapshot = makes::alone_at(Intent::Manual, false);
+        let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
+        assert!(says(&window, "The other rotator has no known angle"));
+        assert_eq!(hold(&mut window, "Jog Other +"), []);
+        assert_eq!(hold(&mut window, "Jog clockwise"), jog(6.0, 0.0));
+    }
+}
+
+#[test]
+fn slow_and_fast_are_chosen_by_name() {
+    for size in SIZES {
+        let mut window = rig::window(size, rc2000c(Intent::Manual));
+        assert_eq!(hold(&mut window, "Jog up"), jog(0.0, 0.5), "slow to begin with");
+        window.get_by_role_and_label(Role::RadioButton, "Fast").click();
+        settle(&mut window);
+        assert_eq!(hold(&mut window, "Jog up"), jog(0.0, 2.0));
+        window.key_press(Key::PageDown);
+        settle(&mut window);
+        assert_eq!(hold(&mut window, "Jog counterclockwise"), jog(-0.5, 0.0));
+    }
+}
+
+#[test]
+fn the_sentence_tells_a_jog_by_its_speed() {
+    let mut snapshot = makes::rc2000c_at(Intent::Manual);
+    snapshot.jog = Some([-2.0, 0.0]);
+    let model = makes::model(makes::rc2000c(), snapshot);
+    assert_eq!(states::sentence(&model), "Jogging CCW at speed Fast while the key is held.");
+    let mut snapshot = makes::pair_at(Intent::Manual);
+    snapshot.jog = Some([0.0, 6.0]);
+    let model = makes::model(makes::pair(), snapshot);
+    assert_eq!(states::sentence(&model), "Jogging Up while the key is held.");
+}
+
+#[test]
+fn an_axis_of_more_than_a_turn_takes_what_lies_beyond_it() {
+    for size in SIZES {
+        let mut window = rig::window(size, rc2000c(Intent::Position));
+        type_into(&mut window, AZIMUTH, "400");
+        type_into(&mut window, ELEVATION, "42");
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        let wanted = Command::Position {
+            azimuth: Some(Angle::from_degrees(400.0)),
+            elevation: Some(Angle::from_degrees(42.0)),
+        };
+        assert_eq!(asked(&mut window), [antenna(wanted)]);
+        type_into(&mut window, AZIMUTH, "0");
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "Azimuth 4000 is outside 0° to 450°."));
+    }
+}
+
+#[test]
+fn without_a_calibration_it_is_turned_by_hand_and_sent_nowhere() {
+    for size in SIZES {
+        let snapshot = makes::rc2000c_uncalibrated(Intent::Manual);
+        let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
+        assert!(says(&window, "No directions: azimuth and elevation are not calibrated."));
+        assert_eq!(hold(&mut window, "Jog up"), jog(0.0, 0.5));
+        window.get_by_role_and_label(Role::Button, "Go to").click();
+        window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "Az: Command not known, actual not known"));
+    }
+}
+
+#[test]
+fn a_set_limit_blocks_its_own_key_and_the_sentence_names_the_way_back() {
+    let mut snapshot = makes::rc2000c_at(Intent::Manual);
+    snapshot.state.measured.as_mut().unwrap().axes[0].plus_limit = true;
+    for size in SIZES {
+        let model = makes::model(makes::rc2000c(), snapshot.clone());
+        let words = "Stopped: CW limit switch is set. Jog CCW to leave the limit.";
+        assert_eq!(states::sentence(&model), words);
+        let mut window = rig::window(size, model);
+        assert_eq!(hold(&mut window, "Jog clockwise"), []);
+        assert_eq!(hold(&mut window, "Jog counterclockwise"), jog(-0.5, 0.0));
+    }
+}
+
+#[test]
+fn alarms_lock_what_moves_and_say_what_to_do() {
+    for size in SIZES {
+        let snapshot = makes::rc2000c_alarmed(Intent::Manual);
+        let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
+        assert!(says(&window, "Motion is locked by a fault: Elevation drive. The sensor did not"));
+        assert!(says(&window, "Locked by a fault. Look at Faults."));
+        assert_eq!(hold(&mut window, "Jog up"), []);
+        if let Some(folded) = window.query_by_label("Faults: 1 fault: Elevation drive") {
+            folded.click();
+            settle(&mut window);
+        }
+        window.get_by_label("Details of the checks").click_accesskit();
+        settle(&mut window);
+        window.get_by_label_contains("Elevation drive: fault. The sensor did not move");
+        window.get_by_label("STOP").click();
+        assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}
+
+#[test]
+fn what_the_unit_tells_is_listed_and_folds_to_the_gravest() {
+    for size in SIZES {
+        let snapshot = makes::rc2000c_alarmed(Intent::Standby);
+        let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
+        if let Some(folded) = window.query_by_label("Readings: Alarm 3, elevation jammed") {
+            folded.click();
+            settle(&mut window);
+        }
+        for line in ["Satellite: TÜRKSAT 4A", "AGC 1: 43 %", "Alarm: 3, elevation jammed"] {
+            window.get_by_label(line);
+        }
+    }
+}
+
+#[test]
+fn the_modes_are_those_of_the_unit_and_each_is_asked_for() {
+    for size in SIZES {
+        for model in [genius(Intent::Manual), rc2000c(Intent::Manual)] {
+            let mut window = rig::window(size, model);
+            for (word, command) in [
+                ("Standby", antenna(Command::Standby)),
+                ("Manual", antenna(Command::Manual)),
+                ("Position", antenna(Command::Hold)),
+                ("Track", rig::track_noaa_20()),
+            ] {
+                window.get_by_role_and_label(Role::RadioButton, word).click();
+                assert_eq!(asked(&mut window), [command], "{word}");
+            }
+            assert!(window.query_by_label_contains("Auto-track").is_none());
+            window.get_by_label("Followed by Azel: none");
+        }
+    }
+}
+
+#[test]
+fn what_was_typed_for_one_antenna_is_not_for_the_next() {
+    let mut model = genius(Intent::Position);
+    let second = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Position));
+    model.antennas.extend(second.antennas);
+    let mut window = rig::window(rig::LARGE, model);
+    type_into(&mut window, AZIMUTH, "121");
+    window.state_mut().model.selected_antenna = 1;
+    settle(&mut window);
+    let typed = window.get_by_label(AZIMUTH).value();
+    assert_eq!(typed.unwrap_or_default(), "");
+}
+
+#[test]
+fn no_other_view_shows_what_only_a_satrak_has() {
+    for size in SIZES {
+        for mut model in [genius(Intent::Standby), rc2000c(Intent::Standby)] {
+            model.view = View::Antennas;
+            let mut window = rig::window(size, model);
+            for word in ["Tracking window", "Satellite and TLE", "GPS", "Clock"] {
+                assert!(window.query_by_label(word).is_none(), "{word}");
+            }
+            asked(&mut window);
+            window.state_mut().model.view = View::Console;
+            settle(&mut window);
+            assert!(says(&window, "Questions are sent by hand to a Satrak only."));
+            assert!(window.query_by_label("Query to send").is_none());
+            window.state_mut().model.view = View::Elements;
+            settle(&mut window);
+            assert!(window.query_by_label("Upload and prove").is_none());
+        }
+    }
+}
+
+#[test]
+fn a_motion_by_somebody_else_shows_on_the_chip() {
+    let mut snapshot = makes::rc2000c_at(Intent::Standby);
+    snapshot.state.measured.as_mut().unwrap().axes[0].motion = AxisMotion::Plus;
+    let window = rig::window(rig::LARGE, makes::model(makes::rc2000c(), snapshot));
+    let chip = window.get_by_label_contains("RC2000C: Moving");
+    assert!(chip.accesskit_node().label().is_some_and(|name| name.contains("link live")));
+}

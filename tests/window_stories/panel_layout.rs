@@ -1,0 +1,75 @@
+//! The card of every make fits every window in every theme.
+
+use azel::{
+    driver::{Intent, Snapshot},
+    station::Antenna,
+    ui::{theme, tokens::ThemeName},
+};
+use egui::{Rect, Role, pos2, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::{
+    extremes::nothing_overlaps,
+    makes,
+    rig::{self, SIZES, Window, settle},
+};
+
+/// What stands at the end of the card may have to be scrolled to.
+const SCROLLED: [&str; 5] = ["Travel: ", "Readings: ", "Faults: ", "More: ", "Details"];
+
+fn cases() -> Vec<(Antenna, Snapshot)> {
+    let manual = Intent::Manual;
+    vec![
+        (makes::pair(), makes::pair_at(manual)),
+        (makes::pair(), makes::pair_at(Intent::Standby)),
+        (makes::alone(), makes::alone_at(manual, false)),
+        (makes::rc2000c(), makes::rc2000c_off()),
+        (makes::rc2000c(), makes::rc2000c_at(manual)),
+        (makes::rc2000c(), makes::rc2000c_alarmed(manual)),
+        (makes::rc2000c(), makes::rc2000c_uncalibrated(manual)),
+    ]
+}
+
+fn nothing_is_cut(window: &Window, size: [f32; 2]) {
+    let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
+    for role in [Role::Button, Role::RadioButton, Role::TextInput, Role::Slider] {
+        for node in window.query_all_by_role(role) {
+            let name = node.accesskit_node().label().unwrap_or_default();
+            let is_scrolled = SCROLLED.iter().any(|start| name.starts_with(start));
+            assert!(
+                is_scrolled || whole.contains_rect(node.rect()),
+                "{name:?} at {:?}",
+                node.rect()
+            );
+        }
+    }
+}
+
+#[test]
+fn the_card_of_every_make_fits_every_window_in_every_theme() {
+    for size in SIZES {
+        for (config, snapshot) in cases() {
+            let mut window = rig::window(size, makes::model(config, snapshot));
+            for name in [ThemeName::Dark, ThemeName::Light, ThemeName::Night] {
+                theme::set(&window.ctx, name);
+                settle(&mut window);
+                nothing_is_cut(&window, size);
+                nothing_overlaps(&window);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
+    for (config, snapshot) in cases() {
+        let mut window = rig::window(rig::SMALL, makes::model(config, snapshot));
+        for fold in ["Travel: ", "Readings: ", "Faults: ", "More: "] {
+            if let Some(line) = window.query_by_label_contains(fold) {
+                line.click_accesskit();
+            }
+            settle(&mut window);
+        }
+        nothing_overlaps(&window);
+    }
+}
