@@ -8,4 +8,4 @@ mod trackability;
 
 pub use azimuth_route::{AzimuthRange, AzimuthRoute, NoTravel};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
-pub use trackability::{Sample, Trackability, trackability};
+pub use trackability::{Loss, Reach, Sample, Trackability, trackability};

@@ -31,7 +31,7 @@ const LOOK: Duration = Duration::from_millis(100);
 /// A round of trouble.
 const TROUBLE: Duration = Duration::from_secs(40);
 /// After it a link is up again within this.
-const RECOVERY: Duration = Duration::from_secs(60);
+const RECOVERY: Duration = Duration::from_mins(1);
 /// A stop on a good link is proved within this.
 const PROOF: Duration = Duration::from_secs(15);
 
@@ -267,7 +267,9 @@ async fn round(pairs: &mut [Pair], dice: &mut Dice) {
         .map(|pair| (0..=dice.below(2)).map(|_| dice.below(pair.faults)).collect())
         .collect();
     for (pair, faults) in pairs.iter().zip(&faults) {
-        faults.iter().for_each(|fault| (pair.set_fault)(*fault, true));
+        for fault in faults {
+            (pair.set_fault)(*fault, true);
+        }
     }
     let end = Instant::now() + TROUBLE;
     while Instant::now() < end {
@@ -284,7 +286,9 @@ async fn round(pairs: &mut [Pair], dice: &mut Dice) {
         sleep(LOOK).await;
     }
     for (pair, faults) in pairs.iter_mut().zip(&faults) {
-        faults.iter().for_each(|fault| (pair.set_fault)(*fault, false));
+        for fault in faults {
+            (pair.set_fault)(*fault, false);
+        }
         let is_up = |pair: &Pair| matches!(pair.handle.snapshot().link, LinkState::Up { .. });
         until(pair, "up again", RECOVERY, is_up).await;
         pair.handle.stop();

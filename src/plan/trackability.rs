@@ -1,9 +1,12 @@
-//! How much of a pass a mount can follow.
+//! How much of a pass an antenna can follow.
+
+mod az_el;
+mod xy;
 
 use jiff::Timestamp;
 
 use crate::{
-    astro::{Angle, AzEl, time::seconds_between, xy_mount},
+    astro::{Angle, AzEl},
     station::Mount,
 };
 
@@ -16,118 +19,66 @@ pub struct Sample {
     pub direction: AzEl,
 }
 
-/// How much of a pass a mount can follow.
+/// What an antenna can reach, and how fast.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// How its axes are arranged.
+    pub mount: Mount,
+    /// Fastest rate of an axis, degrees a second.
+    pub maximum_rate_deg_s: f64,
+    /// A direction that is off by less is within the beam.
+    pub half_beam: Angle,
+    /// It turns both angles; else only the azimuth counts.
+    pub has_elevation: bool,
+}
+
+/// How much of a pass an antenna can follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trackability {
     /// All of it.
     Whole,
-    /// All but some seconds near an end of the lower axis.
+    /// All but some seconds.
     Loses {
-        /// How long the mount cannot keep up, seconds.
+        /// For how long the satellite is not in the beam, seconds.
         seconds: f64,
-        /// Azimuth of the nearest keyhole.
-        keyhole_azimuth: Angle,
+        /// Where that begins.
+        at: Loss,
     },
     /// None of it.
     Nothing,
 }
 
-/// How much of the pass along `samples` a mount follows whose axes turn at up
-/// to `maximum_rate_deg_s`. Samples are a few seconds apart, oldest first.
-pub fn trackability(samples: &[Sample], mount: Mount, maximum_rate_deg_s: f64) -> Trackability {
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = mount else {
-        return Trackability::Whole;
-    };
-    let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
-    let axes = |sample: &Sample| {
-        let axes = xy_mount::axes_from_azel(sample.direction, lower_axis);
-        // The travel is counted as the controller counts: 90 at the zenith.
-        [axes.lower.degrees() + 90.0, axes.upper.degrees() + 90.0]
-    };
-    let mut lost_s = 0.0;
-    let mut whole_s = 0.0;
-    let mut lost_towards = Angle::ZERO;
-    for pair in samples.windows(2) {
-        let [from, to] = pair else { continue };
-        let span_s = seconds_between(from.time, to.time);
-        if span_s <= 0.0 {
-            continue;
-        }
-        whole_s += span_s;
-        let reachable =
-            axes(to).iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(angle));
-        let keeps_up = axes(from)
-            .iter()
-            .zip(axes(to))
-            .all(|(before, after)| (after - before).abs() <= maximum_rate_deg_s * span_s);
-        if !reachable || !keeps_up {
-            lost_s += span_s;
-            lost_towards = to.direction.azimuth;
-        }
-    }
-    if lost_s <= 0.0 {
-        Trackability::Whole
-    } else if lost_s >= whole_s {
-        Trackability::Nothing
-    } else {
-        let off = (lost_towards - lower_axis).wrapped_180().abs();
-        let far_end = off.degrees() > 90.0;
-        let keyhole = if far_end { lower_axis + Angle::from_degrees(180.0) } else { lower_axis };
-        Trackability::Loses { seconds: lost_s, keyhole_azimuth: keyhole.wrapped_360() }
+/// Where an antenna loses a satellite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Loss {
+    /// Near an end of the lower axis of an X/Y mount, at this azimuth.
+    Keyhole(Angle),
+    /// So high that the azimuth axis would have to turn too fast.
+    Overhead,
+    /// At an end of the azimuth axis, which has to go all the way round.
+    Swing,
+    /// Where no position of the axes points.
+    OutOfReach,
+}
+
+/// How much of the pass along `samples` an antenna follows. Samples are a few
+/// seconds apart, oldest first; the antenna waits at the first of them.
+pub fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
+    match reach.mount {
+        Mount::Xy { .. } => xy::trackability(samples, reach),
+        Mount::AzEl { .. } => az_el::trackability(samples, reach),
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::astro::time::add_seconds;
-
-    const MOUNT: Mount =
-        Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
-
-    /// A pass in a straight line over the ground, `km` beside the site, from
-    /// north to south at 7.5 km/s and 800 km height.
-    fn pass(km: f64, azimuth_turn_deg: f64) -> Vec<Sample> {
-        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        (-250..=250)
-            .map(|second| {
-                let along = -7.5 * f64::from(second);
-                let direction = AzEl::from_enu(glam::DVec3::new(km, along, 800.0));
-                let turned = direction.azimuth + Angle::from_degrees(azimuth_turn_deg);
-                Sample {
-                    time: add_seconds(start, f64::from(second)),
-                    direction: AzEl { azimuth: turned.wrapped_360(), ..direction },
-                }
-            })
-            .collect()
-    }
-
-    #[test]
-    fn a_pass_over_the_zenith_costs_an_xy_mount_nothing() {
-        assert_eq!(trackability(&pass(1.0, 0.0), MOUNT, 3.0), Trackability::Whole);
-    }
-
-    #[test]
-    fn a_slow_mount_loses_the_part_near_the_keyhole() {
-        let low: Vec<Sample> = pass(600.0, 0.0);
-        let Trackability::Loses { seconds, keyhole_azimuth } = trackability(&low, MOUNT, 0.4)
-        else {
-            panic!("{:?}", trackability(&low, MOUNT, 0.4));
-        };
-        assert!(seconds > 1.0 && seconds < 400.0, "{seconds}");
-        assert!(keyhole_azimuth.degrees() < 1.0 || keyhole_azimuth.degrees() > 179.0);
-    }
-
-    #[test]
-    fn what_lies_in_the_keyhole_cannot_be_followed() {
-        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let still: Vec<Sample> = (0..10)
-            .map(|second| Sample {
-                time: add_seconds(start, f64::from(second)),
-                direction: AzEl::from_degrees(0.0, 2.0),
-            })
-            .collect();
-        assert_eq!(trackability(&still, MOUNT, 3.0), Trackability::Nothing);
-        assert_eq!(trackability(&[], MOUNT, 3.0), Trackability::Whole);
+impl Trackability {
+    /// What a loss of `lost_s` seconds of `whole_s` comes to.
+    fn of(lost_s: f64, whole_s: f64, at: Loss) -> Self {
+        if lost_s <= 0.0 {
+            Self::Whole
+        } else if lost_s >= whole_s {
+            Self::Nothing
+        } else {
+            Self::Loses { seconds: lost_s, at }
+        }
     }
 }

@@ -20,7 +20,7 @@ use super::{format, text, theme, widgets::paint};
 use crate::{
     app::forecast::{Scope, Work},
     astro::time::seconds_between,
-    plan::Sample,
+    plan::{Loss, Sample},
 };
 
 pub use filter::Filter;
@@ -67,15 +67,34 @@ pub struct PassRow<'a> {
 pub enum Verdict<'a> {
     /// All of the pass.
     Trackable,
-    /// All but some of it, near an end of the lower axis.
+    /// All but some of it.
     Loses {
         /// How much, seconds.
         seconds: f64,
-        /// Where, degrees.
-        keyhole_azimuth_deg: f64,
+        /// Where that begins.
+        at: Loss,
     },
     /// Nothing: a sentence such as "Not possible: stays below the travel".
     NotPossible(&'a str),
+}
+
+/// Where something is lost, such as "at keyhole N".
+fn place(loss: Loss) -> Cow<'static, str> {
+    match loss {
+        Loss::Keyhole(azimuth) => {
+            let towards = match azimuth.degrees().round() as i32 % 360 {
+                0 => "N".into(),
+                90 => "E".into(),
+                180 => "S".into(),
+                270 => "W".into(),
+                _ => format::azimuth(azimuth.degrees()),
+            };
+            format!("at keyhole {towards}").into()
+        }
+        Loss::Overhead => "overhead".into(),
+        Loss::Swing => "turning round".into(),
+        Loss::OutOfReach => "out of reach".into(),
+    }
 }
 
 impl<'a> Verdict<'a> {
@@ -84,15 +103,8 @@ impl<'a> Verdict<'a> {
         match self {
             Self::Trackable => "Trackable".into(),
             Self::NotPossible(sentence) => sentence.into(),
-            Self::Loses { seconds, keyhole_azimuth_deg } => {
-                let towards = match keyhole_azimuth_deg.round() as i32 % 360 {
-                    0 => "N".into(),
-                    90 => "E".into(),
-                    180 => "S".into(),
-                    270 => "W".into(),
-                    _ => format::azimuth(keyhole_azimuth_deg),
-                };
-                format!("Loses {} at keyhole {towards}", format::age(seconds.ceil())).into()
+            Self::Loses { seconds, at } => {
+                format!("Loses {} {}", format::age(seconds.ceil()), place(at)).into()
             }
         }
     }

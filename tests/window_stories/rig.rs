@@ -71,7 +71,7 @@ fn orbits() -> &'static Orbits {
         passes.sort_by_key(|forecast| forecast.pass.aos.time);
         // Shared by all stories with what is drawn of them.
         for forecast in &passes {
-            forecast.trackability();
+            forecast.path();
         }
         Orbits { catalog, satellites, passes }
     })

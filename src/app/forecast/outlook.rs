@@ -8,9 +8,10 @@ use jiff::Timestamp;
 use super::PassKey;
 use crate::{
     astro::{Angle, Site, time::add_seconds},
+    controller::Make,
     orbit::{Elements, Pass, Propagator},
-    plan::{Sample, Trackability, trackability},
-    station::{MotionLimits, Mount, Station},
+    plan::{Reach, Sample, Trackability, trackability},
+    station::{Antenna, Station},
 };
 
 /// A track is drawn from at most this many samples.
@@ -36,14 +37,14 @@ impl Followed {
 }
 
 /// From where passes are seen, and with what.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Vantage {
     /// The place.
     pub site: Site,
     /// Elevation of AOS and LOS.
     pub horizon: Angle,
-    /// The first antenna.
-    pub mount: Option<(Mount, MotionLimits)>,
+    /// What each antenna can reach, in their order.
+    pub antennas: Vec<Reach>,
 }
 
 impl Vantage {
@@ -55,7 +56,7 @@ impl Vantage {
             horizon: Angle::from_degrees(
                 antenna.map_or(0.0, |antenna| antenna.limits.minimum_elevation_deg),
             ),
-            mount: antenna.map(|antenna| (antenna.mount, antenna.limits)),
+            antennas: station.antennas.iter().map(reach).collect(),
         }
     }
 }
@@ -75,7 +76,8 @@ pub struct Forecast {
 #[derive(Debug, Clone)]
 struct Outline {
     path: Vec<Sample>,
-    trackability: Option<Trackability>,
+    /// By the place of the antenna.
+    trackability: Vec<Trackability>,
     track: OnceLock<Vec<Sample>>,
 }
 
@@ -116,18 +118,17 @@ impl Forecast {
         &self.outline().path
     }
 
-    /// What the first antenna makes of it; `None` without one.
-    pub fn trackability(&self) -> Option<Trackability> {
-        self.outline().trackability
+    /// What this antenna makes of it; `None` without one.
+    pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
+        self.outline().trackability.get(antenna).copied()
     }
 
     fn outline(&self) -> &Outline {
         self.outline.get_or_init(|| {
             let track = self.sampled();
-            let mount = self.vantage.mount;
+            let antennas = self.vantage.antennas.iter();
             Box::new(Outline {
-                trackability: mount
-                    .map(|(mount, limits)| trackability(&track, mount, limits.maximum_rate_deg_s)),
+                trackability: antennas.map(|reach| trackability(&track, *reach)).collect(),
                 path: thinned(&track),
                 track: OnceLock::new(),
             })
@@ -145,6 +146,15 @@ impl Forecast {
                 Some(Sample { time, direction: look.direction })
             })
             .collect()
+    }
+}
+
+fn reach(antenna: &Antenna) -> Reach {
+    Reach {
+        mount: antenna.mount,
+        maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
+        half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
+        has_elevation: Make::of(&antenna.connection).capabilities.has_elevation,
     }
 }
 
@@ -188,9 +198,9 @@ mod tests {
             assert_eq!((path.first(), path.last()), (track.first(), track.last()));
             assert!(path.len() > 10 && path.len() < 70, "{}", path.len());
             assert!(track.len() as f64 >= pass.duration_s() / 2.0);
-            let (mount, limits) = vantage.mount.unwrap();
-            let whole = trackability(track, mount, limits.maximum_rate_deg_s);
-            assert_eq!(forecast.trackability(), Some(whole));
+            for (index, reach) in vantage.antennas.iter().enumerate() {
+                assert_eq!(forecast.trackability(index), Some(trackability(track, *reach)));
+            }
         }
     }
 

@@ -131,7 +131,7 @@ pub(super) fn search(
     if !is_all {
         // All of them stand in the strip from the first frame on.
         passes.par_iter().for_each(|forecast| {
-            forecast.trackability();
+            forecast.path();
         });
     }
     Found { satellites, passes }

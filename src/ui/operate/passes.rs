@@ -40,11 +40,10 @@ pub(super) fn list(
     let row = |index: usize| {
         let forecast = passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
         let pass = &forecast.pass;
-        let verdict = forecast.trackability().map(|trackability| match trackability {
+        let trackability = forecast.trackability(model.selected_antenna);
+        let verdict = trackability.map(|trackability| match trackability {
             Trackability::Whole => Verdict::Trackable,
-            Trackability::Loses { seconds, keyhole_azimuth } => {
-                Verdict::Loses { seconds, keyhole_azimuth_deg: keyhole_azimuth.degrees() }
-            }
+            Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
             Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
         });
         Some(PassRow {
@@ -193,6 +192,7 @@ pub(super) fn timeline(
     let usual = if rect.height() < timeline::SMALL_BELOW { 4 } else { 12 };
     let hours = f64::from(zoom.hours(usual));
     let end = add_seconds(model.now, hours * 3600.0);
+    let of = |forecast: &Forecast| forecast.trackability(model.selected_antenna);
     let bars: Vec<Bar<'_>> = model
         .forecasts
         .favourites
@@ -206,11 +206,11 @@ pub(super) fn timeline(
             aos: forecast.pass.aos.time,
             los: forecast.pass.los.time,
             max_elevation_deg: forecast.pass.max_elevation().degrees(),
-            loses: matches!(forecast.trackability(), Some(Trackability::Loses { .. })),
-            possible: forecast.trackability() != Some(Trackability::Nothing),
+            loses: matches!(of(forecast), Some(Trackability::Loses { .. })),
+            possible: of(forecast) != Some(Trackability::Nothing),
         })
         .collect();
-    let lane = model.antennas.first().map_or("Passes", |antenna| antenna.config.name.as_str());
+    let lane = model.antenna().map_or("Passes", |antenna| antenna.config.name.as_str());
     let strip = TimelineModel {
         now: model.now,
         hours,

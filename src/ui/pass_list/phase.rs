@@ -113,7 +113,11 @@ pub(super) fn spoken(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> String 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{astro::time::add_seconds, ui::pass_list::Verdict};
+    use crate::{
+        astro::{Angle, time::add_seconds},
+        plan::Loss,
+        ui::pass_list::Verdict,
+    };
 
     const AOS: Timestamp = Timestamp::UNIX_EPOCH;
 
@@ -128,7 +132,7 @@ mod tests {
             max_elevation_deg: 51.6,
             aos_azimuth_deg: 249.0,
             los_azimuth_deg: 46.0,
-            verdict: Some(Verdict::Loses { seconds: 11.4, keyhole_azimuth_deg: 0.0 }),
+            verdict: Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
             path: &[],
         }
     }

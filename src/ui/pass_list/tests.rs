@@ -9,7 +9,8 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    astro::{AzEl, time::add_seconds},
+    astro::{Angle, AzEl, time::add_seconds},
+    plan::Loss,
     ui::widgets::testing,
 };
 
@@ -73,7 +74,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
         los_azimuth_deg: 343.0,
         verdict: match index {
             0 => Some(Verdict::Trackable),
-            1 => Some(Verdict::Loses { seconds: 11.4, keyhole_azimuth_deg: 0.0 }),
+            1 => Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
             2 => Some(Verdict::NotPossible("Not possible: below the travel")),
             _ => None,
         },

@@ -1,0 +1,107 @@
+//! Two crossed axes: all of the sky but two keyholes at the ends of the lower one.
+
+use super::{Loss, Reach, Sample, Trackability};
+use crate::{
+    astro::{Angle, time::seconds_between, xy_mount},
+    station::Mount,
+};
+
+/// See [`super::trackability`].
+pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = reach.mount else {
+        return Trackability::Nothing;
+    };
+    let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+    let axes = |sample: &Sample| {
+        let axes = xy_mount::axes_from_azel(sample.direction, lower_axis);
+        // The travel is counted as the controller counts: 90 at the zenith.
+        [axes.lower.degrees() + 90.0, axes.upper.degrees() + 90.0]
+    };
+    let mut lost_s = 0.0;
+    let mut whole_s = 0.0;
+    let mut lost_towards = Angle::ZERO;
+    for pair in samples.windows(2) {
+        let [from, to] = pair else { continue };
+        let span_s = seconds_between(from.time, to.time);
+        if span_s <= 0.0 {
+            continue;
+        }
+        whole_s += span_s;
+        let reachable =
+            axes(to).iter().all(|angle| (travel_from_deg..=travel_to_deg).contains(angle));
+        let keeps_up = axes(from)
+            .iter()
+            .zip(axes(to))
+            .all(|(before, after)| (after - before).abs() <= reach.maximum_rate_deg_s * span_s);
+        if !reachable || !keeps_up {
+            lost_s += span_s;
+            lost_towards = to.direction.azimuth;
+        }
+    }
+    let off = (lost_towards - lower_axis).wrapped_180().abs();
+    let far_end = off.degrees() > 90.0;
+    let keyhole = if far_end { lower_axis + Angle::from_degrees(180.0) } else { lower_axis };
+    Trackability::of(lost_s, whole_s, Loss::Keyhole(keyhole.wrapped_360()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::{AzEl, time::add_seconds};
+    use jiff::Timestamp;
+
+    const MOUNT: Mount =
+        Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
+
+    fn reach(maximum_rate_deg_s: f64) -> Reach {
+        let half_beam = Angle::from_degrees(0.5);
+        Reach { mount: MOUNT, maximum_rate_deg_s, half_beam, has_elevation: true }
+    }
+
+    /// A pass in a straight line over the ground, `km` beside the site, from
+    /// north to south at 7.5 km/s and 800 km height.
+    fn pass(km: f64, azimuth_turn_deg: f64) -> Vec<Sample> {
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        (-250..=250)
+            .map(|second| {
+                let along = -7.5 * f64::from(second);
+                let direction = AzEl::from_enu(glam::DVec3::new(km, along, 800.0));
+                let turned = direction.azimuth + Angle::from_degrees(azimuth_turn_deg);
+                Sample {
+                    time: add_seconds(start, f64::from(second)),
+                    direction: AzEl { azimuth: turned.wrapped_360(), ..direction },
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_pass_over_the_zenith_costs_an_xy_mount_nothing() {
+        assert_eq!(trackability(&pass(1.0, 0.0), reach(3.0)), Trackability::Whole);
+    }
+
+    #[test]
+    fn a_slow_mount_loses_the_part_near_the_keyhole() {
+        let low: Vec<Sample> = pass(600.0, 0.0);
+        let Trackability::Loses { seconds, at: Loss::Keyhole(keyhole_azimuth) } =
+            trackability(&low, reach(0.4))
+        else {
+            panic!("{:?}", trackability(&low, reach(0.4)));
+        };
+        assert!(seconds > 1.0 && seconds < 400.0, "{seconds}");
+        assert!(keyhole_azimuth.degrees() < 1.0 || keyhole_azimuth.degrees() > 179.0);
+    }
+
+    #[test]
+    fn what_lies_in_the_keyhole_cannot_be_followed() {
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let still: Vec<Sample> = (0..10)
+            .map(|second| Sample {
+                time: add_seconds(start, f64::from(second)),
+                direction: AzEl::from_degrees(0.0, 2.0),
+            })
+            .collect();
+        assert_eq!(trackability(&still, reach(3.0)), Trackability::Nothing);
+        assert_eq!(trackability(&[], reach(3.0)), Trackability::Whole);
+    }
+}
