@@ -2,7 +2,14 @@
 //! sockets on the loopback and a pseudo-terminal. The rest of the program does
 //! not know.
 
-use std::{collections::BTreeMap, io, net::SocketAddr, thread};
+use std::{
+    collections::BTreeMap,
+    future::Future,
+    io,
+    net::{IpAddr, Ipv4Addr, SocketAddr},
+    pin::Pin,
+    thread,
+};
 
 use jiff::Timestamp;
 
@@ -14,8 +21,10 @@ use crate::{
 };
 
 /// Any free port that only this machine reaches.
-const LOOPBACK: SocketAddr =
-    SocketAddr::new(std::net::IpAddr::V4(std::net::Ipv4Addr::LOCALHOST), 0);
+const LOOPBACK: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+
+/// Ends when it is dropped.
+type Serving = Pin<Box<dyn Future<Output = ()> + Send>>;
 
 /// Running simulators. Dropping it ends them.
 pub(super) struct Demo {
@@ -51,7 +60,7 @@ impl Demo {
                 tokio::select! {
                     () = satrak.run() => {}
                     () = genius.run() => {}
-                    () = rc2000c.run() => {}
+                    () = rc2000c => {}
                     _ = ended => {}
                 }
             });
@@ -72,19 +81,19 @@ fn genius() -> rotator_genius::Options {
     }
 }
 
-/// On a pseudo-terminal, as on a serial port, and the path of that.
-#[cfg(unix)]
-#[allow(clippy::unused_async, reason = "elsewhere it waits for a port")]
-async fn rc2000c() -> io::Result<(rc2000c::PtySimulator, String)> {
-    let simulator = rc2000c::PtySimulator::open(&rc2000c::Options::default())?;
-    let path = simulator.path().display().to_string();
-    Ok((simulator, path))
-}
-
-/// As behind a serial server, and where that listens.
-#[cfg(not(unix))]
-async fn rc2000c() -> io::Result<(rc2000c::Simulator, String)> {
-    let simulator = rc2000c::Simulator::bind(LOOPBACK, &rc2000c::Options::default()).await?;
+/// On a pseudo-terminal, as on a serial port, where there are such; else as
+/// behind a serial server. The work of serving it, and where it answers.
+async fn rc2000c() -> io::Result<(Serving, String)> {
+    let options = rc2000c::Options::default();
+    #[cfg(unix)]
+    match rc2000c::PtySimulator::open(&options) {
+        Ok(simulator) => {
+            let path = simulator.path().display().to_string();
+            return Ok((Box::pin(simulator.run()), path));
+        }
+        Err(error) => tracing::warn!(%error, "no pseudo-terminal for the simulated RC2000C"),
+    }
+    let simulator = rc2000c::Simulator::bind(LOOPBACK, &options).await?;
     let address = simulator.local_addr()?.to_string();
-    Ok((simulator, address))
+    Ok((Box::pin(simulator.run()), address))
 }

@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
         // The age stands above the plot as well.
         CatalogState::Ready(_) if rect.height() < HEIGHT => {
-            "Demo station: the antenna is simulated, no metal moves.".to_owned()
+            "Demo station: the antennas are simulated, no metal moves.".to_owned()
         }
         CatalogState::Ready(catalog) => {
             let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             } else {
                 String::new()
             };
-            format!("Demo station: the antenna is simulated, no metal moves.{elements}")
+            format!("Demo station: the antennas are simulated, no metal moves.{elements}")
         }
     };
     let room = rect.with_min_x(rect.left() + 16.0).with_max_x(place.left() - 8.0);

@@ -13,6 +13,7 @@ mod clock;
 mod closing;
 mod console;
 mod console_send;
+mod demo;
 mod drive;
 mod elements;
 mod extremes;

@@ -4,8 +4,6 @@
 
 use std::ops::RangeInclusive;
 
-use crate::{controller::Make, station::Antenna};
-
 /// Where a value stands in a `T`; `None` where it has no such.
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
 /// Why a value cannot be used, to stand behind the name of its field.
@@ -209,6 +207,11 @@ impl<T: Clone> Typed<T> {
         Self { base, fields }
     }
 
+    /// As it was before anything was typed.
+    pub(super) fn before(&self) -> &T {
+        &self.base
+    }
+
     /// What is typed, as far as it can be used, and how each field stands.
     pub(super) fn read(&self) -> (T, Vec<Standing>) {
         let mut whole = self.base.clone();
@@ -228,13 +231,6 @@ impl<T: Clone> Typed<T> {
             })
             .collect();
         (whole, standings)
-    }
-}
-
-impl Typed<Antenna> {
-    /// What the antenna is driven by.
-    pub(super) fn make(&self) -> &'static Make {
-        Make::of(&self.base.connection)
     }
 }
 

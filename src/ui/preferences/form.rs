@@ -2,7 +2,7 @@
 
 use egui::{
     Align, Color32, Frame, Label, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke,
-    TextEdit, Ui, vec2,
+    StrokeKind, TextEdit, Ui, vec2,
 };
 
 use super::{
@@ -14,6 +14,7 @@ use crate::{
     ui::{
         text, theme,
         widgets::{
+            button::RADIUS,
             card as card_frame,
             segmented::{self, Segment},
         },
@@ -69,7 +70,8 @@ fn antennas(ui: &mut Ui, draft: &mut Draft) {
     for index in 0..draft.antennas.len() {
         let standings = draft.antenna_standings(index);
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
-        card(ui, &format!("Antenna {}: {}", index + 1, antenna.make().name), |ui| {
+        let make = Make::of(&antenna.before().connection).name;
+        card(ui, &format!("Antenna {}: {make}", index + 1), |ui| {
             fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
             ui.add_space(4.0);
             if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
@@ -161,7 +163,7 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
             .desired_rows(1)
             .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
         Look::Lines { hint } => return lines(ui, (group, label), text, hint, border),
-        Look::Choice(words) => return choice(ui, (group, label), text, words),
+        Look::Choice(words) => return choice(ui, (group, label), text, words, border),
         Look::Number => TextEdit::singleline(text).desired_width(NUMBER),
         Look::Words => TextEdit::singleline(text).desired_width(WORDS),
     };
@@ -199,6 +201,7 @@ fn choice(
     salt: (&str, &str),
     text: &mut String,
     words: &'static [&'static str],
+    border: Option<Color32>,
 ) -> Response {
     let state = |word: &str| if word == text { Segment::Chosen } else { Segment::Free };
     let segments: Vec<(&str, Segment)> = words.iter().map(|word| (*word, state(word))).collect();
@@ -207,6 +210,9 @@ fn choice(
     let clicked = segmented::show(ui, &format!("{group} {label}"), rect, label, &segments);
     if let Some(word) = clicked.and_then(|index| words.get(index)) {
         (*word).clone_into(text);
+    }
+    if let Some(colour) = border {
+        ui.painter().rect_stroke(rect, RADIUS, Stroke::new(2.0, colour), StrokeKind::Outside);
     }
     response
 }

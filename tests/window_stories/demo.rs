@@ -1,0 +1,109 @@
+//! The demo station: one simulated controller of each make, behind real links.
+
+use std::net::TcpStream;
+
+use azel::{
+    app::Model,
+    astro::{Angle, AzEl},
+    controller::{Make, Measured},
+    driver::{Clock, Command, LinkState},
+    station,
+};
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::unit::{RealWindow, open, step_until, wait_until};
+
+const SATRAK: usize = 0;
+const GENIUS: usize = 1;
+const RC2000C: usize = 2;
+
+/// The window of the demo station, once its antennas are there.
+fn demo(folder: &tempfile::TempDir) -> RealWindow {
+    let mut window = open(&folder.path().join("station.toml"), Clock::system());
+    step_until(&mut window, "the antennas", |model| model.antennas.len() == 3);
+    window
+}
+
+fn link(model: &Model, antenna: usize) -> LinkState {
+    model.antennas[antenna].snapshot.link.clone()
+}
+
+fn measured(model: &Model, antenna: usize) -> Option<Measured> {
+    let is_up = matches!(link(model, antenna), LinkState::Up { .. });
+    model.antennas[antenna].snapshot.state.measured.filter(|_| is_up)
+}
+
+/// It stands there, to what its sensor can tell.
+fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64) -> bool {
+    let wanted = AzEl::from_degrees(azimuth_deg, elevation_deg);
+    measured(model, antenna).is_some_and(|measured| {
+        let direction = measured.pointing.direction();
+        !measured.moving() && direction.is_some_and(|of| of.separation(wanted).degrees() < 1.2)
+    })
+}
+
+fn send(window: &RealWindow, antenna: usize, command: Command) {
+    let handle = &window.state().model().antennas[antenna].handle;
+    assert!(handle.send(command).is_ok());
+}
+
+fn go_to(window: &mut RealWindow, antenna: usize, azimuth_deg: f64, elevation_deg: f64) {
+    let angle = |degrees| Some(Angle::from_degrees(degrees));
+    let (azimuth, elevation) = (angle(azimuth_deg), angle(elevation_deg));
+    send(window, antenna, Command::Position { azimuth, elevation });
+    step_until(window, "it arrives", |model| stands_at(model, antenna, azimuth_deg, elevation_deg));
+}
+
+#[test]
+fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    let model = window.state().model();
+    assert!(model.demo);
+    let keys: Vec<&str> =
+        model.antennas.iter().map(|of| Make::of(&of.config.connection).key).collect();
+    assert_eq!(keys, ["satrak", "genius", "rc2000c"]);
+    for antenna in [SATRAK, GENIUS] {
+        step_until(&mut window, "it is measured", |model| measured(model, antenna).is_some());
+    }
+    assert!(matches!(link(window.state().model(), RC2000C), LinkState::Off));
+    assert_eq!(window.state().model().antennas[RC2000C].handle.wire().next_number(), 0);
+}
+
+#[test]
+fn the_rc2000c_is_calibrated_and_goes_where_it_is_sent() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    send(&window, RC2000C, Command::Connect);
+    // 1525 and 750 counts, 20 a degree.
+    step_until(&mut window, "it is measured", |model| stands_at(model, RC2000C, 164.75, 36.0));
+    go_to(&mut window, RC2000C, 169.0, 33.0);
+}
+
+#[test]
+fn the_genius_goes_where_it_is_sent() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    step_until(&mut window, "it is measured", |model| stands_at(model, GENIUS, 173.0, 0.0));
+    go_to(&mut window, GENIUS, 181.0, 7.0);
+}
+
+#[test]
+fn the_simulators_end_with_the_demonstration() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    let addresses = window.state().model().antennas.iter().take(2);
+    let addresses: Vec<String> =
+        addresses.map(|antenna| antenna.config.connection.address().to_owned()).collect();
+    window.get_by_role_and_label(Role::Tab, "Preferences").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    step_until(&mut window, "the demonstration is over", |model| !model.demo);
+    let saved = station::load(&folder.path().join("station.toml")).unwrap();
+    assert_eq!(saved.notes, []);
+    assert_eq!(saved.station, window.state().model().station);
+    for address in addresses {
+        wait_until("nobody listens", || TcpStream::connect(&address).is_err());
+    }
+}
