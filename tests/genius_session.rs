@@ -20,6 +20,7 @@ mod genius_session {
     mod oddities;
     mod pair;
     mod rescue;
+    mod settings;
     mod stop;
     mod wire;
 }

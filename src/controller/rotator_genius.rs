@@ -5,12 +5,14 @@
 //! by the station: both angles of one antenna, or its azimuth and something else.
 
 mod actions;
+mod changes;
 mod device;
 mod exchange;
 mod orders;
 mod panel;
 mod record;
 mod roles;
+mod settings;
 mod state;
 mod turning;
 
@@ -20,7 +22,9 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, wire::WireQueue,
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment,
+    settings::{Change, Settling},
+    wire::WireQueue,
 };
 use crate::{
     protocol::rotator_genius::{Decoder, Request, Status},
@@ -29,6 +33,7 @@ use crate::{
 pub use actions::{OTHER, RESCUE};
 use exchange::{Outstanding, Purpose};
 use orders::Order;
+pub use settings::GROUPS;
 use turning::Turning;
 
 /// The one speed of its rotators.
@@ -53,7 +58,7 @@ pub const PAIR: Make = Make {
         waits_for_word: false,
         stop_note: Some("STOP stops both rotators."),
     },
-    groups: &[],
+    groups: GROUPS,
     actions: &[actions::ARM_RESCUE],
 };
 
@@ -107,6 +112,10 @@ pub struct Genius {
     /// To be armed with the next look at the clock.
     is_rescue_wanted: bool,
     rescue_until: Option<Instant>,
+    /// The change that is under way.
+    settling: Option<Settling>,
+    /// Changes that wait for it to be over.
+    changes: VecDeque<Change>,
     happenings: VecDeque<Happening>,
     wire: WireQueue,
 }
@@ -132,6 +141,8 @@ impl Genius {
             orders: VecDeque::new(),
             is_rescue_wanted: false,
             rescue_until: None,
+            settling: None,
+            changes: VecDeque::new(),
             happenings: VecDeque::new(),
             wire: WireQueue::default(),
         }
@@ -147,10 +158,16 @@ impl Genius {
 
     /// What is to be sent next, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        if let Some(Order { request, motion }) = self.orders.pop_front() {
+        // However fast wishes come, the position must not grow old.
+        let is_overdue =
+            self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
+        if !is_overdue && let Some(Order { request, motion }) = self.orders.pop_front() {
             return Some((Request::Motion(request), Purpose::Motion(motion)));
         }
         let is_due = self.next_poll.is_some_and(|due| due <= now.steady);
+        if !is_due && let Some(request) = self.settling_request(now) {
+            return Some(request);
+        }
         is_due.then_some((Request::Read, Purpose::Poll))
     }
 
@@ -161,6 +178,14 @@ impl Genius {
 
     fn is_rescue_armed(&self, now: Instant) -> bool {
         self.rescue_until.is_some_and(|until| now < until)
+    }
+
+    /// Without waiting for the next question.
+    fn has_something_to_send(&self) -> bool {
+        !self.orders.is_empty()
+            || self.is_rescue_wanted
+            || self.settling.is_some()
+            || !self.changes.is_empty()
     }
 
     /// The next status tells what a command has brought about.

@@ -4,6 +4,7 @@
 mod copy;
 mod field;
 mod held;
+mod settling;
 mod value;
 
 pub use crate::secret::Secret;
@@ -12,4 +13,5 @@ pub use field::{Access, Field, Group, Guard, Kind};
 pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
 };
+pub(super) use settling::{Settling, Step};
 pub use value::{Unfit, Value, Values};

@@ -5,9 +5,10 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
+    Moment,
     panel::{Check, Reading},
     satrak::SatrakState,
-    settings::{GroupState, Held},
+    settings::{Change, GroupState, Held, SettleError, Settled},
 };
 use crate::astro::{Angle, AzEl};
 
@@ -41,6 +42,24 @@ impl AntennaState {
     /// What is known of a group of settings.
     pub(super) fn group(&mut self, key: &'static str) -> &mut GroupState {
         Arc::make_mut(&mut self.held).entry(key).or_default()
+    }
+
+    /// A change is over, for good or bad. `is_followed` by another one of its group.
+    pub(super) fn end_change(
+        &mut self,
+        change: Change,
+        result: Result<(), SettleError>,
+        is_followed: bool,
+        now: Moment,
+    ) {
+        // The names of what was changed only: a value may be a secret.
+        let fields: Vec<_> = change.values.keys().collect();
+        tracing::info!(group = change.group, ?fields, ?result, "settings");
+        let state = self.group(change.group);
+        if !is_followed {
+            state.step = None;
+        }
+        state.settled = Some(Arc::new(Settled { change, at: now.utc, result }));
     }
 }
 

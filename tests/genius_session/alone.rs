@@ -1,6 +1,7 @@
 //! One rotator turns the antenna, the other something else.
 
 use azel::{
+    astro::Angle,
     controller::{
         Motion,
         panel::Act,
@@ -33,7 +34,7 @@ async fn each_rotator_can_be_the_antennas() {
         let mut rig = Rig::connected(&two_azimuths(), rotators).await;
         assert_eq!(rig.axes_deg(), axes);
         let pointing = rig.shown().state.measured.unwrap().pointing;
-        assert_eq!(pointing.azimuth.map(|angle| angle.degrees()), axes[0]);
+        assert_eq!(pointing.azimuth.map(Angle::degrees), axes[0]);
         assert_eq!(pointing.elevation, None);
         rig.send(to(Some(120.0), None));
         rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    ALONE, Genius, PAIR, PATIENCE,
+    ALONE, GROUPS, Genius, PAIR, PATIENCE,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
 };
@@ -12,7 +12,7 @@ use crate::{
         AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         Question, TrackTarget, WireLine,
         panel::Act,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::rotator_genius::Decoder,
     station::Rotators,
@@ -48,6 +48,7 @@ impl Device for Genius {
         self.orders.clear();
         self.rescue_until = None;
         self.is_rescue_wanted = false;
+        self.abandon_changes(now);
     }
 
     fn sent(&mut self, bytes: &[u8], now: Moment) {
@@ -72,6 +73,7 @@ impl Device for Genius {
         if let Some(stop) = self.expire(now) {
             return Some(stop);
         }
+        self.begin_change(now);
         if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
@@ -87,7 +89,7 @@ impl Device for Genius {
         let next = match (&self.outstanding, self.drain_until) {
             (Some(outstanding), _) => Some(outstanding.deadline()),
             (None, Some(until)) => Some(until),
-            (None, None) if !self.orders.is_empty() || self.is_rescue_wanted => Some(now.steady),
+            (None, None) if self.has_something_to_send() => Some(now.steady),
             (None, None) => self.next_poll,
         };
         let far = now.steady + Duration::from_hours(1);
@@ -104,12 +106,19 @@ impl Device for Genius {
     }
 
     fn groups(&self) -> &'static [&'static Group] {
-        PAIR.groups
+        GROUPS
     }
 
+    /// All that it tells of its configuration is in every status.
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn settle(&mut self, change: Change, now: Moment) {
+        if self.next_poll.is_none() {
+            return self.settled(change, Err(SettleError::NoLink), now);
+        }
+        self.state.group(change.group).step = Some(SettleStep::Waiting);
+        self.changes.push_back(change);
+    }
 
     fn ask(&mut self, _: Question) {}
 

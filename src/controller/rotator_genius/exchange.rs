@@ -20,6 +20,8 @@ pub(super) enum Purpose {
     Poll,
     /// Metal is to move.
     Motion(Motion),
+    /// A step of changing the configuration.
+    Settle,
     /// A halt has overtaken it: whatever comes is of no interest.
     Disowned,
 }
@@ -167,6 +169,9 @@ impl Genius {
         let sent = read.as_ref().map_or(asked, Outstanding::sent);
         self.take_status(status, asked, sent, now);
         self.next_poll = Some(sent + self.period(now.steady));
+        if read.is_some_and(|read| read.purpose == Purpose::Settle) {
+            self.change_read(now);
+        }
     }
 
     fn take_halt_answer(&mut self, is_accepted: bool, now: Moment) {
@@ -183,6 +188,9 @@ impl Genius {
     fn take_verdict(&mut self, outstanding: &Outstanding, is_accepted: bool, now: Moment) {
         self.count_reply(now);
         self.look_soon(now);
+        if outstanding.purpose == Purpose::Settle {
+            return self.change_judged(is_accepted, now);
+        }
         let Purpose::Motion(motion) = outstanding.purpose else { return };
         if is_accepted {
             if !self.orders.iter().any(|order| order.motion == motion) {
@@ -211,9 +219,13 @@ impl Genius {
         if late.is_read() {
             self.missing_since.get_or_insert(late.sent);
         }
-        if let Purpose::Motion(motion) = late.purpose {
-            self.forget_orders(motion);
-            self.happenings.push_back(Happening::Unanswered(motion));
+        match late.purpose {
+            Purpose::Motion(motion) => {
+                self.forget_orders(motion);
+                self.happenings.push_back(Happening::Unanswered(motion));
+            }
+            Purpose::Settle => self.change_unanswered(now),
+            Purpose::Poll | Purpose::Disowned => {}
         }
         self.look_soon(now);
         // Outside the limits a motion goes on for ever when the link is gone.

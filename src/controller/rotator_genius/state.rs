@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use super::{Genius, panel, roles::Roles};
+use super::{Genius, panel, roles::Roles, settings};
 use crate::{
     astro::Angle,
-    controller::{Axis, Measured, Moment, Pointing},
-    protocol::rotator_genius::Status,
+    controller::{Axis, Measured, Moment, Pointing, settings::HeldGroup},
+    protocol::rotator_genius::{RotatorNumber, Status},
 };
 
 impl Genius {
@@ -41,6 +41,11 @@ impl Genius {
             axes,
         });
         self.state.motion_lock = Some(false);
+        for number in RotatorNumber::ALL {
+            let state = self.state.group(settings::group_of(number).key);
+            let values = settings::values(&status, number);
+            state.held = Some(HeldGroup { values, read_at: now.utc });
+        }
         let rescue_left =
             self.rescue_until.map(|until| until.saturating_duration_since(now.steady));
         self.state.readings = panel::readings(&status, roles, rescue_left).into();

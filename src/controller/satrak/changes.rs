@@ -7,11 +7,11 @@ use super::{
 use crate::{
     controller::{
         Moment,
-        settings::{Change, SettleError, Settled},
+        settings::{Change, SettleError},
     },
     protocol::satrak::{Reply, Request},
 };
-use std::{sync::Arc, time::Instant};
+use std::time::Instant;
 
 impl Satrak {
     /// Takes up the next change when none is under way.
@@ -92,37 +92,30 @@ impl Satrak {
 
     fn show_change(&mut self) {
         if let Some(settling) = &self.settling {
-            let (group, step) = (settling.change.group, settling.shown());
+            let (group, step) = (settling.core.change.group, settling.core.shown());
             self.state.group(group).step = Some(step);
         }
     }
 
     fn end_change(&mut self, result: Result<(), SettleError>, now: Moment) {
         if let Some(settling) = self.settling.take() {
-            self.settled(settling.change, result, now);
+            self.settled(settling.core.change, result, now);
         }
         self.look_soon(now);
     }
 
     /// The change is over, for good or bad.
     pub(super) fn settled(&mut self, change: Change, result: Result<(), SettleError>, now: Moment) {
-        // The names of what was changed only: a value may be a secret.
-        let fields: Vec<_> = change.values.keys().collect();
-        tracing::info!(group = change.group, ?fields, ?result, "settings");
-        let waits = self.changes.iter().any(|other| other.group == change.group);
-        let state = self.state.group(change.group);
-        if !waits {
-            state.step = None;
-        }
-        state.settled = Some(Arc::new(Settled { change, at: now.utc, result }));
+        let is_followed = self.changes.iter().any(|other| other.group == change.group);
+        self.state.end_change(change, result, is_followed, now);
     }
 
     /// The link is gone: what may be on the unit is not known.
     pub(super) fn abandon_changes(&mut self, now: Moment) {
         if let Some(settling) = self.settling.take() {
-            let lost = settling.may_be_sent();
+            let lost = settling.core.may_be_sent();
             let error = if lost { SettleError::LinkLost } else { SettleError::NoLink };
-            self.settled(settling.change, Err(error), now);
+            self.settled(settling.core.change, Err(error), now);
         }
         while let Some(change) = self.changes.pop_front() {
             self.settled(change, Err(SettleError::NoLink), now);
