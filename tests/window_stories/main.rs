@@ -22,6 +22,7 @@ mod makes;
 mod mask;
 mod panel;
 mod panel_layout;
+mod panel_more;
 mod passes;
 mod preferences;
 mod preferences_makes;

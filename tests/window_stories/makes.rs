@@ -1,6 +1,6 @@
 //! What a Rotator Genius and an RC2000C may report, ready for the stories.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 use azel::{
     app::Model,
@@ -65,6 +65,7 @@ fn standing(intent: Intent, measured: Measured) -> Snapshot {
     let mut snapshot = Snapshot { intent, ..quiet() };
     snapshot.state.measured = Some(measured);
     snapshot.state.motion_lock = Some(false);
+    snapshot.state.link_since = Some(Instant::now());
     snapshot
 }
 

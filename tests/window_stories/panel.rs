@@ -11,6 +11,7 @@ use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
+    extremes::nothing_overlaps,
     makes,
     rig::{self, SIZES, Window, asked, says, settle},
     states,
@@ -322,6 +323,25 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             window.state_mut().model.view = View::Elements;
             settle(&mut window);
             assert!(window.query_by_label("Upload and prove").is_none());
+        }
+    }
+}
+
+#[test]
+fn each_card_of_a_pair_opens_the_service_functions() {
+    for size in SIZES {
+        for card in [0, 1] {
+            let mut model = genius(Intent::Standby);
+            model.view = View::Antennas;
+            let groups = model.antennas[0].groups();
+            let mut window = rig::window(size, model);
+            nothing_overlaps(&window);
+            let read = groups.iter().map(|group| antenna(Command::ReadGroup(group.key)));
+            assert_eq!(asked(&mut window), read.collect::<Vec<_>>(), "each is read once");
+            let unlock = window.query_all_by_role_and_label(Role::Button, "Unlock").nth(card);
+            unlock.expect("a card for each rotator").click_accesskit();
+            settle(&mut window);
+            assert!(says(&window, "Unlock the service functions"));
         }
     }
 }

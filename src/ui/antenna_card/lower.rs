@@ -41,16 +41,6 @@ pub(super) fn show(
             at.skip(4.0);
         }
     }
-    let told = model.readings;
-    if short && !told.is_empty() {
-        let (value, mark) = readings::in_words(ui, told);
-        let told_line = FoldModel { title: "Readings", value: &value, mark };
-        fold::show(ui, line(at.y), &told_line, &mut state.readings_open);
-        at.skip(fold::HEIGHT);
-    }
-    if !told.is_empty() && (!short || state.readings_open) {
-        readings::show(ui, at, told, !short);
-    }
     if let Some(checks) = &model.faults {
         if short {
             let (value, mark) = faults::in_words(ui, checks);
@@ -61,6 +51,16 @@ pub(super) fn show(
         if !short || state.faults_open {
             faults::show(ui, at, card, checks);
         }
+    }
+    let told = model.readings;
+    if short && !told.is_empty() {
+        let (value, mark) = readings::in_words(ui, told);
+        let told_line = FoldModel { title: "Readings", value: &value, mark };
+        fold::show(ui, line(at.y), &told_line, &mut state.readings_open);
+        at.skip(fold::HEIGHT);
+    }
+    if !told.is_empty() && (!short || state.readings_open) {
+        readings::show(ui, at, told, !short);
     }
     if !model.more.actions.is_empty() {
         let value = more::in_words(&model.more);

@@ -25,8 +25,6 @@ use crate::{
 const GAP: f32 = 8.0;
 /// The label of a field may take this part of the width.
 const LABEL: f32 = 0.42;
-/// Room for the unit behind a field.
-const UNIT: f32 = 40.0;
 
 /// The actions of a unit.
 #[derive(Debug, Clone, Copy, Default)]
@@ -174,7 +172,11 @@ fn field_row(
     let salt = ("action label", action.key, field.key);
     paint::name_text(ui, salt, label, field.label).on_hover_text(about);
     let room = row.with_min_x(label.right() + GAP);
-    let rect = if field.unit.is_empty() { room } else { room.with_max_x(room.right() - UNIT) };
+    let behind = match field.unit {
+        "" => 0.0,
+        unit => paint::text_width(ui, unit, text::small()).ceil() + 5.0,
+    };
+    let rect = room.with_max_x(room.right() - behind);
     let unit = row.with_min_x(rect.right() + 4.0);
     paint::text_in(ui, unit, Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
     let name = format!("{}: {}", action.label, field.label);

@@ -71,7 +71,10 @@ fn show_line(ui: &Ui, line: Rect, reading: &Reading, t: &Tokens) {
         icons::paint(ui.painter(), mark, icon, colour);
     }
     let words = format!("{}: {}", reading.label, reading.text);
-    paint::name_text(ui, ("reading", &reading.label), line, &words).on_hover_text(words);
+    let named = paint::name_text(ui, ("reading", &reading.label), line, &words);
+    if paint::text_width(ui, &reading.text, text::small_strong()) > room.width() {
+        named.on_hover_text(words);
+    }
 }
 
 fn bar(ui: &Ui, room: Rect, share: f64, t: &Tokens) {

@@ -115,7 +115,9 @@ fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
 
 fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &mut Desk<'_>) {
     if section.is_service() {
-        return service::show(ui, unit, form, section, desk);
+        // There may be several of them.
+        let id = section.title();
+        return ui.push_id(id, |ui| service::show(ui, unit, form, section, desk)).inner;
     }
     title(ui, section.title());
     match section {

@@ -69,10 +69,12 @@ impl<'a> Unit<'a> {
     /// The unit's own program is on, or not known to be off; a unit without one
     /// is made to follow from here.
     pub(super) fn tracks(&self) -> bool {
-        if !self.antenna.make().capabilities.has_program {
-            return self.antenna.snapshot.intent == Intent::Track;
+        let program = self.antenna.snapshot.state.program;
+        if self.antenna.make().capabilities.has_program {
+            return program.is_none_or(|program| program.enabled);
         }
-        self.antenna.snapshot.state.program.is_none_or(|program| program.enabled)
+        let follows = self.antenna.snapshot.intent == Intent::Track;
+        follows || program.is_some_and(|program| program.enabled)
     }
 
     /// It is known that nothing turns, nor is about to.

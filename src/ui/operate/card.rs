@@ -150,10 +150,10 @@ fn second_line(antenna: &AntennaModel) -> String {
             |version| format!("X/Y mount, {}", version.control_unit),
         );
     }
-    let version = state.readings.iter().find(|reading| reading.label == "Version");
-    version.map_or_else(
+    let unit = state.readings.iter().find(|reading| reading.label == "Unit");
+    unit.map_or_else(
         || format!("{} at {address}", make.name),
-        |version| format!("{}, {}", make.name, version.text),
+        |unit| format!("{}, {}", make.name, unit.text),
     )
 }
 
@@ -170,17 +170,19 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass();
     let number = selected.map(|forecast| forecast.satellite.elements.catalog_number());
-    let is_tracked = antenna.tracked_number().is_some() && antenna.tracked_number() == number;
-    let (head, held, tracks_selected) = if antenna.make().capabilities.has_program {
+    let followed = antenna.snapshot.following.as_ref();
+    let is_here = followed.is_some() || !antenna.make().capabilities.has_program;
+    let (head, held, tracks_selected) = if is_here {
+        let name = followed.map(|followed| followed.name.as_str());
+        let of_it = followed.and_then(|followed| followed.catalog_number);
+        ("Followed by Azel", name, of_it.is_some() && of_it == number)
+    } else {
         // A fresh unit names no satellite at all, and decimal commas read as a name.
         let names_one = |held: &&Satellite| !held.name.is_empty() && !state.satrak.decimal_commas;
         let held = state.satrak.satellite.as_ref().filter(names_one);
-        let is_held = held.is_some_and(|held| Some(held.catalog_number) == number);
-        ("The unit holds", held.map(|held| held.name.as_str()), is_held && is_tracked)
-    } else {
-        let target = antenna.snapshot.target.as_ref();
-        let target = target.filter(|_| antenna.snapshot.intent == Intent::Track);
-        ("Followed by Azel", target.map(|target| target.name.as_str()), is_tracked)
+        let of_it = held.map(|held| held.catalog_number);
+        let is_tracked = of_it.is_some() && of_it == number && antenna.tracked_number() == number;
+        ("The unit holds", held.map(|held| held.name.as_str()), is_tracked)
     };
     TrackModel {
         head,

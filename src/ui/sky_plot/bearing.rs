@@ -51,6 +51,9 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
     let Some(bearing) = &scene.bearing else { return };
     let (Some(azimuth), Some(mark)) = (bearing.measured, mark(dome, bearing)) else { return };
     labels.reserve(Rect::from_center_size(mark, Vec2::splat(SIDE + 4.0)));
+    if let Some(ends) = ends(dome, azimuth) {
+        labels.reserve_path(&ends, 4.0);
+    }
     let name = words(bearing, azimuth);
     let colour = if bearing.lost.is_some() { t.t3 } else { t.ant };
     labels.add(&Label {

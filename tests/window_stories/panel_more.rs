@@ -1,0 +1,174 @@
+//! What only one make can do: every action of every make from its key to its
+//! command.
+
+use azel::{
+    app::{Model, UiCommand},
+    controller::{
+        Make,
+        panel::{Act, Action},
+        settings::{Field, Kind, Value, Values},
+    },
+    driver::{Command, Intent},
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    makes,
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
+};
+
+fn models(intent: Intent) -> [Model; 3] {
+    [
+        makes::model(makes::pair(), makes::pair_at(intent)),
+        makes::model(makes::alone(), makes::alone_at(intent, true)),
+        makes::model(makes::rc2000c(), makes::rc2000c_at(intent)),
+    ]
+}
+
+fn make(model: &Model) -> &'static Make {
+    model.antennas[0].make()
+}
+
+/// A window with the actions unfolded.
+fn unfolded(size: [f32; 2], model: Model) -> Window {
+    let mut window = rig::window(size, model);
+    window.get_by_label_contains("More: ").click_accesskit();
+    settle(&mut window);
+    window
+}
+
+/// What to type into a field, and what it then means.
+fn sample(field: &Field) -> (&'static str, Value) {
+    match field.kind {
+        Kind::Integer { .. } => ("120", Value::Integer(120)),
+        Kind::Text(_) => ("SBS 6", Value::Text("SBS 6".to_owned())),
+        Kind::Flag => ("", Value::Flag(false)),
+        Kind::Choice(choices) => ("", Value::Choice(choices[0].0)),
+        ref other => panic!("{other:?}"),
+    }
+}
+
+fn act(action: &Action, values: Values) -> UiCommand {
+    UiCommand::Antenna(0, Command::Act(Act { action: action.key, values }))
+}
+
+#[test]
+fn every_action_goes_out_with_its_values_and_after_its_question() {
+    for size in SIZES {
+        for model in models(Intent::Manual) {
+            let actions = make(&model).actions;
+            assert!(!actions.is_empty());
+            let mut window = unfolded(size, model);
+            for action in actions {
+                for field in action.fields.iter().filter(|field| !sample(field).0.is_empty()) {
+                    let name = format!("{}: {}", action.label, field.label);
+                    window.get_by_label(&name).focus();
+                    settle(&mut window);
+                    window.get_by_label(&name).type_text(sample(field).0);
+                    settle(&mut window);
+                }
+                window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
+                let values =
+                    action.fields.iter().map(|field| (field.key, sample(field).1)).collect();
+                if let Some(question) = action.question {
+                    assert_eq!(asked(&mut window), [], "{} asks first", action.key);
+                    assert!(says(&window, question), "{}", action.key);
+                    window.key_press(Key::Enter);
+                }
+                assert_eq!(asked(&mut window), [act(action, values)], "{}", action.key);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_question_that_is_not_agreed_to_brings_nothing_about() {
+    for size in SIZES {
+        for model in models(Intent::Manual) {
+            let asking = make(&model).actions.iter().find(|action| action.question.is_some());
+            let Some(action) = asking else { continue };
+            let mut window = unfolded(size, model);
+            window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
+            settle(&mut window);
+            window.key_press(Key::Escape);
+            assert_eq!(asked(&mut window), []);
+            assert!(!says(&window, action.question.unwrap_or_default()));
+        }
+    }
+}
+
+#[test]
+fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
+    for size in SIZES {
+        for model in models(Intent::Standby) {
+            let actions = make(&model).actions;
+            let plain = |action: &&Action| action.fields.is_empty() && action.question.is_none();
+            let mut window = unfolded(size, model);
+            for action in actions.iter().filter(plain) {
+                window.get_by_role_and_label(Role::Button, action.label).click();
+                window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
+                let wanted =
+                    if action.moves { vec![] } else { vec![act(action, Values::default())] };
+                let mut commands = asked(&mut window);
+                commands.dedup();
+                assert_eq!(commands, wanted, "{}", action.key);
+            }
+            if actions.iter().any(|action| action.moves) {
+                assert!(says(&window, "What moves the antenna is locked."));
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_can_be_asked_for_without_a_link() {
+    for size in SIZES {
+        let model = makes::model(makes::rc2000c(), makes::rc2000c_off());
+        let actions = make(&model).actions;
+        let mut window = unfolded(size, model);
+        for action in actions {
+            window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
+        }
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn a_choice_and_a_flag_are_changed_in_their_menus() {
+    let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
+    let label = |model: &Model| {
+        let action = make(model).actions.iter();
+        let of = |action: &&'static Action| {
+            action.fields.iter().any(|field| matches!(field.kind, Kind::Flag))
+        };
+        action.filter(of).find(|action| action.fields.len() > 1)
+    };
+    let action = label(&model).expect("an action with a flag");
+    let flag = action.fields.iter().find(|field| matches!(field.kind, Kind::Flag)).unwrap();
+    let mut window = unfolded(rig::LARGE, model);
+    for field in action.fields.iter().filter(|field| !sample(field).0.is_empty()) {
+        let name = format!("{}: {}", action.label, field.label);
+        window.get_by_label(&name).focus();
+        settle(&mut window);
+        window.get_by_label(&name).type_text(sample(field).0);
+        settle(&mut window);
+    }
+    window.get_by_label(&format!("{}: {}", action.label, flag.label)).click_accesskit();
+    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, "On").click_accesskit();
+    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
+    let mut values: Values =
+        action.fields.iter().map(|field| (field.key, sample(field).1)).collect();
+    values.insert(flag.key, Value::Flag(true));
+    assert_eq!(asked(&mut window), [act(action, values)]);
+}
+
+#[test]
+fn a_satrak_has_nothing_of_the_kind() {
+    let window = rig::window(rig::LARGE, rig::model(states::manual()));
+    assert!(window.query_by_label_contains("More: ").is_none());
+    assert!(window.query_by_label_contains("Told by").is_none());
+}
