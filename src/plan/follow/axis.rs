@@ -70,6 +70,7 @@ impl Axis {
         let has_stayed = (at_deg - from_deg).abs() < self.drives.step_deg / 2.0;
         if has_stayed && way_deg <= MOST_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
+            self.told.to_deg = Some(from_deg);
         }
     }
 
@@ -96,13 +97,24 @@ impl Axis {
             let way_deg = now.position_deg.map_or(0.0, |at_deg| (position_deg - at_deg).abs());
             way_s = way_deg / self.drives.limits.maximum_rate_deg_s;
         }
-        let is_told = |told_deg: f64| (told_deg - position_deg).abs() <= ROUNDING_DEG;
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
-        let is_near = |at_deg: f64| {
-            (at_deg - least).abs().max((at_deg - most).abs()) <= self.band_deg() + ROUNDING_DEG
-        };
-        let stays_well = now.rest_deg().or(self.told.to_deg).is_some_and(is_near);
-        Wish { position_deg, is_due: !stays_well && !self.told.to_deg.is_some_and(is_told) }
+        // Where it rests is as good as what it was told, within the band.
+        let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
+        let elsewhere =
+            |at_deg: &f64| told_deg.is_none_or(|told_deg| self.is_off(*at_deg, told_deg));
+        let stays_deg = rest_deg.filter(elsewhere).or(told_deg);
+        let is_off =
+            stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
+        // One that comes to rest elsewhere is not told the same again.
+        let is_new = told_deg.is_none_or(|told_deg| {
+            let change_deg = (position_deg - told_deg).abs();
+            change_deg > ROUNDING_DEG && change_deg > lead_deg - ROUNDING_DEG
+        });
+        Wish { position_deg, is_due: is_off && is_new }
+    }
+
+    fn is_off(&self, a_deg: f64, b_deg: f64) -> bool {
+        (a_deg - b_deg).abs() > self.band_deg() + ROUNDING_DEG
     }
 
     /// What to tell it while at least one axis has to be told something; `None`
