@@ -98,10 +98,12 @@ impl Axis {
             way_s = way_deg / self.drives.limits.maximum_rate_deg_s;
         }
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
-        // Where it rests is as good as what it was told, within the band.
+        // A rest near to what it was told is the rounding of its sensor.
         let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
-        let elsewhere =
-            |at_deg: &f64| told_deg.is_none_or(|told_deg| self.is_off(*at_deg, told_deg));
+        let rounding_deg = (self.following.dead_band_deg / 2.0).max(self.half_step_deg());
+        let elsewhere = |at_deg: &f64| {
+            told_deg.is_none_or(|told_deg| (at_deg - told_deg).abs() > rounding_deg + ROUNDING_DEG)
+        };
         let stays_deg = rest_deg.filter(elsewhere).or(told_deg);
         let is_off =
             stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
