@@ -13,5 +13,7 @@ mod host_tracking {
     mod rig;
     mod sky;
 
+    mod genius;
+    mod rc2000c;
     mod satrak;
 }

@@ -24,8 +24,7 @@ async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Contr
     let satrak = Satrak::new(antenna.poll, String::new());
     let mut rig = Rig::start(Box::new(satrak), antenna, utc_origin, move |far| {
         let unit = unit.clone();
-        // An error is a link that broke.
-        async move { drop(unit.serve(far).await) }
+        async move { unit.serve(far).await }
     });
     rig.until("all is read", 5.0, |shown| shown.state.satrak.settings.is_some()).await;
     rig.events();

@@ -52,11 +52,20 @@ pub(super) struct Axis {
     pub(super) told: Told,
     /// The longest way that it was seen not to set out for, degrees.
     ignored_deg: f64,
+    /// What it made of the shortest way that it sets out for, degrees.
+    least_run_deg: Option<f64>,
 }
 
 impl Axis {
     pub(super) fn new(index: usize, drives: Drives, following: Following) -> Self {
-        Self { index, drives, following, told: Told::default(), ignored_deg: 0.0 }
+        Self {
+            index,
+            drives,
+            following,
+            told: Told::default(),
+            ignored_deg: 0.0,
+            least_run_deg: None,
+        }
     }
 
     /// A drive may stop some degrees early and let the axis run out. Then it does
@@ -67,10 +76,15 @@ impl Axis {
             return;
         };
         let way_deg = (to_deg - from_deg).abs();
-        let has_stayed = (at_deg - from_deg).abs() < self.drives.step_deg / 2.0;
-        if has_stayed && way_deg <= MOST_IGNORED_DEG {
+        let run_deg = (at_deg - from_deg).abs();
+        if run_deg >= self.half_step_deg() {
+            if way_deg <= self.least_way_deg() {
+                self.least_run_deg = Some(run_deg);
+            }
+        } else if way_deg <= MOST_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
             self.told.to_deg = Some(from_deg);
+            self.least_run_deg = None;
         }
     }
 
@@ -138,8 +152,13 @@ impl Axis {
     /// How far off it may be before it is told a new position. It is sent as far
     /// ahead of the target, so that it is as far off on either side.
     fn band_deg(&self) -> f64 {
-        let least_deg = self.ignored_deg / 2.0 + self.half_step_deg();
-        self.following.dead_band_deg.max(least_deg)
+        let run_deg = self.least_run_deg.unwrap_or_else(|| self.least_way_deg());
+        self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
+    }
+
+    /// The shortest way that it may set out for.
+    fn least_way_deg(&self) -> f64 {
+        self.ignored_deg + self.drives.step_deg
     }
 
     fn half_step_deg(&self) -> f64 {
@@ -153,7 +172,7 @@ impl Axis {
         if self.ignored_deg <= 0.0 || (near_deg - at_deg).abs() > self.ignored_deg {
             return near_deg;
         }
-        let way_deg = (self.ignored_deg + self.drives.step_deg).copysign(wanted_deg - at_deg);
+        let way_deg = self.least_way_deg().copysign(wanted_deg - at_deg);
         self.drives.tellable_deg(self.index, at_deg + way_deg)
     }
 }

@@ -21,6 +21,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     Some(match event {
         Event::Back { after, found } => {
             let silent = format::age(after.as_secs_f64());
+            if antenna.follows() {
+                return Some(
+                    Spoken::new(SentenceKind::Tracking)
+                        .plain(format!("{name} answers again after {silent}. It follows on.")),
+                );
+            }
             let held = antenna.snapshot.state.satrak.satellite.as_ref();
             let spoken = Spoken::new(match found {
                 Found::Tracking => SentenceKind::Tracking,
