@@ -16,6 +16,7 @@ mod console_send;
 mod drive;
 mod elements;
 mod extremes;
+mod following;
 mod keys;
 mod makes;
 mod mask;

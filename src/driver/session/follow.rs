@@ -105,14 +105,14 @@ impl Session {
         let follow =
             if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);
-        let planned = if !self.make.capabilities.takes_positions {
-            Err(Refusal::NotOffered.into())
-        } else if phase == FollowPhase::Over {
+        let planned = if phase == FollowPhase::Over {
             Err(FollowProblem::NoPass)
         } else {
             Planner::new(follow, drives, following).map_err(FollowProblem::Orbit)
         };
-        let planner = match planned {
+        // Checked before anything that runs is ended for it.
+        let checked = planned.and_then(|planner| self.check_first(planner, now));
+        let planner = match checked {
             Ok(planner) => planner,
             Err(problem) => return self.tell(Event::CannotFollow(name, problem)),
         };
@@ -135,6 +135,17 @@ impl Session {
             predicted: None,
         });
         self.tell_phase(phase, name);
+    }
+
+    /// Whether the first position may be sent.
+    fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, FollowProblem> {
+        let axes = self.gate.state().measured.map(|measured| measured.axes);
+        let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
+        let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
+        if let Some(next) = planner.look(now.utc, axes)? {
+            self.gate.check(motion(next), Intent::Track, now)?;
+        }
+        Ok(planner)
     }
 
     fn tell_phase(&self, phase: FollowPhase, name: String) {
@@ -220,10 +231,7 @@ impl Session {
     }
 
     fn send_next(&mut self, next: Next, now: Moment) {
-        let motion = Motion::Position {
-            azimuth: next.set_point.azimuth,
-            elevation: next.set_point.elevation,
-        };
+        let motion = motion(next);
         match self.gate.start(motion, Intent::Track, self.halting.is_some(), now) {
             Ok(()) => {
                 let aim = self.gate.aim(&motion);
@@ -274,4 +282,8 @@ impl Session {
             following.sent = None;
         }
     }
+}
+
+fn motion(next: Next) -> Motion {
+    Motion::Position { azimuth: next.set_point.azimuth, elevation: next.set_point.elevation }
 }

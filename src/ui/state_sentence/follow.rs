@@ -19,10 +19,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let spoken = if moving {
                 spoken.plain("Moving to where ").bold(name).plain(" rises")
             } else {
-                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name)
+                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name).plain(", rises")
             };
             spoken.plain(format!(
-                ", at {} in {}.",
+                " at {} in {}.",
                 format::time_z(aos),
                 format::duration(seconds_between(model.now, aos).max(0.0))
             ))
