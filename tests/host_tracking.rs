@@ -6,7 +6,8 @@
     clippy::expect_used,
     clippy::indexing_slicing,
     clippy::panic,
-    reason = "a test may end here"
+    clippy::print_stdout,
+    reason = "a test may end here, and prints its figures"
 )]
 
 mod host_tracking {

@@ -2,7 +2,7 @@
 
 use azel::{
     app::{Model, forecast::Forecast},
-    astro::{AzEl, time::add_seconds},
+    astro::{Angle, AzEl, time::add_seconds},
     controller::AxisMotion,
     driver::{Event, FollowView, Found, Intent, Snapshot},
     plan::{FollowPhase, FollowStats, Sample},
@@ -91,6 +91,19 @@ fn after_a_lost_link_it_is_said_to_follow_on() {
     model.antennas[0].news = Some((back, model.now));
     let said = states::sentence(&model);
     assert!(said.ends_with("It follows on."), "{said}");
+}
+
+#[test]
+fn after_the_pass_it_is_told_how_well_it_was_followed() {
+    let mut stats = FollowStats { commands: 206, ..FollowStats::default() };
+    stats.take(Angle::from_degrees(0.6));
+    stats.take(Angle::from_degrees(0.8));
+    let mut model = following(FollowPhase::Over, 0.0, AxisMotion::Still);
+    let over = Event::FollowOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
+    model.antennas[0].news = Some((over, model.now));
+    let wanted = "The pass of NOAA 20 is over. It was followed to 0.71° rms, 0.80° at worst, with \
+                  206 commands.";
+    assert_eq!(states::sentence(&model), wanted);
 }
 
 #[test]
