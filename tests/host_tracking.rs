@@ -6,12 +6,15 @@
     clippy::expect_used,
     clippy::indexing_slicing,
     clippy::panic,
-    reason = "a test may end here"
+    clippy::print_stdout,
+    reason = "a test may end here, and prints its figures"
 )]
 
 mod host_tracking {
     mod rig;
     mod sky;
 
+    mod genius;
+    mod rc2000c;
     mod satrak;
 }

@@ -10,6 +10,7 @@ use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
     driver::{AntennaHandle, Event, Intent, Snapshot},
+    plan::FollowPhase,
     station::Antenna,
 };
 
@@ -18,11 +19,11 @@ const KEPT_S: f64 = 3600.0;
 /// Rates are taken over at least this long, so that rounding does not show.
 const RATE_SPAN_S: f64 = 0.9;
 
-/// Where a satellite stood when the antenna was measured.
+/// Where a target stood when the antenna was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Its catalogue number.
-    pub catalog_number: u32,
+    /// Its catalogue number, for a satellite.
+    pub catalog_number: Option<u32>,
     /// When.
     pub at: Timestamp,
     /// Where.
@@ -100,15 +101,19 @@ impl AntennaModel {
         }
         self.take_rate(measured);
         let before = self.prediction.map(|prediction| prediction.catalog_number);
-        self.prediction = self.tracked_number().and_then(|number| {
-            let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
-            // What has not risen yet is waited for, not missed.
-            (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
-                catalog_number: number,
-                at: measured.at,
-                direction: look.direction,
+        self.prediction = if self.follows() {
+            self.followed_prediction()
+        } else {
+            self.tracked_number().and_then(|number| {
+                let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
+                // What has not risen yet is waited for, not missed.
+                (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
+                    catalog_number: Some(number),
+                    at: measured.at,
+                    direction: look.direction,
+                })
             })
-        });
+        };
         if self.prediction.map(|prediction| prediction.catalog_number) != before {
             self.errors.clear();
         }
@@ -149,10 +154,30 @@ impl AntennaModel {
         self.recent.push_back(measured);
     }
 
-    /// The satellite that the unit follows by itself, or is about to: the one
-    /// it holds, whatever we asked for.
+    /// The session has the target and compares with it.
+    fn followed_prediction(&self) -> Option<Prediction> {
+        let view = self.snapshot.following.as_ref()?;
+        let predicted = view.predicted?;
+        Some(Prediction {
+            catalog_number: view.catalog_number,
+            at: predicted.time,
+            direction: predicted.direction,
+        })
+    }
+
+    /// Whether this program follows a target with it, or waits for one.
+    pub fn follows(&self) -> bool {
+        let view = self.snapshot.following.as_ref();
+        view.is_some_and(|view| view.phase != FollowPhase::Over)
+    }
+
+    /// The satellite that is followed, or is about to be: by the unit itself the
+    /// one it holds, whatever we asked for.
     pub fn tracked_number(&self) -> Option<u32> {
         let state = &self.snapshot.state;
+        if self.follows() {
+            return self.snapshot.following.as_ref().and_then(|view| view.catalog_number);
+        }
         let enabled = state.program.is_some_and(|program| program.enabled);
         if enabled {
             return state.satrak.satellite.as_ref().map(|held| held.catalog_number);
@@ -162,12 +187,15 @@ impl AntennaModel {
             .flatten()
     }
 
-    /// Whether the unit follows its satellite right now.
+    /// Whether a target is followed right now, by the unit or by this program.
     pub fn tracks(&self) -> bool {
-        self.snapshot
+        let snapshot = &self.snapshot;
+        let by_unit = snapshot
             .state
             .program
-            .is_some_and(|program| program.enabled && program.phase == Phase::Tracking)
+            .is_some_and(|program| program.enabled && program.phase == Phase::Tracking);
+        let view = snapshot.following.as_ref();
+        by_unit || view.is_some_and(|view| view.phase == FollowPhase::Following)
     }
 
     /// How far the last measurement was from the prediction for its time.

@@ -5,6 +5,7 @@ use std::sync::{Arc, atomic::Ordering};
 use super::{
     App, UiCommand,
     alarms::AlarmKind,
+    antenna::AntennaModel,
     forecast::PassKey,
     sources::{self, SourceWork, Task},
 };
@@ -106,6 +107,11 @@ impl App {
     fn track(&mut self, antenna: usize, pass: PassKey) {
         // A pass that is over since it was asked for is not replaced by another.
         let Some(forecast) = self.model.forecasts.find(pass) else { return };
+        let by_itself = |antenna: &AntennaModel| antenna.make().capabilities.has_program;
+        if !self.model.antennas.get(antenna).is_some_and(by_itself) {
+            let follow = self.model.follow_of(forecast);
+            return self.send(antenna, driver::Command::Follow(Box::new(follow)));
+        }
         let target = TrackTarget {
             catalog_number: forecast.satellite.elements.catalog_number(),
             name: forecast.satellite.elements.name().to_owned(),

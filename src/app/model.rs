@@ -20,6 +20,7 @@ use crate::{
     astro::{AzEl, Site, sun_moon},
     driver::TimeSync,
     orbit::{Catalog, LookAngles, is_sunlit},
+    plan::{Follow, Target},
     station::Station,
 };
 
@@ -162,6 +163,28 @@ impl Model {
             Scope::Favourites => self.forecasts.favourites.within(self.now, self.list.span_h()),
             Scope::All => &self.forecasts.all.passes,
         }
+    }
+
+    /// What an antenna has to follow for the pass of `forecast` and the passes of
+    /// its satellite after it, as far as they are known.
+    pub fn follow_of(&self, forecast: &Forecast) -> Follow {
+        let number = forecast.number();
+        let later = |other: &&Forecast| {
+            other.number() == number && other.pass.aos.time > forecast.pass.aos.time
+        };
+        let favourites = self.forecasts.favourites.passes.iter();
+        let passes = favourites.filter(later).chain(self.forecasts.all.passes.iter().filter(later));
+        let passes = std::iter::once(forecast).chain(passes);
+        let mut passes: Vec<_> =
+            passes.map(|forecast| (forecast.pass.aos.time, forecast.pass.los.time)).collect();
+        passes.sort_unstable();
+        // Both lists may hold the same pass, found at another time.
+        passes.dedup_by(|later, earlier| later.0 < earlier.1);
+        if forecast.is_always_up() {
+            passes.clear();
+        }
+        let elements = Box::new(forecast.satellite.elements.clone());
+        Follow { target: Target::Satellite(elements), site: self.station.site, passes }
     }
 
     /// Puts everything at its place for `now`.

@@ -1,5 +1,6 @@
 //! What the selected antenna does, why, and what comes next.
 
+mod follow;
 mod link;
 mod news;
 
@@ -61,6 +62,7 @@ pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
         .or_else(|| news::sentence(model, antenna))
         .or_else(|| fault_or_limit(antenna))
         .or_else(|| preparing(antenna))
+        .or_else(|| follow::sentence(model, antenna))
         .or_else(|| program(model, antenna))
         .or_else(|| by_hand(antenna))
         .unwrap_or_else(|| standing(model, antenna))

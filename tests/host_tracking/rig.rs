@@ -51,7 +51,7 @@ impl Rig {
         serve: impl Fn(DuplexStream) -> Served + Send + 'static,
     ) -> Self
     where
-        Served: Future<Output = ()> + Send + 'static,
+        Served: Future<Output = io::Result<()>> + Send + 'static,
     {
         let started = Instant::now();
         let is_off = Arc::new(AtomicBool::new(false));
@@ -67,7 +67,8 @@ impl Rig {
                 let mut broken = breaks.subscribe();
                 tokio::spawn(async move {
                     tokio::select! {
-                        () = served => {}
+                        // An error is a link that broke.
+                        _ = served => {}
                         _ = broken.changed() => {}
                     }
                 });

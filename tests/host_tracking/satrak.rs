@@ -4,9 +4,10 @@
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, FollowProblem, Intent},
+    driver::{Command, Event, FollowProblem, Intent, Refusal},
     plan::{Follow, FollowPhase, Target},
-    sim::satrak::{Control, Options},
+    protocol::satrak::FaultKind,
+    sim::satrak::{Control, Fault, Options},
     station::{AfterPass, Antenna},
 };
 use jiff::SignedDuration;
@@ -206,4 +207,35 @@ async fn a_direction_the_sun_and_the_moon_are_followed_too() {
             assert_eq!(gotos(&control), 1);
         }
     }
+}
+
+#[tokio::test(start_paused = true)]
+async fn lost_answers_do_not_end_it() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+    control.set_fault(Fault::DropReply, true);
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let (rms, _) = figures("Satrak, every third answer lost", rig.until_over().await);
+    // Each one is waited for.
+    assert!(rms < 1.0, "{rms}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_fault_ends_it_with_its_reason_and_forbids_it_from_the_start() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.until_utc(add_seconds(scene.pass.aos.time, 120.0)).await;
+    rig.events();
+    control.set_fault(Fault::Unit(FaultKind::Setup), true);
+    let told = rig.until_event(20.0, |event| matches!(event, Event::CannotFollow(..))).await;
+    let refused = FollowProblem::Refused(Refusal::Fault);
+    let name = scene.elements.name().to_owned();
+    assert_eq!(told, Event::CannotFollow(name.clone(), refused));
+    assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
+    let sent = gotos(&control);
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.seconds(5.0).await;
+    assert_eq!(rig.events(), [Event::CannotFollow(name, refused)]);
+    assert_eq!((gotos(&control), rig.phase()), (sent, None));
 }

@@ -17,6 +17,7 @@ mod demo;
 mod drive;
 mod elements;
 mod extremes;
+mod following;
 mod keys;
 mod makes;
 mod mask;

@@ -2,99 +2,25 @@
 //! on while a link is lost and comes back, and ends with anything else that the
 //! operator wants.
 
+mod following;
+
 use std::time::{Duration, Instant};
+
+pub(super) use following::{Following, Manner};
 
 use super::{Command, Event, Session};
 use crate::{
-    controller::{AxisMotion, Capabilities, Measured, Moment, Motion},
-    driver::{FollowProblem, FollowView, Intent, Refusal},
+    controller::{Moment, Motion},
+    driver::{FollowProblem, Intent, Refusal},
     plan::{
-        Follow, FollowPhase, FollowStats, Sample,
-        follow::{AxisNow, Drives, Next, Planner},
+        Follow, FollowPhase,
+        follow::{AxisNow, Next, Planner},
     },
-    station::{self, AfterPass, Antenna},
+    station::AfterPass,
 };
 
 /// So many commands in a row may stay without an answer and without effect.
 const MOST_LOST: u32 = 3;
-
-/// How an antenna follows.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Manner {
-    drives: Drives,
-    following: station::Following,
-}
-
-impl Manner {
-    pub(super) fn of(antenna: &Antenna, can: Capabilities) -> Self {
-        let drives = Drives {
-            mount: antenna.mount,
-            limits: antenna.limits,
-            step_deg: can.position_step_deg,
-            has_elevation: can.has_elevation,
-        };
-        Self { drives, following: antenna.follow }
-    }
-}
-
-/// A target that is followed.
-pub(super) struct Following {
-    planner: Planner,
-    phase: FollowPhase,
-    stats: FollowStats,
-    next_look: Instant,
-    /// The look is due, but something else has to end first, which brings it.
-    is_held_up: bool,
-    /// When the last command went to the gate.
-    sent: Option<Instant>,
-    /// Commands in a row that were lost.
-    lost: u32,
-    /// When the position came in that was compared last.
-    compared: Option<Instant>,
-    predicted: Option<Sample>,
-}
-
-impl Following {
-    pub(super) fn view(&self) -> FollowView {
-        let target = &self.planner.follow().target;
-        FollowView {
-            name: target.name().into_owned(),
-            catalog_number: target.catalog_number(),
-            phase: self.phase,
-            stats: self.stats,
-            next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
-            predicted: self.predicted,
-        }
-    }
-
-    fn name(&self) -> String {
-        self.planner.follow().target.name().into_owned()
-    }
-
-    /// How well the antenna points, once for each measurement.
-    fn compare(&mut self, measured: Measured) {
-        if self.compared.replace(measured.received) == Some(measured.received) {
-            return;
-        }
-        let is_up = self.phase == FollowPhase::Following;
-        let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
-        self.predicted = direction.map(|direction| Sample { time: measured.at, direction });
-        if let Some(off) =
-            direction.and_then(|direction| measured.pointing.separation(direction.into()))
-        {
-            self.stats.take(off);
-        }
-    }
-
-    /// The axes, as far as they show what the last command has brought about.
-    fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
-        let shows_it = self.sent.is_none_or(|sent| measured.asked >= sent + latency);
-        measured.axes.map(|axis| AxisNow {
-            position_deg: axis.angle_deg,
-            stands: shows_it && axis.motion == AxisMotion::Still,
-        })
-    }
-}
 
 impl Session {
     /// Takes up a target. What moves for another reason is stopped first.
@@ -105,14 +31,14 @@ impl Session {
         let follow =
             if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);
-        let planned = if !self.make.capabilities.takes_positions {
-            Err(Refusal::NotOffered.into())
-        } else if phase == FollowPhase::Over {
+        let planned = if phase == FollowPhase::Over {
             Err(FollowProblem::NoPass)
         } else {
             Planner::new(follow, drives, following).map_err(FollowProblem::Orbit)
         };
-        let planner = match planned {
+        // Checked before anything that runs is ended for it.
+        let checked = planned.and_then(|planner| self.check_first(planner, now));
+        let planner = match checked {
             Ok(planner) => planner,
             Err(problem) => return self.tell(Event::CannotFollow(name, problem)),
         };
@@ -123,18 +49,19 @@ impl Session {
         self.intent = Intent::Track;
         self.aim = None;
         self.target = None;
-        self.following = Some(Following {
-            planner,
-            phase,
-            stats: FollowStats::default(),
-            next_look: now.steady,
-            is_held_up: false,
-            sent: None,
-            lost: 0,
-            compared: None,
-            predicted: None,
-        });
+        self.following = Some(Following::new(planner, phase, now.steady));
         self.tell_phase(phase, name);
+    }
+
+    /// Whether the first position may be sent.
+    fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, FollowProblem> {
+        let axes = self.gate.state().measured.map(|measured| measured.axes);
+        let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
+        let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
+        if let Some(next) = planner.look(now.utc, axes)? {
+            self.gate.check(motion(next), Intent::Track, now)?;
+        }
+        Ok(planner)
     }
 
     fn tell_phase(&self, phase: FollowPhase, name: String) {
@@ -220,10 +147,7 @@ impl Session {
     }
 
     fn send_next(&mut self, next: Next, now: Moment) {
-        let motion = Motion::Position {
-            azimuth: next.set_point.azimuth,
-            elevation: next.set_point.elevation,
-        };
+        let motion = motion(next);
         match self.gate.start(motion, Intent::Track, self.halting.is_some(), now) {
             Ok(()) => {
                 let aim = self.gate.aim(&motion);
@@ -274,4 +198,8 @@ impl Session {
             following.sent = None;
         }
     }
+}
+
+fn motion(next: Next) -> Motion {
+    Motion::Position { azimuth: next.set_point.azimuth, elevation: next.set_point.elevation }
 }

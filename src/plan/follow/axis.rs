@@ -52,11 +52,20 @@ pub(super) struct Axis {
     pub(super) told: Told,
     /// The longest way that it was seen not to set out for, degrees.
     ignored_deg: f64,
+    /// What it made of the shortest way that it sets out for, degrees.
+    least_run_deg: Option<f64>,
 }
 
 impl Axis {
     pub(super) fn new(index: usize, drives: Drives, following: Following) -> Self {
-        Self { index, drives, following, told: Told::default(), ignored_deg: 0.0 }
+        Self {
+            index,
+            drives,
+            following,
+            told: Told::default(),
+            ignored_deg: 0.0,
+            least_run_deg: None,
+        }
     }
 
     /// A drive may stop some degrees early and let the axis run out. Then it does
@@ -67,9 +76,15 @@ impl Axis {
             return;
         };
         let way_deg = (to_deg - from_deg).abs();
-        let has_stayed = (at_deg - from_deg).abs() < self.drives.step_deg / 2.0;
-        if has_stayed && way_deg <= MOST_IGNORED_DEG {
+        let run_deg = (at_deg - from_deg).abs();
+        if run_deg >= self.half_step_deg() {
+            if way_deg <= self.least_way_deg() {
+                self.least_run_deg = Some(run_deg);
+            }
+        } else if way_deg <= MOST_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
+            self.told.to_deg = Some(from_deg);
+            self.least_run_deg = None;
         }
     }
 
@@ -96,13 +111,26 @@ impl Axis {
             let way_deg = now.position_deg.map_or(0.0, |at_deg| (position_deg - at_deg).abs());
             way_s = way_deg / self.drives.limits.maximum_rate_deg_s;
         }
-        let is_told = |told_deg: f64| (told_deg - position_deg).abs() <= ROUNDING_DEG;
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
-        let is_near = |at_deg: f64| {
-            (at_deg - least).abs().max((at_deg - most).abs()) <= self.band_deg() + ROUNDING_DEG
+        // A rest near to what it was told is the rounding of its sensor.
+        let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
+        let rounding_deg = (self.following.dead_band_deg / 2.0).max(self.half_step_deg());
+        let elsewhere = |at_deg: &f64| {
+            told_deg.is_none_or(|told_deg| (at_deg - told_deg).abs() > rounding_deg + ROUNDING_DEG)
         };
-        let stays_well = now.rest_deg().or(self.told.to_deg).is_some_and(is_near);
-        Wish { position_deg, is_due: !stays_well && !self.told.to_deg.is_some_and(is_told) }
+        let stays_deg = rest_deg.filter(elsewhere).or(told_deg);
+        let is_off =
+            stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
+        // One that comes to rest elsewhere is not told the same again.
+        let is_new = told_deg.is_none_or(|told_deg| {
+            let change_deg = (position_deg - told_deg).abs();
+            change_deg > ROUNDING_DEG && change_deg > lead_deg - ROUNDING_DEG
+        });
+        Wish { position_deg, is_due: is_off && is_new }
+    }
+
+    fn is_off(&self, a_deg: f64, b_deg: f64) -> bool {
+        (a_deg - b_deg).abs() > self.band_deg() + ROUNDING_DEG
     }
 
     /// What to tell it while at least one axis has to be told something; `None`
@@ -124,8 +152,13 @@ impl Axis {
     /// How far off it may be before it is told a new position. It is sent as far
     /// ahead of the target, so that it is as far off on either side.
     fn band_deg(&self) -> f64 {
-        let least_deg = self.ignored_deg / 2.0 + self.half_step_deg();
-        self.following.dead_band_deg.max(least_deg)
+        let run_deg = self.least_run_deg.unwrap_or_else(|| self.least_way_deg());
+        self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
+    }
+
+    /// The shortest way that it may set out for.
+    fn least_way_deg(&self) -> f64 {
+        self.ignored_deg + self.drives.step_deg
     }
 
     fn half_step_deg(&self) -> f64 {
@@ -139,7 +172,7 @@ impl Axis {
         if self.ignored_deg <= 0.0 || (near_deg - at_deg).abs() > self.ignored_deg {
             return near_deg;
         }
-        let way_deg = (self.ignored_deg + self.drives.step_deg).copysign(wanted_deg - at_deg);
+        let way_deg = self.least_way_deg().copysign(wanted_deg - at_deg);
         self.drives.tellable_deg(self.index, at_deg + way_deg)
     }
 }

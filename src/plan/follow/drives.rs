@@ -97,6 +97,9 @@ impl Drives {
             return position_deg.clamp(from_deg, to_deg);
         }
         let (first, last) = ((from_deg / self.step_deg).ceil(), (to_deg / self.step_deg).floor());
+        // Devices that count whole degrees may count 0 to 359.
+        let is_turn = (to_deg - from_deg - 360.0).abs() < 1e-9;
+        let last = if is_turn { last - 1.0 } else { last };
         if first > last {
             return position_deg.clamp(from_deg, to_deg);
         }
@@ -196,7 +199,7 @@ mod tests {
     #[test]
     fn whole_steps_stay_within_the_travel() {
         let drives = drives(&Antenna::genius("", ""), 1.0);
-        assert_eq!(drives.tellable_deg(0, 359.7).to_bits(), 360.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(0, 359.7).to_bits(), 359.0_f64.to_bits());
         assert_eq!(drives.tellable_deg(0, 12.4).to_bits(), 12.0_f64.to_bits());
         assert_eq!(drives.tellable_deg(1, 92.0).to_bits(), 90.0_f64.to_bits());
     }

@@ -5,6 +5,7 @@ use crate::{
     app::{Model, antenna::AntennaModel},
     astro::time::seconds_between,
     driver::{Event, Found},
+    plan::FollowStats,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
@@ -21,6 +22,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     Some(match event {
         Event::Back { after, found } => {
             let silent = format::age(after.as_secs_f64());
+            if antenna.follows() {
+                return Some(
+                    Spoken::new(SentenceKind::Tracking)
+                        .plain(format!("{name} answers again after {silent}. It follows on.")),
+                );
+            }
             let held = antenna.snapshot.state.satrak.satellite.as_ref();
             let spoken = Spoken::new(match found {
                 Found::Tracking => SentenceKind::Tracking,
@@ -50,6 +57,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain("Not tracking ")
             .bold(short(&target.name))
             .plain(format!(": {}.", words::prepare_error(reason))),
+        Event::FollowOver { name, stats } => follow_over(name, *stats),
         Event::CannotFollow(target, problem) => caution
             .plain("Not following ")
             .bold(short(target))
@@ -80,10 +88,23 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         | Event::Tracking(_)
         | Event::Awaits { .. }
         | Event::Follows(_)
-        | Event::FollowOver { .. }
         | Event::TrackingEnded { completed: true }
         | Event::Arrived(_)
         | Event::Stopped
         | Event::StopNotConfirmed => return None,
     })
+}
+
+fn follow_over(name: &str, stats: FollowStats) -> Spoken {
+    let spoken = Spoken::new(SentenceKind::Holding)
+        .plain("The pass of ")
+        .bold(short(name))
+        .plain(" is over.");
+    let Some((rms, worst)) = stats.rms().zip(stats.worst()) else { return spoken };
+    spoken.plain(format!(
+        " It was followed to {} rms, {} at worst, with {} commands.",
+        format::degrees(rms.degrees(), 2),
+        format::degrees(worst.degrees(), 2),
+        stats.commands
+    ))
 }

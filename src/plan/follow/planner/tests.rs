@@ -32,7 +32,7 @@ impl Metal {
         while let Some((_, axes)) = self.orders.pop_front_if(|(at_s, _)| *at_s <= now_s) {
             let each = self.goals_deg.iter_mut().zip(axes).zip(self.axes_deg);
             for ((goal, told), at) in each {
-                let is_reached = *goal == at;
+                let is_reached = (*goal - at).abs() < 1e-9;
                 let told = told.filter(|told| !is_reached || (told - at).abs() > self.ignored_deg);
                 *goal = told.unwrap_or(*goal);
             }
@@ -44,8 +44,9 @@ impl Metal {
     }
 
     fn now(&self) -> [AxisNow; 2] {
-        let stands =
-            |axis: usize| self.orders.is_empty() && self.axes_deg[axis] == self.goals_deg[axis];
+        let stands = |axis: usize| {
+            self.orders.is_empty() && (self.axes_deg[axis] - self.goals_deg[axis]).abs() < 1e-9
+        };
         [0, 1].map(|axis| AxisNow { position_deg: Some(self.axes_deg[axis]), stands: stands(axis) })
     }
 }

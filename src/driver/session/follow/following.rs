@@ -1,0 +1,106 @@
+//! A target that is followed, and how well.
+
+use std::time::{Duration, Instant};
+
+use crate::{
+    controller::{AxisMotion, Capabilities, Measured},
+    driver::FollowView,
+    plan::{
+        FollowPhase, FollowStats, Sample,
+        follow::{AxisNow, Drives, Planner},
+    },
+    station::{self, Antenna},
+};
+
+/// How an antenna follows.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::driver::session) struct Manner {
+    pub(super) drives: Drives,
+    pub(super) following: station::Following,
+}
+
+impl Manner {
+    pub(in crate::driver::session) fn of(antenna: &Antenna, can: Capabilities) -> Self {
+        let drives = Drives {
+            mount: antenna.mount,
+            limits: antenna.limits,
+            step_deg: can.position_step_deg,
+            has_elevation: can.has_elevation,
+        };
+        Self { drives, following: antenna.follow }
+    }
+}
+
+/// A target that is followed.
+pub(in crate::driver::session) struct Following {
+    pub(super) planner: Planner,
+    pub(super) phase: FollowPhase,
+    pub(super) stats: FollowStats,
+    pub(super) next_look: Instant,
+    /// The look is due, but something else has to end first, which brings it.
+    pub(super) is_held_up: bool,
+    /// When the last command went to the gate.
+    pub(super) sent: Option<Instant>,
+    /// Commands in a row that were lost.
+    pub(super) lost: u32,
+    /// When the position came in that was compared last.
+    compared: Option<Instant>,
+    pub(super) predicted: Option<Sample>,
+}
+
+impl Following {
+    /// Nothing was sent yet; it is looked at now.
+    pub(super) fn new(planner: Planner, phase: FollowPhase, now: Instant) -> Self {
+        Self {
+            planner,
+            phase,
+            stats: FollowStats::default(),
+            next_look: now,
+            is_held_up: false,
+            sent: None,
+            lost: 0,
+            compared: None,
+            predicted: None,
+        }
+    }
+
+    pub(in crate::driver::session) fn view(&self) -> FollowView {
+        let target = &self.planner.follow().target;
+        FollowView {
+            name: target.name().into_owned(),
+            catalog_number: target.catalog_number(),
+            phase: self.phase,
+            stats: self.stats,
+            next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
+            predicted: self.predicted,
+        }
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.planner.follow().target.name().into_owned()
+    }
+
+    /// How well the antenna points, once for each measurement.
+    pub(super) fn compare(&mut self, measured: Measured) {
+        if self.compared.replace(measured.received) == Some(measured.received) {
+            return;
+        }
+        let is_up = self.phase == FollowPhase::Following;
+        let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
+        self.predicted = direction.map(|direction| Sample { time: measured.at, direction });
+        if let Some(off) =
+            direction.and_then(|direction| measured.pointing.separation(direction.into()))
+        {
+            self.stats.take(off);
+        }
+    }
+
+    /// The axes, as far as they show what the last command has brought about.
+    pub(super) fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
+        let shows_it = self.sent.is_none_or(|sent| measured.asked >= sent + latency);
+        measured.axes.map(|axis| AxisNow {
+            position_deg: axis.angle_deg,
+            stands: shows_it && axis.motion == AxisMotion::Still,
+        })
+    }
+}

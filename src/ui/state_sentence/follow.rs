@@ -1,0 +1,56 @@
+//! The sentence of an antenna that this program sends from position to position.
+
+use super::{Spoken, place, short};
+use crate::{
+    app::{Model, antenna::AntennaModel},
+    astro::time::seconds_between,
+    driver::FollowView,
+    plan::FollowPhase,
+    ui::{format, widgets::sentence::SentenceKind},
+};
+
+pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+    let view = antenna.snapshot.following.as_ref()?;
+    let name = short(&view.name);
+    Some(match view.phase {
+        FollowPhase::Waiting { aos } => {
+            let spoken = Spoken::new(SentenceKind::Commanded);
+            let moving = antenna.snapshot.state.measured.is_some_and(|measured| measured.moving());
+            let spoken = if moving {
+                spoken.plain("Moving to where ").bold(name).plain(" rises")
+            } else {
+                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name).plain(", rises")
+            };
+            spoken.plain(format!(
+                " at {} in {}.",
+                format::time_z(aos),
+                format::duration(seconds_between(model.now, aos).max(0.0))
+            ))
+        }
+        FollowPhase::Following => following(antenna, view, name),
+        FollowPhase::Over => Spoken::new(SentenceKind::Holding)
+            .plain("The pass of ")
+            .bold(name)
+            .plain(format!(" is over. Holding{}.", place(antenna))),
+    })
+}
+
+fn following(antenna: &AntennaModel, view: &FollowView, name: &str) -> Spoken {
+    let lead = |kind| Spoken::new(kind).plain("Following ").bold(name);
+    let Some(error) = antenna.error().filter(|_| view.predicted.is_some()) else {
+        return lead(SentenceKind::Caution)
+            .plain(format!(", which is out of reach. Waiting{}.", place(antenna)));
+    };
+    let beam_deg = antenna.config.beam_width_deg;
+    let off_deg = error.off_beam.degrees();
+    let (kind, side) = if off_deg <= beam_deg / 2.0 {
+        (SentenceKind::Tracking, "inside")
+    } else {
+        (SentenceKind::Caution, "outside")
+    };
+    lead(kind).plain(format!(
+        ", sent from position to position. The antenna is {} off, {side} its {} beam.",
+        format::degrees(off_deg, 2),
+        format::degrees(beam_deg, 2)
+    ))
+}

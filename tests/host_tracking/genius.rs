@@ -1,0 +1,115 @@
+//! A Rotator Genius: whole degrees, one speed, and it coasts.
+
+use azel::{
+    astro::time::add_seconds,
+    controller::rotator_genius::Genius,
+    driver::{Command, Event, Intent},
+    plan::FollowStats,
+    protocol::rotator_genius::WholeDegrees,
+    sim::rotator_genius::{Control, Options, RotatorOptions},
+    station::{Antenna, Connection, Mount, Rotators},
+};
+
+use super::{
+    rig::{Rig, figures},
+    sky::{self, Scene},
+};
+
+/// Before AOS, so that the antenna is there in time.
+const LEAD_S: f64 = 180.0;
+
+/// As fast as the simulated rotators are.
+fn antenna(rotators: Rotators) -> Antenna {
+    let mut antenna = Antenna::genius("Mast", "in memory");
+    antenna.connection = Connection::Genius { address: "in memory".to_owned(), rotators };
+    antenna.limits.maximum_rate_deg_s = 4.0;
+    antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 360.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    antenna
+}
+
+fn options(stop_offset_deg: u8) -> Options {
+    let azimuth = RotatorOptions { stop_offset_deg, ..RotatorOptions::default() };
+    let elevation = RotatorOptions { stop_offset_deg, ..RotatorOptions::elevation() };
+    Options { rotators: [azimuth, elevation], ..Options::default() }
+}
+
+async fn connected(options: &Options, antenna: &Antenna, scene: &Scene) -> (Rig, Control) {
+    let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
+    let control = Control::new(options);
+    let device = control.clone();
+    let Connection::Genius { rotators, .. } = antenna.connection else { panic!("{antenna:?}") };
+    let genius = Genius::new(antenna.poll, rotators);
+    let mut rig = Rig::start(Box::new(genius), antenna, utc_origin, move |far| {
+        let device = device.clone();
+        async move { device.serve(far).await }
+    });
+    rig.until("it is read", 5.0, |shown| shown.state.measured.is_some()).await;
+    rig.seconds(1.0).await;
+    rig.events();
+    (rig, control)
+}
+
+async fn followed(stop_offset_deg: u8, scene: &Scene) -> FollowStats {
+    let options = options(stop_offset_deg);
+    let (mut rig, _) = connected(&options, &antenna(Rotators::Pair), scene).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let stats = rig.until_over().await;
+    let others = rig.events();
+    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::Follows(_));
+    assert!(others.iter().all(is_good), "{others:?}");
+    stats
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_usual_pass_is_followed_to_the_degree() {
+    for stop_offset_deg in [1, 2] {
+        let what = format!("Genius, usual, stop offset {stop_offset_deg}");
+        let (rms, worst) = figures(&what, followed(stop_offset_deg, &sky::usual()).await);
+        assert!(rms < 1.0 && worst < 3.5, "{rms} {worst}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn through_north_it_goes_round_once() {
+    let (_, worst) =
+        figures("Genius, through north, 0 to 360", followed(2, &sky::through_north()).await);
+    assert!(worst > 45.0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn close_to_the_zenith_it_swings_in_time() {
+    let (rms, worst) = figures("Genius, 88 degrees", followed(2, &sky::overhead()).await);
+    assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_alone_follows_in_azimuth() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&options(2), &antenna(Rotators::First), &scene).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let stats = rig.until_over().await;
+    let (rms, _) = figures("Genius, azimuth alone", stats);
+    assert!(rms < 1.3, "{rms}");
+    let elevation_deg = control.state().rotators[1].angle_deg;
+    assert!(elevation_deg.abs() < 1e-9, "{elevation_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_refusal_of_the_device_ends_it_with_its_reason() {
+    let scene = sky::usual();
+    let mut options = options(2);
+    // Its limits leave out where the pass is.
+    options.rotators[0].position = WholeDegrees::saturating(10);
+    options.rotators[0].limit_cw = WholeDegrees::saturating(12);
+    options.rotators[0].limit_ccw = WholeDegrees::saturating(8);
+    let (mut rig, _) = connected(&options, &antenna(Rotators::Pair), &scene).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.until_event(5.0, |event| matches!(event, Event::Refused(..))).await;
+    rig.seconds(1.0).await;
+    assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
+}

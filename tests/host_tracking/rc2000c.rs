@@ -1,0 +1,96 @@
+//! An RC2000C: counts of a calibrated sensor, and a travel of more than a turn.
+
+use azel::{
+    astro::time::add_seconds,
+    controller::rc2000c::Rc2000c,
+    driver::{Command, Event},
+    plan::FollowStats,
+    sim::rc2000c::{Control, Options},
+    station::{Antenna, Calibration, Connection, CountPoint, Mount},
+};
+
+use super::{
+    rig::{Rig, figures},
+    sky::{self, Scene},
+};
+
+/// Before AOS, so that the antenna is there in time.
+const LEAD_S: f64 = 240.0;
+/// The simulated axes turn so many counts a second.
+const COUNTS_S: f64 = 40.0;
+
+/// An antenna whose azimuth axis travels from north to `azimuth_to_deg` on the
+/// 3600 counts of the simulated unit.
+fn antenna(azimuth_to_deg: f64) -> Antenna {
+    let point = |counts, degrees| CountPoint { counts, degrees };
+    let calibration = Calibration {
+        azimuth: vec![point(30, 0.0), point(3630, azimuth_to_deg)],
+        elevation: vec![point(30, 0.0), point(1830, 90.0)],
+    };
+    let mut antenna = Antenna::rc2000c("Dish", "in memory");
+    antenna.connection = Connection::Rc2000c {
+        address: "in memory".to_owned(),
+        baud: 9600,
+        bus_address: 50,
+        calibration,
+    };
+    antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    antenna.limits.minimum_elevation_deg = 0.0;
+    antenna.limits.maximum_rate_deg_s = COUNTS_S * azimuth_to_deg / 3600.0;
+    antenna
+}
+
+async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
+    let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
+    let control = Control::new(&Options::default());
+    let Connection::Rc2000c { baud, bus_address, calibration, .. } = &antenna.connection else {
+        panic!("{antenna:?}")
+    };
+    let unit = Rc2000c::new(antenna, *baud, *bus_address, calibration);
+    let mut rig = Rig::start(Box::new(unit), antenna, utc_origin, move |far| {
+        let control = control.clone();
+        async move { control.serve(far).await }
+    });
+    rig.send(Command::Connect);
+    rig.until("it is read", 20.0, |shown| {
+        shown.state.measured.is_some() && shown.state.motion_lock.is_some()
+    })
+    .await;
+    rig.seconds(2.0).await;
+    rig.events();
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let stats = rig.until_over().await;
+    let others = rig.events();
+    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::Follows(_));
+    assert!(others.iter().all(is_good), "{others:?}");
+    stats
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_usual_pass_is_followed_within_the_dead_band() {
+    let (rms, worst) = figures("RC2000C, usual", followed(&antenna(360.0), &sky::usual()).await);
+    assert!(rms < 0.5 && worst < 1.5, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn through_north_an_overlap_saves_the_way_round() {
+    let scene = sky::through_north();
+    let plain =
+        figures("RC2000C, through north, 0 to 360", followed(&antenna(360.0), &scene).await);
+    let overlap =
+        figures("RC2000C, through north, 0 to 450", followed(&antenna(450.0), &scene).await);
+    assert!(plain.1 > 45.0, "{plain:?}");
+    assert!(overlap.0 < 0.5 && overlap.1 < 1.5, "{overlap:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn close_to_the_zenith_it_swings_in_time() {
+    let (rms, worst) =
+        figures("RC2000C, 88 degrees", followed(&antenna(360.0), &sky::overhead()).await);
+    assert!(rms < 4.0 && worst < 15.0, "{rms} {worst}");
+}

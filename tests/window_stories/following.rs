@@ -1,0 +1,126 @@
+//! An antenna that this program sends from position to position.
+
+use azel::{
+    app::{Model, forecast::Forecast},
+    astro::{Angle, AzEl, time::add_seconds},
+    controller::AxisMotion,
+    driver::{Event, FollowView, Found, Intent, Snapshot},
+    plan::{FollowPhase, FollowStats, Sample},
+    station::Antenna,
+    ui::bar::activity,
+};
+use std::time::Duration;
+
+use crate::{rig, states};
+
+const WANTED: AzEl = AzEl::from_degrees(134.0, 20.0);
+
+/// A Genius that follows NOAA 20 and is `off_deg` too high.
+fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
+    let is_up = phase == FollowPhase::Following;
+    let predicted = Sample { time: rig::now(), direction: WANTED };
+    let view = FollowView {
+        name: "NOAA 20 (JPSS-1)".to_owned(),
+        catalog_number: Some(rig::NOAA_20),
+        phase,
+        stats: FollowStats::default(),
+        next_look: None,
+        predicted: is_up.then_some(predicted),
+    };
+    let intent = if phase == FollowPhase::Over { Intent::Position } else { Intent::Track };
+    let mut snapshot = Snapshot { intent, following: Some(view), ..rig::quiet() };
+    snapshot.state.measured = Some(states::measured(134.0, 20.0 + off_deg, motion));
+    let mut model = rig::model(rig::quiet());
+    let mut antenna = rig::antenna(Antenna::genius("Mast", "192.168.1.250:9006"), snapshot);
+    antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    model.antennas = vec![antenna];
+    model
+}
+
+#[test]
+fn the_sentence_says_what_is_waited_for_followed_and_over() {
+    use AxisMotion::{Plus, Still};
+    let waiting = FollowPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
+    for (phase, off_deg, motion, wanted) in [
+        (waiting, 0.0, Plus, "Moving to where NOAA 20 rises at 11:18:42Z in 3:12."),
+        (waiting, 0.0, Still, "Waiting at 134.0°, 20.0° for NOAA 20, rises at 11:18:42Z in 3:12."),
+        (
+            FollowPhase::Following,
+            0.4,
+            Plus,
+            "Following NOAA 20, sent from position to position. The antenna is 0.40° off, inside \
+             its 20.00° beam.",
+        ),
+        (
+            FollowPhase::Following,
+            11.0,
+            Plus,
+            "Following NOAA 20, sent from position to position. The antenna is 11.00° off, \
+             outside its 20.00° beam.",
+        ),
+        (FollowPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134.0°, 20.0°."),
+    ] {
+        assert_eq!(states::sentence(&following(phase, off_deg, motion)), wanted);
+    }
+}
+
+#[test]
+fn the_chip_and_the_prediction_are_those_of_the_target() {
+    let model = following(FollowPhase::Following, 0.4, AxisMotion::Plus);
+    let antenna = &model.antennas[0];
+    assert_eq!((activity(antenna), antenna.tracked_number()), ("Tracking", Some(rig::NOAA_20)));
+    assert_eq!(antenna.prediction.unwrap().direction, WANTED);
+    let off_deg = antenna.error().unwrap().off_beam.degrees();
+    assert!((off_deg - 0.4).abs() < 1e-9, "{off_deg}");
+
+    let waiting = FollowPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
+    let model = following(waiting, 0.0, AxisMotion::Still);
+    assert_eq!(activity(&model.antennas[0]), "Waiting");
+    assert_eq!(model.antennas[0].prediction, None);
+    let model = following(FollowPhase::Over, 0.0, AxisMotion::Still);
+    assert_eq!(
+        (model.antennas[0].tracked_number(), activity(&model.antennas[0])),
+        (None, "Holding")
+    );
+}
+
+#[test]
+fn after_a_lost_link_it_is_said_to_follow_on() {
+    let mut model = following(FollowPhase::Following, 0.4, AxisMotion::Still);
+    let back = Event::Back { after: Duration::from_secs(20), found: Found::Still };
+    model.antennas[0].news = Some((back, model.now));
+    let said = states::sentence(&model);
+    assert!(said.ends_with("It follows on."), "{said}");
+}
+
+#[test]
+fn after_the_pass_it_is_told_how_well_it_was_followed() {
+    let mut stats = FollowStats { commands: 206, ..FollowStats::default() };
+    stats.take(Angle::from_degrees(0.6));
+    stats.take(Angle::from_degrees(0.8));
+    let mut model = following(FollowPhase::Over, 0.0, AxisMotion::Still);
+    let over = Event::FollowOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
+    model.antennas[0].news = Some((over, model.now));
+    let wanted = "The pass of NOAA 20 is over. It was followed to 0.71° rms, 0.80° at worst, with \
+                  206 commands.";
+    assert_eq!(states::sentence(&model), wanted);
+}
+
+#[test]
+fn the_selected_pass_and_the_later_ones_are_followed() {
+    let model = rig::model(rig::quiet());
+    let passes = &model.forecasts.favourites.passes;
+    let space_station: Vec<&Forecast> =
+        passes.iter().filter(|forecast| forecast.number() == 25_544).collect();
+    let wanted = |forecasts: &[&Forecast]| -> Vec<_> {
+        let times = |forecast: &&Forecast| (forecast.pass.aos.time, forecast.pass.los.time);
+        forecasts.iter().map(times).collect()
+    };
+    assert!(space_station.len() > 2);
+    let follow = model.follow_of(space_station[1]);
+    assert_eq!(follow.target.catalog_number(), Some(25_544));
+    assert_eq!(follow.passes, wanted(&space_station[1..]));
+
+    let fixed = passes.iter().find(|forecast| forecast.is_always_up()).unwrap();
+    assert_eq!(model.follow_of(fixed).passes, []);
+}
