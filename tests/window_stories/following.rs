@@ -95,7 +95,8 @@ fn after_a_lost_link_it_is_said_to_follow_on() {
 
 #[test]
 fn after_the_pass_it_is_told_how_well_it_was_followed() {
-    let mut stats = FollowStats { commands: 206, ..FollowStats::default() };
+    let mut stats = FollowStats::default();
+    stats.commands = 206;
     stats.take(Angle::from_degrees(0.6));
     stats.take(Angle::from_degrees(0.8));
     let mut model = following(FollowPhase::Over, 0.0, AxisMotion::Still);

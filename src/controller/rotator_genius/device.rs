@@ -73,7 +73,6 @@ impl Device for Genius {
         if let Some(stop) = self.expire(now) {
             return Some(stop);
         }
-        self.begin_change(now);
         if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
