@@ -9,7 +9,7 @@ use azel::{
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
 };
 
-use crate::{rig, states};
+use crate::{makes, rig, states};
 
 /// The station with this snapshot, `change`d.
 fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {
@@ -206,6 +206,44 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
         assert_eq!(told(Snapshot::before_anything(link), unchanged), wanted);
     }
     assert_eq!(told(rig::quiet(), unchanged), "Not known: Satrak is connected and being read.");
+}
+
+#[test]
+fn a_make_that_serves_one_program_says_that_another_may_have_it() {
+    let (other, refused) = (
+        "Perhaps another program holds the connection. ",
+        LinkLoss::Refused("connection refused".to_owned()),
+    );
+    for (reason, wanted) in [
+        (refused, format!("the connection was not made (connection refused). {other}")),
+        (LinkLoss::Closed, format!("the unit closed the connection. {other}")),
+        (LinkLoss::Silent, "the connection is open, but the unit is silent. ".to_owned()),
+        (
+            LinkLoss::OtherDevice,
+            "another device answers there, or one that wants to be told a code first. ".to_owned(),
+        ),
+    ] {
+        let mut model = makes::model(makes::pair(), rig::quiet());
+        let (since, retry_at) = (rig::ago(&model, 42), model.steady + Duration::from_secs(3));
+        let mut snapshot = rig::quiet();
+        snapshot.link = LinkState::Lost { since, reason, retry_at };
+        model.antennas = makes::model(makes::pair(), snapshot).antennas;
+        let sentence = format!("No reply from Genius for 42 s: {wanted}Next try in 3.0 s.");
+        assert_eq!(states::sentence(&model), sentence);
+    }
+}
+
+#[test]
+fn a_refusal_without_a_code_is_told_in_its_words() {
+    let motion = Motion::Action(azel::controller::rotator_genius::OTHER);
+    let refused = Event::Refused(motion, "F for rotator 2: it is outside its limits".to_owned());
+    let mut model = makes::model(makes::alone(), states::holding());
+    model.antennas[0].news = Some((refused, model.now));
+    let sentence = states::sentence(&model);
+    assert!(
+        sentence.ends_with("the unit answered F for rotator 2: it is outside its limits."),
+        "{sentence}"
+    );
 }
 
 #[test]
