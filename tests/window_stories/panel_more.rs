@@ -167,6 +167,27 @@ fn a_choice_and_a_flag_are_changed_in_their_menus() {
 }
 
 #[test]
+fn tab_brings_into_sight_what_it_leads_to() {
+    let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
+    let actions = make(&model).actions;
+    let last = actions.last().expect("an action").label;
+    let mut window = unfolded(rig::SMALL, model);
+    let place = |window: &Window| window.get_by_role_and_label(Role::Button, last).rect();
+    assert!(place(&window).top() > rig::SMALL[1], "it has to be scrolled to");
+    window.get_by_label_contains("More: ").focus();
+    for _ in 0..40 {
+        settle(&mut window);
+        if window.get_by_role_and_label(Role::Button, last).is_focused() {
+            break;
+        }
+        window.key_press(Key::Tab);
+    }
+    assert!(window.get_by_role_and_label(Role::Button, last).is_focused());
+    settle(&mut window);
+    assert!(place(&window).bottom() <= rig::SMALL[1], "{:?}", place(&window));
+}
+
+#[test]
 fn a_satrak_has_nothing_of_the_kind() {
     let window = rig::window(rig::LARGE, rig::model(states::manual()));
     assert!(window.query_by_label_contains("More: ").is_none());

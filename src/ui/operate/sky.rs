@@ -115,7 +115,14 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
 
 /// How long the antenna has not been heard, if that is so.
 fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
-    let LinkState::Lost { since, .. } = antenna.snapshot.link else { return None };
+    let since = match antenna.snapshot.link {
+        LinkState::Lost { since, .. } => since,
+        // It is left to others, who may have turned it since then.
+        LinkState::Off => antenna.snapshot.state.measured?.received,
+        LinkState::Connecting { .. } | LinkState::Up { .. } | LinkState::Stale { .. } => {
+            return None;
+        }
+    };
     Some(format::age(model.steady.saturating_duration_since(since).as_secs_f64()))
 }
 

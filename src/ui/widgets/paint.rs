@@ -81,8 +81,12 @@ pub fn dashed_border(ui: &Ui, rect: Rect, radius: f32, stroke: impl Into<Stroke>
     ui.painter().extend(Shape::dashed_line(&path, stroke, DASH.0, DASH.1));
 }
 
-/// The ring around the control that has the focus of the keyboard.
+/// The ring around the control that has the focus of the keyboard. One that
+/// comes to it by the keyboard is brought into sight.
 pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
+    if response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
+        response.scroll_to_me(None);
+    }
     if response.has_focus() {
         let stroke = Stroke::new(FOCUS, theme::tokens(ui).sat);
         let radius = CornerRadius::same(radius.saturating_add(2));
