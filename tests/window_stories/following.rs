@@ -111,16 +111,15 @@ fn after_the_pass_it_is_told_how_well_it_was_followed() {
 fn the_selected_pass_and_the_later_ones_are_followed() {
     let model = rig::model(rig::quiet());
     let passes = &model.forecasts.favourites.passes;
-    let space_station: Vec<&Forecast> =
-        passes.iter().filter(|forecast| forecast.number() == 25_544).collect();
-    let wanted = |forecasts: &[&Forecast]| -> Vec<_> {
-        let times = |forecast: &&Forecast| (forecast.pass.aos.time, forecast.pass.los.time);
-        forecasts.iter().map(times).collect()
-    };
-    assert!(space_station.len() > 2);
-    let follow = model.follow_of(space_station[1]);
-    assert_eq!(follow.target.catalog_number(), Some(25_544));
-    assert_eq!(follow.passes, wanted(&space_station[1..]));
+    let of = |number: u32| passes.iter().filter(move |forecast| forecast.number() == number);
+    let rises_again = |forecast: &&Forecast| of(forecast.number()).count() > 1;
+    let first = passes.iter().find(rises_again).unwrap();
+    let follow = model.follow_of(first);
+    assert_eq!(follow.target.catalog_number(), Some(first.number()));
+    let times = |forecast: &Forecast| (forecast.pass.aos.time, forecast.pass.los.time);
+    assert_eq!(follow.passes, of(first.number()).map(times).collect::<Vec<_>>());
+    let last = of(first.number()).last().unwrap();
+    assert_eq!(model.follow_of(last).passes, [times(last)]);
 
     let fixed = passes.iter().find(|forecast| forecast.is_always_up()).unwrap();
     assert_eq!(model.follow_of(fixed).passes, []);
