@@ -114,7 +114,7 @@ impl Antenna {
             beam_width_deg: 20.0,
             limits: MotionLimits {
                 minimum_elevation_deg: 0.0,
-                maximum_rate_deg_s: 6.0,
+                maximum_rate_deg_s: 4.0,
                 maximum_step_deg: 10.0,
             },
             park: Direction { azimuth_deg: 0.0, elevation_deg: 0.0 },

@@ -32,9 +32,11 @@ fn an_antenna_over_tcp_is_read_sent_and_stopped_and_a_second_client_turned_away(
     let control = simulator.control();
     runtime.spawn(simulator.run());
 
-    let (woke, woken) = mpsc::channel();
-    // Nobody may be waiting any more.
-    let wake = Arc::new(move || woke.send(()).unwrap_or_default());
+    // One word is enough for any number of changes.
+    let (woke, woken) = mpsc::sync_channel(1);
+    let wake = Arc::new(move || {
+        let _ = woke.try_send(());
+    });
     let clock = Clock::new(jiff::Timestamp::now);
     let driver = Driver::start(clock, wake).unwrap();
     let antenna = Antenna::genius("Mast", &address);
