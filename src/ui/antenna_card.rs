@@ -3,6 +3,7 @@
 
 mod drive;
 mod faults;
+mod follow;
 mod header;
 mod lower;
 mod more;
@@ -30,6 +31,7 @@ use super::{
 use crate::controller::panel::{Act, CheckState, Reading};
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
+pub use follow::{FollowChoice, FollowModel};
 pub use header::{Control, HeaderModel};
 pub use more::MoreModel;
 use more::MoreState;
@@ -142,6 +144,8 @@ pub enum CardAction {
     GoTo(Target),
     /// Track the selected satellite.
     TrackSelected,
+    /// Follow this position by position.
+    Follow(FollowChoice),
     /// Let the unit start passes by itself, or not.
     SetAutoTrack(bool),
     /// Do what only this make can do.

@@ -1,15 +1,18 @@
 //! An antenna that this program sends from position to position.
 
 use azel::{
-    app::{Model, forecast::Forecast},
+    app::{Model, UiCommand, forecast::Forecast},
     astro::{Angle, AzEl, time::add_seconds},
     controller::AxisMotion,
-    driver::{Event, FollowView, Found, Intent, Snapshot},
-    plan::{FollowPhase, FollowStats, Sample},
+    driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
+    plan::{Follow, FollowPhase, FollowStats, Sample, Target},
     station::Antenna,
     ui::bar::activity,
 };
-use std::time::Duration;
+use std::time::{Duration, Instant};
+
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
 
 use crate::{rig, states};
 
@@ -123,4 +126,47 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
 
     let fixed = passes.iter().find(|forecast| forecast.is_always_up()).unwrap();
     assert_eq!(model.follow_of(fixed).passes, []);
+}
+
+/// What is asked for by this entry of the menu beside Track.
+fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Follow {
+    let mut snapshot = states::holding();
+    snapshot.link = LinkState::Up { since: Instant::now() };
+    snapshot.state.motion_lock = Some(false);
+    let mut model = rig::model(rig::quiet());
+    model.antennas = vec![rig::antenna(antenna, snapshot)];
+    let mut window = rig::window(size, model);
+    let key = window.get_by_role_and_label(Role::Button, "Follow something else");
+    key.scroll_to_me();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Follow something else").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, entry).click();
+    match rig::asked(&mut window).as_slice() {
+        [UiCommand::Antenna(0, Command::Follow(follow))] => (**follow).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn sun_moon_and_a_direction_are_followed_by_one_click() {
+    let genius = || Antenna::genius("Mast", "192.168.1.250:9006");
+    for size in rig::SIZES {
+        let site = rig::station().site;
+        let always = |target| Follow { target, site, passes: Vec::new() };
+        assert_eq!(chosen(size, genius(), "Follow the Sun"), always(Target::Sun));
+        assert_eq!(chosen(size, genius(), "Follow the Moon"), always(Target::Moon));
+        let kept = chosen(size, genius(), "Keep pointing to 343.1°, 5.0°");
+        let Target::Fixed(direction) = kept.target else { panic!("{kept:?}") };
+        assert!(direction.separation(AzEl::from_degrees(343.1, 5.0)).degrees() < 1e-6);
+    }
+}
+
+#[test]
+fn a_unit_that_tracks_by_itself_can_be_sent_from_here_all_the_same() {
+    let satrak = Antenna::satrak("Dish", "192.168.10.21:4001");
+    let entry = "Follow NOAA 20 position by position, from here";
+    let follow = chosen(rig::LARGE, satrak, entry);
+    assert_eq!(follow.target.catalog_number(), Some(rig::NOAA_20));
+    assert!(!follow.passes.is_empty());
 }

@@ -25,7 +25,8 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
     short: bool,
 ) {
-    track::show(ui, at, model.track.as_ref(), &mut state.track, actions);
+    let typed = state.drive.go_to.previewed();
+    track::show(ui, at, model.track.as_ref(), typed, &mut state.track, actions);
     at.skip(if short { 8.0 } else { 12.0 });
     drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
     at.skip(4.0);

@@ -75,6 +75,7 @@ fn model() -> CardModel<'static> {
             tracks_selected: false,
             refusal: None,
             auto_track: Some(true),
+            follow: None,
         }),
         drive: DriveModel {
             keys: JogKeys::Xy,

@@ -3,12 +3,16 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{CardAction, Cursor};
+use super::{
+    CardAction, Cursor,
+    follow::{self, FollowModel},
+};
 use crate::ui::{
     icons::{self, Icon},
     text, theme,
     widgets::{
         button::{self, Button},
+        go_to::Target,
         hold_button::{self, HoldState},
         mode_selector::Mode,
         paint,
@@ -30,6 +34,8 @@ pub struct TrackModel<'a> {
     pub refusal: Option<&'a str>,
     /// Whether the unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
+    /// What else can be followed position by position; none if nothing can.
+    pub follow: Option<FollowModel<'a>>,
 }
 
 /// Questions that are open.
@@ -52,6 +58,7 @@ pub(super) fn show(
     ui: &Ui,
     at: &mut Cursor,
     model: Option<&TrackModel<'_>>,
+    typed: Option<Target>,
     state: &mut TrackState,
     actions: &mut Vec<CardAction>,
 ) {
@@ -61,7 +68,12 @@ pub(super) fn show(
     }
     let Some(model) = model else { return };
     at.skip(8.0);
-    satellite_row(ui, at.take(button::HEIGHT), model, actions);
+    let mut row = at.take(button::HEIGHT);
+    if let Some(follow) = model.follow.as_ref().filter(|_| model.refusal.is_none()) {
+        follow::show(ui, row.with_min_x(row.right() - follow::WIDTH), follow, typed, actions);
+        row.max.x -= follow::WIDTH + 4.0;
+    }
+    satellite_row(ui, row, model, actions);
     if let Some(refusal) = model.refusal {
         refusal_row(ui, at, refusal);
     }

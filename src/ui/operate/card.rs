@@ -9,12 +9,13 @@ use egui::{Align2, Rect, Ui};
 
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
-    self, CardModel, CardState, Control, DriveModel, FaultsModel, HeaderModel, MoreModel,
-    TrackModel,
+    self, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel, HeaderModel,
+    MoreModel, TrackModel,
 };
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
-    controller::{Capabilities, Make, satrak},
+    astro::Angle,
+    controller::{Capabilities, Make, Pointing, satrak},
     driver::{Intent, LinkState},
     protocol::satrak::Satellite,
     station::Mount,
@@ -28,6 +29,7 @@ use crate::{
             axes_table::WantedColumn,
             beam_bar::BeamModel,
             button::Button,
+            go_to::Target,
             mode_selector::{Mode, ModeModel},
             paint,
         },
@@ -125,7 +127,7 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     let t = theme::tokens(ui);
     let inner = rect.shrink(16.0);
     if model.demo && !matches!(model.catalog, CatalogState::Failed) {
-        let words = "The simulated antenna is starting.";
+        let words = "The simulated antennas are starting.";
         paint::text(ui, inner.left_top(), Align2::LEFT_TOP, words, text::body(), t.t2);
         return;
     }
@@ -191,7 +193,21 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
         tracks_selected,
         refusal: locks.track,
         auto_track: state.program.and_then(|program| program.auto),
+        follow: antenna.make().capabilities.takes_positions.then(|| FollowModel {
+            by_positions: selected
+                .filter(|_| antenna.make().capabilities.has_program)
+                .map(|forecast| forecast.satellite.short_name()),
+            here: state.measured.and_then(|measured| target(measured.pointing)),
+        }),
     }
+}
+
+/// Where the antenna points, as it would be typed.
+fn target(pointing: Pointing) -> Option<Target> {
+    Some(Target {
+        azimuth_deg: pointing.azimuth?.wrapped_360().degrees(),
+        elevation_deg: pointing.elevation.map(Angle::degrees),
+    })
 }
 
 /// What a controller that can do so much can be told.

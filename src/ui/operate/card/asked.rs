@@ -2,11 +2,12 @@
 
 use crate::{
     app::{Model, UiCommand, antenna::AntennaModel},
-    astro::Angle,
+    astro::{Angle, AzEl},
     controller::panel::Act,
     driver::{Command, Intent},
+    plan::{self, Follow},
     ui::{
-        antenna_card::CardAction,
+        antenna_card::{CardAction, FollowChoice},
         confirm::Question,
         widgets::{go_to::Target, mode_selector::Mode},
     },
@@ -27,6 +28,10 @@ impl Desk<'_> {
             CardAction::Connect => Command::Connect,
             CardAction::Disconnect => return self.disconnect(),
             CardAction::Act(act) => return self.act(act),
+            CardAction::Follow(choice) => match self.follow(choice) {
+                Some(follow) => Command::Follow(Box::new(follow)),
+                None => return,
+            },
             CardAction::SetMode(Mode::Standby) => Command::Standby,
             CardAction::SetMode(Mode::Manual) => Command::Manual,
             CardAction::SetMode(Mode::Position) => Command::Hold,
@@ -54,6 +59,21 @@ impl Desk<'_> {
 
     fn for_antenna(&self, command: Command) -> UiCommand {
         UiCommand::Antenna(self.model.selected_antenna, command)
+    }
+
+    fn follow(&self, choice: FollowChoice) -> Option<Follow> {
+        let target = match choice {
+            FollowChoice::Selected => {
+                return self.model.selected_pass().map(|forecast| self.model.follow_of(forecast));
+            }
+            FollowChoice::Sun => plan::Target::Sun,
+            FollowChoice::Moon => plan::Target::Moon,
+            FollowChoice::Direction(Target { azimuth_deg, elevation_deg }) => {
+                let elevation_deg = elevation_deg.unwrap_or_default();
+                plan::Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg))
+            }
+        };
+        Some(Follow { target, site: self.model.station.site, passes: Vec::new() })
     }
 
     /// Asked about while something would go on unwatched.

@@ -1,0 +1,82 @@
+//! The key beside Track, with what else this program can follow.
+
+use egui::{Popup, Rect, Role, Ui};
+
+use super::CardAction;
+use crate::ui::{
+    format,
+    icons::{self, Icon},
+    theme,
+    widgets::{go_to::Target, paint},
+};
+
+/// Width of the key.
+pub(super) const WIDTH: f32 = 28.0;
+
+/// What can be followed beside the selected satellite.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FollowModel<'a> {
+    /// The selected satellite, where the unit would else track it by itself.
+    pub by_positions: Option<&'a str>,
+    /// Where the antenna points.
+    pub here: Option<Target>,
+}
+
+/// What this program is to follow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FollowChoice {
+    /// The selected satellite, position by position.
+    Selected,
+    /// The Sun.
+    Sun,
+    /// The Moon.
+    Moon,
+    /// A direction that does not move.
+    Direction(Target),
+}
+
+/// Shows the key in `rect`. `typed` is a direction that stands in the fields.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &FollowModel<'_>,
+    typed: Option<Target>,
+    actions: &mut Vec<CardAction>,
+) {
+    let t = theme::tokens(ui);
+    let name = "Follow something else";
+    let response = paint::control(ui, "follow menu", rect, Role::Button, true, name);
+    if response.hovered() {
+        ui.painter().rect_filled(rect, 4.0, t.bg3);
+    }
+    icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
+    paint::focus_ring(ui, &response, 4);
+    Popup::menu(&response).accessible_name(name).show(|ui| {
+        let mut choices = vec![
+            ("Follow the Sun".to_owned(), FollowChoice::Sun),
+            ("Follow the Moon".to_owned(), FollowChoice::Moon),
+        ];
+        let directions = [("Keep pointing to", model.here), ("Follow the typed", typed)];
+        for (words, direction) in directions {
+            choices.extend(direction.map(|target| {
+                (format!("{words} {}", in_words(target)), FollowChoice::Direction(target))
+            }));
+        }
+        if let Some(satellite) = model.by_positions {
+            let words = format!("Follow {satellite} position by position, from here");
+            choices.insert(0, (words, FollowChoice::Selected));
+        }
+        for (words, choice) in choices {
+            if ui.button(words).clicked() {
+                actions.push(CardAction::Follow(choice));
+            }
+        }
+    });
+}
+
+/// As the fields say it: azimuth, and elevation where there is one.
+fn in_words(target: Target) -> String {
+    let angles = [Some(target.azimuth_deg), target.elevation_deg];
+    let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, 1));
+    known.collect::<Vec<_>>().join(", ")
+}
