@@ -7,6 +7,7 @@ mod follow;
 mod header;
 mod lower;
 mod more;
+mod others;
 mod readings;
 mod speed;
 mod steps;
@@ -35,6 +36,7 @@ pub use follow::{FollowChoice, FollowModel};
 pub use header::{Control, HeaderModel};
 pub use more::MoreModel;
 use more::MoreState;
+pub use others::OtherAntenna;
 pub use track::{TrackModel, TrackState};
 
 /// Width of the card.
@@ -72,6 +74,8 @@ pub struct CardModel<'a> {
     pub faults: Option<FaultsModel<'a>>,
     /// What only this make can do.
     pub more: MoreModel<'a>,
+    /// The antennas that have no card now.
+    pub others: &'a [OtherAntenna],
 }
 
 /// What the operator typed, held and folded. It has no `Debug`: a password may
@@ -150,6 +154,8 @@ pub enum CardAction {
     SetAutoTrack(bool),
     /// Do what only this make can do.
     Act(Act),
+    /// Show the card of the antenna at this place.
+    Select(usize),
 }
 
 /// A place that moves down the card.

@@ -90,7 +90,11 @@ pub const ALL: [Binding; 21] = [
     row(Place::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
     row(Place::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
     row(Place::Operate, &[(Key::T, Act::Track)], "track the selected pass (asks)"),
-    row(Place::Operate, &[(Key::G, Act::GoTo)], "type a direction: Enter shows, Enter goes"),
+    row(
+        Place::Operate,
+        &[(Key::G, Act::GoTo)],
+        "Position, and type a direction: Enter shows, Enter goes (asks while tracking)",
+    ),
     row(Place::Operate, &[(Key::M, Act::Manual)], "Manual (asks while tracking)"),
     row(
         Place::Focus,

@@ -83,6 +83,27 @@ fn m_asks_while_tracking_and_only_then() {
 }
 
 #[test]
+fn g_chooses_position_and_asks_while_tracking() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::G);
+        assert_eq!(asked(&mut window), [antenna(Command::Hold)]);
+
+        let mut window = rig::window(size, rig::model(states::manual()));
+        window.key_press(Key::G);
+        assert_eq!(asked(&mut window), [], "the fields are open in Manual");
+        assert!(window.get_by_label("Go to azimuth, degrees").is_focused());
+
+        let mut window = rig::window(size, rig::model(states::tracking(0.0)));
+        window.key_press(Key::G);
+        assert_eq!(asked(&mut window), []);
+        window.get_by_label("End tracking and go to a direction?");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Hold)]);
+    }
+}
+
+#[test]
 fn enter_answers_the_question_and_nothing_that_had_the_focus() {
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::holding()));

@@ -1,11 +1,14 @@
 //! Driving antennas whose controllers differ from a Satrak: what the card
 //! offers, and what comes of each of its controls.
 
+use std::time::Instant;
+
 use azel::{
     app::{Model, UiCommand, View},
     astro::Angle,
     controller::AxisMotion,
-    driver::{Command, Intent},
+    driver::{Command, Intent, LinkState},
+    station::Antenna,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -122,10 +125,10 @@ fn the_keys_of_a_pair_turn_one_rotator_each_at_its_one_speed() {
     for size in SIZES {
         let mut window = rig::window(size, genius(Intent::Manual));
         for (key, commands) in [
-            ("Jog clockwise", jog(6.0, 0.0)),
-            ("Jog counterclockwise", jog(-6.0, 0.0)),
-            ("Jog up", jog(0.0, 6.0)),
-            ("Jog down", jog(0.0, -6.0)),
+            ("Jog clockwise", jog(4.0, 0.0)),
+            ("Jog counterclockwise", jog(-4.0, 0.0)),
+            ("Jog up", jog(0.0, 4.0)),
+            ("Jog down", jog(0.0, -4.0)),
         ] {
             assert_eq!(hold(&mut window, key), commands, "{key}");
         }
@@ -141,8 +144,8 @@ fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
     for size in SIZES {
         let snapshot = makes::alone_at(Intent::Manual, true);
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
-        assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 6.0));
-        assert_eq!(hold(&mut window, "Jog Other −"), jog(0.0, -6.0));
+        assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 4.0));
+        assert_eq!(hold(&mut window, "Jog Other −"), jog(0.0, -4.0));
         assert!(window.query_by_label(ELEVATION).is_none());
         assert!(!says(&window, "El: "), "no row in the table");
         assert!(says(&window, "Antenna Mast 043°, no elevation"), "a line in the sky");
@@ -161,7 +164,7 @@ fn what_nobody_would_see_turn_is_not_turned() {
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
         assert!(says(&window, "The other rotator has no known angle"));
         assert_eq!(hold(&mut window, "Jog Other +"), []);
-        assert_eq!(hold(&mut window, "Jog clockwise"), jog(6.0, 0.0));
+        assert_eq!(hold(&mut window, "Jog clockwise"), jog(4.0, 0.0));
     }
 }
 
@@ -353,4 +356,32 @@ fn a_motion_by_somebody_else_shows_on_the_chip() {
     let window = rig::window(rig::LARGE, makes::model(makes::rc2000c(), snapshot));
     let chip = window.get_by_label_contains("RC2000C: Moving");
     assert!(chip.accesskit_node().label().is_some_and(|name| name.contains("link live")));
+}
+
+#[test]
+fn the_other_antennas_stand_below_and_a_click_shows_one() {
+    for size in rig::SIZES {
+        let mut model = rig::model(states::holding());
+        let genius = Antenna::genius("Mast", "192.168.1.250:9006");
+        let mut snapshot = states::holding();
+        snapshot.link = LinkState::Up { since: Instant::now() };
+        snapshot.state.measured = Some(states::measured(43.0, 12.0, AxisMotion::Still));
+        model.antennas.push(rig::antenna(genius, snapshot));
+        let mut window = rig::window(size, model);
+        let is_other = |name: &str| name.starts_with("Show Mast: Holding at 43.0°, 12.0°");
+        let other = |window: &rig::Window| {
+            let keys: Vec<_> = window
+                .get_all_by_role(Role::Button)
+                .filter(|node| node.accesskit_node().label().is_some_and(|name| is_other(&name)))
+                .map(|node| node.accesskit_node().label().unwrap_or_default())
+                .collect();
+            assert_eq!(keys.len(), 1, "{keys:?}");
+            keys[0].clone()
+        };
+        let name = other(&window);
+        window.get_by_role_and_label(Role::Button, &name).scroll_to_me();
+        window.run_steps(3);
+        window.get_by_role_and_label(Role::Button, &name).click();
+        assert_eq!(rig::asked(&mut window), [UiCommand::SelectAntenna(1)]);
+    }
 }

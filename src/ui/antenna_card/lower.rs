@@ -4,7 +4,9 @@
 
 use egui::{Align2, Rect, Ui, pos2};
 
-use super::{CardAction, CardModel, CardState, Cursor, drive, faults, more, readings, track};
+use super::{
+    CardAction, CardModel, CardState, Cursor, drive, faults, more, others, readings, track,
+};
 use crate::ui::{
     text, theme,
     widgets::{
@@ -72,6 +74,7 @@ pub(super) fn show(
             more::show(ui, at, &model.more, &mut state.more, actions);
         }
     }
+    others::show(ui, at, card, model.others, short, actions);
 }
 
 pub(super) fn travel(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>], with_head: bool) {

@@ -97,6 +97,7 @@ fn model() -> CardModel<'static> {
         readings: &[],
         faults: Some(FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" }),
         more: MoreModel::default(),
+        others: &[],
     }
 }
 

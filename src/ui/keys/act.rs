@@ -68,7 +68,7 @@ impl Act {
             }
             Self::Drawer => desk.operate.drawer_open = !desk.operate.drawer_open,
             Self::Track => *desk.question = ask_to_track(model),
-            Self::GoTo => desk.operate.card.drive.go_to.focus(),
+            Self::GoTo => go_to(model, desk, commands),
             Self::Manual => manual(model, desk, commands),
             Self::Rate(by) => {
                 let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
@@ -105,6 +105,23 @@ fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     } else {
         commands.push(manual);
     }
+}
+
+/// The fields are open in Position only: it is chosen where nothing runs.
+fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+    let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
+    let hold = UiCommand::Antenna(model.selected_antenna, driver::Command::Hold);
+    let intent = antenna.snapshot.intent;
+    // Also what the unit tracks of its own accord is not ended by a slip.
+    if antenna.tracks() || intent == Intent::Track {
+        let text = "End tracking and go to a direction?".to_owned();
+        *desk.question = Some(Question { text, yes: "Position", command: hold });
+        return;
+    }
+    if intent == Intent::Standby {
+        commands.push(hold);
+    }
+    desk.operate.card.drive.go_to.focus();
 }
 
 fn ask_to_track(model: &Model) -> Option<Question> {

@@ -10,7 +10,7 @@ use egui::{Align2, Rect, Ui};
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
     self, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    MoreModel, TrackModel,
+    MoreModel, OtherAntenna, TrackModel,
 };
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
@@ -60,6 +60,7 @@ pub(super) fn show(
     let checks = checks::of(antenna);
     let unit = &snapshot.state.satrak;
     let checked_at = unit.faults.as_ref().map(|(_, at)| format::time_z(*at)).unwrap_or_default();
+    let others = others(model);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
     let travel = axes::travel(antenna);
@@ -85,7 +86,7 @@ pub(super) fn show(
             travel: &travel,
             modes: ModeModel {
                 offered: &modes,
-                current: (!snapshot.pending).then_some(mode),
+                current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
                 pending: snapshot.pending.then_some(mode),
             },
             track: modes.contains(&Mode::Track).then(|| track(model, antenna, &locks)),
@@ -114,6 +115,7 @@ pub(super) fn show(
                 locked: locks.link,
                 moves_locked: locks.action,
             },
+            others: &others,
         };
         let mut desk = Desk { model, antenna, question, commands };
         for action in antenna_card::show(ui, rect, &card, state) {
@@ -153,10 +155,7 @@ fn second_line(antenna: &AntennaModel) -> String {
         );
     }
     let unit = state.readings.iter().find(|reading| reading.label == "Unit");
-    unit.map_or_else(
-        || format!("{} at {address}", make.name),
-        |unit| format!("{}, {}", make.name, unit.text),
-    )
+    unit.map_or_else(|| make.name.to_owned(), |unit| format!("{}, {}", make.name, unit.text))
 }
 
 fn control(link: &LinkState) -> Control<'static> {
@@ -200,6 +199,25 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
             here: state.measured.and_then(|measured| target(measured.pointing)),
         }),
     }
+}
+
+/// All antennas but the one whose card is shown.
+fn others(model: &Model) -> Vec<OtherAntenna> {
+    let antennas = model.antennas.iter().enumerate();
+    let others = antennas.filter(|(index, _)| *index != model.selected_antenna);
+    let in_short = |(index, antenna): (usize, &AntennaModel)| {
+        let measured = antenna.snapshot.state.measured;
+        let at = measured.map(|measured| format::pointing(measured.pointing)).unwrap_or_default();
+        let is_old = !at.is_empty() && !antenna.snapshot.link.is_open();
+        OtherAntenna {
+            index,
+            name: antenna.config.name.clone(),
+            link: bar::glyph(antenna),
+            pointing: if is_old { format!("last {at}") } else { at },
+            sentence: state_sentence(model, antenna).text(),
+        }
+    };
+    others.map(in_short).collect()
 }
 
 /// Where the antenna points, as it would be typed.

@@ -28,6 +28,9 @@ impl Desk<'_> {
             CardAction::Connect => Command::Connect,
             CardAction::Disconnect => return self.disconnect(),
             CardAction::Act(act) => return self.act(act),
+            CardAction::Select(index) => {
+                return self.commands.push(UiCommand::SelectAntenna(index));
+            }
             CardAction::Follow(choice) => match self.follow(choice) {
                 Some(follow) => Command::Follow(Box::new(follow)),
                 None => return,

@@ -38,12 +38,14 @@ impl Locks {
         let jog = match intent {
             _ if program => Some("Locked while tracking. Choose Manual or Position."),
             Intent::Manual => None,
+            Intent::Track => Some("Locked while tracking. Choose Manual or Position."),
             _ => Some("Jog is locked. Choose Manual."),
         };
         let go_to = match intent {
             _ if program => Some("Locked while tracking. Choose Manual or Position."),
             Intent::Position | Intent::Park | Intent::Manual => None,
-            _ => Some("Go to is locked. Choose Position."),
+            Intent::Track => Some("Locked while tracking. Choose Manual or Position."),
+            Intent::Standby => Some("Go to is locked. Choose Position."),
         };
         let action = match intent {
             Intent::Manual | Intent::Position => None,

@@ -1,0 +1,73 @@
+//! One line for each other antenna, at the foot of the card.
+
+use egui::{Align2, Rect, Role, Ui, pos2, vec2};
+
+use super::{CardAction, Cursor};
+use crate::ui::{
+    icons::{self, Icon},
+    text, theme,
+    widgets::{fold, link_chip::LinkGlyph, paint},
+};
+
+/// Height of a line with its sentence.
+const HEIGHT: f32 = 48.0;
+
+/// Another antenna, in short.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherAntenna {
+    /// Its place among all antennas.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// How its link stands.
+    pub link: LinkGlyph,
+    /// Where it points, or pointed last; empty when that is not known.
+    pub pointing: String,
+    /// What it does.
+    pub sentence: String,
+}
+
+/// Shows the lines. In a low window they have no sentences.
+pub(super) fn show(
+    ui: &Ui,
+    at: &mut Cursor,
+    card: Rect,
+    others: &[OtherAntenna],
+    short: bool,
+    actions: &mut Vec<CardAction>,
+) {
+    for other in others {
+        let row = at.take(if short { fold::HEIGHT } else { HEIGHT });
+        let row = Rect::from_x_y_ranges(card.x_range(), row.y_range());
+        if line(ui, row, at, other, short) {
+            actions.push(CardAction::Select(other.index));
+        }
+    }
+}
+
+fn line(ui: &Ui, row: Rect, at: &Cursor, other: &OtherAntenna, short: bool) -> bool {
+    let t = theme::tokens(ui);
+    let name = format!("Show {}: {}", other.name, other.sentence);
+    let response = paint::control(ui, ("other", other.index), row, Role::Button, true, &name);
+    if response.hovered() {
+        ui.painter().rect_filled(row, 0.0, t.bg3);
+    }
+    ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
+    let first = if short { row } else { row.with_max_y(row.top() + 28.0) };
+    let y = first.center().y;
+    let (icon, colour) = other.link.look(t);
+    icons::paint(ui.painter(), paint::square(pos2(at.left + 7.0, y), 12.0), icon, colour);
+    let chevron = paint::square(pos2(at.right - 6.0, y), 12.0);
+    icons::paint(ui.painter(), chevron, Icon::ChevronRight, t.t2);
+    let start = pos2(at.left + 22.0, y);
+    let title = paint::text(ui, start, Align2::LEFT_CENTER, &other.name, text::body_medium(), t.t1);
+    let room = first.with_min_x(title.right() + 8.0).with_max_x(chevron.left() - 8.0);
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &other.pointing, text::body(), t.t1);
+    if !short {
+        let below = Rect::from_min_max(pos2(start.x, first.bottom()), pos2(at.right, row.bottom()));
+        let below = below.translate(vec2(0.0, -4.0));
+        paint::text_in(ui, below, Align2::LEFT_CENTER, &other.sentence, text::small(), t.t2);
+    }
+    paint::focus_ring(ui, &response, 0);
+    response.on_hover_text(&other.sentence).clicked()
+}
