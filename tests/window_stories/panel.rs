@@ -122,10 +122,10 @@ fn the_keys_of_a_pair_turn_one_rotator_each_at_its_one_speed() {
     for size in SIZES {
         let mut window = rig::window(size, genius(Intent::Manual));
         for (key, commands) in [
-            ("Jog clockwise", jog(6.0, 0.0)),
-            ("Jog counterclockwise", jog(-6.0, 0.0)),
-            ("Jog up", jog(0.0, 6.0)),
-            ("Jog down", jog(0.0, -6.0)),
+            ("Jog clockwise", jog(4.0, 0.0)),
+            ("Jog counterclockwise", jog(-4.0, 0.0)),
+            ("Jog up", jog(0.0, 4.0)),
+            ("Jog down", jog(0.0, -4.0)),
         ] {
             assert_eq!(hold(&mut window, key), commands, "{key}");
         }
@@ -141,8 +141,8 @@ fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
     for size in SIZES {
         let snapshot = makes::alone_at(Intent::Manual, true);
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
-        assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 6.0));
-        assert_eq!(hold(&mut window, "Jog Other −"), jog(0.0, -6.0));
+        assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 4.0));
+        assert_eq!(hold(&mut window, "Jog Other −"), jog(0.0, -4.0));
         assert!(window.query_by_label(ELEVATION).is_none());
         assert!(!says(&window, "El: "), "no row in the table");
         assert!(says(&window, "Antenna Mast 043°, no elevation"), "a line in the sky");
@@ -161,7 +161,7 @@ fn what_nobody_would_see_turn_is_not_turned() {
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
         assert!(says(&window, "The other rotator has no known angle"));
         assert_eq!(hold(&mut window, "Jog Other +"), []);
-        assert_eq!(hold(&mut window, "Jog clockwise"), jog(6.0, 0.0));
+        assert_eq!(hold(&mut window, "Jog clockwise"), jog(4.0, 0.0));
     }
 }
 
@@ -318,7 +318,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            assert!(says(&window, "Questions are sent by hand to a Satrak only."));
+            assert!(says(&window, "Questions can be sent by hand to a Satrak only."));
             assert!(window.query_by_label("Query to send").is_none());
             window.state_mut().model.view = View::Elements;
             settle(&mut window);
