@@ -10,6 +10,7 @@ mod checks;
 mod device;
 mod exchange;
 mod line;
+mod meaning;
 mod names;
 mod past;
 mod readings;

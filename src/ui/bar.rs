@@ -197,9 +197,19 @@ fn stop_look<'a>(model: &Model, unproved: Option<&'a str>) -> StopLook<'a> {
     };
     if any(|stop| matches!(stop, StopState::Stopping { .. })) {
         StopLook::Stopping
-    } else if any(|stop| matches!(stop, StopState::Stopped { .. })) {
+    } else if any(|stop| matches!(stop, StopState::Stopped { .. }))
+        && !model.antennas.iter().any(is_under_way)
+    {
         StopLook::AllStopped
     } else {
         StopLook::Ready
     }
+}
+
+/// Whether an antenna moves, or is about to.
+fn is_under_way(antenna: &AntennaModel) -> bool {
+    antenna.snapshot.state.measured.is_some_and(|measured| measured.moving())
+        || antenna.snapshot.jog.is_some()
+        || antenna.tracks()
+        || antenna.follows()
 }

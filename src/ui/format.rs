@@ -75,6 +75,12 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
+/// The time until something, as a [`duration`] that agrees with its
+/// [`countdown`].
+pub fn time_left(seconds: f64) -> String {
+    duration(seconds.max(0.0).ceil())
+}
+
 /// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
 pub fn countdown(seconds: f64) -> String {
     // The full second that is left, so that zero is shown at zero.
@@ -155,6 +161,8 @@ mod tests {
         assert_eq!(duration(772.0), "12:52");
         assert_eq!(duration(3600.0), "1:00:00");
         assert_eq!(duration(48.0), "0:48");
+        assert_eq!((time_left(512.2), countdown(512.2)), ("8:33".to_owned(), "T−08:33".to_owned()));
+        assert_eq!(time_left(-3.0), "0:00");
     }
 
     #[test]

@@ -156,7 +156,7 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
                 Some(start) => spoken.plain(format!(
                     ". Its tracking starts at {} in {}.",
                     format::time_z(start),
-                    format::duration(seconds_between(model.now, start))
+                    format::time_left(seconds_between(model.now, start))
                 )),
                 None => spoken.plain(". Its tracking window is not open."),
             })
@@ -279,7 +279,7 @@ fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestam
         Some((satellite, aos, _)) if aos > now => format!(
             "{} rises in {}.",
             satellite.short_name(),
-            format::duration(seconds_between(now, aos))
+            format::time_left(seconds_between(now, aos))
         ),
         Some((satellite, _, los)) if los > now => {
             format!("{} is up and not tracked.", satellite.short_name())

@@ -66,7 +66,7 @@ const MARGIN: f32 = 16.0;
 const SMALL_MARGIN: f32 = 12.0;
 /// Room at the left for the names of the lanes, in points.
 const NAMES: f32 = 96.0;
-const SMALL_NAMES: f32 = 72.0;
+const SMALL_NAMES: f32 = 84.0;
 /// Between the name of a lane and the lane; the name of a bar may reach into it.
 const NAMES_GAP: f32 = 8.0;
 const HEAD: f32 = 32.0;

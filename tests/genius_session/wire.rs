@@ -28,10 +28,10 @@ async fn commands_and_replies_stand_in_the_log_as_they_went() {
     let find = |direction, bytes: &[u8]| {
         lines.iter().find(|it| it.direction == direction && &*it.bytes == bytes).unwrap()
     };
-    assert_eq!(find(Direction::Sent, b"|A1180").finding, known("Turn to a direction"));
-    assert_eq!(find(Direction::Sent, b"|S").finding, known("Stop both rotators"));
+    assert_eq!(find(Direction::Sent, b"|A1180").finding, known("Turns to a direction"));
+    assert_eq!(find(Direction::Sent, b"|S").finding, known("Stops both rotators"));
     let poll = find(Direction::Sent, b"|h");
-    assert!(poll.is_poll && poll.finding == known("Status?"));
+    assert!(poll.is_poll && poll.finding == known("Asks for the status"));
     let taken = find(Direction::Received, b"|AK");
     assert_eq!(taken.finding, known("Accepted"));
     assert!(taken.reply_after.unwrap().as_millis() < 50);

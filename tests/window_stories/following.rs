@@ -45,8 +45,13 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
     use AxisMotion::{Plus, Still};
     let waiting = FollowPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
     for (phase, off_deg, motion, wanted) in [
-        (waiting, 0.0, Plus, "Moving to where NOAA 20 rises at 11:18:42Z in 3:12."),
-        (waiting, 0.0, Still, "Waiting at 134.0°, 20.0° for NOAA 20, rises at 11:18:42Z in 3:12."),
+        (waiting, 0.0, Plus, "Moving to meet NOAA 20, which rises at 11:18:42Z in 3:12."),
+        (
+            waiting,
+            0.0,
+            Still,
+            "Waiting at 134.0°, 20.0° for NOAA 20, which rises at 11:18:42Z in 3:12.",
+        ),
         (
             FollowPhase::Following,
             0.4,

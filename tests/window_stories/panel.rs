@@ -321,7 +321,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            assert!(says(&window, "Questions are sent by hand to a Satrak only."));
+            assert!(says(&window, "Questions can be sent by hand to a Satrak only."));
             assert!(window.query_by_label("Query to send").is_none());
             window.state_mut().model.view = View::Elements;
             settle(&mut window);

@@ -23,12 +23,14 @@ fn stop_stops(window: &mut Window, name: &str) {
 fn stop_goes_out_in_every_state_of_the_last_one() {
     for size in SIZES {
         let since = states::moving().state.measured.unwrap().received;
-        for (stop, name) in [
-            (StopState::Ready, "STOP"),
-            (StopState::Stopping { since }, "STOP, stopping"),
-            (StopState::Stopped { at: since }, "STOP, all stopped"),
+        let stopped = StopState::Stopped { at: since };
+        for (stop, of, name) in [
+            (StopState::Ready, states::moving(), "STOP"),
+            (StopState::Stopping { since }, states::moving(), "STOP, stopping"),
+            (stopped, states::holding(), "STOP, all stopped"),
+            (stopped, states::moving(), "STOP"),
         ] {
-            let mut window = rig::window(size, rig::model(Snapshot { stop, ..states::moving() }));
+            let mut window = rig::window(size, rig::model(Snapshot { stop, ..of }));
             stop_stops(&mut window, name);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Rc2000c, exchange::Purpose};
+use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
     controller::{Direction, Finding, Moment, WireLine},
     protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
@@ -15,7 +15,14 @@ impl Rc2000c {
     /// A command that was written.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let is_poll = bytes.get(2) == Some(&Command::Status.code());
-        self.tell(Direction::Sent, bytes, Finding::Good, is_poll, None, now);
+        self.tell(
+            Direction::Sent,
+            bytes,
+            meaning::of_sent(bytes, self.address),
+            is_poll,
+            None,
+            now,
+        );
     }
 
     /// Bytes that came in and are not read yet.
@@ -46,7 +53,8 @@ impl Rc2000c {
         let is_poll = request.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let reply_after =
             request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
-        self.tell(Direction::Received, &bytes, Finding::Good, is_poll, reply_after, now);
+        let finding = meaning::of_reply(frame);
+        self.tell(Direction::Received, &bytes, finding, is_poll, reply_after, now);
     }
 
     /// What began like a frame was none.

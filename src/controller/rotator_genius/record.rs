@@ -14,13 +14,13 @@ impl Genius {
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let finding = Request::parse(bytes).map_or(Finding::Good, |request| {
             Finding::Known(match request {
-                Request::Read => "Status?",
-                Request::Stop => "Stop both rotators",
+                Request::Read => "Asks for the status",
+                Request::Stop => "Stops both rotators",
                 Request::Motion(crate::protocol::rotator_genius::Motion::GoTo { .. }) => {
-                    "Turn to a direction"
+                    "Turns to a direction"
                 }
-                Request::Motion(_) => "Turn until stopped",
-                Request::Configure(_) => "Set the configuration",
+                Request::Motion(_) => "Turns until stopped",
+                Request::Configure(_) => "Sets the configuration",
             })
         });
         let is_poll = bytes == Request::Read.to_bytes()

@@ -24,10 +24,10 @@ const KINDS: &[(i64, &str)] = &[(0, "Azimuth"), (1, "Elevation")];
 
 const fn fields() -> [Field; 5] {
     [
-        Field::edit(LIMIT_CW, "Clockwise limit", ANGLE)
+        Field::edit(LIMIT_CW, "CW limit", ANGLE)
             .in_unit("°")
             .about("The end of the travel clockwise."),
-        Field::edit(LIMIT_CCW, "Counter-clockwise limit", ANGLE)
+        Field::edit(LIMIT_CCW, "CCW limit", ANGLE)
             .in_unit("°")
             .about("The end of the travel counter-clockwise."),
         Field::edit(KIND, "Turns", Kind::Choice(KINDS)),

@@ -28,7 +28,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let antenna = unit.index;
     let groups = unit.antenna.groups();
-    let is_read = groups.iter().any(|group| unit.values(group.key).is_some());
+    let is_read = is_read(unit);
     let mut right = rect.right() - PADDING;
     let mut button = |words: &'static str, can: bool| {
         let button = Button::normal(words).locked(!can);
@@ -73,14 +73,20 @@ fn saved(unit: &Unit<'_>) -> Option<Result<String, String>> {
     })
 }
 
+fn is_read(unit: &Unit<'_>) -> bool {
+    unit.antenna.groups().iter().any(|group| unit.values(group.key).is_some())
+}
+
 /// How much of the unit is read.
 fn read(unit: &Unit<'_>) -> String {
-    if !unit.is_open() {
-        return "no link, what was read before is shown".to_owned();
-    }
     let groups = unit.antenna.groups();
     if groups.is_empty() {
         return "keeps no settings that can be read from here".to_owned();
+    }
+    if !unit.is_open() {
+        let words =
+            if is_read(unit) { "what was read before is shown" } else { "nothing is read yet" };
+        return format!("no link, {words}");
     }
     let missing: Vec<&str> =
         groups.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();

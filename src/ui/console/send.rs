@@ -30,8 +30,8 @@ const ANTENNA: f32 = 112.0;
 const PICK: f32 = 96.0;
 const SEND: f32 = 72.0;
 const FRAME: f32 = 240.0;
-const NO_QUESTIONS: &str =
-    "Questions are sent by hand to a Satrak only. This unit is asked all the time by itself.";
+const NO_QUESTIONS: &str = "Questions can be sent by hand to a Satrak only. Azel asks this unit by itself while the link is \
+     open.";
 
 /// Draws the line for the selected antenna.
 pub(super) fn show(

@@ -46,19 +46,19 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
 }
 
-/// The keys of a line as they stand on the keyboard, such as "Ctrl 1, Ctrl 6".
+/// The keys of a line as they stand on the keyboard, such as "Ctrl 1, 6".
 pub fn in_words(binding: &Binding) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
         Modifiers::SHIFT => "Shift ",
         _ => "",
     };
-    let words: Vec<String> = binding.keys().map(|key| format!("{before}{}", word(key))).collect();
+    let words: Vec<&str> = binding.keys().map(word).collect();
     // Four directions are one thing on a keyboard.
     if words.len() == 4 && binding.keys().all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
-    words.join(", ")
+    format!("{before}{}", words.join(", "))
 }
 
 fn is_arrow(key: Key) -> bool {

@@ -160,8 +160,13 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
     let mut parts: Vec<String> = order.into_iter().flatten().collect();
     let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {
-        let same = held.catalog_number == forecast.satellite.elements.catalog_number();
-        let word = if same { "same satellite" } else { "another satellite" };
+        let word = if held.name.is_empty() {
+            "no satellite"
+        } else if held.catalog_number == forecast.satellite.elements.catalog_number() {
+            "same satellite"
+        } else {
+            "another satellite"
+        };
         parts.push(format!("{word} on {}", antenna.config.name));
     }
     if let Some(selected) = model.sky.selected {

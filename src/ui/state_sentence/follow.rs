@@ -17,14 +17,14 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let spoken = Spoken::new(SentenceKind::Commanded);
             let moving = antenna.snapshot.state.measured.is_some_and(|measured| measured.moving());
             let spoken = if moving {
-                spoken.plain("Moving to where ").bold(name).plain(" rises")
+                spoken.plain("Moving to meet ")
             } else {
-                spoken.plain(format!("Waiting{} for ", place(antenna))).bold(name).plain(", rises")
+                spoken.plain(format!("Waiting{} for ", place(antenna)))
             };
-            spoken.plain(format!(
-                " at {} in {}.",
+            spoken.bold(name).plain(format!(
+                ", which rises at {} in {}.",
                 format::time_z(aos),
-                format::duration(seconds_between(model.now, aos).max(0.0))
+                format::time_left(seconds_between(model.now, aos))
             ))
         }
         FollowPhase::Following => following(antenna, view, name),

@@ -146,7 +146,7 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
     let fill = if response.hovered() { t.bg3 } else { t.bg2 };
     ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
     if bell_is_lit(ui, model.unopened && new > 0) {
-        let inset = if one_line { 16.0 } else { 20.0 };
+        let inset = if one_line { 16.0 } else { 18.0 };
         let at = paint::square(pos2(rect.left() + inset, rect.center().y), 16.0);
         icons::paint(ui.painter(), at, Icon::Bell, colour);
     }
@@ -155,7 +155,7 @@ fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Respon
         let at = pos2(rect.left() + 30.0, rect.center().y);
         paint::text(ui, at, Align2::LEFT_CENTER, active, strong, t.t1);
     } else {
-        let at = pos2(rect.left() + 38.0, rect.center().y);
+        let at = pos2(rect.left() + 32.0, rect.center().y);
         let up = at - vec2(0.0, 7.0);
         paint::text(ui, up, Align2::LEFT_CENTER, first, strong, t.t1);
         let down = at + vec2(0.0, 8.5);

@@ -1,0 +1,39 @@
+//! What a frame says, in words for the log of the link.
+
+use crate::{
+    controller::Finding,
+    protocol::rc2000c::{Address, Decoder, Frame, Motion, Query, Reply, Request, Setting},
+};
+
+/// What the unit at `address` is asked with the bytes of a command.
+pub(super) fn of_sent(bytes: &[u8], address: Address) -> Finding {
+    let mut decoder = Decoder::new(address);
+    decoder.push(bytes);
+    let frame = decoder.next().and_then(Result::ok);
+    let Some(Ok(request)) = frame.as_ref().map(Request::parse) else { return Finding::Good };
+    Finding::Known(match request {
+        Request::Query(Query::DeviceType) => "Asks for the type of the unit",
+        Request::Query(Query::Status) => "Asks for the status",
+        Request::Query(Query::SatelliteName(_)) => "Asks for the name of a stored satellite",
+        Request::Stop => "Stops azimuth and elevation",
+        Request::Motion(Motion::AutoMove(_)) => "Goes to a satellite or a position",
+        Request::Motion(Motion::Jog(_)) => "Turns an axis for a time",
+        Request::Motion(Motion::Polarization(_)) => "Turns the polarization",
+        Request::Motion(Motion::ResetDrive(_)) => "Clears the alarm of a drive",
+        Request::Motion(Motion::RestartTracking) => "Starts its tracking again",
+        Request::Setting(Setting::AutoPolarization(_)) => "Sets the automatic polarization",
+        Request::Setting(Setting::Band(_)) => "Chooses the band of the receiver",
+    })
+}
+
+/// What is answered with a frame.
+pub(super) fn of_reply(frame: &Frame) -> Finding {
+    let Ok(reply) = Reply::parse(frame) else { return Finding::Good };
+    Finding::Known(match reply {
+        Reply::DeviceType(_) => "Type of the unit",
+        Reply::Status { .. } => "Status",
+        Reply::SatelliteName(_) => "Name of a stored satellite",
+        Reply::Offline { .. } => "Remote mode is off, nothing is taken",
+        Reply::Refused { .. } => "Refused",
+    })
+}
