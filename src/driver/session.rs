@@ -45,6 +45,17 @@ pub struct Wires {
     wake: Wake,
 }
 
+/// What a link is wanted for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    /// The device is left to others.
+    No,
+    /// For a stop alone: it is let go again once standstill is proved.
+    ForStop,
+    /// For everything.
+    Yes,
+}
+
 /// One antenna's session.
 pub struct Session {
     name: String,
@@ -53,8 +64,7 @@ pub struct Session {
     park: Pointing,
     /// How it follows.
     manner: Manner,
-    /// The operator wants a link.
-    wanted: bool,
+    wanted: Wanted,
     dial: Dial,
     clock: Clock,
     wires: Wires,
@@ -103,11 +113,11 @@ impl Session {
         let stop = Arc::new(Notify::new());
         let gate = Gate::new(controller, antenna.limits, antenna.mount);
         let make = Make::of(&antenna.connection);
-        let wanted = !make.capabilities.waits_for_word;
-        let link = if wanted {
-            LinkState::Connecting { since: tokio::time::Instant::now().into_std() }
+        let (wanted, link) = if make.capabilities.waits_for_word {
+            (Wanted::No, LinkState::Off)
         } else {
-            LinkState::Off
+            let since = tokio::time::Instant::now().into_std();
+            (Wanted::Yes, LinkState::Connecting { since })
         };
         let first = Arc::new(Snapshot::before_anything(link.clone()));
         let (snapshots, read_snapshots) = watch::channel(first);

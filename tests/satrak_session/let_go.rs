@@ -36,6 +36,22 @@ async fn a_stop_reaches_a_unit_that_was_let_go() {
     rig.stop();
     rig.until("stopped", 5, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
     assert_eq!(rig.orders()[..2], ["STOP=", "TRACK=,0"]);
+    rig.until("let go again", 3, |shown| shown.link == LinkState::Off).await;
+    let dials = rig.dials().len();
+    rig.until("said long enough", 11, |shown| shown.stop == StopState::Ready).await;
+    assert_eq!(rig.dials().len(), dials);
+}
+
+#[tokio::test(start_paused = true)]
+async fn whoever_connects_during_a_stop_stays_connected() {
+    let mut rig = Rig::usual().await;
+    let_go(&mut rig).await;
+    rig.stop();
+    rig.seconds(0.01).await;
+    rig.send(Command::Connect);
+    rig.until("stopped", 5, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.seconds(5.0).await;
+    assert!(matches!(rig.shown().link, LinkState::Up { .. }));
 }
 
 #[tokio::test(start_paused = true)]

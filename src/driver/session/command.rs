@@ -1,6 +1,6 @@
 //! What the operator can ask of an antenna, and what the session makes of it.
 
-use super::{Event, Session};
+use super::{Event, Session, Wanted};
 use crate::{
     astro::Angle,
     controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},
@@ -107,8 +107,9 @@ impl Session {
             Command::Settle(change) => self.gate.device().settle(change, now),
             Command::Ask(question) => self.gate.device().ask(question),
             Command::Act(act) => self.act(act, now),
-            // Both are the loop's.
-            Command::Connect | Command::Disconnect => {}
+            Command::Connect => self.wanted = Wanted::Yes,
+            // The loop's.
+            Command::Disconnect => {}
         }
     }
 
@@ -215,7 +216,8 @@ impl Session {
             Command::Settle(change) => self.gate.device().settle(change, now),
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
-            Command::ReadGroup(_) | Command::Ask(_) | Command::Connect => {}
+            Command::ReadGroup(_) | Command::Ask(_) => {}
+            Command::Connect => self.wanted = Wanted::Yes,
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { .. } | Command::EndJog => self.jog = None,
             Command::Standby => {

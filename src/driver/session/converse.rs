@@ -7,7 +7,7 @@ use tokio::{
     time::{sleep_until, timeout},
 };
 
-use super::{Command, Event, Intent, Session};
+use super::{Command, Event, Intent, Session, Wanted};
 use crate::{
     controller::{Extent, Moment},
     driver::{LinkLoss, LinkState, Refusal, Stream},
@@ -47,7 +47,7 @@ impl Session {
     pub async fn run(mut self) {
         let mut attempt = 0;
         loop {
-            if !self.wanted && !self.is_sent_for().await {
+            if self.wanted == Wanted::No && !self.is_sent_for().await {
                 break;
             }
             if let Some(loss) = self.connect_and_talk(&mut attempt).await {
@@ -58,7 +58,7 @@ impl Session {
                 }
             }
             // Over, or let go of: in that case the next word is waited for.
-            if self.wanted {
+            if self.wanted != Wanted::No {
                 break;
             }
         }
@@ -76,18 +76,27 @@ impl Session {
         self.link = LinkState::Off;
         self.away_since = None;
         self.told_lost = false;
-        while !self.wanted {
-            self.publish(self.now());
-            let turn = next_word(&mut self.wires.commands, &self.wires.stop).await;
+        while self.wanted == Wanted::No {
+            let now = self.now();
+            self.forget_old_stop(now);
+            self.publish(now);
+            let due = self.halt_due();
+            let word = next_word(&mut self.wires.commands, &self.wires.stop);
+            let turn = match due {
+                None => word.await,
+                Some(due) => tokio::select! {
+                    turn = word => turn,
+                    () = sleep_until(due.max(now.steady + LEAST_WAIT).into()) => Turn::Time,
+                },
+            };
             // The word may have come hours later.
             let now = self.now();
             match turn {
                 Turn::Over => return false,
                 Turn::Stop => {
                     self.halt_and_forget(now);
-                    self.wanted = true;
+                    self.wanted = Wanted::ForStop;
                 }
-                Turn::Command(Command::Connect) => self.wanted = true,
                 Turn::Command(command) => self.turn_down(command, now),
                 Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
             }
@@ -103,10 +112,15 @@ impl Session {
             self.tell(Event::NotSent(Refusal::Stopping));
             return false;
         }
-        self.wanted = false;
+        self.wanted = Wanted::No;
         self.intent = Intent::Standby;
         self.following = None;
         true
+    }
+
+    /// The stop for which the link was opened is proved.
+    fn let_go_quietly(&mut self) -> bool {
+        self.halting.is_none() && self.let_go()
     }
 
     /// Why the link is lost again; `None` when the session is to end or the link
@@ -236,6 +250,11 @@ impl Session {
             self.supervise(now);
             if let Some(loss) = self.watch_link(now, start.steady) {
                 return Some(loss);
+            }
+            if self.wanted == Wanted::ForStop && self.let_go_quietly() {
+                self.publish(now);
+                self.say_goodbye(&mut reader, &mut writer).await;
+                return None;
             }
             self.publish(now);
             // What the last look has brought about goes out without a wait.
