@@ -247,7 +247,7 @@ fn the_catalogue_is_searched_by_name_number_and_group() {
         write(&mut window, "Search the catalogue", "");
         window.get_by_role_and_label(Role::ComboBox, "Group, All").click();
         settle(&mut window);
-        window.get_by_label("Followed").click();
+        window.get_by_label("Favourites").click();
         settle(&mut window);
         assert!(says(&window, "5 objects"));
     }
@@ -258,11 +258,11 @@ fn satellites_are_followed_and_unfollowed_from_the_catalogue() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");
-        window.get_by_label_contains("Follow METEOR").click();
+        window.get_by_label_contains("Add METEOR").click();
         let follow = UiCommand::Follow { number: METEOR_M2_3, is_followed: true };
         assert_eq!(asked(&mut window), [follow]);
         write(&mut window, "Search the catalogue", "43013");
-        click(&mut window, "Unfollow NOAA 20 (JPSS-1)");
+        click(&mut window, "Remove NOAA 20 (JPSS-1) from the favourites");
         let unfollow = UiCommand::Follow { number: NOAA_20, is_followed: false };
         assert_eq!(asked(&mut window), [unfollow]);
     }
@@ -277,8 +277,8 @@ fn what_is_typed_in_the_preferences_is_not_overtaken() {
     window.state_mut().model.view = View::Elements;
     settle(&mut window);
     write(&mut window, "Search the catalogue", "43013");
-    assert!(is_disabled(&window, "Unfollow NOAA 20 (JPSS-1)"));
-    assert!(says(&window, "Save or revert the preferences before following others."));
+    assert!(is_disabled(&window, "Remove NOAA 20 (JPSS-1) from the favourites"));
+    assert!(says(&window, "Save or revert the preferences before the favourites change."));
 }
 
 #[test]
@@ -371,7 +371,7 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     window.run_steps(2);
     window.event(Event::Text("57166".to_owned()));
     window.run_steps(2);
-    window.get_by_label_contains("Follow METEOR").click();
+    window.get_by_label_contains("Add METEOR").click();
     step_until(&mut window, "its passes", |model| {
         model.forecasts.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });

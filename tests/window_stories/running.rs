@@ -271,7 +271,9 @@ fn settings_that_cannot_be_read_are_not_replaced_by_following_a_satellite() {
     window.run_steps(2);
     window.event(Event::Text("43013".to_owned()));
     window.run_steps(2);
-    window.get_by_role_and_label(Role::Button, "Unfollow NOAA 20 (JPSS-1)").click();
+    window
+        .get_by_role_and_label(Role::Button, "Remove NOAA 20 (JPSS-1) from the favourites")
+        .click();
     step_until(&mut window, "it is not followed", |model| {
         !model.station.favourites.contains(&NOAA_20)
     });

@@ -37,7 +37,7 @@ const POLARITY: Field = Field::write(
     "Polarity",
     Kind::Choice(&[(0, "As it is"), (1, "Stored H"), (2, "Stored V")]),
 );
-const END_TRACK: Field = Field::write("end_track", "Although TRACK is active", Kind::Flag)
+const END_TRACK: Field = Field::write("end_track", "Even during TRACK", Kind::Flag)
     .about("While the unit tracks by itself, a move is sent only with this.");
 const AZ_COUNTS: Field = Field::write("az_counts", "Azimuth", COUNTS).in_unit("counts");
 const EL_COUNTS: Field = Field::write("el_counts", "Elevation", COUNTS).in_unit("counts");

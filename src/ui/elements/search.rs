@@ -44,7 +44,7 @@ impl Among {
     fn word(&self) -> &str {
         match self {
             Self::All => "All",
-            Self::Followed => "Followed",
+            Self::Followed => "Favourites",
             Self::Group(name) => name,
         }
     }
@@ -114,7 +114,7 @@ pub(super) fn show(
     let words = if numbers.is_empty() {
         "No object has this number or name.".to_owned()
     } else if settings_are_edited {
-        format!("{count}. Save or revert the preferences before following others.")
+        format!("{count}. Save or revert the preferences before the favourites change.")
     } else {
         count
     };
@@ -188,9 +188,9 @@ fn row(
 
     let is_followed = model.station.favourites.contains(&number);
     let (word, spoken) = if is_followed {
-        ("Unfollow", format!("Unfollow {name}"))
+        ("Remove", format!("Remove {name} from the favourites"))
     } else {
-        ("Follow", format!("Follow {name}"))
+        ("Add", format!("Add {name} to the favourites"))
     };
     let place = Rect::from_min_max(room.right_top() + vec2(8.0, 0.0), rect.max);
     let layout = Layout::right_to_left(Align::Center);
