@@ -75,7 +75,7 @@ async fn the_other_rotator_is_jogged_over_its_whole_range() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
     rig.send(Command::Manual);
     // The travel of the mount's elevation does not count for it.
-    rig.hold([0.0, 6.0], 1.0).await;
+    rig.hold([0.0, 4.0], 1.0).await;
     rig.send(Command::EndJog);
     rig.seconds(2.0).await;
     assert_eq!(rig.orders(), ["|P2", "|S"]);
@@ -88,7 +88,7 @@ async fn neither_is_jogged_while_the_other_turns() {
     rig.send(Command::Manual);
     rig.send(send_other(200));
     rig.seconds(1.0).await;
-    rig.hold([6.0, 0.0], 0.5).await;
+    rig.hold([4.0, 0.0], 0.5).await;
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
     rig.send(Command::EndJog);
@@ -96,7 +96,7 @@ async fn neither_is_jogged_while_the_other_turns() {
     assert_eq!(rig.orders(), ["|A2200"], "and what runs is not stopped for it");
     // Back from the stop offset.
     rig.until_still(60).await;
-    rig.hold([6.0, 0.0], 0.5).await;
+    rig.hold([4.0, 0.0], 0.5).await;
     assert_eq!(rig.orders(), ["|A2200", "|P1"]);
 }
 

@@ -21,10 +21,10 @@ async fn in_manual() -> Rig {
 #[tokio::test(start_paused = true)]
 async fn a_held_key_turns_one_rotator_and_its_release_stops() {
     let mut rig = in_manual().await;
-    rig.hold([6.0, 0.0], 2.0).await;
+    rig.hold([4.0, 0.0], 2.0).await;
     assert_eq!(rig.orders(), ["|P1"]);
     assert_eq!(rig.rotator(1).moving, Moving::Clockwise);
-    assert_eq!(rig.shown().jog, Some([6.0, 0.0]));
+    assert_eq!(rig.shown().jog, Some([4.0, 0.0]));
     rig.send(Command::EndJog);
     rig.seconds(0.02).await;
     assert_eq!(rig.orders(), ["|P1", "|S"]);
@@ -37,7 +37,7 @@ async fn a_held_key_turns_one_rotator_and_its_release_stops() {
 #[tokio::test(start_paused = true)]
 async fn each_way_of_each_rotator_has_its_command() {
     let mut rig = in_manual().await;
-    for rates in [[-6.0, 0.0], [0.0, 3.0], [0.0, -0.1]] {
+    for rates in [[-4.0, 0.0], [0.0, 3.0], [0.0, -0.1]] {
         rig.hold(rates, 1.0).await;
         rig.send(Command::EndJog);
         rig.until_still(3).await;
@@ -50,7 +50,7 @@ async fn each_way_of_each_rotator_has_its_command() {
 #[tokio::test(start_paused = true)]
 async fn a_lease_that_is_not_renewed_ends_the_jog() {
     let mut rig = in_manual().await;
-    rig.hold([6.0, 0.0], 1.0).await;
+    rig.hold([4.0, 0.0], 1.0).await;
     rig.until_event(1, |event| *event == Event::JogLeaseOver).await;
     rig.seconds(0.02).await;
     assert_eq!(rig.orders(), ["|P1", "|S"]);
@@ -61,8 +61,8 @@ async fn a_lease_that_is_not_renewed_ends_the_jog() {
 #[tokio::test(start_paused = true)]
 async fn turning_round_stops_first_and_waits_for_standstill() {
     let mut rig = in_manual().await;
-    rig.hold([6.0, 0.0], 2.0).await;
-    rig.hold([-6.0, 0.0], 3.0).await;
+    rig.hold([4.0, 0.0], 2.0).await;
+    rig.hold([-4.0, 0.0], 3.0).await;
     assert_eq!(rig.orders(), ["|P1", "|S", "|M1"]);
     // It coasts for a second, and its reading must then stay for a while.
     let between = rig.times("|M1")[0].duration_since(rig.times("|S")[0]).as_secs_f64();
@@ -73,7 +73,7 @@ async fn turning_round_stops_first_and_waits_for_standstill() {
 #[tokio::test(start_paused = true)]
 async fn one_axis_at_a_time() {
     let mut rig = in_manual().await;
-    rig.send(Command::Jog { rates_deg_s: [6.0, 6.0] });
+    rig.send(Command::Jog { rates_deg_s: [4.0, 4.0] });
     rig.send(Command::Step { steps_deg: [1.0, 0.0] });
     rig.seconds(0.2).await;
     assert_eq!(
@@ -86,7 +86,7 @@ async fn one_axis_at_a_time() {
 #[tokio::test(start_paused = true)]
 async fn a_window_that_goes_away_while_a_key_is_held_stops_the_antenna() {
     let mut rig = in_manual().await;
-    rig.hold([0.0, 6.0], 0.5).await;
+    rig.hold([0.0, 4.0], 0.5).await;
     rig.drop_handle().await;
     assert_eq!(rig.orders(), ["|P2", "|S"]);
 }
@@ -94,7 +94,7 @@ async fn a_window_that_goes_away_while_a_key_is_held_stops_the_antenna() {
 #[tokio::test(start_paused = true)]
 async fn after_a_link_lost_in_a_jog_the_first_word_is_a_stop() {
     let mut rig = in_manual().await;
-    rig.hold([6.0, 0.0], 1.0).await;
+    rig.hold([4.0, 0.0], 1.0).await;
     let before = rig.commands().len();
     rig.control.drop_clients();
     rig.seconds(0.05).await;
@@ -111,7 +111,7 @@ async fn after_a_link_lost_in_a_jog_the_first_word_is_a_stop() {
 async fn a_jog_that_is_refused_ends_with_the_reason() {
     let mut rig = in_manual().await;
     rig.control.set_fault(Fault::Refuse, true);
-    rig.hold([6.0, 0.0], 0.5).await;
+    rig.hold([4.0, 0.0], 0.5).await;
     let refused = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
     let Event::Refused(_, why) = refused else { unreachable!() };
     assert_eq!(why, "F for rotator 1: no reason is given; its limits are 0 and 359");
@@ -124,10 +124,10 @@ async fn without_a_sensor_no_jog() {
     let mut rig = in_manual().await;
     rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
     rig.seconds(1.0).await;
-    rig.hold([6.0, 0.0], 0.5).await;
+    rig.hold([4.0, 0.0], 0.5).await;
     assert_eq!(rig.events(), [Event::NotSent(Refusal::AngleUnknown { axis: "Az" })]);
     rig.send(Command::EndJog);
-    rig.hold([0.0, 6.0], 0.5).await;
+    rig.hold([0.0, 4.0], 0.5).await;
     rig.send(Command::EndJog);
     rig.seconds(0.1).await;
     assert_eq!(rig.orders(), ["|P2", "|S"]);
@@ -150,7 +150,7 @@ async fn a_sensor_that_is_lost_in_a_jog_ends_it() {
     device.seconds(0.5).await;
     device.handle.send(Command::Manual).unwrap();
     for _ in 0..30 {
-        device.handle.send(Command::Jog { rates_deg_s: [6.0, 0.0] }).unwrap();
+        device.handle.send(Command::Jog { rates_deg_s: [4.0, 0.0] }).unwrap();
         device.seconds(0.1).await;
     }
     assert_eq!(device.orders()[..2], ["|P1", "|S"]);
@@ -161,9 +161,9 @@ async fn a_sensor_that_is_lost_in_a_jog_ends_it() {
 #[tokio::test(start_paused = true)]
 async fn a_jog_ends_when_the_answers_stay_away() {
     let mut rig = in_manual().await;
-    rig.hold([6.0, 0.0], 1.0).await;
+    rig.hold([4.0, 0.0], 1.0).await;
     rig.control.set_fault(Fault::Silence, true);
-    rig.hold([6.0, 0.0], 1.5).await;
+    rig.hold([4.0, 0.0], 1.5).await;
     assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
     assert!(rig.events().contains(&Event::JogPositionOld));
 }
@@ -181,7 +181,7 @@ async fn the_second_rotator_is_not_jogged_while_the_first_turns() {
     device.handle.send(Command::Hold).unwrap();
     device.seconds(0.1).await;
     assert_eq!(device.orders(), ["|S"]);
-    device.handle.send(Command::Jog { rates_deg_s: [0.0, 6.0] }).unwrap();
+    device.handle.send(Command::Jog { rates_deg_s: [0.0, 4.0] }).unwrap();
     device.seconds(0.2).await;
     assert_eq!(device.orders(), ["|S"]);
 }

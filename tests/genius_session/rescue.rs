@@ -48,11 +48,11 @@ async fn outside_the_limits_a_jog_is_refused_but_not_the_way_back() {
         assert_eq!(check.unwrap().state, CheckState::Caution);
         assert_eq!(rig.reading("Limits 1"), "90° to 270°, outside");
         rig.send(Command::Manual);
-        rig.hold([-6.0, 0.0], 0.5).await;
+        rig.hold([-4.0, 0.0], 0.5).await;
         let events = rig.events();
         assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
         rig.send(Command::EndJog);
-        rig.hold([0.0, 6.0], 0.3).await;
+        rig.hold([0.0, 4.0], 0.3).await;
         rig.send(Command::EndJog);
         rig.seconds(3.0).await;
         rig.send(to(Some(260.0), None));
@@ -73,7 +73,7 @@ async fn an_armed_rescue_lets_it_be_jogged_back_for_a_minute() {
     rig.seconds(5.0).await;
     let asked = rig.times("|h").len() - before;
     assert!((19..=21).contains(&asked), "{asked}");
-    rig.hold([-6.0, 0.0], 2.0).await;
+    rig.hold([-4.0, 0.0], 2.0).await;
     rig.send(Command::EndJog);
     rig.seconds(3.0).await;
     assert_eq!(rig.orders(), ["|M1", "|S"]);
@@ -81,7 +81,7 @@ async fn an_armed_rescue_lets_it_be_jogged_back_for_a_minute() {
     assert!(rig.rotator(1).angle_deg < 285.0);
     rig.seconds(60.0).await;
     assert_eq!(rig.reading("Rescue"), "");
-    rig.hold([-6.0, 0.0], 0.5).await;
+    rig.hold([-4.0, 0.0], 0.5).await;
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
     assert_eq!(rig.orders(), ["|M1", "|S"]);
@@ -93,7 +93,7 @@ async fn a_rescue_that_runs_out_ends_the_jog() {
     rig.send(Command::Manual);
     rig.send(arm());
     rig.seconds(59.0).await;
-    rig.hold([6.0, 0.0], 2.0).await;
+    rig.hold([4.0, 0.0], 2.0).await;
     assert_eq!(rig.orders(), ["|P1", "|S"]);
     let held = rig.times("|S")[0].duration_since(rig.times("|P1")[0]).as_secs_f64();
     assert!((0.9..1.3).contains(&held), "{held}");
@@ -104,10 +104,10 @@ async fn the_first_reply_that_is_missing_in_a_rescue_stops_both() {
     let mut rig = Rig::connected(&outside(), Rotators::Pair).await;
     rig.send(Command::Manual);
     rig.send(arm());
-    rig.hold([6.0, 0.0], 1.0).await;
+    rig.hold([4.0, 0.0], 1.0).await;
     rig.control.set_fault(Fault::Silence, true);
     let silent = tokio::time::Instant::now();
-    rig.hold([6.0, 0.0], 0.8).await;
+    rig.hold([4.0, 0.0], 0.8).await;
     let stopped = rig.times("|S")[0].duration_since(silent).as_secs_f64();
     assert!(stopped <= 0.66, "a question after 250 ms at most, and 400 ms for it: {stopped}");
     assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
@@ -118,14 +118,14 @@ async fn after_a_link_lost_in_a_rescue_the_first_word_is_a_stop() {
     let mut rig = Rig::connected(&outside(), Rotators::Pair).await;
     rig.send(Command::Manual);
     rig.send(arm());
-    rig.hold([6.0, 0.0], 1.0).await;
+    rig.hold([4.0, 0.0], 1.0).await;
     let before = rig.commands().len();
     rig.control.drop_clients();
     rig.seconds(1.0).await;
     assert_eq!(rig.commands()[before], "|S");
     rig.until_still(4).await;
     // A rescue ends with its link.
-    rig.hold([6.0, 0.0], 0.5).await;
+    rig.hold([4.0, 0.0], 0.5).await;
     assert_eq!(rig.orders(), ["|P1", "|S"]);
 }
 
@@ -148,7 +148,7 @@ async fn a_jog_that_runs_out_of_the_limits_is_stopped() {
     rig.send(Command::Manual);
     rig.seconds(0.1).await;
     // The device cuts the drive off at the limit, and the rotator coasts beyond.
-    rig.hold([6.0, 0.0], 6.0).await;
+    rig.hold([4.0, 0.0], 6.0).await;
     assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
     assert_eq!(rig.orders().iter().filter(|order| *order == "|P1").count(), 1);
     assert_eq!(rig.shown().stop, StopState::Ready);
@@ -165,7 +165,7 @@ async fn a_limit_byte_without_a_meaning_counts_as_outside() {
     device.handle.send(Command::Manual).unwrap();
     device.seconds(0.1).await;
     device.events();
-    device.handle.send(Command::Jog { rates_deg_s: [6.0, 0.0] }).unwrap();
+    device.handle.send(Command::Jog { rates_deg_s: [4.0, 0.0] }).unwrap();
     device.seconds(0.2).await;
     let events = device.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");

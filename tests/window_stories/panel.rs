@@ -189,7 +189,7 @@ fn the_sentence_tells_a_jog_by_its_speed() {
     let model = makes::model(makes::rc2000c(), snapshot);
     assert_eq!(states::sentence(&model), "Jogging CCW at speed Fast while the key is held.");
     let mut snapshot = makes::pair_at(Intent::Manual);
-    snapshot.jog = Some([0.0, 6.0]);
+    snapshot.jog = Some([0.0, 4.0]);
     let model = makes::model(makes::pair(), snapshot);
     assert_eq!(states::sentence(&model), "Jogging Up while the key is held.");
 }
