@@ -10,7 +10,7 @@ use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
     driver::{AntennaHandle, Event, Intent, Snapshot},
-    plan::FollowPhase,
+    plan::{FollowPhase, Sample},
     station::Antenna,
 };
 
@@ -196,6 +196,19 @@ impl AntennaModel {
             .is_some_and(|program| program.enabled && program.phase == Phase::Tracking);
         let view = snapshot.following.as_ref();
         by_unit || view.is_some_and(|view| view.phase == FollowPhase::Following)
+    }
+
+    /// The target that is followed stands where the mount does not get to.
+    pub fn is_out_of_reach(&self) -> bool {
+        let predicted = self.snapshot.following.as_ref().and_then(|view| view.predicted);
+        let mount = self.config.mount;
+        predicted.is_some_and(|Sample { mut direction, .. }| {
+            if !self.make().capabilities.has_elevation {
+                let [_, (lowest_deg, _)] = mount.travel_deg();
+                direction.elevation = Angle::from_degrees(lowest_deg);
+            }
+            !mount.reaches(direction)
+        })
     }
 
     /// How far the last measurement was from the prediction for its time.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::astro::Angle;
+use crate::astro::{Angle, AzEl};
 
 /// How the axes are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -48,6 +48,16 @@ impl Mount {
                 elevation_to_deg,
             } => [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)],
         }
+    }
+
+    /// Whether the axes get to `direction`. Of an X/Y mount this says yes also to
+    /// its keyholes.
+    pub fn reaches(&self, direction: AzEl) -> bool {
+        let Self::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = *self else { return true };
+        let [_, (lowest_deg, highest_deg)] = self.travel_deg();
+        let azimuth_deg = self.axis_azimuth(direction.azimuth, None).degrees();
+        (azimuth_from_deg..=azimuth_to_deg).contains(&azimuth_deg)
+            && (lowest_deg..=highest_deg).contains(&direction.elevation_deg())
     }
 
     /// The position of the azimuth axis that points to `azimuth`, the one nearest
@@ -108,6 +118,15 @@ mod tests {
         let xy =
             Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
         assert!((axis(&xy, 370.0, Some(0.0)) - 370.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_mount_reaches_what_lies_between_its_ends() {
+        let at = AzEl::from_degrees;
+        let sector = azel(90.0, 270.0);
+        assert!(sector.reaches(at(180.0, 45.0)));
+        assert!(!sector.reaches(at(20.0, 45.0)) && !sector.reaches(at(180.0, -1.0)));
+        assert!(azel(0.0, 450.0).reaches(at(359.9, 89.0)));
     }
 
     #[test]

@@ -170,6 +170,7 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
         (StopState::Stopping { .. } | StopState::NotConfirmed { .. }, _) => "Stopping",
         (_, Some(Phase::Tracking)) => "Tracking",
         _ if antenna.snapshot.jog.is_some() => "Jogging",
+        _ if antenna.is_out_of_reach() => "Waiting",
         _ if antenna.tracks() => "Tracking",
         _ if moving => "Moving",
         (_, Some(Phase::AtStart | Phase::OutOfWindow)) => "Waiting",

@@ -6,7 +6,7 @@ use azel::{
     controller::AxisMotion,
     driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
     plan::{Follow, FollowPhase, FollowStats, Sample, Target},
-    station::Antenna,
+    station::{Antenna, Mount},
     ui::bar::activity,
 };
 use std::time::{Duration, Instant};
@@ -90,6 +90,19 @@ fn the_chip_and_the_prediction_are_those_of_the_target() {
         (model.antennas[0].tracked_number(), activity(&model.antennas[0])),
         (None, "Holding")
     );
+}
+
+#[test]
+fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
+    let mut model = following(FollowPhase::Following, 40.0, AxisMotion::Still);
+    let Mount::AzEl { azimuth_from_deg, .. } = &mut model.antennas[0].config.mount else {
+        panic!("a Genius turns azimuth and elevation")
+    };
+    // The target stands at 134.
+    *azimuth_from_deg = 180.0;
+    let said = states::sentence(&model);
+    assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134.0°"), "{said}");
+    assert_eq!(activity(&model.antennas[0]), "Waiting");
 }
 
 #[test]

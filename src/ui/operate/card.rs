@@ -191,7 +191,10 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
         selected: selected.map(|forecast| forecast.satellite.short_name()),
         tracks_selected,
         refusal: locks.track,
-        auto_track: state.program.and_then(|program| program.auto),
+        auto_track: state
+            .program
+            .filter(|_| antenna.snapshot.link.is_open())
+            .and_then(|program| program.auto),
         follow: antenna.make().capabilities.takes_positions.then(|| FollowModel {
             by_positions: selected
                 .filter(|_| antenna.make().capabilities.has_program)

@@ -37,7 +37,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 
 fn following(antenna: &AntennaModel, view: &FollowView, name: &str) -> Spoken {
     let lead = |kind| Spoken::new(kind).plain("Following ").bold(name);
-    let Some(error) = antenna.error().filter(|_| view.predicted.is_some()) else {
+    let is_near = view.predicted.is_some() && !antenna.is_out_of_reach();
+    let Some(error) = antenna.error().filter(|_| is_near) else {
         return lead(SentenceKind::Caution)
             .plain(format!(", which is out of reach. Waiting{}.", place(antenna)));
     };

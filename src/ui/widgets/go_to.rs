@@ -140,7 +140,12 @@ pub fn show(
         state.previewed = None;
         return Some(GoToAction::Send(target));
     }
-    if entered { state.enter(model) } else { None }
+    let action = entered.then(|| state.enter(model)).flatten();
+    if matches!(action, Some(GoToAction::Send(_))) {
+        // What is typed next is a key of the window again.
+        ui.memory_mut(egui::Memory::stop_text_input);
+    }
+    action
 }
 
 /// Returns whether Enter was pressed in the field.
