@@ -11,6 +11,7 @@ mod jog;
 mod liveness;
 mod step;
 mod supervise;
+mod wanted;
 
 use std::{
     sync::Arc,
@@ -35,6 +36,7 @@ use halting::Halting;
 use jog::Jog;
 use step::Stepping;
 use supervise::Doubt;
+use wanted::Wanted;
 
 /// The far ends of the channels to the window.
 pub struct Wires {
@@ -43,17 +45,6 @@ pub struct Wires {
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
     wake: Wake,
-}
-
-/// What a link is wanted for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Wanted {
-    /// The device is left to others.
-    No,
-    /// For a stop alone: it is let go again once standstill is proved.
-    ForStop,
-    /// For everything.
-    Yes,
 }
 
 /// One antenna's session.

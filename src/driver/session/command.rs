@@ -1,6 +1,6 @@
 //! What the operator can ask of an antenna, and what the session makes of it.
 
-use super::{Event, Session, Wanted};
+use super::{Event, Session, wanted::Wanted};
 use crate::{
     astro::Angle,
     controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},

@@ -7,10 +7,10 @@ use tokio::{
     time::{sleep_until, timeout},
 };
 
-use super::{Command, Event, Intent, Session, Wanted};
+use super::{Command, Session, wanted::Wanted};
 use crate::{
     controller::{Extent, Moment},
-    driver::{LinkLoss, LinkState, Refusal, Stream},
+    driver::{LinkLoss, LinkState, Stream},
 };
 
 /// A connection that does not come up in this time is given up.
@@ -32,7 +32,7 @@ pub(super) const HURRY: Duration = Duration::from_millis(250);
 pub(super) const LEAST_WAIT: Duration = Duration::from_millis(2);
 
 /// What ended a stretch of waiting or talking.
-enum Turn {
+pub(super) enum Turn {
     Bytes(usize),
     Lost(LinkLoss),
     Command(Command),
@@ -68,59 +68,6 @@ impl Session {
         self.link = LinkState::Off;
         let now = self.now();
         self.publish(now);
-    }
-
-    /// Waits for the operator to want a link; `false` when the session is to end.
-    /// A stop wants one: it is its first word.
-    async fn is_sent_for(&mut self) -> bool {
-        self.link = LinkState::Off;
-        self.away_since = None;
-        self.told_lost = false;
-        while self.wanted == Wanted::No {
-            let now = self.now();
-            self.forget_old_stop(now);
-            self.publish(now);
-            let due = self.halt_due();
-            let word = next_word(&mut self.wires.commands, &self.wires.stop);
-            let turn = match due {
-                None => word.await,
-                Some(due) => tokio::select! {
-                    turn = word => turn,
-                    () = sleep_until(due.max(now.steady + LEAST_WAIT).into()) => Turn::Time,
-                },
-            };
-            // The word may have come hours later.
-            let now = self.now();
-            match turn {
-                Turn::Over => return false,
-                Turn::Stop => {
-                    self.halt_and_forget(now);
-                    self.wanted = Wanted::ForStop;
-                }
-                Turn::Command(command) => self.turn_down(command, now),
-                Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
-            }
-        }
-        self.link = LinkState::Connecting { since: self.now().steady };
-        true
-    }
-
-    /// The operator leaves the device to others. What is owed to safety comes
-    /// first.
-    fn let_go(&mut self) -> bool {
-        if self.halting.is_some() {
-            self.tell(Event::NotSent(Refusal::Stopping));
-            return false;
-        }
-        self.wanted = Wanted::No;
-        self.intent = Intent::Standby;
-        self.following = None;
-        true
-    }
-
-    /// The stop for which the link was opened is proved.
-    fn let_go_quietly(&mut self) -> bool {
-        self.halting.is_none() && self.let_go()
     }
 
     /// Why the link is lost again; `None` when the session is to end or the link
@@ -222,7 +169,7 @@ impl Session {
 
     /// What was asked for before a stop is void, also where it still waits to
     /// be read.
-    fn halt_and_forget(&mut self, now: Moment) {
+    pub(super) fn halt_and_forget(&mut self, now: Moment) {
         while self.wires.commands.try_recv().is_ok() {}
         self.halt(now);
     }
@@ -331,7 +278,7 @@ impl Session {
 }
 
 /// The next word from the window, a stop before anything else.
-async fn next_word(
+pub(super) async fn next_word(
     commands: &mut tokio::sync::mpsc::Receiver<Command>,
     stop: &tokio::sync::Notify,
 ) -> Turn {
