@@ -121,6 +121,8 @@ pub struct FollowView {
     pub stats: FollowStats,
     /// When it is looked at next whether the antenna is where it should be.
     pub next_look: Option<Instant>,
+    /// Where the antenna was sent last; `None` before the first position.
+    pub commanded: Option<Pointing>,
     /// Where the target stood when the antenna was measured last; `None` unless
     /// it is followed right now.
     pub predicted: Option<Sample>,

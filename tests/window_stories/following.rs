@@ -28,6 +28,7 @@ fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
         phase,
         stats: FollowStats::default(),
         next_look: None,
+        commanded: is_up.then_some(WANTED.into()),
         predicted: is_up.then_some(predicted),
     };
     let intent = if phase == FollowPhase::Over { Intent::Position } else { Intent::Track };
@@ -90,6 +91,15 @@ fn the_chip_and_the_prediction_are_those_of_the_target() {
         (model.antennas[0].tracked_number(), activity(&model.antennas[0])),
         (None, "Holding")
     );
+}
+
+#[test]
+fn the_plot_shows_where_the_antenna_was_sent() {
+    for (phase, is_shown) in [(FollowPhase::Following, true), (FollowPhase::Over, false)] {
+        let window = rig::window(rig::LARGE, following(phase, 0.4, AxisMotion::Plus));
+        let ring = window.query_all_by_label_contains("Commanded, azimuth 134").next().is_some();
+        assert_eq!(ring, is_shown, "{phase:?}");
+    }
 }
 
 #[test]

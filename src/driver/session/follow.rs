@@ -156,6 +156,7 @@ impl Session {
                 following.planner.sent(next);
                 following.sent = Some(now.steady);
                 following.stats.commands += 1;
+                following.commanded = aim;
                 // What is up is compared with itself, not with the last step.
                 self.aim = aim.filter(|_| following.phase != FollowPhase::Following);
             }

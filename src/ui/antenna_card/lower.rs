@@ -1,5 +1,5 @@
 //! What stands below the mode, and scrolls where there is no room: what is
-//! tracked, moving by hand, and what the unit tells. In a low window each part
+//! tracked, moving by hand, the other antennas, and what the unit tells. In a low window each part
 //! folds to one line with what matters most in it.
 
 use egui::{Align2, Rect, Ui, pos2};
@@ -55,6 +55,7 @@ pub(super) fn show(
             faults::show(ui, at, card, checks);
         }
     }
+    others::show(ui, at, card, model.others, short, actions);
     let told = model.readings;
     if short && !told.is_empty() {
         let (value, mark) = readings::in_words(ui, told);
@@ -74,7 +75,6 @@ pub(super) fn show(
             more::show(ui, at, &model.more, &mut state.more, actions);
         }
     }
-    others::show(ui, at, card, model.others, short, actions);
 }
 
 pub(super) fn travel(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>], with_head: bool) {

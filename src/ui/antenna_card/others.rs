@@ -1,4 +1,4 @@
-//! One line for each other antenna, at the foot of the card.
+//! One line for each other antenna.
 
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 

@@ -75,7 +75,7 @@ pub(super) fn show(
         others: &others,
         sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
         moon: model.sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
-        commanded: antenna.and_then(|antenna| antenna.snapshot.aim?.direction()),
+        commanded: antenna.and_then(commanded),
         ghost: antenna.and_then(|antenna| ghost(antenna, state)),
         beam_width: antenna.map_or(Angle::from_degrees(1.0), |antenna| antenna.config.beam_width()),
         measured: antenna
@@ -111,6 +111,13 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
         ),
     ];
     direction.into_iter().chain(motion.into_iter().filter(|_| full)).collect()
+}
+
+/// Where the antenna was sent: by the operator, or for what is followed.
+fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
+    let snapshot = &antenna.snapshot;
+    let follows = snapshot.following.as_ref().filter(|_| antenna.follows());
+    snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 
 /// How long the antenna has not been heard, if that is so.

@@ -73,6 +73,9 @@ pub(super) fn events_and_antenna(
         let time = format::time_z(event.sample.time);
         note(event.word, event.sample.direction, &format!("{} {time}", event.word));
     }
+    if let Some(commanded) = scene.commanded {
+        note("commanded", commanded, "Commanded");
+    }
     if let Some(measured) = scene.measured {
         let name = match measured.lost {
             Some(age) => format!("Antenna, no reply for {age}"),

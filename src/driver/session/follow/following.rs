@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::{
-    controller::{AxisMotion, Capabilities, Measured},
+    controller::{AxisMotion, Capabilities, Measured, Pointing},
     driver::FollowView,
     plan::{
         FollowPhase, FollowStats, Sample,
@@ -46,6 +46,8 @@ pub(in crate::driver::session) struct Following {
     /// When the position came in that was compared last.
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
+    /// Where the last position leads.
+    pub(super) commanded: Option<Pointing>,
 }
 
 impl Following {
@@ -61,6 +63,7 @@ impl Following {
             lost: 0,
             compared: None,
             predicted: None,
+            commanded: None,
         }
     }
 
@@ -72,6 +75,7 @@ impl Following {
             phase: self.phase,
             stats: self.stats,
             next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
+            commanded: self.commanded,
             predicted: self.predicted,
         }
     }
