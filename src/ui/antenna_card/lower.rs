@@ -1,6 +1,6 @@
 //! What stands below the mode, and scrolls where there is no room: what is
-//! tracked, moving by hand, the other antennas, and what the unit tells. In a low window each part
-//! folds to one line with what matters most in it.
+//! tracked, moving by hand, the other antennas, and what the unit tells. In a
+//! low window each part folds to one line with what matters most in it.
 
 use egui::{Align2, Rect, Ui, pos2};
 
