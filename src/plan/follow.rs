@@ -7,6 +7,7 @@ mod drives;
 mod path;
 mod planner;
 mod stats;
+mod swing_rate;
 mod target;
 mod within_rate;
 

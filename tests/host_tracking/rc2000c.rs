@@ -1,7 +1,7 @@
 //! An RC2000C: counts of a calibrated sensor, and a travel of more than a turn.
 
 use azel::{
-    astro::time::add_seconds,
+    astro::{Angle, time::add_seconds},
     controller::rc2000c::Rc2000c,
     driver::{Command, Event},
     plan::FollowStats,
@@ -46,6 +46,11 @@ fn antenna(azimuth_to_deg: f64) -> Antenna {
 }
 
 async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
+    let mut rig = connected(antenna, scene).await;
+    over(&mut rig, scene).await
+}
+
+async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(&Options::default());
     let Connection::Rc2000c { baud, bus_address, calibration, .. } = &antenna.connection else {
@@ -62,6 +67,11 @@ async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
     })
     .await;
     rig.seconds(2.0).await;
+    rig
+}
+
+/// How the pass of `scene` is followed.
+async fn over(rig: &mut Rig, scene: &Scene) -> FollowStats {
     rig.events();
     rig.send(Command::Follow(Box::new(scene.follow())));
     let stats = rig.until_over().await;
@@ -93,4 +103,24 @@ async fn close_to_the_zenith_it_swings_in_time() {
     let (rms, worst) =
         figures("RC2000C, 88 degrees", followed(&antenna(360.0), &sky::overhead()).await);
     assert!(rms < 4.0 && worst < 15.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rate_that_was_set_wrong_is_learned_on_the_way_to_the_pass() {
+    let scene = sky::overhead();
+    for share in [0.5, 2.0] {
+        let mut antenna = antenna(360.0);
+        antenna.limits.maximum_rate_deg_s *= share;
+        let unknown = followed(&antenna, &scene).await;
+        let mut rig = connected(&antenna, &scene).await;
+        let away = scene.pass.aos.direction.azimuth + Angle::from_degrees(100.0);
+        rig.send(Command::Position { azimuth: Some(away.wrapped_360()), elevation: None });
+        rig.until_event(60.0, |event| matches!(event, Event::Arrived(_))).await;
+        let learned = over(&mut rig, &scene).await;
+        let figures =
+            |what, stats| figures(&format!("RC2000C, 88 degrees, {share} rate, {what}"), stats);
+        let (_, before) = figures("not known", unknown);
+        let (rms, worst) = figures("learned", learned);
+        assert!(rms < 1.0 && worst < 5.0 && worst < before - 3.0, "{rms} {worst} {before}");
+    }
 }

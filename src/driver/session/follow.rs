@@ -89,6 +89,8 @@ impl Session {
         let Some(following) = &mut self.following else { return };
         if let Some(measured) = measured {
             following.compare(measured);
+            // Known also for the next target.
+            self.manner.drives.rates_deg_s = following.planner.rates_deg_s();
         }
         let phase = following.planner.follow().phase(now.utc);
         if phase != following.phase {

@@ -1,6 +1,8 @@
 //! What to tell one axis.
 
-use super::{drives::Drives, path::Path};
+use jiff::Timestamp;
+
+use super::{drives::Drives, path::Path, swing_rate::SwingRate};
 use crate::station::Following;
 
 /// How often the time of arrival is improved.
@@ -47,13 +49,14 @@ pub(super) struct Wish {
 pub(super) struct Axis {
     /// The first or the second, 0 or 1.
     index: usize,
-    drives: Drives,
+    pub(super) drives: Drives,
     following: Following,
     pub(super) told: Told,
     /// The longest way that it was seen not to set out for, degrees.
     ignored_deg: f64,
     /// What it made of the shortest way that it sets out for, degrees.
     least_run_deg: Option<f64>,
+    swing_rate: SwingRate,
 }
 
 impl Axis {
@@ -65,7 +68,14 @@ impl Axis {
             told: Told::default(),
             ignored_deg: 0.0,
             least_run_deg: None,
+            swing_rate: SwingRate::default(),
         }
+    }
+
+    /// Its full rate, degrees a second, when a position that was measured at `at`
+    /// ends a long swing.
+    pub(super) fn watch(&mut self, at: Timestamp, position_deg: Option<f64>) -> Option<f64> {
+        self.swing_rate.take(at, position_deg, self.told.to_deg)
     }
 
     /// A drive may stop some degrees early and let the axis run out. Then it does
@@ -109,7 +119,7 @@ impl Axis {
             });
             position_deg = self.far_enough_deg(wanted_deg, now);
             let way_deg = now.position_deg.map_or(0.0, |at_deg| (position_deg - at_deg).abs());
-            way_s = way_deg / self.drives.limits.maximum_rate_deg_s;
+            way_s = way_deg / self.rate_deg_s();
         }
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
         // A rest near to what it was told is the rounding of its sensor.
@@ -159,6 +169,11 @@ impl Axis {
     /// The shortest way that it may set out for.
     fn least_way_deg(&self) -> f64 {
         self.ignored_deg + self.drives.step_deg
+    }
+
+    fn rate_deg_s(&self) -> f64 {
+        let of_axis = self.drives.rates_deg_s.get(self.index).copied();
+        of_axis.unwrap_or(self.drives.limits.maximum_rate_deg_s)
     }
 
     fn half_step_deg(&self) -> f64 {

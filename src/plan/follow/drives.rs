@@ -20,6 +20,9 @@ pub struct Drives {
     pub mount: Mount,
     /// What the operator allows.
     pub limits: MotionLimits,
+    /// How fast each axis turns, degrees a second: as allowed, until it is
+    /// measured.
+    pub rates_deg_s: [f64; 2],
     /// Positions are whole numbers of this many degrees; 0 for any.
     pub step_deg: f64,
     /// There is an elevation to command.
@@ -163,7 +166,13 @@ mod tests {
     use crate::station::Antenna;
 
     fn drives(antenna: &Antenna, step_deg: f64) -> Drives {
-        Drives { mount: antenna.mount, limits: antenna.limits, step_deg, has_elevation: true }
+        Drives {
+            mount: antenna.mount,
+            limits: antenna.limits,
+            rates_deg_s: [antenna.limits.maximum_rate_deg_s; 2],
+            step_deg,
+            has_elevation: true,
+        }
     }
 
     fn at(azimuth_deg: f64, elevation_deg: f64) -> Sample {

@@ -12,6 +12,9 @@ use crate::{
 const LEAST_STEP_S: f64 = 0.5;
 /// A path has so many points at most.
 const MOST_POINTS: f64 = 2400.0;
+/// A path is as good for an axis that turns faster or slower by less than this
+/// share.
+const SAME_RATE: f64 = 0.02;
 /// An axis that turns faster than this share of its rate is swinging: it comes
 /// from one place to another as fast as it can.
 const FULL_RATE: f64 = 0.999;
@@ -23,8 +26,8 @@ pub(super) struct Path {
     from: Timestamp,
     to: Timestamp,
     step_s: f64,
-    /// Degrees an axis turns in a step at its full rate.
-    most_deg: f64,
+    /// Degrees each axis turns in a step at its full rate.
+    most_deg: [f64; 2],
     axes: [Vec<f64>; 2],
 }
 
@@ -46,11 +49,15 @@ impl Path {
                 course.direction(time).map(|direction| Sample { time, direction })
             })
             .collect();
-        let most_deg = drives.limits.maximum_rate_deg_s * step_s;
+        let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
+        let [first_most_deg, second_most_deg] = most_deg;
         let [first, second] = drives.positions(&samples, azimuth_now_deg);
         let weight: Vec<f64> = second.iter().map(|at| drives.weight(*at)).collect();
         let alike = vec![1.0; second.len()];
-        let axes = [within_rate(&first, &weight, most_deg), within_rate(&second, &alike, most_deg)];
+        let axes = [
+            within_rate(&first, &weight, first_most_deg),
+            within_rate(&second, &alike, second_most_deg),
+        ];
         let to = samples.last()?.time;
         Some(Self { from, to, step_s, most_deg, axes })
     }
@@ -58,6 +65,14 @@ impl Path {
     /// When it ends.
     pub(super) fn to(&self) -> Timestamp {
         self.to
+    }
+
+    /// Whether it was worked out for axes that turn as fast.
+    pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
+        let mut both = self.most_deg.into_iter().zip(rates_deg_s);
+        both.all(|(most_deg, rate_deg_s)| {
+            (rate_deg_s * self.step_s / most_deg - 1.0).abs() < SAME_RATE
+        })
     }
 
     /// Seconds from its beginning.
@@ -94,11 +109,11 @@ impl Path {
 
     /// Where an axis ends up that is swinging at this time; `None` when it is not.
     pub(super) fn swing_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
-        let first = self.index(at_s);
+        let (first, most_deg) = (self.index(at_s), self.most_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;
         let swings = |pair: &&[f64]| {
             let [before, after] = pair else { return false };
-            (after - before).abs() >= FULL_RATE * self.most_deg
+            (after - before).abs() >= FULL_RATE * most_deg
         };
         let grows = |pair: &[f64]| {
             let [before, after] = pair else { return false };
@@ -153,7 +168,7 @@ mod tests {
             from,
             to: add_seconds(from, 16.0),
             step_s: 0.5,
-            most_deg: 2.5,
+            most_deg: [2.5; 2],
             axes: [axis.clone(), axis],
         }
     }

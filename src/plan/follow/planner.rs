@@ -99,6 +99,26 @@ impl Planner {
         }))
     }
 
+    /// Takes where the axes were measured at `at`, degrees as the mount counts: long
+    /// swings teach how fast they turn.
+    pub fn watch(&mut self, at: Timestamp, positions_deg: [Option<f64>; 2]) {
+        let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
+        for ((axis, position_deg), rate_deg_s) in each {
+            if let Some(found_deg_s) = axis.watch(at, position_deg) {
+                tracing::info!(found_deg_s, before_deg_s = *rate_deg_s, "rate of an axis");
+                *rate_deg_s = found_deg_s;
+            }
+        }
+        for axis in &mut self.axes {
+            axis.drives = self.drives;
+        }
+    }
+
+    /// How fast each axis turns, degrees a second, as far as is known.
+    pub fn rates_deg_s(&self) -> [f64; 2] {
+        self.drives.rates_deg_s
+    }
+
     /// `next` was sent.
     pub fn sent(&mut self, next: Next) {
         for (axis, told) in self.axes.iter_mut().zip(next.told) {
@@ -117,7 +137,7 @@ impl Planner {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
         let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
-        now < *ends && !is_short
+        now < *ends && !is_short && path.is_for(self.drives.rates_deg_s)
     }
 
     fn new_path(&self, now: Timestamp, azimuth_deg: Option<f64>) -> Option<(Path, Timestamp)> {

@@ -24,6 +24,7 @@ impl Manner {
         let drives = Drives {
             mount: antenna.mount,
             limits: antenna.limits,
+            rates_deg_s: [antenna.limits.maximum_rate_deg_s; 2],
             step_deg: can.position_step_deg,
             has_elevation: can.has_elevation,
         };
@@ -84,11 +85,13 @@ impl Following {
         self.planner.follow().target.name().into_owned()
     }
 
-    /// How well the antenna points, once for each measurement.
+    /// How well the antenna points and how fast it turns, once for each measurement.
     pub(super) fn compare(&mut self, measured: Measured) {
         if self.compared.replace(measured.received) == Some(measured.received) {
             return;
         }
+        let positions_deg = measured.axes.map(|axis| axis.angle_deg);
+        self.planner.watch(measured.at, positions_deg);
         let is_up = self.phase == FollowPhase::Following;
         let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
         self.predicted = direction.map(|direction| Sample { time: measured.at, direction });

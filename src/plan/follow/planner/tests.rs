@@ -74,6 +74,7 @@ fn azel(range_deg: (f64, f64), rate_deg_s: f64, step_deg: f64) -> Drives {
             maximum_rate_deg_s: rate_deg_s,
             ..antenna.limits
         },
+        rates_deg_s: [rate_deg_s; 2],
         step_deg,
         has_elevation: true,
     }

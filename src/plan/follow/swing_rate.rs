@@ -1,0 +1,170 @@
+//! How fast an axis really turns, as its long swings show.
+
+use jiff::Timestamp;
+
+use crate::{astro::time::seconds_between, station::ranges};
+
+/// As it sets out, and before it arrives, an axis may be slower, degrees.
+const RAMP_DEG: f64 = 5.0;
+/// A rate is taken over so much at least that the rounding of a sensor to whole
+/// degrees counts for little, degrees.
+const LEAST_WAY_DEG: f64 = 20.0;
+/// And from so many positions.
+const LEAST_READINGS: usize = 8;
+
+/// The swing of an axis that is under way.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SwingRate {
+    swing: Option<Swing>,
+}
+
+#[derive(Debug, Clone)]
+struct Swing {
+    from_deg: f64,
+    to_deg: f64,
+    /// When and where it was measured at its full rate.
+    readings: Vec<(Timestamp, f64)>,
+}
+
+impl SwingRate {
+    /// Takes where the axis was measured at `at` after it was told to go to
+    /// `to_deg`, degrees as the mount counts. Gives its full rate, degrees a
+    /// second, when a swing that was long enough has just ended.
+    pub(super) fn take(
+        &mut self,
+        at: Timestamp,
+        position_deg: Option<f64>,
+        to_deg: Option<f64>,
+    ) -> Option<f64> {
+        let (Some(position_deg), Some(to_deg)) = (position_deg, to_deg) else {
+            return self.swing.take().and_then(|swing| swing.rate_deg_s());
+        };
+        match &mut self.swing {
+            Some(swing) if swing.to_deg.to_bits() == to_deg.to_bits() => {
+                swing.take(at, position_deg)
+            }
+            swing => {
+                let next = Swing { from_deg: position_deg, to_deg, readings: Vec::new() };
+                swing.replace(next).and_then(|ended| ended.rate_deg_s())
+            }
+        }
+    }
+}
+
+impl Swing {
+    fn take(&mut self, at: Timestamp, position_deg: f64) -> Option<f64> {
+        let way = (self.to_deg - self.from_deg).signum();
+        if (position_deg - self.from_deg) * way < RAMP_DEG {
+            return None;
+        }
+        if (self.to_deg - position_deg) * way >= RAMP_DEG {
+            self.readings.push((at, position_deg));
+            return None;
+        }
+        let rate_deg_s = self.rate_deg_s();
+        self.readings.clear();
+        rate_deg_s
+    }
+
+    /// The mean over the middle half of the rates over a quarter of the way each:
+    /// a position that came late, or a moment in which the axis stood, is not
+    /// among them.
+    fn rate_deg_s(&self) -> Option<f64> {
+        let (_, first_deg) = self.readings.first()?;
+        let (_, last_deg) = self.readings.last()?;
+        let is_long = (last_deg - first_deg).abs() >= LEAST_WAY_DEG;
+        if !is_long || self.readings.len() < LEAST_READINGS {
+            return None;
+        }
+        let after = self.readings.iter().skip(self.readings.len() / 4);
+        let pairs = self.readings.iter().zip(after);
+        let rate = |((from, from_deg), (to, to_deg)): (&(Timestamp, f64), &(Timestamp, f64))| {
+            (to_deg - from_deg).abs() / seconds_between(*from, *to)
+        };
+        let mut rates: Vec<f64> = pairs.map(rate).collect();
+        rates.sort_by(f64::total_cmp);
+        let middle = rates.get(rates.len() / 4..rates.len() - rates.len() / 4)?;
+        let rate_deg_s = middle.iter().sum::<f64>() / middle.len() as f64;
+        ranges::MAXIMUM_RATE_DEG_S.contains(&rate_deg_s).then_some(rate_deg_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::time::add_seconds;
+
+    /// What is learned of an axis that turns from 10 to `to_deg` at `rate_deg_s`,
+    /// is measured `each_s` and shown as `seen` makes of second and position.
+    fn learned(
+        to_deg: f64,
+        rate_deg_s: f64,
+        each_s: f64,
+        seen: impl Fn(f64, f64) -> f64,
+    ) -> Option<f64> {
+        let mut rate = SwingRate::default();
+        let way_deg: f64 = to_deg - 10.0;
+        let readings = ((way_deg.abs() / rate_deg_s + 5.0) / each_s) as u32;
+        let found = (0..readings).filter_map(|reading| {
+            let second = f64::from(reading) * each_s;
+            // It sets out after a second.
+            let turned_deg = (rate_deg_s * (second - 1.0).max(0.0)).min(way_deg.abs());
+            let position_deg = seen(second, 10.0 + turned_deg.copysign(way_deg));
+            rate.take(add_seconds(Timestamp::UNIX_EPOCH, second), Some(position_deg), Some(to_deg))
+        });
+        let found: Vec<f64> = found.collect();
+        assert!(found.len() < 2, "{found:?}");
+        found.first().copied()
+    }
+
+    fn assert_near(found: Option<f64>, rate_deg_s: f64, share: f64) {
+        let off = found.map(|found| (found / rate_deg_s - 1.0).abs());
+        assert!(off.is_some_and(|off| off < share), "{found:?} for {rate_deg_s}");
+    }
+
+    #[test]
+    fn the_rate_of_a_long_swing_is_learned_either_way_round() {
+        for rate_deg_s in [0.3, 2.0, 6.0] {
+            for to_deg in [70.0, -200.0] {
+                assert_near(learned(to_deg, rate_deg_s, 0.25, |_, at| at), rate_deg_s, 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn whole_degrees_are_enough() {
+        for rate_deg_s in [0.7, 1.9, 3.3, 4.0, 5.7] {
+            for to_deg in [45.0, 100.0] {
+                let found = learned(to_deg, rate_deg_s, 0.25, |_, at| at.round());
+                assert_near(found, rate_deg_s, 0.04);
+            }
+        }
+    }
+
+    #[test]
+    fn a_few_late_positions_do_no_harm() {
+        let late = |second: f64, at: f64| {
+            if (second / 0.25).round() as i64 % 9 == 0 { at - 3.0 } else { at }
+        };
+        assert_near(learned(100.0, 4.0, 0.25, late), 4.0, 0.02);
+    }
+
+    #[test]
+    fn a_short_swing_and_one_that_is_slowed_down_near_its_end_teach_nothing_wrong() {
+        assert_eq!(learned(35.0, 4.0, 0.25, |_, at| at), None);
+        assert_eq!(learned(100.0, 25.0, 0.5, |_, at| at), None, "too few positions");
+        let slow = |second: f64, at: f64| if at > 96.0 { 96.0 + second / 99.0 } else { at };
+        assert_near(learned(100.0, 4.0, 0.25, slow), 4.0, 1e-6);
+    }
+
+    #[test]
+    fn a_swing_that_is_called_off_counts_as_far_as_it_went() {
+        let mut rate = SwingRate::default();
+        let at = |second: u32| add_seconds(Timestamp::UNIX_EPOCH, f64::from(second));
+        for second in 0..20 {
+            assert_eq!(rate.take(at(second), Some(f64::from(second) * 2.0), Some(180.0)), None);
+        }
+        assert_eq!(rate.take(at(20), Some(40.0), Some(30.0)), Some(2.0));
+        assert_eq!(rate.take(at(21), None, Some(30.0)), None);
+    }
+}
