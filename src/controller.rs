@@ -59,7 +59,8 @@ pub enum Motion {
         /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
         /// the position of that axis: 370 is not 10.
         azimuth: Option<Angle>,
-        /// Elevation.
+        /// Elevation. On a mount whose elevation axis travels over the zenith it is
+        /// the position of that axis: 120 points up 60 degrees on the other side.
         elevation: Option<Angle>,
     },
     /// The controller follows the target it holds.

@@ -1,11 +1,12 @@
 //! What a mount can follow, how it follows it, and lists of passes for others to
 //! read. Pure functions over passes.
 
+mod az_el;
 mod azimuth_route;
 pub mod follow;
 pub mod pass_export;
 mod trackability;
+mod within_rate;
 
-pub use azimuth_route::{AzimuthRange, AzimuthRoute, NoTravel};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use trackability::{Loss, Reach, Sample, Trackability, trackability};

@@ -143,6 +143,12 @@ impl AntennaModel {
             if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
                 return None;
             }
+            // Over the zenith the angles of the sky jump and the axes do not.
+            if self.config.mount.is_tipped(measured.axes[1].angle_deg)
+                != self.config.mount.is_tipped(before.axes[1].angle_deg)
+            {
+                return None;
+            }
             let (now, then) = (measured.pointing, before.pointing);
             let azimuth = (now.azimuth? - then.azimuth?).wrapped_180();
             let elevation = now

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use super::Angle;
 
+/// Straight up.
+const ZENITH: Angle = Angle::from_degrees(90.0);
+
 /// A direction: azimuth from true north over east, elevation from the horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AzEl {
@@ -19,6 +22,23 @@ impl AzEl {
         Self {
             azimuth: Angle::from_degrees(azimuth_deg),
             elevation: Angle::from_degrees(elevation_deg),
+        }
+    }
+
+    /// Where axes of elevation over azimuth point that stand there: beyond 90
+    /// degrees the elevation axis points over the zenith to the other side.
+    pub fn of_axes(azimuth: Angle, elevation: Angle) -> Self {
+        let axes = Self { azimuth: azimuth.wrapped_360(), elevation };
+        if elevation > ZENITH { axes.tipped_over() } else { axes }
+    }
+
+    /// The other position of such axes that points to the same direction.
+    #[must_use]
+    pub fn tipped_over(self) -> Self {
+        let half_turn = Angle::from_degrees(180.0);
+        Self {
+            azimuth: (self.azimuth + half_turn).wrapped_360(),
+            elevation: half_turn - self.elevation,
         }
     }
 
@@ -69,6 +89,22 @@ mod tests {
                 let given = AzEl::from_degrees(f64::from(az), f64::from(el));
                 let back = AzEl::from_enu(given.to_enu());
                 assert!(given.separation(back).degrees() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn axes_that_are_tipped_over_point_to_the_same_direction() {
+        for az in (0..360).step_by(15) {
+            for el in (0..90).step_by(5) {
+                let plain = AzEl::from_degrees(f64::from(az), f64::from(el));
+                let tipped = plain.tipped_over();
+                assert!((90.0..=180.0).contains(&tipped.elevation_deg()));
+                let seen = AzEl::of_axes(tipped.azimuth, tipped.elevation);
+                assert!(plain.separation(seen).degrees() < 1e-9);
+                assert!((seen.elevation_deg() - plain.elevation_deg()).abs() < 1e-9);
+                assert!(plain.separation(tipped).degrees() < 1e-9, "also as they count");
+                assert_eq!(AzEl::of_axes(plain.azimuth, plain.elevation), plain);
             }
         }
     }

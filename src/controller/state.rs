@@ -22,6 +22,9 @@ pub struct AntennaState {
     /// Something is wrong that forbids motion; `None` until the device was
     /// asked on this link, and while a new fault is not yet known by name.
     pub motion_lock: Option<bool>,
+    /// Both ends of each axis by the device's own limits, degrees as the mount
+    /// counts; `None` where it tells none.
+    pub travel_deg: [Option<(f64, f64)>; 2],
     /// When the present link came up: what is older tells of another time.
     pub link_since: Option<Instant>,
     /// What it tells beyond the above, line by line for its panel.
@@ -89,6 +92,16 @@ pub struct Pointing {
 }
 
 impl Pointing {
+    /// Where axes of elevation over azimuth point that stand there, as far as they
+    /// are known: beyond 90 degrees of elevation over the zenith to the other side.
+    pub fn of_axes(azimuth: Option<Angle>, elevation: Option<Angle>) -> Self {
+        let side = AzEl::of_axes(azimuth.unwrap_or_default(), elevation.unwrap_or_default());
+        Self {
+            azimuth: azimuth.map(|_| side.azimuth),
+            elevation: elevation.map(|_| side.elevation),
+        }
+    }
+
     /// The direction, once both angles are known.
     pub fn direction(self) -> Option<AzEl> {
         Some(AzEl { azimuth: self.azimuth?, elevation: self.elevation? })

@@ -18,6 +18,9 @@ use crate::{
 };
 use rules::RULES;
 
+/// From one side of the zenith to the other.
+const HALF_TURN: Angle = Angle::from_degrees(180.0);
+
 /// Why a motion was not sent.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Refusal {
@@ -193,27 +196,57 @@ impl Gate {
         Ok(())
     }
 
-    /// The motion to an azimuth of the sky, with the position of the axis that is
-    /// nearest. One beyond the sky that the axis has is meant as the axis counts.
+    /// The motion to a direction of the sky, as the axes count: the azimuth axis
+    /// goes to the nearest of its positions. Where one angle is to stay, axes that
+    /// are tipped over the zenith stay so.
     pub(super) fn nearest(&self, motion: Motion) -> Motion {
-        let Motion::Position { azimuth: Some(azimuth), elevation } = motion else { return motion };
+        let Motion::Position { azimuth, elevation } = motion else { return motion };
+        let stays_tipped = self.is_tipped() && (azimuth.is_none() || elevation.is_none());
+        let tipped = |elevation| if stays_tipped { HALF_TURN - elevation } else { elevation };
+        Motion::Position {
+            azimuth: azimuth.map(|azimuth| self.nearest_azimuth(azimuth, stays_tipped)),
+            elevation: elevation.map(tipped),
+        }
+    }
+
+    /// An azimuth beyond the sky that the axis has is meant as the axis counts.
+    fn nearest_azimuth(&self, azimuth: Angle, is_tipped: bool) -> Angle {
         let [(from_deg, to_deg), _] = self.mount.travel_deg();
         let asked_deg = azimuth.degrees();
         let is_of_sky = (0.0..360.0).contains(&asked_deg);
         if !is_of_sky && (from_deg..=to_deg).contains(&asked_deg) {
-            return motion;
+            return azimuth;
         }
         let near_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
-        let azimuth = Some(self.mount.axis_azimuth(azimuth, near_deg));
-        Motion::Position { azimuth, elevation }
+        let side = if is_tipped { (azimuth + HALF_TURN).wrapped_360() } else { azimuth };
+        self.mount.axis_azimuth(side, near_deg)
     }
 
     /// Where a motion to a position would end, for the display.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let Motion::Position { azimuth, elevation } = *motion else { return None };
-        let measured = self.state().measured.map(|measured| measured.pointing);
-        let aim = aimed(azimuth.map(Angle::wrapped_360), elevation, measured);
-        Some(aim)
+        let measured = self.state().measured;
+        if matches!(self.mount, Mount::Xy { .. }) {
+            let measured = measured.map(|measured| measured.pointing);
+            return Some(aimed(azimuth.map(Angle::wrapped_360), elevation, measured));
+        }
+        let elevation_now = self.elevation_axis_deg().map(Angle::from_degrees);
+        let azimuth_now = measured.and_then(|measured| measured.axes[0].angle_deg);
+        Some(Pointing::of_axes(
+            azimuth.or(azimuth_now.map(Angle::from_degrees)),
+            elevation.or(elevation_now),
+        ))
+    }
+
+    /// Where the elevation axis was measured, degrees; `None` without one.
+    fn elevation_axis_deg(&self) -> Option<f64> {
+        let is_one = matches!(self.mount, Mount::AzEl { .. })
+            && self.controller.capabilities().has_elevation;
+        self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
+    }
+
+    fn is_tipped(&self) -> bool {
+        self.mount.is_tipped(self.elevation_axis_deg())
     }
 }
 

@@ -9,7 +9,6 @@ mod planner;
 mod stats;
 mod swing_rate;
 mod target;
-mod within_rate;
 
 use jiff::Timestamp;
 

@@ -29,7 +29,8 @@ pub enum Mount {
         azimuth_to_deg: f64,
         /// Lower end of the elevation axis, degrees.
         elevation_from_deg: f64,
-        /// Upper end, degrees, to 180 where the mount tips over.
+        /// Upper end, degrees; beyond 90, up to 180, where the mount tips over the
+        /// zenith.
         elevation_to_deg: f64,
     },
 }
@@ -50,14 +51,46 @@ impl Mount {
         }
     }
 
-    /// Whether the axes get to `direction`. Of an X/Y mount this says yes also to
-    /// its keyholes.
+    /// Whether the axes get to `direction`, on either side of the zenith. Of an X/Y
+    /// mount this says yes also to its keyholes.
     pub fn reaches(&self, direction: AzEl) -> bool {
         let Self::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = *self else { return true };
         let [_, (lowest_deg, highest_deg)] = self.travel_deg();
-        let azimuth_deg = self.axis_azimuth(direction.azimuth, None).degrees();
-        (azimuth_from_deg..=azimuth_to_deg).contains(&azimuth_deg)
-            && (lowest_deg..=highest_deg).contains(&direction.elevation_deg())
+        [direction, direction.tipped_over()].into_iter().any(|axes| {
+            let azimuth_deg = self.axis_azimuth(axes.azimuth, None).degrees();
+            (azimuth_from_deg..=azimuth_to_deg).contains(&azimuth_deg)
+                && (lowest_deg..=highest_deg).contains(&axes.elevation_deg())
+        })
+    }
+
+    /// Whether the elevation axis travels over the zenith to the other side.
+    pub fn tips_over(&self) -> bool {
+        matches!(self, Self::AzEl { elevation_to_deg, .. } if *elevation_to_deg > 90.0)
+    }
+
+    /// Whether an elevation axis that stands there is tipped over the zenith.
+    pub fn is_tipped(&self, elevation_axis_deg: Option<f64>) -> bool {
+        self.tips_over() && elevation_axis_deg.is_some_and(|axis_deg| axis_deg > 90.0)
+    }
+
+    /// The mount with the ends of its axes drawn in to those that the device keeps
+    /// to, degrees as the mount counts. Ends that leave an axis no travel are left
+    /// out.
+    #[must_use]
+    pub fn within(self, ends_deg: [Option<(f64, f64)>; 2]) -> Self {
+        if matches!(self, Self::Xy { .. }) {
+            return self;
+        }
+        let mut both = self.travel_deg();
+        for (travel_deg, ends_deg) in both.iter_mut().zip(ends_deg) {
+            let (from_deg, to_deg) = ends_deg.unwrap_or(*travel_deg);
+            let drawn_in = (travel_deg.0.max(from_deg), travel_deg.1.min(to_deg));
+            if drawn_in.0 < drawn_in.1 {
+                *travel_deg = drawn_in;
+            }
+        }
+        let [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)] = both;
+        Self::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg }
     }
 
     /// The position of the azimuth axis that points to `azimuth`, the one nearest
@@ -127,6 +160,31 @@ mod tests {
         assert!(sector.reaches(at(180.0, 45.0)));
         assert!(!sector.reaches(at(20.0, 45.0)) && !sector.reaches(at(180.0, -1.0)));
         assert!(azel(0.0, 450.0).reaches(at(359.9, 89.0)));
+    }
+
+    #[test]
+    fn over_the_zenith_a_sector_reaches_the_other_side() {
+        let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, .. } =
+            azel(90.0, 270.0)
+        else {
+            panic!("not crossed")
+        };
+        let elevation_to_deg = 150.0;
+        let over =
+            Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg };
+        assert!(over.tips_over() && !azel(90.0, 270.0).tips_over());
+        assert!(over.reaches(AzEl::from_degrees(20.0, 45.0)));
+        assert!(!over.reaches(AzEl::from_degrees(20.0, 25.0)), "beyond 150");
+    }
+
+    #[test]
+    fn a_device_may_draw_the_ends_in_and_never_out() {
+        let mount = azel(0.0, 450.0);
+        assert_eq!(mount.within([None, None]), mount);
+        assert_eq!(mount.within([Some((-90.0, 500.0)), Some((-10.0, 180.0))]), mount);
+        let drawn_in = mount.within([Some((0.0, 359.0)), Some((5.0, 180.0))]);
+        assert_eq!(drawn_in.travel_deg(), [(0.0, 359.0), (5.0, 90.0)]);
+        assert_eq!(mount.within([Some((500.0, 600.0)), None]), mount);
     }
 
     #[test]

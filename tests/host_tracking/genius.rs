@@ -32,8 +32,18 @@ fn antenna(rotators: Rotators) -> Antenna {
     antenna
 }
 
+/// The same on a mount that tips over the zenith.
+fn over() -> Antenna {
+    let mut antenna = antenna(Rotators::Pair);
+    if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {
+        *elevation_to_deg = 180.0;
+    }
+    antenna
+}
+
 fn options(stop_offset_deg: u8) -> Options {
-    let azimuth = RotatorOptions { stop_offset_deg, ..RotatorOptions::default() };
+    let limit_cw = WholeDegrees::MAX;
+    let azimuth = RotatorOptions { stop_offset_deg, limit_cw, ..RotatorOptions::default() };
     let elevation = RotatorOptions { stop_offset_deg, ..RotatorOptions::elevation() };
     Options { rotators: [azimuth, elevation], ..Options::default() }
 }
@@ -55,8 +65,18 @@ async fn connected(options: &Options, antenna: &Antenna, scene: &Scene) -> (Rig,
 }
 
 async fn followed(stop_offset_deg: u8, scene: &Scene) -> FollowStats {
-    let options = options(stop_offset_deg);
-    let (mut rig, _) = connected(&options, &antenna(Rotators::Pair), scene).await;
+    followed_by(&options(stop_offset_deg), &antenna(Rotators::Pair), scene).await
+}
+
+/// With a device whose elevation goes to `to_deg`, on a mount that tips over.
+async fn followed_over(to_deg: u16, scene: &Scene) -> FollowStats {
+    let mut options = options(2);
+    options.rotators[1].limit_cw = WholeDegrees::saturating(to_deg);
+    followed_by(&options, &over(), scene).await
+}
+
+async fn followed_by(options: &Options, antenna: &Antenna, scene: &Scene) -> FollowStats {
+    let (mut rig, _) = connected(options, antenna, scene).await;
     rig.send(Command::Follow(Box::new(scene.follow())));
     let stats = rig.until_over().await;
     let others = rig.events();
@@ -85,6 +105,27 @@ async fn through_north_it_goes_round_once() {
 async fn close_to_the_zenith_it_swings_in_time() {
     let (rms, worst) = figures("Genius, 88 degrees", followed(2, &sky::overhead()).await);
     assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn over_the_zenith_it_need_not_go_round() {
+    let stats = followed_over(180, &sky::through_north()).await;
+    let (rms, worst) = figures("Genius, through north, 0 to 360 and 180", stats);
+    assert!(rms < 1.2 && worst < 4.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn over_the_zenith_it_hardly_swings() {
+    let stats = followed_over(180, &sky::overhead()).await;
+    let (rms, worst) = figures("Genius, 88 degrees, elevation to 180", stats);
+    assert!(rms < 2.0 && worst < 9.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn it_is_not_sent_where_the_device_does_not_go() {
+    let stats = followed_over(90, &sky::through_north()).await;
+    let (_, worst) = figures("Genius, through north, device to 90", stats);
+    assert!(worst > 45.0);
 }
 
 #[tokio::test(start_paused = true)]

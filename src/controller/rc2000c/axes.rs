@@ -60,7 +60,7 @@ impl Axes {
     /// Where the antenna points with its axes there.
     pub(super) fn pointing([azimuth, elevation]: [Axis; 2]) -> Pointing {
         let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
-        Pointing { azimuth: angle(azimuth).map(Angle::wrapped_360), elevation: angle(elevation) }
+        Pointing::of_axes(angle(azimuth), angle(elevation))
     }
 
     /// Which way to jog, that the angle of one axis grows or falls.

@@ -1,7 +1,7 @@
 //! Which of the two rotators is which axis of the antenna.
 
 use crate::{
-    protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status},
+    protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees},
     station::Rotators,
 };
 
@@ -46,11 +46,42 @@ impl Roles {
         self.is_pair || self.axes.first() == Some(&number)
     }
 
+    /// Both ends of each axis of the antenna by the limits of its rotator, degrees.
+    pub(super) fn travel_deg(self, status: &Status) -> [Option<(f64, f64)>; 2] {
+        self.axes.map(|number| {
+            let is_axis = self.is_clear && self.is_ours(number);
+            let rotator = is_axis.then(|| status.rotator(number))?;
+            match rotator.kind {
+                RotatorKind::Azimuth => Some((0.0, highest_azimuth_deg(rotator))),
+                RotatorKind::Elevation => elevation_ends_deg(rotator),
+            }
+        })
+    }
+
     /// Where a rotator stands as its axis counts, degrees. An elevation a little
     /// below the horizon is reported as almost a whole turn.
     pub(super) fn axis_deg(rotator: &Rotator) -> Option<f64> {
-        let angle_deg = f64::from(rotator.position.ok()?.degrees());
-        let is_below = rotator.kind == RotatorKind::Elevation && angle_deg > 270.0;
-        Some(if is_below { angle_deg - 360.0 } else { angle_deg })
+        rotator.position.ok().map(|position| axis_deg(rotator.kind, position))
     }
+}
+
+fn axis_deg(kind: RotatorKind, position: WholeDegrees) -> f64 {
+    let angle_deg = f64::from(position.degrees());
+    let is_below = kind == RotatorKind::Elevation && angle_deg > 270.0;
+    if is_below { angle_deg - 360.0 } else { angle_deg }
+}
+
+/// Which way round the arc between its limits runs is not sure, so no more is
+/// told of an azimuth than whether it has a place for 360 beside that for 0.
+fn highest_azimuth_deg(rotator: &Rotator) -> f64 {
+    let is_end = [rotator.limit_cw, rotator.limit_ccw].contains(&Some(WholeDegrees::MAX));
+    f64::from(if is_end { WholeDegrees::MAX.degrees() } else { WholeDegrees::MAX.degrees() - 1 })
+}
+
+/// An elevation never goes round by more than half a turn, whichever limit is
+/// which.
+fn elevation_ends_deg(rotator: &Rotator) -> Option<(f64, f64)> {
+    let [one, other] = [rotator.limit_cw?, rotator.limit_ccw?];
+    let [one_deg, other_deg] = [one, other].map(|limit| axis_deg(rotator.kind, limit));
+    (one != other).then_some((one_deg.min(other_deg), one_deg.max(other_deg)))
 }

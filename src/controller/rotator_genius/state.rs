@@ -40,6 +40,7 @@ impl Genius {
             pointing: pointing(axes, roles.is_pair),
             axes,
         });
+        self.state.travel_deg = roles.travel_deg(&status);
         self.state.motion_lock = Some(false);
         for number in RotatorNumber::ALL {
             let state = self.state.group(settings::group_of(number).key);
@@ -54,16 +55,8 @@ impl Genius {
     }
 }
 
-/// Where the antenna points, as far as its axes tell. Beyond the zenith it points
-/// to the other side.
+/// Where the antenna points, as far as its axes tell.
 fn pointing([first, second]: [Axis; 2], is_pair: bool) -> Pointing {
-    let azimuth = first.angle_deg.map(Angle::from_degrees);
-    let elevation_deg = second.angle_deg.filter(|_| is_pair);
-    let is_tipped_over = elevation_deg.is_some_and(|elevation_deg| elevation_deg > 90.0);
-    let over = if is_tipped_over { 180.0 } else { 0.0 };
-    Pointing {
-        azimuth: azimuth.map(|azimuth| (azimuth + Angle::from_degrees(over)).wrapped_360()),
-        elevation: elevation_deg
-            .map(|deg| Angle::from_degrees(if is_tipped_over { 180.0 - deg } else { deg })),
-    }
+    let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
+    Pointing::of_axes(angle(first), angle(second).filter(|_| is_pair))
 }

@@ -198,7 +198,9 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     let Motion::Position { azimuth, elevation } = *motion else { return Ok(()) };
     let lowest_deg = situation.limits.minimum_elevation_deg;
     if let Some(asked) = elevation {
-        let asked_deg = asked.degrees();
+        let is_over = situation.mount.tips_over() && asked.degrees() > 90.0;
+        // Over the zenith it is the direction on the other side that counts.
+        let asked_deg = if is_over { 180.0 - asked.degrees() } else { asked.degrees() };
         // Angles come from decimal degrees: allow for the rounding.
         if asked_deg < lowest_deg - 1e-9 || asked_deg > 90.0 + 1e-9 {
             return Err(Refusal::Elevation { asked_deg, lowest_deg });

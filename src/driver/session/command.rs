@@ -30,7 +30,7 @@ pub enum Command {
         /// Signed, degrees.
         steps_deg: [f64; 2],
     },
-    /// To a direction.
+    /// To a direction of the sky.
     Position {
         /// `None` leaves it as it is.
         azimuth: Option<Angle>,

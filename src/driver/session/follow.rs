@@ -27,7 +27,8 @@ impl Session {
     pub(super) fn follow(&mut self, follow: Follow, now: Moment) {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
-        let Manner { drives, following } = self.manner;
+        let Manner { mut drives, following } = self.manner;
+        drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
             if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);

@@ -6,12 +6,16 @@ use crate::{
         Angle, AzEl,
         xy_mount::{self, AxisAngles},
     },
-    plan::{AzimuthRange, AzimuthRoute, Sample},
+    plan::{
+        Sample,
+        az_el::{AzElAxes, Planned, Start, Way},
+        within_rate::within_rate,
+    },
     station::{MotionLimits, Mount},
 };
 
-/// Highest elevation that is commanded, degrees: no mount is tipped over.
-const HIGHEST_DEG: f64 = 90.0;
+/// Highest elevation of the sky, degrees.
+const ZENITH_DEG: f64 = 90.0;
 
 /// What the drives of an antenna can do, as far as positions go.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,56 +39,59 @@ pub struct SetPoint {
     /// On an azimuth axis its position, which may lie beyond a turn; `None`
     /// leaves it where it stands.
     pub azimuth: Option<Angle>,
-    /// `None` leaves it as it is.
+    /// On an elevation axis its position, beyond 90 degrees over the zenith; `None`
+    /// leaves it as it is.
     pub elevation: Option<Angle>,
 }
 
 impl Drives {
-    /// Where both axes have to stand along `samples`, degrees as the mount
-    /// counts. The azimuth axis begins on the turn that lasts, of several the one
-    /// nearest to `azimuth_now_deg`. What lies out of reach is waited for as near
-    /// as can be.
-    pub(super) fn positions(
+    /// Where both axes have to stand along `samples`, which are `step_s` seconds
+    /// apart: of the ways that a mount of elevation over azimuth has `way`, or the
+    /// best one from `start`. What lies out of reach is waited for as near as can
+    /// be.
+    pub(super) fn along(
         &self,
         samples: &[Sample],
-        azimuth_now_deg: Option<f64>,
-    ) -> [Vec<f64>; 2] {
-        let (lowest_deg, highest_deg) = self.elevations_deg();
-        let reachable = |sample: &Sample| {
-            let elevation = sample.direction.elevation_deg().clamp(lowest_deg, highest_deg);
-            AzEl { elevation: Angle::from_degrees(elevation), ..sample.direction }
+        step_s: f64,
+        start: Start,
+        way: Option<Way>,
+    ) -> Planned {
+        let Mount::Xy { lower_axis_azimuth_deg, .. } = self.mount else {
+            let axes = self.az_el();
+            return match way {
+                Some(way) => axes.along(samples, step_s, start, way),
+                None => axes.best(samples, step_s, start),
+            };
         };
-        match self.mount {
-            Mount::Xy { lower_axis_azimuth_deg, .. } => {
-                let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
-                let axes = samples.iter().map(|sample| {
-                    let axes = xy_mount::axes_from_azel(reachable(sample), lower_axis);
-                    self.within_travel([axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0))
-                });
-                axes.map(|[lower, upper]| (lower, upper)).unzip().into()
-            }
-            Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
-                let elevations = samples.iter().map(|sample| reachable(sample).elevation_deg());
-                let azimuths = match AzimuthRange::new(azimuth_from_deg, azimuth_to_deg) {
-                    Ok(range) => AzimuthRoute::along(samples, range, azimuth_now_deg)
-                        .positions_deg()
-                        .map(|axis_deg| axis_deg.clamp(azimuth_from_deg, azimuth_to_deg))
-                        .collect(),
-                    Err(_) => vec![azimuth_from_deg; samples.len()],
-                };
-                [azimuths, elevations.collect()]
-            }
-        }
+        let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+        let (lowest_deg, highest_deg) = self.elevations_deg();
+        let axes = samples.iter().map(|Sample { direction, .. }| {
+            let elevation_deg = direction.elevation_deg().min(highest_deg).max(lowest_deg);
+            let reachable = AzEl { elevation: Angle::from_degrees(elevation_deg), ..*direction };
+            let axes = xy_mount::axes_from_azel(reachable, lower_axis);
+            self.within_travel([axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0))
+        });
+        let (lower, upper): (Vec<f64>, Vec<f64>) =
+            axes.map(|[lower, upper]| (lower, upper)).unzip();
+        let off = |wanted: &[f64], index: usize, at_deg: f64| {
+            1.0 - (at_deg - wanted.get(index).copied().unwrap_or(at_deg)).to_radians().cos()
+        };
+        let [lower_most_deg, upper_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
+        let lower = within_rate(&lower, lower_most_deg, |index, at_deg| {
+            let upper_deg = upper.get(index).copied().unwrap_or(90.0);
+            (upper_deg - 90.0).to_radians().cos().powi(2) * off(&lower, index, at_deg)
+        });
+        let upper = within_rate(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
+        Planned { way: Way::Plain, axes_deg: [lower, upper], swings: Vec::new() }
     }
 
-    /// What an error of the first axis counts for in the sky while the second
-    /// stands at `second_deg`.
-    pub(super) fn weight(&self, second_deg: f64) -> f64 {
-        let second = match self.mount {
-            Mount::Xy { .. } => second_deg - 90.0,
-            Mount::AzEl { .. } => second_deg,
-        };
-        second.to_radians().cos().powi(2)
+    fn az_el(&self) -> AzElAxes {
+        let [azimuth_deg, _] = self.mount.travel_deg();
+        AzElAxes {
+            azimuth_deg,
+            elevation_deg: self.has_elevation.then(|| self.elevations_deg()),
+            rates_deg_s: self.rates_deg_s,
+        }
     }
 
     /// The nearest position that can be told to an axis, 0 or 1.
@@ -100,9 +107,6 @@ impl Drives {
             return position_deg.clamp(from_deg, to_deg);
         }
         let (first, last) = ((from_deg / self.step_deg).ceil(), (to_deg / self.step_deg).floor());
-        // Devices that count whole degrees may count 0 to 359.
-        let is_turn = (to_deg - from_deg - 360.0).abs() < 1e-9;
-        let last = if is_turn { last - 1.0 } else { last };
         if first > last {
             return position_deg.clamp(from_deg, to_deg);
         }
@@ -142,12 +146,14 @@ impl Drives {
         !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
     }
 
+    /// Ends of the elevation between which the antenna points high enough, on an
+    /// axis that travels over the zenith also on the other side of it.
     fn elevations_deg(&self) -> (f64, f64) {
         let floor_deg = self.limits.minimum_elevation_deg;
         let (lowest_deg, highest_deg) = match self.mount {
-            Mount::Xy { .. } => (floor_deg, HIGHEST_DEG),
+            Mount::Xy { .. } => (floor_deg, ZENITH_DEG),
             Mount::AzEl { elevation_from_deg, elevation_to_deg, .. } => {
-                (floor_deg.max(elevation_from_deg), elevation_to_deg.min(HIGHEST_DEG))
+                (floor_deg.max(elevation_from_deg), elevation_to_deg.min(180.0 - floor_deg))
             }
         };
         (lowest_deg, highest_deg.max(lowest_deg))
@@ -180,13 +186,18 @@ mod tests {
         Sample { time: jiff::Timestamp::UNIX_EPOCH, direction }
     }
 
+    fn positions(drives: &Drives, sample: Sample) -> [f64; 2] {
+        let planned = drives.along(&[sample], 1.0, Start::default(), Some(Way::Plain));
+        planned.axes_deg.map(|axis| axis[0])
+    }
+
     #[test]
     fn a_set_point_points_where_the_axes_do_on_either_mount() {
         for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
             let drives = drives(&antenna, 0.0);
             let sample = at(213.0, 41.0);
-            let [first, second] = drives.positions(&[sample], None);
-            let point = drives.set_point([Some(first[0]), Some(second[0])]);
+            let [first, second] = positions(&drives, sample);
+            let point = drives.set_point([Some(first), Some(second)]);
             let direction =
                 AzEl { azimuth: point.azimuth.unwrap(), elevation: point.elevation.unwrap() };
             assert!(direction.separation(sample.direction).degrees() < 1e-9);
@@ -197,8 +208,8 @@ mod tests {
     fn below_the_floor_the_elevation_waits_at_it() {
         for antenna in [Antenna::satrak("", ""), Antenna::rc2000c("", "")] {
             let drives = drives(&antenna, 0.0);
-            let [first, second] = drives.positions(&[at(90.0, 1.0)], None);
-            let point = drives.set_point([Some(first[0]), Some(second[0])]);
+            let [first, second] = positions(&drives, at(90.0, 1.0));
+            let point = drives.set_point([Some(first), Some(second)]);
             assert!((point.elevation.unwrap().degrees() - 5.0).abs() < 1e-9);
             assert!((point.azimuth.unwrap().degrees() - 90.0).abs() < 1e-9);
             assert!(!drives.may_reach(AzEl::from_degrees(90.0, 1.0)));
@@ -208,8 +219,21 @@ mod tests {
     #[test]
     fn whole_steps_stay_within_the_travel() {
         let drives = drives(&Antenna::genius("", ""), 1.0);
-        assert_eq!(drives.tellable_deg(0, 359.7).to_bits(), 359.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(0, 359.7).to_bits(), 360.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(0, 360.7).to_bits(), 360.0_f64.to_bits());
         assert_eq!(drives.tellable_deg(0, 12.4).to_bits(), 12.0_f64.to_bits());
-        assert_eq!(drives.tellable_deg(1, 92.0).to_bits(), 90.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(1, 181.0).to_bits(), 180.0_f64.to_bits());
+    }
+
+    #[test]
+    fn on_either_side_of_the_zenith_the_antenna_points_high_enough() {
+        let mut drives = drives(&Antenna::genius("", ""), 1.0);
+        drives.limits.minimum_elevation_deg = 7.5;
+        assert_eq!(drives.tellable_deg(1, 3.0).to_bits(), 8.0_f64.to_bits());
+        assert_eq!(drives.tellable_deg(1, 178.0).to_bits(), 172.0_f64.to_bits());
+        if let Mount::AzEl { elevation_to_deg, .. } = &mut drives.mount {
+            *elevation_to_deg = 90.0;
+        }
+        assert_eq!(drives.tellable_deg(1, 178.0).to_bits(), 90.0_f64.to_bits());
     }
 }

@@ -2,10 +2,13 @@
 
 use jiff::Timestamp;
 
-use super::{drives::Drives, target::Course, within_rate::within_rate};
+use super::{drives::Drives, target::Course};
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    plan::Sample,
+    plan::{
+        Sample,
+        az_el::{Planned, Start, Way},
+    },
 };
 
 /// Between two points of a path at least, seconds.
@@ -29,16 +32,18 @@ pub(super) struct Path {
     /// Degrees each axis turns in a step at its full rate.
     most_deg: [f64; 2],
     axes: [Vec<f64>; 2],
+    way: Way,
 }
 
 impl Path {
-    /// Along `course` from `from` to `to`, ends early where the target decays.
-    /// `None` where it has done so already.
+    /// Along `course` from `from` to `to` as [`Drives::along`] does it, ends early
+    /// where the target decays. `None` where it has done so already.
     pub(super) fn along(
         course: &Course,
         drives: &Drives,
         (from, to): (Timestamp, Timestamp),
-        azimuth_now_deg: Option<f64>,
+        start: Start,
+        way: Option<Way>,
     ) -> Option<Self> {
         let span_s = seconds_between(from, to).max(0.0);
         let step_s = (span_s / MOST_POINTS).max(LEAST_STEP_S);
@@ -50,16 +55,9 @@ impl Path {
             })
             .collect();
         let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let [first_most_deg, second_most_deg] = most_deg;
-        let [first, second] = drives.positions(&samples, azimuth_now_deg);
-        let weight: Vec<f64> = second.iter().map(|at| drives.weight(*at)).collect();
-        let alike = vec![1.0; second.len()];
-        let axes = [
-            within_rate(&first, &weight, first_most_deg),
-            within_rate(&second, &alike, second_most_deg),
-        ];
+        let Planned { way, axes_deg: axes, .. } = drives.along(&samples, step_s, start, way);
         let to = samples.last()?.time;
-        Some(Self { from, to, step_s, most_deg, axes })
+        Some(Self { from, to, step_s, most_deg, axes, way })
     }
 
     /// When it ends.
@@ -73,6 +71,11 @@ impl Path {
         both.all(|(most_deg, rate_deg_s)| {
             (rate_deg_s * self.step_s / most_deg - 1.0).abs() < SAME_RATE
         })
+    }
+
+    /// On which side of the zenith it runs.
+    pub(super) fn way(&self) -> Way {
+        self.way
     }
 
     /// Seconds from its beginning.
@@ -170,6 +173,7 @@ mod tests {
             step_s: 0.5,
             most_deg: [2.5; 2],
             axes: [axis.clone(), axis],
+            way: Way::Plain,
         }
     }
 

@@ -15,6 +15,7 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     orbit::PropagationError,
+    plan::az_el::{Start, Way},
     station::Following,
 };
 
@@ -76,8 +77,10 @@ impl Planner {
         axes: [AxisNow; 2],
     ) -> Result<Option<Next>, PropagationError> {
         let [first_now, second_now] = axes;
-        if !self.has_path(now) {
-            let found = self.new_path(now, first_now.position_deg);
+        let kept = self.kept_way(now);
+        let is_for = |(path, _): &(Path, Timestamp)| path.is_for(self.drives.rates_deg_s);
+        if kept.is_none() || !self.path.as_ref().is_some_and(is_for) {
+            let found = self.new_path(now, axes.map(|axis| axis.position_deg), kept);
             self.path = Some(found.ok_or(PropagationError::Decayed)?);
         }
         let Some((path, _)) = &self.path else { return Ok(None) };
@@ -133,19 +136,27 @@ impl Planner {
         }
     }
 
-    fn has_path(&self, now: Timestamp) -> bool {
-        let Some((path, ends)) = &self.path else { return false };
+    /// The way that was chosen for the pass at `now` or the next one. It is kept
+    /// also where another path is worked out for other rates.
+    fn kept_way(&self, now: Timestamp) -> Option<Way> {
+        let (path, ends) = self.path.as_ref()?;
         let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
         let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
-        now < *ends && !is_short && path.is_for(self.drives.rates_deg_s)
+        (now < *ends && !is_short).then_some(path.way())
     }
 
-    fn new_path(&self, now: Timestamp, azimuth_deg: Option<f64>) -> Option<(Path, Timestamp)> {
+    fn new_path(
+        &self,
+        now: Timestamp,
+        axes_deg: [Option<f64>; 2],
+        way: Option<Way>,
+    ) -> Option<(Path, Timestamp)> {
         let always = (now, Timestamp::MAX);
         let (aos, los) = self.follow.pass(now).unwrap_or(always);
         let from = aos.max(now);
         let to = los.min(add_seconds(from, PATH_S));
-        Some((Path::along(&self.course, &self.drives, (from, to), azimuth_deg)?, los))
+        let start = Start { axes_deg, lead_s: seconds_between(now, from) };
+        Some((Path::along(&self.course, &self.drives, (from, to), start, way)?, los))
     }
 }
 

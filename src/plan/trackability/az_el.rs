@@ -1,79 +1,67 @@
 //! Elevation over azimuth: all of the sky, but the azimuth axis has to hurry
-//! overhead and to go round at its ends.
+//! overhead and to go round at its ends, unless the elevation axis travels over
+//! the zenith.
 
 use super::{Loss, Reach, Sample, Trackability};
 use crate::{
     astro::time::seconds_between,
-    plan::{AzimuthRange, AzimuthRoute},
-    station::Mount,
+    plan::az_el::{AzElAxes, Planned, Start, Way},
 };
 
 /// Above this elevation a loss is told as one overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
-/// After the axis has set out to go round, what is lost is lost by that, seconds.
-const SWING_S: f64 = 10.0;
+/// A turn, which an axis makes in a swing at most, degrees.
+const TURN_DEG: f64 = 360.0;
 
 /// See [`super::trackability`].
 pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
-    let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg } =
-        reach.mount
-    else {
-        return Trackability::Nothing;
+    let [azimuth_deg, elevation_deg] = reach.mount.travel_deg();
+    let axes = AzElAxes {
+        azimuth_deg,
+        elevation_deg: reach.has_elevation.then_some(elevation_deg),
+        rates_deg_s: [reach.maximum_rate_deg_s; 2],
     };
-    let Ok(range) = AzimuthRange::new(azimuth_from_deg, azimuth_to_deg) else {
-        return Trackability::Nothing;
+    let step_s = samples.iter().zip(samples.iter().skip(1)).next();
+    let step_s = step_s.map_or(1.0, |(first, second)| seconds_between(first.time, second.time));
+    let along = |way| {
+        let planned = axes.along(samples, step_s, Start::default(), way);
+        lost(samples, reach, axes, &planned)
     };
-    let route = AzimuthRoute::along(samples, range, None);
-    let wanted = |(sample, azimuth_deg): (&Sample, f64)| {
-        let elevation_deg = sample.direction.elevation_deg();
-        [azimuth_deg, elevation_deg.clamp(elevation_from_deg, elevation_to_deg)]
-    };
-    let mut axes_deg = samples.iter().zip(route.positions_deg()).next().map(wanted);
-    let (mut lost_s, mut whole_s, mut first) = (0.0, 0.0, None);
-    for ((before, sample), azimuth_deg) in
-        samples.iter().zip(samples.iter().skip(1)).zip(route.positions_deg().skip(1))
-    {
-        let (Some(axes_deg), span_s) = (&mut axes_deg, seconds_between(before.time, sample.time))
-        else {
-            continue;
-        };
-        if span_s <= 0.0 {
-            continue;
-        }
-        whole_s += span_s;
-        let most_deg = reach.maximum_rate_deg_s * span_s;
-        for (axis_deg, goal_deg) in axes_deg.iter_mut().zip(wanted((sample, azimuth_deg))) {
-            *axis_deg += (goal_deg - *axis_deg).clamp(-most_deg, most_deg);
-        }
-        if off_deg(*axes_deg, sample, reach) > reach.half_beam.degrees() {
-            lost_s += span_s;
-            first = first.or_else(|| {
-                let is_swing = route
-                    .swings()
-                    .iter()
-                    .any(|swing| (0.0..=SWING_S).contains(&seconds_between(*swing, sample.time)));
-                Some(if is_swing {
-                    Loss::Swing
-                } else if sample.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
-                    Loss::Overhead
-                } else {
-                    Loss::OutOfReach
-                })
-            });
-        }
+    let plain = along(Way::Plain);
+    if plain.0 <= 0.0 {
+        return Trackability::Whole;
     }
-    Trackability::of(lost_s, whole_s, first.unwrap_or(Loss::OutOfReach))
+    let all = std::iter::once(plain).chain(axes.others(samples).map(along));
+    let (lost_s, at) = all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(plain);
+    let whole_s = samples.first().zip(samples.last());
+    let whole_s = whole_s.map_or(0.0, |(first, last)| seconds_between(first.time, last.time));
+    Trackability::of(lost_s, whole_s, at)
 }
 
-/// How far the axes point beside the sample, degrees.
-fn off_deg([azimuth_deg, elevation_deg]: [f64; 2], sample: &Sample, reach: Reach) -> f64 {
-    let off = azimuth_deg - sample.direction.azimuth_deg();
-    let off = (off + 180.0).rem_euclid(360.0) - 180.0;
-    if !reach.has_elevation {
-        return off.abs();
+/// For how many seconds the beam misses the satellite, and where that begins.
+fn lost(samples: &[Sample], reach: Reach, axes: AzElAxes, planned: &Planned) -> (f64, Loss) {
+    let [azimuths, elevations] = &planned.axes_deg;
+    let (mut lost_s, mut first) = (0.0, None);
+    let each = samples.iter().zip(samples.iter().skip(1));
+    for ((before, sample), axes_deg) in
+        each.zip(azimuths.iter().zip(elevations).skip(1).map(|(azimuth, at)| [*azimuth, *at]))
+    {
+        if axes.off(sample.direction, axes_deg) > reach.half_beam {
+            lost_s += seconds_between(before.time, sample.time);
+            first = first.or(Some(sample));
+        }
     }
-    let across = off * sample.direction.elevation.radians().cos();
-    across.hypot(elevation_deg - sample.direction.elevation_deg())
+    let Some(first) = first else { return (0.0, Loss::OutOfReach) };
+    let near_s = TURN_DEG / reach.maximum_rate_deg_s;
+    let is_near = |swing: &Sample| seconds_between(swing.time, first.time).abs() <= near_s;
+    let at = if planned.swings.iter().filter_map(|index| samples.get(*index)).any(is_near) {
+        Loss::Swing
+    } else if first.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
+        Loss::Overhead
+    } else {
+        Loss::OutOfReach
+    };
+    (lost_s, at)
 }
 
 #[cfg(test)]
@@ -81,7 +69,10 @@ mod tests {
     use jiff::Timestamp;
 
     use super::*;
-    use crate::astro::{Angle, AzEl, time::add_seconds};
+    use crate::{
+        astro::{Angle, AzEl, time::add_seconds},
+        station::Mount,
+    };
 
     /// A pass in a straight line over the ground that comes as near to the site
     /// as `km`, 7.5 km/s fast and 800 km high, flying towards `azimuth_deg`.
@@ -151,6 +142,23 @@ mod tests {
         let lost = super::trackability(&west, reach(200.0, 3.0));
         assert!(matches!(lost, Trackability::Nothing | Trackability::Loses { .. }), "{lost:?}");
         assert_ne!(lost, Trackability::Whole);
+    }
+
+    #[test]
+    fn over_the_zenith_neither_costs_anything() {
+        let over = |mut reach: Reach| {
+            if let Mount::AzEl { elevation_to_deg, .. } = &mut reach.mount {
+                *elevation_to_deg = 180.0;
+            }
+            reach
+        };
+        let through_north = pass(600.0, 275.0);
+        let whole = super::trackability(&through_north, over(reach(360.0, 3.0)));
+        assert_eq!(whole, Trackability::Whole);
+        let whole = super::trackability(&pass(8.0, 90.0), over(reach(450.0, 3.0)));
+        assert_eq!(whole, Trackability::Whole);
+        let lost = super::trackability(&pass(8.0, 90.0), reach(450.0, 3.0));
+        assert!(matches!(lost, Trackability::Loses { at: Loss::Overhead, .. }), "{lost:?}");
     }
 
     #[test]

@@ -2,42 +2,36 @@
 //! as at the zenith or where the axis has to go round by a turn: it sets out
 //! early and comes in late, so that the error in the sky is least.
 
+mod cheapest;
+
 use std::ops::Range;
 
 /// Between the two bounds of an axis that keeps up, degrees.
 const SAME_DEG: f64 = 1e-6;
-/// So many beginnings of a swing are tried.
-const TRIED: usize = 200;
 
 /// A way along `wanted` (positions of an axis at equal intervals, degrees) that
 /// never turns by more than `most_deg` in an interval. Where the course is not
-/// faster it is the course itself. `weight` is what an error of the axis counts
-/// for in the sky, such as the square of the cosine of the elevation.
-pub(super) fn within_rate(wanted: &[f64], weight: &[f64], most_deg: f64) -> Vec<f64> {
-    let Bounds { low, high } = Bounds::around(wanted, most_deg);
-    let mut way = low.clone();
-    for swing in swings(&low, &high) {
-        let Some((first, last)) = ends(wanted, &swing) else { continue };
-        let slope_deg = most_deg.copysign(last - first);
-        let eased = |index: usize, begin: usize| {
-            let steps = index as f64 - begin as f64;
-            let line = first + slope_deg * steps;
-            let (low, high) = (at(&low, index), at(&high, index));
-            line.max(low).min(high)
-        };
-        let cost = |begin: usize| -> f64 {
-            let error = |index: usize| {
-                let off = (eased(index, begin) - at(wanted, index)).to_radians();
-                at(weight, index) * (1.0 - off.cos())
-            };
-            swing.clone().map(error).sum()
-        };
-        let stride = swing.len().div_ceil(TRIED).max(1);
-        let begins = swing.clone().step_by(stride).map(|begin| (begin, cost(begin)));
-        let Some((begin, _)) = begins.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
-        for index in swing {
-            if let Some(place) = way.get_mut(index) {
-                *place = eased(index, begin);
+/// faster it is the course itself; elsewhere the sum of `cost` is least, which is
+/// what it costs that the axis stands there at one of the intervals.
+pub(super) fn within_rate(
+    wanted: &[f64],
+    most_deg: f64,
+    cost: impl Fn(usize, f64) -> f64,
+) -> Vec<f64> {
+    let bounds = Bounds::around(wanted, most_deg);
+    let mut way = bounds.low.clone();
+    for swing in bounds.swings() {
+        let mut place = at(&bounds.low, swing.start.saturating_sub(1));
+        let rough = cheapest::between(&bounds, &swing, place, most_deg, &cost);
+        for (index, rough_deg) in swing.zip(rough.places_deg) {
+            // As near as the grid is coarse, the course itself is better.
+            let course = at(wanted, index);
+            let is_near = (course - rough_deg).abs() <= rough.cell_deg;
+            let way_deg = if is_near { course - place } else { rough_deg - place };
+            place += way_deg.min(most_deg).max(-most_deg);
+            place = place.max(at(&bounds.low, index)).min(at(&bounds.high, index));
+            if let Some(way) = way.get_mut(index) {
+                *way = place;
             }
         }
     }
@@ -57,6 +51,21 @@ impl Bounds {
         let high = lowest(&negated, most_deg).into_iter().map(|place| -place).collect();
         Self { low: lowest(wanted, most_deg), high }
     }
+
+    /// The stretches in which the axis does not keep up.
+    fn swings(&self) -> Vec<Range<usize>> {
+        let mut found: Vec<Range<usize>> = Vec::new();
+        for (index, (low, high)) in self.low.iter().zip(&self.high).enumerate() {
+            if high - low <= SAME_DEG {
+                continue;
+            }
+            match found.last_mut() {
+                Some(last) if last.end == index => last.end += 1,
+                _ => found.push(index..index + 1),
+            }
+        }
+        found
+    }
 }
 
 /// The highest way that is nowhere above the course.
@@ -75,27 +84,6 @@ fn lowest(wanted: &[f64], most_deg: f64) -> Vec<f64> {
     way
 }
 
-/// The stretches in which the axis does not keep up.
-fn swings(low: &[f64], high: &[f64]) -> Vec<Range<usize>> {
-    let mut found: Vec<Range<usize>> = Vec::new();
-    for (index, (low, high)) in low.iter().zip(high).enumerate() {
-        if high - low <= SAME_DEG {
-            continue;
-        }
-        match found.last_mut() {
-            Some(last) if last.end == index => last.end += 1,
-            _ => found.push(index..index + 1),
-        }
-    }
-    found
-}
-
-/// Where the course is before a swing and after it.
-fn ends(wanted: &[f64], swing: &Range<usize>) -> Option<(f64, f64)> {
-    let last = swing.end.min(wanted.len().checked_sub(1)?);
-    Some((*wanted.get(swing.start.saturating_sub(1))?, *wanted.get(last)?))
-}
-
 fn at(places: &[f64], index: usize) -> f64 {
     places.get(index).copied().unwrap_or_default()
 }
@@ -106,6 +94,13 @@ mod tests {
 
     fn fastest(way: &[f64]) -> f64 {
         way.windows(2).map(|two| (two[1] - two[0]).abs()).fold(0.0, f64::max)
+    }
+
+    /// Along `wanted`, where an error counts as much as `weight` says.
+    fn weighted(wanted: &[f64], weight: &[f64], most_deg: f64) -> Vec<f64> {
+        let cost =
+            |at: usize, place: f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
+        within_rate(wanted, most_deg, cost)
     }
 
     fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
@@ -135,8 +130,8 @@ mod tests {
     #[test]
     fn a_slow_course_is_followed_as_it_is() {
         let wanted: Vec<f64> = (0..100).map(|at| (f64::from(at) * 0.1).sin() * 9.0).collect();
-        assert_eq!(within_rate(&wanted, &[1.0; 100], 1.0), wanted);
-        assert!(within_rate(&[], &[], 1.0).is_empty());
+        assert_eq!(weighted(&wanted, &[1.0; 100], 1.0), wanted);
+        assert!(weighted(&[], &[], 1.0).is_empty());
     }
 
     #[test]
@@ -144,7 +139,7 @@ mod tests {
         let (wanted, weight) = overhead(2.0);
         assert!(fastest(&wanted) > 10.0);
         for most_deg in [2.0, 6.0] {
-            let way = within_rate(&wanted, &weight, most_deg);
+            let way = weighted(&wanted, &weight, most_deg);
             assert!(fastest(&way) <= most_deg + 1e-9);
             // Half of it is done at the zenith.
             assert!(way[300].abs() < most_deg, "{}", way[300]);
@@ -158,7 +153,7 @@ mod tests {
     #[test]
     fn no_shift_of_the_swing_is_better() {
         let (wanted, weight) = overhead(3.0);
-        let way = within_rate(&wanted, &weight, 3.0);
+        let way = weighted(&wanted, &weight, 3.0);
         let best = cost(&way, &wanted, &weight);
         for shift in [-4_i32, -2, 2, 4] {
             let moved: Vec<f64> = (0..601)
@@ -171,7 +166,7 @@ mod tests {
     #[test]
     fn a_turn_back_is_taken_at_full_rate() {
         let wanted: Vec<f64> = (0..200).map(|at| if at < 100 { 350.0 } else { 5.0 }).collect();
-        let way = within_rate(&wanted, &[1.0; 200], 6.0);
+        let way = weighted(&wanted, &[1.0; 200], 6.0);
         assert!(fastest(&way) <= 6.0 + 1e-9);
         let turning = way.windows(2).filter(|two| (two[0] - two[1]).abs() > 1e-9).count();
         assert_eq!(turning, 58, "345 degrees at 6 degrees");

@@ -1,0 +1,158 @@
+//! Elevation over azimuth: where both axes have to stand along a pass. They never
+//! turn faster than they can, so overhead the azimuth sets out early, and where it
+//! is not right the elevation makes the best of it.
+//!
+//! An elevation axis that travels over the zenith reaches every direction in two
+//! ways. Which one is better for a pass is found out by trying them all.
+
+mod seen;
+mod way;
+
+use super::{
+    Sample,
+    azimuth_route::{AzimuthRange, AzimuthRoute},
+    within_rate::within_rate,
+};
+use crate::astro::{Angle, AzEl};
+use seen::Seen;
+pub(super) use way::Way;
+
+/// Another way than the plain one has to point better by this, degrees: nobody
+/// tips an antenna over for less.
+const WORTH_DEG: f64 = 0.1;
+
+/// The two axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AzElAxes {
+    /// Ends of the azimuth axis, degrees.
+    pub(super) azimuth_deg: (f64, f64),
+    /// Ends of the elevation axis as far as it may be used, degrees, beyond 90
+    /// over the zenith; `None` where only the azimuth turns.
+    pub(super) elevation_deg: Option<(f64, f64)>,
+    /// How fast each axis turns, degrees a second.
+    pub(super) rates_deg_s: [f64; 2],
+}
+
+/// Where both axes stand, and how long before a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Start {
+    /// Degrees as the mount counts; `None` when it is not known.
+    pub(super) axes_deg: [Option<f64>; 2],
+    /// Seconds.
+    pub(super) lead_s: f64,
+}
+
+/// Where both axes have to stand along a pass.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Planned {
+    pub(super) way: Way,
+    /// Degrees as the mount counts, one for each sample.
+    pub(super) axes_deg: [Vec<f64>; 2],
+    /// The samples at which the azimuth axis swings round, because it is at an end.
+    pub(super) swings: Vec<usize>,
+}
+
+impl AzElAxes {
+    /// The way along `samples`, `step_s` seconds apart, with the least error from
+    /// where the axes stand now; the plain one when no other is better.
+    pub(super) fn best(&self, samples: &[Sample], step_s: f64, start: Start) -> Planned {
+        let mut best = self.along(samples, step_s, start, Way::Plain);
+        let mut best_deg = self.error_deg(samples, step_s, start, &best) - WORTH_DEG;
+        if best_deg <= 0.0 {
+            return best;
+        }
+        for way in self.others(samples) {
+            let planned = self.along(samples, step_s, start, way);
+            let error_deg = self.error_deg(samples, step_s, start, &planned);
+            if error_deg < best_deg {
+                (best, best_deg) = (planned, error_deg);
+            }
+        }
+        best
+    }
+
+    /// The ways other than the plain one that the axes have along `samples`.
+    pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Way> + use<> {
+        let tips_over = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
+        let is_high = samples.iter().any(|sample| seen::is_overhead(sample.direction));
+        let over = [Way::Over, Way::Back].into_iter().filter(move |_| is_high);
+        std::iter::once(Way::Flipped).chain(over).filter(move |_| tips_over)
+    }
+
+    /// The `way` along `samples`, `step_s` seconds apart. The azimuth axis begins on
+    /// the turn that lasts, of several the one nearest to where it stands. What is
+    /// out of reach is waited for as near as can be.
+    pub(super) fn along(&self, samples: &[Sample], step_s: f64, start: Start, way: Way) -> Planned {
+        let [azimuth_most_deg, elevation_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
+        let tipped = way.tipped(samples);
+        let seen: Vec<Seen> = samples
+            .iter()
+            .zip(&tipped)
+            .map(|(sample, is_tipped)| Seen::new(sample.direction, *is_tipped, self.elevation_deg))
+            .collect();
+        let cost = |index: usize, azimuth_deg: f64| {
+            seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(azimuth_deg))
+        };
+        // First as if the axis had no ends, so that a turn of the sky which it does
+        // not make in time takes it to none.
+        let free = within_rate(&way::azimuths_deg(samples, &tipped), azimuth_most_deg, cost);
+        let [azimuth_now_deg, _] = start.axes_deg;
+        let route = AzimuthRange::new(self.azimuth_deg).map_or_else(
+            || AzimuthRoute {
+                positions_deg: vec![self.azimuth_deg.0; samples.len()],
+                ..AzimuthRoute::default()
+            },
+            |range| AzimuthRoute::along(&free, range, azimuth_now_deg),
+        );
+        let (from_deg, to_deg) = self.azimuth_deg;
+        let azimuths: Vec<f64> = within_rate(&route.positions_deg, azimuth_most_deg, cost)
+            .into_iter()
+            .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
+            .collect();
+        let pairs = seen.iter().zip(&azimuths);
+        let elevations: Vec<f64> =
+            pairs.map(|(seen, azimuth_deg)| seen.elevation_deg(*azimuth_deg)).collect();
+        let elevations = within_rate(&elevations, elevation_most_deg, |index, elevation_deg| {
+            let pair = seen.get(index).zip(azimuths.get(index));
+            pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
+        });
+        Planned { way, axes_deg: [azimuths, elevations], swings: route.swings }
+    }
+
+    /// The root of the mean square error along `samples` of axes that set out from
+    /// `start`, degrees. What is below the reach of the antenna does not count.
+    fn error_deg(&self, samples: &[Sample], step_s: f64, start: Start, planned: &Planned) -> f64 {
+        let [azimuths, elevations] = &planned.axes_deg;
+        let mut axes_deg = start.axes_deg;
+        let (mut sum_deg2, mut count, mut span_s) = (0.0, 0_u32, start.lead_s);
+        for ((sample, azimuth_deg), elevation_deg) in samples.iter().zip(azimuths).zip(elevations) {
+            let goals_deg = [*azimuth_deg, *elevation_deg];
+            for ((axis, goal_deg), rate) in axes_deg.iter_mut().zip(goals_deg).zip(self.rates_deg_s)
+            {
+                let at_deg = axis.unwrap_or(goal_deg);
+                let most_deg = rate * span_s;
+                *axis = Some(at_deg + (goal_deg - at_deg).min(most_deg).max(-most_deg));
+            }
+            span_s = step_s;
+            let lowest_deg = self.elevation_deg.map_or(f64::MIN, |(lowest_deg, _)| lowest_deg);
+            if sample.direction.elevation_deg() >= lowest_deg {
+                let off_deg = self.off(sample.direction, axes_deg.map(Option::unwrap_or_default));
+                sum_deg2 += off_deg.degrees().powi(2);
+                count += 1;
+            }
+        }
+        (sum_deg2 / f64::from(count.max(1))).sqrt()
+    }
+
+    /// How far the axes point beside `direction`.
+    pub(super) fn off(&self, direction: AzEl, [azimuth_deg, elevation_deg]: [f64; 2]) -> Angle {
+        if self.elevation_deg.is_some() {
+            direction.separation(AzEl::from_degrees(azimuth_deg, elevation_deg))
+        } else {
+            (Angle::from_degrees(azimuth_deg) - direction.azimuth).wrapped_180().abs()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

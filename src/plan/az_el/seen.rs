@@ -1,0 +1,88 @@
+//! A direction as the two axes see it, made ready to be looked at often.
+
+use crate::astro::AzEl;
+
+/// From here on up the azimuth may have to turn faster than it can, degrees.
+const OVERHEAD_FROM_DEG: f64 = 60.0;
+
+/// Whether `direction` is so high that the elevation makes up for an azimuth that
+/// does not keep up. Further down it would tip the antenna up and down again while
+/// the azimuth goes round, and point nowhere near all the same.
+pub(super) fn is_overhead(direction: AzEl) -> bool {
+    direction.elevation_deg() >= OVERHEAD_FROM_DEG
+}
+
+/// A direction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    azimuth_rad: f64,
+    /// Sine and cosine of its elevation.
+    height: (f64, f64),
+    /// Where the elevation axis points to it, degrees.
+    usual_deg: f64,
+    usual: (f64, f64),
+    /// Ends of the elevation axis where it makes up for the azimuth, degrees.
+    ends_deg: Option<[f64; 2]>,
+    ends: Option<[(f64, f64); 2]>,
+}
+
+impl Seen {
+    /// `direction` for an elevation axis between `ends_deg` that is tipped over the
+    /// zenith, or is not.
+    pub(super) fn new(direction: AzEl, is_tipped: bool, ends_deg: Option<(f64, f64)>) -> Self {
+        let elevation_deg = direction.elevation_deg();
+        let side_deg = if is_tipped { 180.0 - elevation_deg } else { elevation_deg };
+        let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
+        let usual_deg = side_deg.min(to_deg).max(from_deg);
+        let helps = ends_deg.filter(|_| is_overhead(direction));
+        let ends_deg = helps.map(|(from_deg, to_deg)| [from_deg, to_deg]);
+        let turned = |deg: f64| deg.to_radians().sin_cos();
+        Self {
+            azimuth_rad: direction.azimuth.radians(),
+            height: direction.elevation.radians().sin_cos(),
+            usual_deg,
+            usual: turned(usual_deg),
+            ends_deg,
+            ends: ends_deg.map(|ends_deg| ends_deg.map(turned)),
+        }
+    }
+
+    /// Where the elevation axis points best while the azimuth axis stands there,
+    /// both in degrees.
+    pub(super) fn elevation_deg(&self, azimuth_deg: f64) -> f64 {
+        let Some([from_deg, to_deg]) = self.ends_deg else { return self.usual_deg };
+        let (up, along) = self.in_plane(azimuth_deg);
+        up.atan2(along).to_degrees().min(to_deg).max(from_deg)
+    }
+
+    /// What it costs that the axes stand there: grows with the square of a small
+    /// error, to 2 for the opposite direction.
+    pub(super) fn cost(&self, azimuth_deg: f64, elevation_deg: f64) -> f64 {
+        let (sin, cos) = elevation_deg.to_radians().sin_cos();
+        let (up, along) = self.in_plane(azimuth_deg);
+        1.0 - (up * sin + along * cos)
+    }
+
+    /// The same with the elevation axis where it points best.
+    pub(super) fn azimuth_cost(&self, azimuth_deg: f64) -> f64 {
+        let (up, along) = self.in_plane(azimuth_deg);
+        let towards = |(sin, cos): (f64, f64)| up * sin + along * cos;
+        let Some([from, to]) = self.ends else { return 1.0 - towards(self.usual) };
+        // The sign of a cross product tells on which side of an end it is.
+        let is_beyond = |(sin, cos): (f64, f64)| up * cos - along * sin > 0.0;
+        if is_beyond(to) {
+            1.0 - towards(to)
+        } else if is_beyond(from) {
+            1.0 - up.hypot(along)
+        } else {
+            1.0 - towards(from)
+        }
+    }
+
+    /// Its part in the plane in which the elevation axis turns: up, and along the
+    /// azimuth axis.
+    fn in_plane(&self, azimuth_deg: f64) -> (f64, f64) {
+        let (up, out) = self.height;
+        (up, out * (azimuth_deg.to_radians() - self.azimuth_rad).cos())
+    }
+}

@@ -1,0 +1,127 @@
+use super::*;
+use crate::astro::time::add_seconds;
+
+/// A pass in a straight line over the ground, 7.5 km/s fast and 800 km high, that
+/// comes as near to the site as `km` and flies towards `towards_deg`; every second.
+fn pass(km: f64, towards_deg: f64) -> Vec<Sample> {
+    let sample = |second: i32| {
+        let along = 7.5 * f64::from(second);
+        let direction = AzEl::from_enu(glam::DVec3::new(km, along, 800.0));
+        let azimuth = direction.azimuth + Angle::from_degrees(towards_deg);
+        let time = add_seconds(jiff::Timestamp::UNIX_EPOCH, f64::from(second) + 400.0);
+        Sample { time, direction: AzEl { azimuth: azimuth.wrapped_360(), ..direction } }
+    };
+    (-400..=400).map(sample).collect()
+}
+
+fn axes(azimuth_to_deg: f64, elevation_to_deg: f64, rate_deg_s: f64) -> AzElAxes {
+    AzElAxes {
+        azimuth_deg: (0.0, azimuth_to_deg),
+        elevation_deg: Some((0.0, elevation_to_deg)),
+        rates_deg_s: [rate_deg_s; 2],
+    }
+}
+
+fn waiting() -> Start {
+    Start { axes_deg: [Some(100.0), Some(0.0)], lead_s: 3600.0 }
+}
+
+/// The way that is taken, and its root of the mean square error, degrees.
+fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Way, f64) {
+    let planned = axes.best(samples, 1.0, start);
+    (planned.way, axes.error_deg(samples, 1.0, start, &planned))
+}
+
+#[test]
+fn a_usual_pass_stays_plain() {
+    let (way, error_deg) = best(&pass(600.0, 120.0), axes(360.0, 180.0, 4.0), waiting());
+    assert_eq!(way, Way::Plain);
+    assert!(error_deg < 1e-6, "{error_deg}");
+}
+
+#[test]
+fn through_north_the_axes_are_flipped_where_they_can_be() {
+    let samples = pass(600.0, 275.0);
+    let (way, plain_deg) = best(&samples, axes(360.0, 90.0, 4.0), waiting());
+    assert!(way == Way::Plain && plain_deg > 10.0, "{way:?} {plain_deg}");
+    let (way, error_deg) = best(&samples, axes(360.0, 180.0, 4.0), waiting());
+    assert!(way == Way::Flipped && error_deg < 1e-6, "{way:?} {error_deg}");
+    let (way, error_deg) = best(&samples, axes(450.0, 180.0, 4.0), waiting());
+    assert!(way == Way::Plain && error_deg < 1e-6, "{way:?} {error_deg}");
+}
+
+#[test]
+fn close_to_the_zenith_the_elevation_goes_on_over_it() {
+    for (km, towards_deg) in [(20.0, 90.0), (-20.0, 90.0), (20.0, 0.0), (-5.0, 200.0)] {
+        let samples = pass(km, towards_deg);
+        let (_, plain_deg) = best(&samples, axes(360.0, 90.0, 2.0), waiting());
+        let (way, error_deg) = best(&samples, axes(360.0, 180.0, 2.0), waiting());
+        assert!(matches!(way, Way::Over | Way::Back), "{way:?} {km} {towards_deg}");
+        assert!(error_deg < plain_deg / 2.0 && error_deg < 0.6, "{error_deg} {plain_deg}");
+    }
+}
+
+#[test]
+fn the_axes_keep_to_their_rates_and_ends() {
+    for km in [0.0, 3.0, 50.0, 600.0] {
+        for towards_deg in [0.0, 95.0, 180.0, 275.0] {
+            let samples = pass(km, towards_deg);
+            for axes in [axes(360.0, 90.0, 3.0), axes(450.0, 180.0, 3.0), axes(200.0, 120.0, 3.0)] {
+                for way in std::iter::once(Way::Plain).chain(axes.others(&samples)) {
+                    let planned = axes.along(&samples, 1.0, waiting(), way);
+                    let ends_deg = [axes.azimuth_deg, axes.elevation_deg.unwrap()];
+                    for (axis, (from_deg, to_deg)) in planned.axes_deg.iter().zip(ends_deg) {
+                        assert_eq!(axis.len(), samples.len());
+                        assert!(axis.iter().all(|at| (from_deg..=to_deg).contains(at)));
+                        let fastest = axis.windows(2).map(|two| (two[1] - two[0]).abs());
+                        assert!(fastest.fold(0.0, f64::max) < 3.0 + 1e-6);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
+    let samples = pass(600.0, 275.0);
+    let late = &samples[380..];
+    let azimuth_deg = late[0].direction.azimuth_deg();
+    let elevation_deg = late[0].direction.elevation_deg();
+    let over_there = (azimuth_deg + 180.0).rem_euclid(360.0);
+    let start = |axes_deg: [f64; 2]| Start { axes_deg: axes_deg.map(Some), lead_s: 0.0 };
+    let usual = pass(600.0, 120.0);
+    let (way, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
+    assert_eq!(way, Way::Flipped);
+    // Plain is as good in the end, but it takes a minute to get there.
+    let late = &usual[600..];
+    let first = late[0].direction;
+    let tipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];
+    assert_eq!(best(late, axes(360.0, 180.0, 2.0), start(tipped)).0, Way::Flipped);
+    assert_eq!(best(late, axes(360.0, 180.0, 2.0), waiting()).0, Way::Plain);
+}
+
+#[test]
+fn an_azimuth_alone_is_never_flipped() {
+    let alone = AzElAxes { elevation_deg: None, ..axes(360.0, 180.0, 4.0) };
+    assert_eq!(alone.others(&pass(5.0, 0.0)).count(), 0);
+    assert_eq!(best(&pass(600.0, 275.0), alone, waiting()).0, Way::Plain);
+}
+
+#[test]
+fn the_best_elevation_costs_least() {
+    for azimuth_deg in (0..360).step_by(20) {
+        for elevation_deg in [62.0, 75.0, 89.0] {
+            for to_deg in [90.0, 110.0, 180.0] {
+                let direction = AzEl::from_degrees(123.0, elevation_deg);
+                let seen = Seen::new(direction, false, Some((10.0, to_deg)));
+                let azimuth_deg = f64::from(azimuth_deg);
+                let best = seen.cost(azimuth_deg, seen.elevation_deg(azimuth_deg));
+                assert!((best - seen.azimuth_cost(azimuth_deg)).abs() < 1e-12);
+                let others = (10..=180).map(f64::from).filter(|at| *at <= to_deg);
+                let least = others.map(|at| seen.cost(azimuth_deg, at)).fold(9.0, f64::min);
+                assert!(best < least + 1e-12, "{azimuth_deg} {elevation_deg} {to_deg}");
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The cheapest way of an axis between two bounds, on a grid of places and times:
+//! from each place, the best that can come of it is known one look further on.
+
+use std::ops::Range;
+
+use super::{Bounds, at};
+
+/// The axis is looked for at so many places at most.
+const MOST_PLACES: f64 = 240.0;
+/// At its full rate it turns by so many places from one look to the next.
+const FULL: usize = 2;
+/// So little does it cost to turn by a place, lest it is done for nothing.
+const TURN_COST: f64 = 1e-9;
+
+/// A way on the grid.
+pub(super) struct Rough {
+    /// One for each interval of the swing, degrees.
+    pub(super) places_deg: Vec<f64>,
+    /// Between two places of the grid, degrees.
+    pub(super) cell_deg: f64,
+}
+
+/// The cheapest way through `swing` of an axis that stands at `before_deg` one
+/// interval before it and turns by `most_deg` in an interval at most.
+pub(super) fn between(
+    bounds: &Bounds,
+    swing: &Range<usize>,
+    before_deg: f64,
+    most_deg: f64,
+    cost: &impl Fn(usize, f64) -> f64,
+) -> Rough {
+    let low = bounds.low.get(swing.clone()).unwrap_or_default().iter();
+    let high = bounds.high.get(swing.clone()).unwrap_or_default().iter();
+    let least_deg = low.fold(before_deg, |least, at| least.min(*at));
+    let greatest_deg = high.fold(before_deg, |greatest, at| greatest.max(*at));
+    let finest_deg = (greatest_deg - least_deg) / MOST_PLACES;
+    let stride = (finest_deg * FULL as f64 / most_deg).ceil().max(1.0) as usize;
+    let cell_deg = most_deg * stride as f64 / FULL as f64;
+    let below = ((before_deg - least_deg) / cell_deg).ceil() as usize;
+    let places = below + ((greatest_deg - before_deg) / cell_deg).ceil() as usize + 1;
+    let place_deg = |place: usize| before_deg + (place as f64 - below as f64) * cell_deg;
+
+    let mut sums = vec![f64::INFINITY; places];
+    if let Some(start) = sums.get_mut(below) {
+        *start = 0.0;
+    }
+    // From which place each one is reached, look by look.
+    let mut came: Vec<Vec<usize>> = Vec::new();
+    let looks = swing.len().div_ceil(stride);
+    for look in 1..=looks {
+        let index = (swing.start + look * stride).min(swing.end).saturating_sub(1);
+        let lowest_deg = at(&bounds.low, index) - cell_deg;
+        let highest_deg = at(&bounds.high, index) + cell_deg;
+        let best = |place: usize| {
+            let deg = place_deg(place);
+            if deg < lowest_deg || deg > highest_deg {
+                return (place, f64::INFINITY);
+            }
+            let nearby = place.saturating_sub(FULL)..=place + FULL;
+            let from = nearby.filter_map(|from| {
+                let turn_cost = TURN_COST * from.abs_diff(place) as f64;
+                Some((from, sums.get(from)? + turn_cost))
+            });
+            let (from, sum) =
+                from.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((place, f64::INFINITY));
+            (from, sum + cost(index, deg))
+        };
+        let (from, next): (Vec<usize>, Vec<f64>) = (0..places).map(best).unzip();
+        came.push(from);
+        sums = next;
+    }
+
+    let last = sums.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    let mut place = last.map_or(below, |(place, _)| place);
+    let mut at_looks = vec![place_deg(place)];
+    for from in came.iter().rev() {
+        place = from.get(place).copied().unwrap_or(place);
+        at_looks.push(place_deg(place));
+    }
+    at_looks.reverse();
+    let place_at = |interval: usize| {
+        let (look, share) = (interval / stride, (interval % stride) as f64 / stride as f64);
+        let before = at(&at_looks, look);
+        before + (at_looks.get(look + 1).copied().unwrap_or(before) - before) * share
+    };
+    Rough { places_deg: (1..=swing.len()).map(place_at).collect(), cell_deg }
+}
