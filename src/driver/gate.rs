@@ -226,7 +226,7 @@ impl Gate {
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let Motion::Position { azimuth, elevation } = *motion else { return None };
         let measured = self.state().measured;
-        if matches!(self.mount, Mount::Xy { .. }) {
+        if !self.mount.tips_over() {
             let measured = measured.map(|measured| measured.pointing);
             return Some(aimed(azimuth.map(Angle::wrapped_360), elevation, measured));
         }

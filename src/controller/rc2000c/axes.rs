@@ -57,10 +57,15 @@ impl Axes {
         ]
     }
 
-    /// Where the antenna points with its axes there.
-    pub(super) fn pointing([azimuth, elevation]: [Axis; 2]) -> Pointing {
-        let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
-        Pointing::of_axes(angle(azimuth), angle(elevation))
+    /// Where the antenna points with its axes there. On a mount that does not tip
+    /// over, an elevation a little beyond 90 degrees is the noise of its sensor.
+    pub(super) fn pointing(axes: [Axis; 2], mount: &Mount) -> Pointing {
+        let [azimuth, elevation] = axes.map(|axis| axis.angle_deg.map(Angle::from_degrees));
+        if mount.tips_over() {
+            Pointing::of_axes(azimuth, elevation)
+        } else {
+            Pointing { azimuth: azimuth.map(Angle::wrapped_360), elevation }
+        }
     }
 
     /// Which way to jog, that the angle of one axis grows or falls.

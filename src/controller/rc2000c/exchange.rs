@@ -156,7 +156,7 @@ impl Rc2000c {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
             asked: answered.first_sent.steady,
             received: now.steady,
-            pointing: Axes::pointing(axes),
+            pointing: Axes::pointing(axes, &self.mount),
             axes,
         });
         self.state.motion_lock = Some(checks::forbids_motion(&status));

@@ -85,3 +85,46 @@ fn elevation_ends_deg(rotator: &Rotator) -> Option<(f64, f64)> {
     let [one_deg, other_deg] = [one, other].map(|limit| axis_deg(rotator.kind, limit));
     (one != other).then_some((one_deg.min(other_deg), one_deg.max(other_deg)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::protocol::rotator_genius::{Decoder, Received, Reply};
+
+    /// Of two rotators with these limits, clockwise and counter-clockwise.
+    fn travel_deg(azimuth: [u16; 2], elevation: [u16; 2]) -> [Option<(f64, f64)>; 2] {
+        let rotator = |[cw, ccw]: [u16; 2], kind| format!("  0{cw:3}{ccw:3}{kind}0   0999999\0");
+        let mut decoder = Decoder::new();
+        let name = "            ";
+        let one = rotator(azimuth, 'A') + name;
+        let two = rotator(elevation, 'E') + name;
+        decoder.push(format!("|h2\0{one}{two}").as_bytes());
+        let Some(Received::Reply(Reply::Status(status))) =
+            std::iter::from_fn(|| decoder.next()).last()
+        else {
+            panic!("no status")
+        };
+        Roles::of(Rotators::Pair, &status).travel_deg(&status)
+    }
+
+    #[test]
+    fn a_place_for_360_degrees_is_there_where_a_limit_says_so() {
+        for (limits, to_deg) in
+            [([359, 0], 359.0), ([360, 0], 360.0), ([0, 360], 360.0), ([45, 300], 359.0)]
+        {
+            assert_eq!(travel_deg(limits, [90, 0])[0], Some((0.0, to_deg)), "{limits:?}");
+        }
+    }
+
+    #[test]
+    fn an_elevation_travels_between_its_limits_whichever_is_which() {
+        for (limits, ends_deg) in [
+            ([90, 0], Some((0.0, 90.0))),
+            ([0, 180], Some((0.0, 180.0))),
+            ([95, 355], Some((-5.0, 95.0))),
+            ([90, 90], None),
+        ] {
+            assert_eq!(travel_deg([359, 0], limits)[1], ends_deg, "{limits:?}");
+        }
+    }
+}

@@ -19,6 +19,15 @@ fn points(pairs: [(u16, f64); 2]) -> Vec<CountPoint> {
     pairs.map(|(counts, degrees)| CountPoint { counts, degrees }).to_vec()
 }
 
+fn mount(elevation_to_deg: f64) -> Mount {
+    Mount::AzEl {
+        azimuth_from_deg: 90.0,
+        azimuth_to_deg: 540.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg,
+    }
+}
+
 /// Twenty counts a degree.
 fn calibrated() -> Axes {
     Axes::new(&Calibration {
@@ -44,7 +53,8 @@ fn counts_are_angles_once_they_are_calibrated() {
     let unknown = Axes::new(&Calibration::default());
     let axes = unknown.read(&status, None);
     assert_eq!(axes.map(|axis| axis.angle_deg), [None, None]);
-    assert_eq!(Axes::pointing(axes), Pointing { azimuth: None, elevation: None });
+    let pointing = Axes::pointing(axes, &mount(90.0));
+    assert_eq!(pointing, Pointing { azimuth: None, elevation: None });
 }
 
 #[test]
@@ -52,8 +62,24 @@ fn beyond_north_the_axis_counts_on_and_the_pointing_does_not() {
     let far = Status { azimuth: Position::Counts(6030), ..status(IDLE) };
     let axes = calibrated().read(&far, None);
     assert_eq!(axes[0].angle_deg, Some(390.0));
-    let azimuth = Axes::pointing(axes).azimuth.unwrap();
+    let azimuth = Axes::pointing(axes, &mount(90.0)).azimuth.unwrap();
     assert!((azimuth.degrees() - 30.0).abs() < 1e-9);
+}
+
+#[test]
+fn over_the_zenith_the_antenna_points_to_the_other_side() {
+    let over = Status { elevation: Position::Counts(2430), ..status(IDLE) };
+    let axes = calibrated().read(&over, None);
+    assert_eq!(axes[1].angle_deg, Some(120.0));
+    let direction = Axes::pointing(axes, &mount(180.0)).direction().unwrap();
+    let [azimuth, _] = axes;
+    let other_side = (azimuth.angle_deg.unwrap() + 180.0).rem_euclid(360.0);
+    assert!((direction.azimuth_deg() - other_side).abs() < 1e-9);
+    assert!((direction.elevation_deg() - 60.0).abs() < 1e-9);
+    let noise = Status { elevation: Position::Counts(1831), ..status(IDLE) };
+    let axes = calibrated().read(&noise, None);
+    let direction = Axes::pointing(axes, &mount(90.0)).direction().unwrap();
+    assert!((direction.azimuth_deg() - axes[0].angle_deg.unwrap()).abs() < 1e-9);
 }
 
 #[test]

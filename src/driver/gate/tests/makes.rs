@@ -111,3 +111,73 @@ fn an_action_that_moves_passes_every_rule() {
     case.state.motion_lock = Some(true);
     assert_eq!(case.ask(action), Err(Refusal::Fault));
 }
+
+/// A Genius whose elevation travels to 180 degrees, and its gate. Its axes are
+/// tipped over: they point to an azimuth of 20 and an elevation of 60 degrees.
+fn tipped(intent: Intent) -> (Case, Gate) {
+    let mut case = genius(intent);
+    case.antenna.limits.minimum_elevation_deg = 5.0;
+    case.axes()[0].angle_deg = Some(200.0);
+    case.axes()[1].angle_deg = Some(120.0);
+    case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(20.0, 60.0).into();
+    let metal = Metal {
+        can: Make::of(&case.antenna.connection).capabilities,
+        state: case.state.clone(),
+        started: Arc::default(),
+    };
+    let gate = Gate::new(Box::new(metal), case.antenna.limits, case.antenna.mount);
+    (case, gate)
+}
+
+#[test]
+fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
+    let (case, _) = tipped(Intent::Track);
+    for elevation_deg in [5.0, 90.0, 120.0, 175.0] {
+        assert_eq!(case.ask(position(45.0, elevation_deg)), Ok(()), "{elevation_deg}");
+    }
+    for elevation_deg in [4.0, 176.0, 190.0] {
+        let refused = case.ask(position(45.0, elevation_deg));
+        assert!(matches!(refused, Err(Refusal::Elevation { .. })), "{refused:?}");
+    }
+    let mut short = case;
+    if let Mount::AzEl { elevation_to_deg, .. } = &mut short.antenna.mount {
+        *elevation_to_deg = 130.0;
+    }
+    assert_eq!(short.ask(position(45.0, 130.0)), Ok(()));
+    let beyond = short.ask(position(45.0, 131.0));
+    assert!(matches!(beyond, Err(Refusal::Travel { axis: "El", .. })), "{beyond:?}");
+    let plain = rc2000c(Intent::Track).ask(position(45.0, 120.0));
+    assert!(matches!(plain, Err(Refusal::Elevation { .. })), "{plain:?}");
+}
+
+#[test]
+fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
+    let (_, gate) = tipped(Intent::Position);
+    let near = |motion: Motion, wanted: [Option<f64>; 2]| {
+        let Motion::Position { azimuth, elevation } = gate.nearest(motion) else { panic!() };
+        for (at, wanted) in [azimuth, elevation].into_iter().zip(wanted) {
+            assert_eq!(at.map(|at| at.degrees().round()), wanted, "{motion:?}");
+        }
+    };
+    near(position(30.0, 40.0), [Some(30.0), Some(40.0)]);
+    // The angle that is not asked for stays as it is in the sky.
+    near(position(30.0, None), [Some(210.0), None]);
+    near(position(190.0, None), [Some(10.0), None]);
+    near(position(None, 40.0), [None, Some(140.0)]);
+}
+
+#[test]
+fn a_motion_over_the_zenith_ends_on_the_other_side() {
+    let (_, gate) = tipped(Intent::Track);
+    for (motion, azimuth_deg, elevation_deg) in [
+        (position(250.0, 100.0), 70.0, 80.0),
+        (position(250.0, 80.0), 250.0, 80.0),
+        (position(210.0, None), 30.0, 60.0),
+        (position(None, 140.0), 20.0, 40.0),
+        (position(None, 40.0), 200.0, 40.0),
+    ] {
+        let aim = gate.aim(&motion).and_then(Pointing::direction).unwrap();
+        let off = aim.separation(AzEl::from_degrees(azimuth_deg, elevation_deg));
+        assert!(off.degrees() < 1e-9, "{motion:?} {aim:?}");
+    }
+}
