@@ -1,10 +1,10 @@
 //! A Rotator Genius: whole degrees, one speed, and it coasts.
 
 use azel::{
-    astro::time::add_seconds,
+    astro::{AzEl, time::add_seconds},
     controller::rotator_genius::Genius,
     driver::{Command, Event, Intent},
-    plan::FollowStats,
+    plan::{Follow, FollowStats, Target},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions},
     station::{Antenna, Connection, Mount, Rotators},
@@ -105,6 +105,29 @@ async fn through_north_it_goes_round_once() {
 async fn close_to_the_zenith_it_swings_in_time() {
     let (rms, worst) = figures("Genius, 88 degrees", followed(2, &sky::overhead()).await);
     assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
+}
+
+/// All azimuths that the device was sent to, degrees.
+fn azimuths(control: &Control) -> Vec<u16> {
+    let received = control.received();
+    let of = |command: &str| command.strip_prefix("|A1").and_then(|degrees| degrees.parse().ok());
+    received.iter().filter_map(|(_, command)| of(command)).collect()
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_place_for_360_degrees_is_used_where_there_is_one() {
+    let scene = sky::usual();
+    let target = Target::Fixed(AzEl::from_degrees(359.8, 40.0));
+    let follow = Follow { target, passes: Vec::new(), ..scene.follow() };
+    for highest_deg in [360, 359] {
+        let mut options = options(1);
+        options.rotators[0].limit_cw = WholeDegrees::saturating(highest_deg);
+        let (mut rig, control) = connected(&options, &antenna(Rotators::Pair), &scene).await;
+        rig.send(Command::Follow(Box::new(follow.clone())));
+        rig.seconds(120.0).await;
+        let sent = azimuths(&control);
+        assert!(!sent.is_empty() && sent.iter().all(|deg| *deg == highest_deg), "{sent:?}");
+    }
 }
 
 #[tokio::test(start_paused = true)]

@@ -5,6 +5,9 @@ use crate::{
     station::Rotators,
 };
 
+/// Just below a whole turn, degrees: an azimuth that is not told as 360.
+const BELOW_TURN_DEG: f64 = 359.999;
+
 /// What the two rotators are for the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Roles {
@@ -74,8 +77,9 @@ fn axis_deg(kind: RotatorKind, position: WholeDegrees) -> f64 {
 /// Which way round the arc between its limits runs is not sure, so no more is
 /// told of an azimuth than whether it has a place for 360 beside that for 0.
 fn highest_azimuth_deg(rotator: &Rotator) -> f64 {
-    let is_end = [rotator.limit_cw, rotator.limit_ccw].contains(&Some(WholeDegrees::MAX));
-    f64::from(if is_end { WholeDegrees::MAX.degrees() } else { WholeDegrees::MAX.degrees() - 1 })
+    let highest = WholeDegrees::MAX;
+    let is_end = [rotator.limit_cw, rotator.limit_ccw].contains(&Some(highest));
+    if is_end { f64::from(highest.degrees()) } else { BELOW_TURN_DEG }
 }
 
 /// An elevation never goes round by more than half a turn, whichever limit is
@@ -110,7 +114,7 @@ mod tests {
     #[test]
     fn a_place_for_360_degrees_is_there_where_a_limit_says_so() {
         for (limits, to_deg) in
-            [([359, 0], 359.0), ([360, 0], 360.0), ([0, 360], 360.0), ([45, 300], 359.0)]
+            [([359, 0], 359.999), ([360, 0], 360.0), ([0, 360], 360.0), ([45, 300], 359.999)]
         {
             assert_eq!(travel_deg(limits, [90, 0])[0], Some((0.0, to_deg)), "{limits:?}");
         }

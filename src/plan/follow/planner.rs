@@ -77,10 +77,8 @@ impl Planner {
         axes: [AxisNow; 2],
     ) -> Result<Option<Next>, PropagationError> {
         let [first_now, second_now] = axes;
-        let kept = self.kept_way(now);
-        let is_for = |(path, _): &(Path, Timestamp)| path.is_for(self.drives.rates_deg_s);
-        if kept.is_none() || !self.path.as_ref().is_some_and(is_for) {
-            let found = self.new_path(now, axes.map(|axis| axis.position_deg), kept);
+        if !self.has_path(now) {
+            let found = self.new_path(now, axes.map(|axis| axis.position_deg));
             self.path = Some(found.ok_or(PropagationError::Decayed)?);
         }
         let Some((path, _)) = &self.path else { return Ok(None) };
@@ -136,27 +134,36 @@ impl Planner {
         }
     }
 
-    /// The way that was chosen for the pass at `now` or the next one. It is kept
-    /// also where another path is worked out for other rates.
-    fn kept_way(&self, now: Timestamp) -> Option<Way> {
-        let (path, ends) = self.path.as_ref()?;
-        let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
-        let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
-        (now < *ends && !is_short).then_some(path.way())
+    fn has_path(&self, now: Timestamp) -> bool {
+        let is_for = |(path, _): &(Path, Timestamp)| path.is_for(self.drives.rates_deg_s);
+        self.path.as_ref().is_some_and(is_for) && self.reaches_on(now)
     }
 
-    fn new_path(
-        &self,
-        now: Timestamp,
-        axes_deg: [Option<f64>; 2],
-        way: Option<Way>,
-    ) -> Option<(Path, Timestamp)> {
+    /// Whether the path goes on for long enough.
+    fn reaches_on(&self, now: Timestamp) -> bool {
+        let Some((path, ends)) = &self.path else { return false };
+        let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
+        let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
+        now < *ends && !is_short
+    }
+
+    /// The way of a pass that has begun: it is kept where a path is worked out anew
+    /// for other rates.
+    fn begun_way(&self, now: Timestamp) -> Option<Way> {
+        let (path, _) = self.path.as_ref().filter(|_| self.reaches_on(now))?;
+        (path.seconds(now) >= 0.0).then_some(path.way())
+    }
+
+    fn new_path(&self, now: Timestamp, axes_deg: [Option<f64>; 2]) -> Option<(Path, Timestamp)> {
         let always = (now, Timestamp::MAX);
         let (aos, los) = self.follow.pass(now).unwrap_or(always);
         let from = aos.max(now);
         let to = los.min(add_seconds(from, PATH_S));
         let start = Start { axes_deg, lead_s: seconds_between(now, from) };
-        Some((Path::along(&self.course, &self.drives, (from, to), start, way)?, los))
+        Some((
+            Path::along(&self.course, &self.drives, (from, to), start, self.begun_way(now))?,
+            los,
+        ))
     }
 }
 

@@ -12,6 +12,7 @@ use crate::{
 const TICK_S: f64 = 0.05;
 
 /// Two axes that go to where they were told, at their rate and after a while.
+#[derive(Clone)]
 struct Metal {
     axes_deg: [f64; 2],
     goals_deg: [f64; 2],
@@ -116,27 +117,26 @@ fn max_deg(pass: &Pass) -> f64 {
 }
 
 fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run {
-    run_with(target, pass, drives, following, 0.0)
+    run_on(target, pass, drives, following, &metal(drives, following))
 }
 
-fn run_with(
-    target: Target,
-    pass: &Pass,
-    drives: Drives,
-    following: Following,
-    ignored_deg: f64,
-) -> Run {
-    let passes = vec![(pass.aos.time, pass.los.time)];
-    let follow = Follow { target, site: site(), passes };
-    let mut planner = Planner::new(follow, drives, following).unwrap();
-    let mut metal = Metal {
+fn metal(drives: Drives, following: Following) -> Metal {
+    let [rate_deg_s, _] = drives.rates_deg_s;
+    Metal {
         axes_deg: [180.0, 45.0],
         goals_deg: [180.0, 45.0],
         orders: VecDeque::new(),
-        rate_deg_s: drives.limits.maximum_rate_deg_s,
+        rate_deg_s,
         latency_s: following.latency_s,
-        ignored_deg,
-    };
+        ignored_deg: 0.0,
+    }
+}
+
+fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, metal: &Metal) -> Run {
+    let passes = vec![(pass.aos.time, pass.los.time)];
+    let follow = Follow { target, site: site(), passes };
+    let mut planner = Planner::new(follow, drives, following).unwrap();
+    let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
     let mut run = Run { stats: FollowStats::default(), azimuths_deg: Vec::new() };
     let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
@@ -144,6 +144,9 @@ fn run_with(
     for tick in 0..ticks {
         let now_s = f64::from(tick) * TICK_S;
         let now = add_seconds(begin, now_s);
+        if tick % 5 == 0 {
+            planner.watch(now, metal.axes_deg.map(Some));
+        }
         if now_s >= next_look_s {
             next_look_s += following.period_s;
             if let Some(next) = planner.look(now, metal.now()).unwrap() {
@@ -195,7 +198,9 @@ fn whole_degrees_are_followed_to_their_rounding() {
 fn a_drive_that_ignores_short_ways_is_found_out() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let drives = azel((0.0, 360.0), 4.0, 1.0);
-    let run = run_with(target, &pass, drives, following(1.0, 0.5), 2.0);
+    let following = following(1.0, 0.5);
+    let metal = Metal { ignored_deg: 2.0, ..metal(drives, following) };
+    let run = run_on(target, &pass, drives, following, &metal);
     let (rms, worst, _) = shown("usual, whole degrees, more than 2 at once", run.stats);
     assert!(rms < 1.2 && worst < 3.5, "{rms} {worst}");
 }
@@ -224,4 +229,73 @@ fn near_the_zenith_the_axis_turns_early_and_catches_up() {
         let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} degrees a second"), run.stats);
         assert!(rms < 20.0 / rate_deg_s && worst < 60.0 / rate_deg_s, "{rms} {worst}");
     }
+}
+
+fn over(mut drives: Drives) -> Drives {
+    if let Mount::AzEl { elevation_to_deg, .. } = &mut drives.mount {
+        *elevation_to_deg = 180.0;
+    }
+    drives
+}
+
+#[test]
+fn over_the_zenith_a_pass_through_north_needs_no_swing() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
+    });
+    let run = run(target, &pass, over(azel((0.0, 360.0), 4.0, 0.0)), following(1.0, 0.2));
+    let (rms, worst, _) = shown("north, 0 to 360 and 180", run.stats);
+    assert!(worst < 0.5 && rms < 0.2, "{rms} {worst}");
+}
+
+#[test]
+fn over_the_zenith_no_pass_needs_a_fast_axis() {
+    let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
+    for rate_deg_s in [2.0, 6.0] {
+        let drives = over(azel((0.0, 360.0), rate_deg_s, 0.0));
+        let run = run(target.clone(), &pass, drives, following(1.0, 0.2));
+        let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} and to 180"), run.stats);
+        assert!(rms < 0.5 && worst < 2.3, "{rms} {worst}");
+    }
+}
+
+#[test]
+fn a_rate_is_learned_on_the_way_to_a_pass() {
+    let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
+    let following = following(1.0, 0.2);
+    for mount in
+        [azel, |range_deg, rate_deg_s, step_deg| over(azel(range_deg, rate_deg_s, step_deg))]
+    {
+        let right = mount((0.0, 360.0), 4.0, 0.0);
+        let (known_deg, ..) =
+            shown("rate as set", run(target.clone(), &pass, right, following).stats);
+        for share in [0.5, 2.0] {
+            let wrong = mount((0.0, 360.0), 4.0 * share, 0.0);
+            let mut metal = metal(right, following);
+            metal.axes_deg[0] = (pass.aos.direction.azimuth_deg() + 120.0).rem_euclid(360.0);
+            metal.goals_deg = metal.axes_deg;
+            let run = run_on(target.clone(), &pass, wrong, following, &metal);
+            let (rms, ..) = shown(&format!("{share} of the rate set"), run.stats);
+            assert!(rms < known_deg + 0.1, "{rms} {known_deg}");
+        }
+    }
+}
+
+#[test]
+fn a_planner_keeps_the_side_for_the_pass() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
+    });
+    let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let drives = over(azel((0.0, 360.0), 4.0, 0.0));
+    let mut planner = Planner::new(follow, drives, following(1.0, 0.2)).unwrap();
+    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let mut elevation_deg = |at: Timestamp| {
+        let next = planner.look(at, axes).unwrap().unwrap();
+        planner.drives.rates_deg_s[0] *= 2.0;
+        next.set_point.elevation.unwrap().degrees()
+    };
+    assert!(elevation_deg(add_seconds(pass.aos.time, 1.0)) > 90.0);
+    // For what is left, plain would be as good, and another path is due.
+    assert!(elevation_deg(add_seconds(pass.los.time, -10.0)) > 90.0);
 }
