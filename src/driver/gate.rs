@@ -198,15 +198,19 @@ impl Gate {
 
     /// The motion to a direction of the sky, as the axes count: the azimuth axis
     /// goes to the nearest of its positions. Where one angle is to stay, axes that
-    /// are tipped over the zenith stay so.
-    pub(super) fn nearest(&self, motion: Motion) -> Motion {
-        let Motion::Position { azimuth, elevation } = motion else { return motion };
+    /// are tipped over the zenith stay so. An error beyond it, where there is no sky.
+    pub(super) fn nearest(&self, motion: Motion) -> Result<Motion, Refusal> {
+        let Motion::Position { azimuth, elevation } = motion else { return Ok(motion) };
+        if let Some(asked_deg) = elevation.map(Angle::degrees).filter(|deg| *deg > 90.0 + 1e-9) {
+            let lowest_deg = self.limits.minimum_elevation_deg;
+            return Err(Refusal::Elevation { asked_deg, lowest_deg });
+        }
         let stays_tipped = self.is_tipped() && (azimuth.is_none() || elevation.is_none());
         let tipped = |elevation| if stays_tipped { HALF_TURN - elevation } else { elevation };
-        Motion::Position {
+        Ok(Motion::Position {
             azimuth: azimuth.map(|azimuth| self.nearest_azimuth(azimuth, stays_tipped)),
             elevation: elevation.map(tipped),
-        }
+        })
     }
 
     /// An azimuth beyond the sky that the axis has is meant as the axis counts.

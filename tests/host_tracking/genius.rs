@@ -138,6 +138,32 @@ async fn over_the_zenith_it_need_not_go_round() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn over_the_zenith_the_sky_shows_where_it_points() {
+    let scene = sky::through_north();
+    let mut options = options(2);
+    options.rotators[1].limit_cw = WholeDegrees::saturating(180);
+    let (mut rig, _) = connected(&options, &over(), &scene).await;
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.until_utc(scene.pass.tca.time).await;
+    let shown = rig.shown();
+    let view = shown.following.clone().unwrap();
+    let measured = shown.state.measured.unwrap();
+    assert!(measured.axes[1].angle_deg.unwrap() > 90.0);
+    let predicted = view.predicted.unwrap().direction;
+    for at in [measured.direction(), view.commanded.unwrap().direction()] {
+        let off = at.unwrap().separation(predicted).degrees();
+        assert!(off < 4.0 && at.unwrap().elevation_deg() < 90.0, "{at:?} {predicted:?}");
+    }
+    // By hand it goes back.
+    let (azimuth, elevation) = (Some(predicted.azimuth), Some(predicted.elevation));
+    rig.send(Command::Position { azimuth, elevation });
+    rig.until_event(120.0, |event| matches!(event, Event::Arrived(_))).await;
+    let measured = rig.shown().state.measured.unwrap();
+    assert!(measured.axes[1].angle_deg.unwrap() < 90.0);
+    assert!(measured.direction().unwrap().separation(predicted).degrees() < 1.5);
+}
+
+#[tokio::test(start_paused = true)]
 async fn over_the_zenith_it_hardly_swings() {
     let stats = followed_over(180, &sky::overhead()).await;
     let (rms, worst) = figures("Genius, 88 degrees, elevation to 180", stats);

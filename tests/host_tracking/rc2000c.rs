@@ -22,10 +22,15 @@ const COUNTS_S: f64 = 40.0;
 /// An antenna whose azimuth axis travels from north to `azimuth_to_deg` on the
 /// 3600 counts of the simulated unit.
 fn antenna(azimuth_to_deg: f64) -> Antenna {
+    antenna_to(azimuth_to_deg, 90.0)
+}
+
+/// The same, and its elevation axis to `elevation_to_deg` on 1800 counts.
+fn antenna_to(azimuth_to_deg: f64, elevation_to_deg: f64) -> Antenna {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let calibration = Calibration {
         azimuth: vec![point(30, 0.0), point(3630, azimuth_to_deg)],
-        elevation: vec![point(30, 0.0), point(1830, 90.0)],
+        elevation: vec![point(30, 0.0), point(1830, elevation_to_deg)],
     };
     let mut antenna = Antenna::rc2000c("Dish", "in memory");
     antenna.connection = Connection::Rc2000c {
@@ -38,7 +43,7 @@ fn antenna(azimuth_to_deg: f64) -> Antenna {
         azimuth_from_deg: 0.0,
         azimuth_to_deg,
         elevation_from_deg: 0.0,
-        elevation_to_deg: 90.0,
+        elevation_to_deg,
     };
     antenna.limits.minimum_elevation_deg = 0.0;
     antenna.limits.maximum_rate_deg_s = COUNTS_S * azimuth_to_deg / 3600.0;
@@ -103,6 +108,17 @@ async fn close_to_the_zenith_it_swings_in_time() {
     let (rms, worst) =
         figures("RC2000C, 88 degrees", followed(&antenna(360.0), &sky::overhead()).await);
     assert!(rms < 4.0 && worst < 15.0, "{rms} {worst}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn over_the_zenith_it_neither_goes_round_nor_swings() {
+    let over = antenna_to(360.0, 180.0);
+    let north = followed(&over, &sky::through_north()).await;
+    let (rms, worst) = figures("RC2000C, through north, 0 to 360 and 180", north);
+    assert!(rms < 0.5 && worst < 1.5, "{rms} {worst}");
+    let overhead = followed(&over, &sky::overhead()).await;
+    let (rms, worst) = figures("RC2000C, 88 degrees, elevation to 180", overhead);
+    assert!(rms < 0.5 && worst < 2.4, "{rms} {worst}");
 }
 
 #[tokio::test(start_paused = true)]

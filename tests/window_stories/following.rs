@@ -105,11 +105,13 @@ fn the_plot_shows_where_the_antenna_was_sent() {
 #[test]
 fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     let mut model = following(FollowPhase::Following, 40.0, AxisMotion::Still);
-    let Mount::AzEl { azimuth_from_deg, .. } = &mut model.antennas[0].config.mount else {
+    let Mount::AzEl { azimuth_from_deg, elevation_to_deg, .. } =
+        &mut model.antennas[0].config.mount
+    else {
         panic!("a Genius turns azimuth and elevation")
     };
-    // The target stands at 134.
-    *azimuth_from_deg = 180.0;
+    // The target stands at 134, which the axes would reach over the zenith too.
+    (*azimuth_from_deg, *elevation_to_deg) = (180.0, 90.0);
     let said = states::sentence(&model);
     assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134.0°"), "{said}");
     assert_eq!(activity(&model.antennas[0]), "Waiting");

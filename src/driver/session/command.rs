@@ -152,10 +152,14 @@ impl Session {
 
     /// Checked before anything that runs is ended for it.
     fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
-        let motion = self.gate.nearest(motion);
-        if let Err(refusal) = self.gate.check(motion, intent, now) {
-            return self.tell(Event::NotSent(refusal));
-        }
+        let checked = self.gate.nearest(motion).and_then(|motion| {
+            self.gate.check(motion, intent, now)?;
+            Ok(motion)
+        });
+        let motion = match checked {
+            Ok(motion) => motion,
+            Err(refusal) => return self.tell(Event::NotSent(refusal)),
+        };
         let aim = self.gate.aim(&motion);
         if self.may_move() {
             self.halt_quietly(now);

@@ -92,7 +92,8 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
             started: Arc::default(),
         };
         let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
-        let Motion::Position { azimuth: Some(axis), .. } = gate.nearest(position(asked_deg, 30.0))
+        let Ok(Motion::Position { azimuth: Some(axis), .. }) =
+            gate.nearest(position(asked_deg, 30.0))
         else {
             panic!("it stays a position")
         };
@@ -154,7 +155,7 @@ fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
 fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
     let (_, gate) = tipped(Intent::Position);
     let near = |motion: Motion, wanted: [Option<f64>; 2]| {
-        let Motion::Position { azimuth, elevation } = gate.nearest(motion) else { panic!() };
+        let Ok(Motion::Position { azimuth, elevation }) = gate.nearest(motion) else { panic!() };
         for (at, wanted) in [azimuth, elevation].into_iter().zip(wanted) {
             assert_eq!(at.map(|at| at.degrees().round()), wanted, "{motion:?}");
         }
@@ -164,6 +165,8 @@ fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
     near(position(30.0, None), [Some(210.0), None]);
     near(position(190.0, None), [Some(10.0), None]);
     near(position(None, 40.0), [None, Some(140.0)]);
+    let beyond = gate.nearest(position(30.0, 120.0));
+    assert!(matches!(beyond, Err(Refusal::Elevation { .. })), "{beyond:?}");
 }
 
 #[test]
