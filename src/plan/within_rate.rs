@@ -6,7 +6,8 @@ mod cheapest;
 
 use std::ops::Range;
 
-/// Between the two bounds of an axis that keeps up, degrees.
+/// Between the two bounds of an axis that keeps up, and as slow an axis does not
+/// turn at all, degrees.
 const SAME_DEG: f64 = 1e-6;
 
 /// A way along `wanted` (positions of an axis at equal intervals, degrees) that
@@ -20,6 +21,9 @@ pub(super) fn within_rate(
 ) -> Vec<f64> {
     let bounds = Bounds::around(wanted, most_deg);
     let mut way = bounds.low.clone();
+    if most_deg <= SAME_DEG {
+        return way;
+    }
     for swing in bounds.swings() {
         let mut place = at(&bounds.low, swing.start.saturating_sub(1));
         let rough = cheapest::between(&bounds, &swing, place, most_deg, &cost);
@@ -132,6 +136,32 @@ mod tests {
         let wanted: Vec<f64> = (0..100).map(|at| (f64::from(at) * 0.1).sin() * 9.0).collect();
         assert_eq!(weighted(&wanted, &[1.0; 100], 1.0), wanted);
         assert!(weighted(&[], &[], 1.0).is_empty());
+    }
+
+    #[test]
+    fn an_axis_that_hardly_turns_stays_where_it_is() {
+        let wanted: Vec<f64> = (0..100).map(f64::from).collect();
+        for most_deg in [0.0, 1e-12, 1e-5] {
+            let way = weighted(&wanted, &[1.0; 100], most_deg);
+            assert!(fastest(&way) <= most_deg + 1e-9, "{most_deg}");
+        }
+    }
+
+    #[test]
+    fn a_course_that_jumps_back_is_crossed_on_the_way() {
+        // As an azimuth that changes to the other side at the zenith: 2 degrees an
+        // interval, of which the axis makes half.
+        let wanted: Vec<f64> = (-50..50)
+            .map(|at| {
+                let side = if at < 0 { 0.0 } else { -180.0 };
+                (f64::from(at) * 0.1).atan().to_degrees() + 90.0 + side
+            })
+            .collect();
+        let cost = |at: usize, place: f64| (place - wanted[at]).to_radians().sin().powi(2);
+        let way = within_rate(&wanted, 4.0, cost);
+        assert!(fastest(&way) <= 4.0 + 1e-9);
+        assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");
+        assert!((way[20] - wanted[20]).abs() < 0.1 && (way[80] - wanted[80]).abs() < 0.1);
     }
 
     #[test]

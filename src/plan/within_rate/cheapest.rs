@@ -48,7 +48,8 @@ pub(super) fn between(
     let mut came: Vec<Vec<usize>> = Vec::new();
     let looks = swing.len().div_ceil(stride);
     for look in 1..=looks {
-        let index = (swing.start + look * stride).min(swing.end).saturating_sub(1);
+        let index = look.saturating_mul(stride).saturating_add(swing.start).min(swing.end);
+        let index = index.saturating_sub(1);
         let lowest_deg = at(&bounds.low, index) - cell_deg;
         let highest_deg = at(&bounds.high, index) + cell_deg;
         let best = |place: usize| {
