@@ -56,14 +56,17 @@ impl Drives {
         start: Start,
         way: Option<Way>,
     ) -> Planned {
-        let Mount::Xy { lower_axis_azimuth_deg, .. } = self.mount else {
-            let axes = self.az_el();
-            return match way {
-                Some(way) => axes.along(samples, step_s, start, way),
-                None => axes.best(samples, step_s, start),
-            };
-        };
-        let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+        match (self.mount, way) {
+            (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => {
+                self.along_crossed(samples, step_s, Angle::from_degrees(lower_axis_azimuth_deg))
+            }
+            (Mount::AzEl { .. }, Some(way)) => self.az_el().along(samples, step_s, start, way),
+            (Mount::AzEl { .. }, None) => self.az_el().best(samples, step_s, start),
+        }
+    }
+
+    /// With two crossed axes.
+    fn along_crossed(&self, samples: &[Sample], step_s: f64, lower_axis: Angle) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
             let elevation_deg = direction.elevation_deg().min(highest_deg).max(lowest_deg);
