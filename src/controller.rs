@@ -186,6 +186,10 @@ pub trait Device: Send {
     /// left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
+    /// The operator has pressed STOP, whatever else was halted before: nothing of
+    /// what was allowed for a while is allowed any more.
+    fn disarm(&mut self) {}
+
     /// After this long a halt that is not proved is sent again: by then a state
     /// that was asked for after it has come in.
     fn halt_patience(&self) -> Duration {

@@ -46,8 +46,7 @@ impl Device for Genius {
         self.drain_until = None;
         self.halts.clear();
         self.orders.clear();
-        self.rescue_until = None;
-        self.is_rescue_wanted = false;
+        self.disarm();
         self.abandon_changes(now);
     }
 
@@ -97,6 +96,11 @@ impl Device for Genius {
 
     fn halt(&mut self, _: Extent, now: Moment) -> Vec<u8> {
         self.stop_both(now)
+    }
+
+    fn disarm(&mut self) {
+        self.rescue_until = None;
+        self.is_rescue_wanted = false;
     }
 
     fn prepare(&mut self, target: TrackTarget) {
