@@ -82,6 +82,11 @@ impl DriveState {
         self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, most_deg_s);
     }
 
+    /// Puts the keyboard on the jog pad as soon as it is free.
+    pub fn focus_pad(&mut self) {
+        self.jog.focus();
+    }
+
     /// Lets go of the jog key. Returns true if one was held.
     pub(super) fn let_go(&mut self) -> bool {
         self.jog = JogState::default();
