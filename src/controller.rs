@@ -221,6 +221,11 @@ pub trait Device: Send {
     /// A motion is queued, or sent and not answered.
     fn motion_under_way(&self) -> bool;
 
+    /// What `motion` becomes in the words of the device, such as whole degrees.
+    fn as_told(&self, motion: Motion) -> Motion {
+        motion
+    }
+
     /// What is known.
     fn state(&self) -> &AntennaState;
 

@@ -208,9 +208,10 @@ impl Gate {
         Motion::Position { azimuth, elevation }
     }
 
-    /// Where a motion to a position would end, for the display.
+    /// Where a motion to a position would end, as the device is told it.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
-        let Motion::Position { azimuth, elevation } = *motion else { return None };
+        let motion = self.controller.as_told(*motion);
+        let Motion::Position { azimuth, elevation } = motion else { return None };
         let measured = self.state().measured.map(|measured| measured.pointing);
         let aim = aimed(azimuth.map(Angle::wrapped_360), elevation, measured);
         Some(aim)

@@ -6,6 +6,7 @@ use super::{
     ALONE, GROUPS, Genius, PAIR, PATIENCE,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
+    orders::in_whole_degrees,
 };
 use crate::{
     controller::{
@@ -129,6 +130,10 @@ impl Device for Genius {
 
     fn motion_under_way(&self) -> bool {
         self.motion_waits()
+    }
+
+    fn as_told(&self, motion: Motion) -> Motion {
+        in_whole_degrees(motion)
     }
 
     fn state(&self) -> &AntennaState {

@@ -56,6 +56,8 @@ pub struct DriveModel<'a> {
     pub elevation_range_deg: Option<(f64, f64)>,
     /// Where the antenna was told to be, in degrees.
     pub commanded_deg: (Option<f64>, Option<f64>),
+    /// Of the numbers that are shown for it.
+    pub commanded_decimals: usize,
     /// Why the last direction was not sent.
     pub go_to_refusal: Option<&'a str>,
     /// What the preview found: time to arrive, limits that are touched.
@@ -135,6 +137,7 @@ pub(super) fn show(
         azimuth_range_deg: model.azimuth_range_deg,
         elevation_range_deg: model.elevation_range_deg,
         commanded_deg: model.commanded_deg,
+        decimals: model.commanded_decimals,
     };
     let asked = go_to::show(ui, fields, &go_to_model, &mut state.go_to);
     actions.extend(asked.map(|action| match action {

@@ -10,7 +10,6 @@ use super::{
 use crate::ui::{
     text, theme,
     widgets::{
-        axes_table,
         fold::{self, FoldModel},
         paint,
         travel_gauge::{self, TravelModel},
@@ -133,12 +132,8 @@ fn travel_in_words(axes: &[TravelModel<'_>]) -> String {
     let words: Vec<String> = axes
         .iter()
         .map(|axis| {
-            let deg = axis.position_deg.map_or_else(
-                || axes_table::UNKNOWN.to_owned(),
-                |deg| format!("{deg:.1}°").replace('-', "−"),
-            );
             let limit = if axis.lower_limit || axis.upper_limit { " limit" } else { "" };
-            format!("{} {deg}{limit}", axis.name)
+            format!("{} {}{limit}", axis.name, axis.number())
         })
         .collect();
     words.join("  ")
