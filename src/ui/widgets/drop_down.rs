@@ -1,6 +1,6 @@
 //! A button that opens choices below it.
 
-use egui::{Popup, Rect, Role, ScrollArea, Ui, WidgetInfo};
+use egui::{Popup, Rect, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 
 use super::button::Button;
 
@@ -31,7 +31,11 @@ impl DropDown<'_> {
         response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
         Popup::menu(&response).width(rect.width()).accessible_name(self.name).show(|ui| {
             ui.set_min_width(ui.available_width());
-            ScrollArea::vertical().max_height(MOST_HEIGHT).show(ui, choices);
+            ScrollArea::vertical().max_height(MOST_HEIGHT).show(ui, |ui| {
+                // A choice may be longer than the button is wide.
+                ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+                choices(ui);
+            });
         });
     }
 }
@@ -45,8 +49,9 @@ mod tests {
 
     #[test]
     fn a_choice_is_made_and_closes_the_list() {
-        let words = ["FTP", "SFTP"];
-        let mut window = testing::window([300.0, 200.0], "FTP", move |ui, chosen| {
+        let long = "SFTP, by the key of the host that was shown before";
+        let words = ["FTP", long];
+        let mut window = testing::window([600.0, 200.0], "FTP", move |ui, chosen| {
             let name = format!("Protocol, {chosen}");
             let list = DropDown { button: Button::normal(chosen), salt: "list", name: &name };
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(120.0, SMALL_HEIGHT));
@@ -56,12 +61,14 @@ mod tests {
                 }
             });
         });
-        assert!(window.query_by_label("SFTP").is_none());
+        assert!(window.query_by_label(long).is_none());
         window.get_by_role_and_label(Role::ComboBox, "Protocol, FTP").click();
         window.run();
-        window.get_by_label("SFTP").click();
+        let choice = window.get_by_label(long).rect();
+        assert!(choice.height() < 40.0 && choice.width() > 200.0, "on one line: {choice:?}");
+        window.get_by_label(long).click();
         window.run();
-        window.get_by_role_and_label(Role::ComboBox, "Protocol, SFTP");
+        window.get_by_role_and_label(Role::ComboBox, &format!("Protocol, {long}"));
         assert!(window.query_by_role_and_label(Role::Button, "FTP").is_none());
     }
 }
