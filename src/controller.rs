@@ -187,6 +187,10 @@ pub trait Device: Send {
     /// left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
+    /// The operator has pressed STOP, whatever else was halted before: nothing of
+    /// what was allowed for a while is allowed any more.
+    fn disarm(&mut self) {}
+
     /// After this long a halt that is not proved is sent again: by then a state
     /// that was asked for after it has come in.
     fn halt_patience(&self) -> Duration {
@@ -217,6 +221,11 @@ pub trait Device: Send {
 
     /// A motion is queued, or sent and not answered.
     fn motion_under_way(&self) -> bool;
+
+    /// What `motion` becomes in the words of the device, such as whole degrees.
+    fn as_told(&self, motion: Motion) -> Motion {
+        motion
+    }
 
     /// What is known.
     fn state(&self) -> &AntennaState;

@@ -104,9 +104,10 @@ impl AntennaModel {
         self.prediction = if self.follows() {
             self.followed_prediction()
         } else {
-            self.tracked_number().and_then(|number| {
+            // What the unit does not follow yet, or has not risen, is waited for, not
+            // missed.
+            self.tracked_number().filter(|_| self.is_on_course()).and_then(|number| {
                 let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
-                // What has not risen yet is waited for, not missed.
                 (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
                     catalog_number: Some(number),
                     at: measured.at,
@@ -191,6 +192,14 @@ impl AntennaModel {
         (self.snapshot.intent == Intent::Track)
             .then(|| self.snapshot.target.as_ref().map(|target| target.catalog_number))
             .flatten()
+    }
+
+    /// Whether the unit is to point at what it tracks by itself. It is not before its
+    /// tracking window opens, and not when the pass is over.
+    fn is_on_course(&self) -> bool {
+        self.snapshot.state.program.is_some_and(|program| {
+            program.enabled && matches!(program.phase, Phase::Tracking | Phase::Unknown(_))
+        })
     }
 
     /// Whether a target is followed right now, by the unit or by this program.

@@ -12,7 +12,8 @@ pub struct Capabilities {
     pub takes_positions: bool,
     /// A direction that is off by this much counts as reached, degrees.
     pub arrives_within_deg: f64,
-    /// Positions are told to it in whole numbers of this many degrees; 0 for any.
+    /// Positions are told to it, and by it, in whole numbers of this many degrees;
+    /// 0 for any.
     pub position_step_deg: f64,
     /// It turns both angles of the sky. Without it the elevation is neither read
     /// nor commanded.

@@ -31,6 +31,8 @@ pub struct AntennaState {
     pub readings: Arc<[Reading]>,
     /// Its faults and warnings by name, where it reports them one by one.
     pub checks: Arc<[Check]>,
+    /// When [`Self::checks`] were read.
+    pub checked_at: Option<Timestamp>,
     /// What a Satrak adds to the above.
     pub satrak: SatrakState,
     /// Its settings, as far as they were read, and what came of changes.

@@ -226,9 +226,10 @@ impl Gate {
         self.mount.axis_azimuth(side, near_deg)
     }
 
-    /// Where a motion to a position would end, for the display.
+    /// Where a motion to a position would end, as the device is told it.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
-        let Motion::Position { azimuth, elevation } = *motion else { return None };
+        let motion = self.controller.as_told(*motion);
+        let Motion::Position { azimuth, elevation } = motion else { return None };
         let measured = self.state().measured;
         if !self.mount.tips_over() {
             let measured = measured.map(|measured| measured.pointing);

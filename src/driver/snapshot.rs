@@ -83,6 +83,7 @@ impl Snapshot {
         let mut newer = newer.clone();
         newer.state.measured = self.state.measured;
         newer.state.traffic = self.state.traffic;
+        newer.state.checked_at = self.state.checked_at;
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.satrak.clock = self.state.satrak.clock;
         newer.state.satrak.gps = self.state.satrak.gps;

@@ -56,6 +56,8 @@ pub struct CardModel<'a> {
     pub sentence: Sentence<'a>,
     /// What the second column of the axes table holds.
     pub wanted: WantedColumn,
+    /// Of the angles that the unit is told and tells, at most two.
+    pub decimals: usize,
     /// The axes in which the unit is commanded.
     pub axes: &'a [AxisRow<'a>],
     /// The error against the beam; none if the antenna has no wanted direction.
@@ -226,7 +228,7 @@ fn fill(
     }
 
     let table = at.take(axes_table::height(model.axes.len()));
-    axes_table::show(ui, table, model.wanted, model.axes);
+    axes_table::show(ui, table, model.wanted, model.decimals, model.axes);
     if let Some(beam) = &model.beam {
         beam_bar::show(ui, at.take(beam_bar::HEIGHT), beam);
     }

@@ -125,7 +125,9 @@ pub fn show(
     state.scroll_to = clicked.or(state.scroll_to);
     let (top, rest) = body.split_top_bottom_at_y(body.top() + head::HEIGHT);
     head::show(ui, top, &unit, commands);
-    let foot = foot::height(ui, &unit, form, rest.width()).min(rest.height() / 2.0);
+    let has_settings = !unit.antenna.groups().is_empty();
+    let foot = if has_settings { foot::height(ui, &unit, form, rest.width()) } else { 0.0 };
+    let foot = foot.min(rest.height() / 2.0);
     let (middle, bottom) = rest.split_top_bottom_at_y(rest.bottom() - foot);
     let mut wants_unlock = false;
     let builder = UiBuilder::new().id_salt(("settings", unit.name())).max_rect(middle);
@@ -140,7 +142,9 @@ pub fn show(
             });
         });
     });
-    foot::show(ui, bottom, &unit, form, commands);
+    if has_settings {
+        foot::show(ui, bottom, &unit, form, commands);
+    }
     if let Some(open) = model.copies.open.as_ref().filter(|open| open.antenna == unit.name()) {
         let of = (unit.index, unit.antenna);
         let taken = copies::show(ui, of, open, &mut state.compare, commands);

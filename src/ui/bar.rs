@@ -90,6 +90,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         chips: &chips,
         alarms: AlarmModel { rows: &rows, unopened: model.alarms.unopened },
         stop: stop_look(model, unproved.as_deref()),
+        stop_about: &stop_about(model),
     };
     for action in top_bar::show(ui, rect, &bar) {
         commands.push(match action {
@@ -101,6 +102,15 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             TopBarAction::SetTheme(name) => UiCommand::SetTheme(name),
         });
     }
+}
+
+/// What STOP does, with what it does beyond that for some of the antennas.
+fn stop_about(model: &Model) -> String {
+    let note = |antenna: &AntennaModel| {
+        Some(format!(" {}: {}", antenna.config.name, antenna.make().capabilities.stop_note?))
+    };
+    let notes: String = model.antennas.iter().filter_map(note).collect();
+    format!("Stops every antenna.{notes}")
 }
 
 fn clock_health(sync: TimeSync) -> ClockHealth<'static> {

@@ -2,7 +2,10 @@
 
 use jiff::{Timestamp, tz::TimeZone};
 
-use crate::{astro::Angle, controller::Pointing};
+use crate::{
+    astro::Angle,
+    controller::{Capabilities, Pointing},
+};
 
 /// The true minus sign.
 const MINUS: char = '\u{2212}';
@@ -48,12 +51,25 @@ pub fn degrees(value_deg: f64, decimals: usize) -> String {
     format!("{}°", number(value_deg, decimals))
 }
 
-/// Azimuth and elevation, as far as they are known.
-pub fn pointing(pointing: Pointing) -> String {
+/// Azimuth and elevation of an antenna that can do so much, as far as they are
+/// known.
+pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
     let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
-    let known: Vec<String> = angles.into_iter().flatten().map(|deg| degrees(deg, 1)).collect();
-    known.join(", ")
+    let decimals = decimals(can).min(1);
+    let known = angles.into_iter().flatten().map(|deg| degrees(deg, decimals));
+    known.collect::<Vec<_>>().join(", ")
+}
+
+/// Decimals of a degree that mean something to a controller that can do so much,
+/// at most two.
+pub fn decimals(can: Capabilities) -> usize {
+    match can.position_step_deg {
+        0.0 => 2,
+        step_deg if step_deg.fract() == 0.0 => 0,
+        step_deg if (step_deg * 10.0).fract() == 0.0 => 1,
+        _ => 2,
+    }
 }
 
 /// An azimuth as three digits with the degree sign; 359.6 is 000.
@@ -131,6 +147,20 @@ pub fn date(at: Timestamp) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_direction_has_the_decimals_of_its_unit() {
+        let at = Pointing::from(crate::astro::AzEl::from_degrees(43.0, 12.0));
+        let satrak = crate::controller::satrak::MAKE.capabilities;
+        let said = |position_step_deg| {
+            let can = Capabilities { position_step_deg, ..satrak };
+            (pointing(at, can), decimals(can))
+        };
+        assert_eq!(said(0.0), ("43.0°, 12.0°".to_owned(), 2));
+        assert_eq!(said(1.0), ("43°, 12°".to_owned(), 0));
+        assert_eq!(said(0.5), ("43.0°, 12.0°".to_owned(), 1));
+        assert_eq!(said(0.25).1, 2);
+    }
 
     #[test]
     fn numbers() {

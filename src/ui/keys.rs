@@ -95,7 +95,11 @@ pub const ALL: [Binding; 21] = [
         &[(Key::G, Act::GoTo)],
         "Position, and type a direction: Enter shows, Enter goes (asks while tracking)",
     ),
-    row(Place::Operate, &[(Key::M, Act::Manual)], "Manual (asks while tracking)"),
+    row(
+        Place::Operate,
+        &[(Key::M, Act::Manual)],
+        "Manual, with the arrows on the jog pad (asks while tracking)",
+    ),
     row(
         Place::Focus,
         &[

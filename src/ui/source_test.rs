@@ -2,13 +2,17 @@
 
 mod seen;
 
-use egui::{ComboBox, RichText, Role, Spinner, TextEdit, Ui, WidgetInfo};
+use egui::{RichText, Sense, Spinner, TextEdit, Ui, vec2};
 
 use super::{
     confirm::Question,
     dialogs::{self, Answer},
     text, theme,
-    widgets::told::{Tone, line},
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        drop_down::DropDown,
+        told::{Tone, line},
+    },
     words::sentence,
 };
 use crate::{
@@ -160,16 +164,18 @@ fn protocol(ui: &mut Ui, chosen: &mut Option<FileProtocol>) {
         Some(FileProtocol::FtpTls) => "FTP with TLS",
         Some(FileProtocol::Sftp) => "SFTP",
     };
-    let combo = ComboBox::from_id_salt("protocol").selected_text(word(*chosen));
-    let opened = combo.show_ui(ui, |ui| {
+    let name = format!("Protocol of the test, {}", word(*chosen));
+    let button = Button::normal(word(*chosen));
+    let protocols = DropDown { button, salt: "protocol", name: &name };
+    let size = vec2(protocols.width(ui), SMALL_HEIGHT);
+    let (place, _) = ui.allocate_exact_size(size, Sense::hover());
+    protocols.show(ui, place, |ui| {
         for protocol in
             [None, Some(FileProtocol::Ftp), Some(FileProtocol::FtpTls), Some(FileProtocol::Sftp)]
         {
             ui.selectable_value(chosen, protocol, word(protocol));
         }
     });
-    let name = format!("Protocol of the test, {}", word(*chosen));
-    opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
 }
 
 fn outcome(

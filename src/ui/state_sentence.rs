@@ -226,7 +226,10 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let moving = snapshot.state.measured.is_some_and(|measured| measured.moving());
     let aim = snapshot.aim.filter(|_| moving || snapshot.pending)?;
     let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };
-    Some(Spoken::new(SentenceKind::Commanded).plain(format!("{verb} {}.", format::pointing(aim))))
+    Some(
+        Spoken::new(SentenceKind::Commanded)
+            .plain(format!("{verb} {}.", format::pointing(aim, antenna.make().capabilities))),
+    )
 }
 
 /// A jog, by the name of its speed where it has one: the figure is not known.
@@ -292,7 +295,7 @@ fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestam
 fn place(antenna: &AntennaModel) -> String {
     antenna.snapshot.state.measured.map_or_else(String::new, |measured| match measured.pointing {
         Pointing { azimuth: None, elevation: None } => String::new(),
-        pointing => format!(" at {}", format::pointing(pointing)),
+        pointing => format!(" at {}", format::pointing(pointing, antenna.make().capabilities)),
     })
 }
 

@@ -44,6 +44,8 @@ pub struct TopBarModel<'a> {
     pub alarms: AlarmModel<'a>,
     /// What became of the last STOP.
     pub stop: StopState<'a>,
+    /// What STOP does, in a sentence or more.
+    pub stop_about: &'a str,
 }
 
 /// What the operator did.
@@ -85,7 +87,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let size = if small { stop_button::SMALL_SIZE } else { stop_button::SIZE };
     let min = pos2(rect.right() - edge - size.x, rect.center().y - size.y / 2.0);
     let stop = Rect::from_min_size(min, size);
-    if stop_clicked(ui, stop, model.stop) {
+    if stop_clicked(ui, stop, model) {
         actions.push(TopBarAction::Stop);
     }
 
@@ -141,7 +143,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
 
 /// STOP has a layer of its own above everything, so that it works while a
 /// dialog is open.
-fn stop_clicked(ui: &Ui, rect: Rect, state: StopState<'_>) -> bool {
+fn stop_clicked(ui: &Ui, rect: Rect, model: &TopBarModel<'_>) -> bool {
     Area::new(Id::unique("stop layer"))
         .order(Order::Tooltip)
         .fixed_pos(rect.min)
@@ -150,7 +152,7 @@ fn stop_clicked(ui: &Ui, rect: Rect, state: StopState<'_>) -> bool {
         .show(ui.ctx(), |ui| {
             ui.set_clip_rect(rect.expand(6.0));
             ui.allocate_rect(rect, egui::Sense::hover());
-            stop_button::show(ui, rect, state).clicked()
+            stop_button::show(ui, rect, model.stop, model.stop_about).clicked()
         })
         .inner
 }

@@ -18,7 +18,10 @@ use super::{
     top_bar,
     upload::{self, UploadState},
 };
-use crate::app::{Model, UiCommand, View};
+use crate::{
+    app::{Model, UiCommand, View},
+    driver::Command,
+};
 
 /// What the operator typed, opened and folded.
 #[derive(Default)]
@@ -131,7 +134,13 @@ impl Views {
             // Enter is to answer the question, not to end the typing behind it.
             ui.memory_mut(egui::Memory::stop_text_input);
         }
+        let answered = commands.len();
         Question::show(&mut self.question, ui, commands);
+        let is_manual =
+            |command: &UiCommand| matches!(command, UiCommand::Antenna(_, Command::Manual));
+        if commands.iter().skip(answered).any(is_manual) {
+            self.operate.card.drive.focus_pad();
+        }
         keys::list::show(ui, &mut self.keys_open);
     }
 

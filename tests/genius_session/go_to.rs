@@ -22,6 +22,10 @@ async fn numbers_are_padded_and_360_stays_360() {
         device.handle.send(to(Some(asked), None)).unwrap();
         device.seconds(0.5).await;
         assert_eq!(device.orders(), [sent], "{asked}");
+        // The device has it in whole degrees, and that is what is shown of it.
+        let aim = device.handle.snapshot().aim.and_then(|aim| aim.azimuth).unwrap().degrees();
+        let told: f64 = sent[3..].parse().unwrap();
+        assert!((aim - told % 360.0).abs() < 1e-9, "{asked}: {aim}");
     }
     // A direction of the sky is turned into the nearest position of the axis.
     let script = |command: &str| match command {

@@ -1,6 +1,7 @@
 //! Two rotators that turn one antenna.
 
 use azel::{
+    astro::AzEl,
     controller::panel::CheckState,
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::WholeDegrees,
@@ -24,7 +25,8 @@ async fn a_position_is_two_commands_and_arrives() {
     assert_eq!(rig.orders(), ["|A1200", "|A2045"]);
     assert_eq!(rig.rotator(1).target, None);
     let Event::Arrived(aim) = arrived else { unreachable!() };
-    assert!((aim.azimuth.unwrap().degrees() - 200.4).abs() < 1e-9);
+    let whole = AzEl::from_degrees(200.0, 45.0);
+    assert_eq!(aim, whole.into(), "as the device was told");
     assert_eq!(rig.axes_deg(), [Some(200.0), Some(45.0)]);
     assert_eq!(rig.events(), []);
     assert!(!rig.rotator(1).is_turning && !rig.rotator(2).is_turning);
@@ -74,6 +76,7 @@ async fn two_rotators_of_one_kind_are_told_and_take_no_positions() {
     assert_eq!(rig.axes_deg(), [None, None]);
     assert_eq!(rig.shown().state.measured.unwrap().direction(), None);
     let shown = rig.shown();
+    assert!(shown.state.checked_at >= shown.state.measured.map(|measured| measured.at));
     let check = shown.state.checks.iter().find(|check| check.name == "Kinds of the rotators");
     assert_eq!(check.unwrap().state, CheckState::Fault);
     assert_eq!(rig.reading("Heading 2"), "20°");

@@ -100,6 +100,37 @@ async fn a_rescue_that_runs_out_ends_the_jog() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn only_the_stop_of_the_operator_disarms_a_rescue() {
+    let mut rig = Rig::connected(&outside(), Rotators::Pair).await;
+    rig.send(arm());
+    rig.send(Command::Manual);
+    rig.hold([-4.0, 0.0], 1.0).await;
+    // The halt at the end of a jog is lost, and sent again and again.
+    rig.control.set_fault(Fault::Silence, true);
+    rig.send(Command::EndJog);
+    rig.seconds(2.5).await;
+    assert!(rig.times("|S").len() >= 3);
+    rig.control.set_fault(Fault::Silence, false);
+    rig.until_still(4).await;
+    rig.send(Command::Standby);
+    rig.send(Command::Manual);
+    rig.seconds(1.5).await;
+    assert!(rig.reading("Rescue").starts_with("armed, "), "{}", rig.reading("Rescue"));
+    rig.events();
+    rig.hold([-4.0, 0.0], 0.5).await;
+    rig.stop();
+    rig.seconds(3.0).await;
+    assert_eq!(rig.reading("Rescue"), "");
+    assert_eq!(rig.events(), [Event::Stopped]);
+    assert_eq!(rig.orders(), ["|M1", "|S", "|M1", "|S"]);
+    rig.send(Command::Manual);
+    rig.hold([-4.0, 0.0], 0.5).await;
+    let events = rig.events();
+    assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+    assert_eq!(rig.orders(), ["|M1", "|S", "|M1", "|S"]);
+}
+
+#[tokio::test(start_paused = true)]
 async fn the_first_reply_that_is_missing_in_a_rescue_stops_both() {
     let mut rig = Rig::connected(&outside(), Rotators::Pair).await;
     rig.send(Command::Manual);

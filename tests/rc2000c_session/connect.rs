@@ -63,6 +63,8 @@ async fn the_first_word_is_who_it_is_and_then_what_it_does() {
         assert_eq!(reading(&shown, label).as_deref(), Some(text), "{label}");
     }
     assert!(shown.state.checks.iter().all(|check| check.state == CheckState::Good));
+    let measured = shown.state.measured.unwrap();
+    assert!(shown.state.checked_at >= Some(measured.at), "read with the position");
     let traffic = shown.state.traffic;
     assert_eq!([traffic.damaged, traffic.unreadable, traffic.unanswered, traffic.odd], [0; 4]);
 }

@@ -83,6 +83,55 @@ fn m_asks_while_tracking_and_only_then() {
 }
 
 #[test]
+fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
+    let pad = "Jog with the arrow keys";
+    for size in SIZES {
+        for (before, answers) in
+            [(states::holding(), false), (states::manual(), false), (states::tracking(0.0), true)]
+        {
+            let mut window = rig::window(size, rig::model(before));
+            window.key_press(Key::M);
+            settle(&mut window);
+            if answers {
+                assert!(!window.get_by_label(pad).is_focused());
+                window.key_press(Key::Enter);
+            }
+            assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
+            // The session takes it a moment later.
+            window.state_mut().model.antennas[0].snapshot = states::manual().into();
+            assert_eq!(asked(&mut window), [], "nothing moves by itself");
+            assert!(window.get_by_label(pad).is_focused());
+            window.key_press(Key::Enter);
+            assert_eq!(asked(&mut window), [], "a second Enter names no direction");
+
+            window.key_down(Key::ArrowUp);
+            let jog = antenna(Command::Jog { rates_deg_s: [0.0, 0.5] });
+            let held = asked(&mut window);
+            assert!(held.len() > 1 && held.iter().all(|command| *command == jog), "{held:?}");
+            window.input_mut().focused = false;
+            assert_eq!(asked(&mut window), [antenna(Command::EndJog)], "the window was left");
+            window.input_mut().focused = true;
+            assert_eq!(asked(&mut window), []);
+        }
+    }
+}
+
+#[test]
+fn m_waits_for_manual_only_until_something_else_is_done() {
+    let mut window = rig::window(rig::LARGE, rig::model(states::holding()));
+    window.key_press(Key::M);
+    settle(&mut window);
+    window.key_press(Key::ArrowDown);
+    settle(&mut window);
+    window.state_mut().model.antennas[0].snapshot = states::manual().into();
+    window.state_mut().commands.clear();
+    assert_eq!(asked(&mut window), []);
+    window.key_press(Key::ArrowDown);
+    let commands = asked(&mut window);
+    assert!(matches!(commands[..], [UiCommand::SelectPass(_)]), "{commands:?}");
+}
+
+#[test]
 fn g_chooses_position_and_asks_while_tracking() {
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::holding()));

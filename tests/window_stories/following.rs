@@ -51,7 +51,7 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
             waiting,
             0.0,
             Still,
-            "Waiting at 134.0°, 20.0° for NOAA 20, which rises at 11:18:42Z in 3:12.",
+            "Waiting at 134°, 20° for NOAA 20, which rises at 11:18:42Z in 3:12.",
         ),
         (
             FollowPhase::Following,
@@ -67,7 +67,7 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
             "Following NOAA 20, sent from position to position. The antenna is 11.00° off, \
              outside its 20.00° beam.",
         ),
-        (FollowPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134.0°, 20.0°."),
+        (FollowPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134°, 20°."),
     ] {
         assert_eq!(states::sentence(&following(phase, off_deg, motion)), wanted);
     }
@@ -113,7 +113,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     // The target stands at 134, which the axes would reach over the zenith too.
     (*azimuth_from_deg, *elevation_to_deg) = (180.0, 90.0);
     let said = states::sentence(&model);
-    assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134.0°"), "{said}");
+    assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134°"), "{said}");
     assert_eq!(activity(&model.antennas[0]), "Waiting");
 }
 
@@ -186,7 +186,7 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
         let always = |target| Follow { target, site, passes: Vec::new() };
         assert_eq!(chosen(size, genius(), "Follow the Sun"), always(Target::Sun));
         assert_eq!(chosen(size, genius(), "Follow the Moon"), always(Target::Moon));
-        let kept = chosen(size, genius(), "Keep pointing to 343.1°, 5.0°");
+        let kept = chosen(size, genius(), "Keep pointing to 343°, 5°");
         let Target::Fixed(direction) = kept.target else { panic!("{kept:?}") };
         assert!(direction.separation(AzEl::from_degrees(343.1, 5.0)).degrees() < 1e-6);
     }

@@ -212,16 +212,7 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
         assert!(row.top() >= 87.0 && row.bottom() <= BOTTOM + 1.0, "{index}: {row:?}");
     }
     // What the operator scrolls to stays.
-    let middle = egui::pos2(230.0, 400.0);
-    window.hover_at(middle);
-    window.event(egui::Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        delta: egui::vec2(0.0, 5000.0),
-        modifiers: Modifiers::NONE,
-        phase: egui::TouchPhase::Move,
-        source: egui::MouseWheelSource::Wheel,
-    });
-    settle(&mut window);
+    rig::scroll(&mut window, egui::pos2(230.0, 400.0), 5000.0);
     let row = list(&window, last).expect("its row is partly there");
     assert!(row.bottom() > BOTTOM, "{row:?}");
 }

@@ -45,3 +45,4 @@ mod unit;
 mod upload_desk;
 mod upload_questions;
 mod uploads;
+mod whole_degrees;

@@ -118,6 +118,7 @@ pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(370.0), Some(42.4)));
     snapshot.state.readings = told();
     snapshot.state.checks = ALARMS.map(|check| Check { state: CheckState::Good, ..check }).into();
+    snapshot.state.checked_at = Some(rig::now());
     snapshot
 }
 

@@ -70,6 +70,37 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
             }
             settle(&mut window);
         }
+        // What was scrolled away lies under the upper part of the card.
+        rig::scroll(&mut window, pos2(870.0, 600.0), 5000.0);
         nothing_overlaps(&window);
+    }
+}
+
+#[test]
+fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
+    let bottom = rig::SMALL[1];
+    let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
+    let [first, ..] = model.antennas[0].make().actions else { panic!("no actions") };
+    // The readings fit; the actions do not, and begin at the top.
+    let field = format!("{}: {}", first.label, first.fields[0].label);
+    let mut window = rig::window(rig::SMALL, model);
+    for (fold, inside) in [("Readings: ", "Alarm: none"), ("More: ", &field)] {
+        let line = |window: &Window| window.get_by_label_contains(fold).rect();
+        // As Tab does: the line just in sight, at the lower end.
+        window.get_by_label_contains(fold).focus();
+        settle(&mut window);
+        let before = line(&window);
+        assert!(before.bottom() <= bottom && before.bottom() > bottom - 60.0, "{before:?}");
+        window.get_by_label_contains(fold).click();
+        settle(&mut window);
+        let modes = window.get_by_role_and_label(Role::RadioButton, "Manual").rect();
+        assert!(line(&window).top() >= modes.bottom(), "{fold} {:?}", line(&window));
+        let content = window.get_by_label(inside).rect();
+        assert!(content.bottom() <= bottom, "{inside} {content:?}");
+        // Closing it moves nothing that stays.
+        let open = line(&window);
+        window.get_by_label_contains(fold).click();
+        settle(&mut window);
+        assert!(line(&window).top() >= open.top(), "{fold}");
     }
 }

@@ -188,6 +188,20 @@ fn tab_brings_into_sight_what_it_leads_to() {
 }
 
 #[test]
+fn the_checks_of_every_make_say_when_they_were_read() {
+    let mut satrak = states::manual();
+    satrak.state.satrak.faults = Some((states::faults(&[]), rig::now()));
+    for (model, count) in [
+        (rig::model(satrak), 12),
+        (makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual)), 3),
+    ] {
+        let window = rig::window(rig::LARGE, model);
+        let words = format!("No faults. All {count} checks good, 11:15:30Z.");
+        assert!(says(&window, &words), "{words}");
+    }
+}
+
+#[test]
 fn a_satrak_has_nothing_of_the_kind() {
     let window = rig::window(rig::LARGE, rig::model(states::manual()));
     assert!(window.query_by_label_contains("More: ").is_none());

@@ -143,7 +143,7 @@ fn n_jumps_to_the_pass_under_way_and_not_to_what_never_sets() {
 #[test]
 fn the_lowest_elevation_is_chosen_above_the_list() {
     let mut window = window(LARGE);
-    window.get_by_label("max ≥ 10°").click();
+    window.get_by_label("Lowest maximum elevation: max ≥ 10°").click();
     settle(&mut window);
     let choices = window.get_all_by_label_contains("30°");
     let choice = choices.into_iter().find(|node| node.rect().left() < 392.0).unwrap();
@@ -158,7 +158,7 @@ fn satellites_and_span_are_chosen_in_list_and_drawer() {
         open_list(&mut window);
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         assert_eq!(asked(&mut window), [UiCommand::SetScope(Scope::All)]);
-        window.get_by_role_and_label(Role::Button, "48 h").click();
+        window.get_by_role_and_label(Role::ComboBox, "How far ahead: 48 h").click();
         settle(&mut window);
         window.get_by_label("12 h").click();
         assert_eq!(asked(&mut window), [UiCommand::SetSpan(12)]);

@@ -24,7 +24,9 @@ use azel::{
     station::{Antenna, Station},
     ui::{Views, theme, tokens::ThemeName},
 };
-use egui::{Role, UiBuilder};
+use egui::{
+    Event, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Role, TouchPhase, UiBuilder, vec2,
+};
 use egui_kittest::{
     Harness,
     kittest::{NodeT as _, Queryable as _},
@@ -185,6 +187,19 @@ pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
 /// Some frames; a bell that blinks would never let `run` end.
 pub(crate) fn settle(window: &mut Window) {
     window.run_steps(4);
+}
+
+/// Turns the wheel over `at`, so many points towards the top.
+pub(crate) fn scroll(window: &mut Window, at: Pos2, points: f32) {
+    window.hover_at(at);
+    window.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: vec2(0.0, points),
+        modifiers: Modifiers::NONE,
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+    });
+    settle(window);
 }
 
 /// What was asked for since the last time.

@@ -89,6 +89,27 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
 }
 
 #[test]
+fn only_while_it_tracks_it_is_compared_with_the_satellite() {
+    let wrong_elevation = states::tracking(20.0);
+    for (phase, error) in [
+        (Phase::OutOfWindow, "– of 0.44°, not known"),
+        (Phase::AtStart, "– of 0.44°, not known"),
+        (Phase::Completed, "– of 0.44°, not known"),
+        (Phase::Tracking, "20.00° of 0.44°, outside the beam"),
+    ] {
+        for size in rig::SIZES {
+            // NOAA 20 is up all the time.
+            let mut snapshot = wrong_elevation.clone();
+            snapshot.state.program.as_mut().unwrap().phase = phase;
+            let model = rig::model(snapshot);
+            assert_eq!(model.antennas[0].errors.is_empty(), phase != Phase::Tracking);
+            let window = rig::window(size, model);
+            assert!(rig::says(&window, &format!("Off beam axis {error}")), "{phase:?}");
+        }
+    }
+}
+
+#[test]
 fn standing_says_where_and_what_comes_next() {
     let coming = |model: &mut Model, _: &mut Snapshot| {
         let after = |forecast: &&Forecast| forecast.pass.aos.time > model.now;

@@ -7,12 +7,13 @@ use azel::{
     controller::settings::{
         Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value,
     },
-    driver::{Command, LinkLoss, LinkState, Snapshot},
+    driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
+    makes,
     rig::{self, LARGE, SIZES, Window, asked, settle},
     settings_desk::{
         ON_UNIT, apply, change, choose, desk, hold, press, read, says, state_of, texts, write,
@@ -293,5 +294,19 @@ fn every_field_has_a_name_and_the_bar_is_whole() {
                 assert!(node.rect().right() <= size[0] - 16.0, "{name}");
             }
         }
+    }
+}
+
+#[test]
+fn a_unit_without_settings_offers_nothing_to_do_with_them() {
+    for size in SIZES {
+        let mut model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
+        model.view = View::Antennas;
+        let window = rig::window(size, model);
+        assert!(says(&window, "This unit keeps no settings"));
+        for words in ["Save copy", "Compare with file", "Read again", "Revert"] {
+            assert!(window.query_by_label(words).is_none(), "{words}");
+        }
+        assert!(window.query_by_label_contains("Apply").is_none());
     }
 }

@@ -2,12 +2,13 @@
 
 use azel::{
     app::{UiCommand, View, alarms::AlarmKind},
-    driver::{LinkLoss, LinkState, Snapshot, StopState},
+    driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
 };
 use egui::{Key, Role};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
+    makes,
     rig::{self, SIZES, Window, asked, settle},
     states,
 };
@@ -110,5 +111,24 @@ fn stop_is_the_first_control_in_the_order_of_tab() {
         settle(&mut window);
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}
+
+#[test]
+fn what_else_stop_stops_is_told_at_the_button_on_every_view() {
+    let about = "Stops every antenna. Genius: STOP stops both rotators.";
+    for size in SIZES {
+        for view in [View::Operate, View::Console] {
+            let mut model = rig::model(states::holding());
+            model.antennas.push(rig::antenna(makes::pair(), makes::pair_at(Intent::Standby)));
+            model.view = view;
+            let mut window = rig::window(size, model);
+            let stop = window.get_by_role_and_label(Role::Button, "STOP");
+            assert_eq!(stop.accesskit_node().description().as_deref(), Some(about));
+            window.hover_at(window.get_by_role_and_label(Role::Button, "STOP").rect().center());
+            window.run_steps(8);
+            assert!(rig::says(&window, about), "pointed at");
+            stop_stops(&mut window, "STOP");
+        }
     }
 }

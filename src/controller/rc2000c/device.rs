@@ -28,6 +28,7 @@ impl Device for Rc2000c {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        self.state.checked_at = None;
         self.state.program = None;
         self.status = None;
         self.past = Past::default();

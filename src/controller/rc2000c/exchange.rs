@@ -121,6 +121,7 @@ impl Rc2000c {
         match reply {
             Reply::Offline { .. } => {
                 self.is_offline = true;
+                self.state.checked_at = Some(now.utc);
                 self.fail(answered, REMOTE_DISABLED.to_owned(), now);
             }
             Reply::Refused { .. } => {
@@ -160,6 +161,7 @@ impl Rc2000c {
             axes,
         });
         self.state.motion_lock = Some(checks::forbids_motion(&status));
+        self.state.checked_at = Some(now.utc);
         self.state.program = refusal::is_tracking(&status).then_some(Program {
             enabled: true,
             phase: Phase::Tracking,

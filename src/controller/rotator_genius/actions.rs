@@ -14,7 +14,7 @@ pub const RESCUE: &str = "rescue";
 
 /// Key of the field of [`OTHER`], whole degrees from 0 to 360.
 pub(super) const DIRECTION: &str = "direction_deg";
-/// For how long a rescue stays armed.
+/// For how long a rescue stays armed, unless the operator's STOP comes first.
 pub(super) const ARMED: Duration = Duration::from_mins(1);
 
 pub(super) const SEND_OTHER: Action = Action {
@@ -31,9 +31,9 @@ pub(super) const SEND_OTHER: Action = Action {
 pub(super) const ARM_RESCUE: Action = Action {
     key: RESCUE,
     label: "Arm the rescue",
-    about: "For a minute, a rotator outside its limits may be jogged back. The device does not \
-            end such a motion by itself: Azel stops it when the key is let go and when a reply \
-            is missing.",
+    about: "For a minute or until STOP, a rotator outside its limits may be jogged back. The \
+            device does not end such a motion by itself: Azel stops it when the key is let go \
+            and when a reply is missing.",
     fields: &[],
     moves: false,
     question: Some(

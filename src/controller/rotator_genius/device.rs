@@ -6,6 +6,7 @@ use super::{
     ALONE, GROUPS, Genius, PAIR, PATIENCE,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
+    orders::in_whole_degrees,
 };
 use crate::{
     controller::{
@@ -46,8 +47,7 @@ impl Device for Genius {
         self.drain_until = None;
         self.halts.clear();
         self.orders.clear();
-        self.rescue_until = None;
-        self.is_rescue_wanted = false;
+        self.disarm();
         self.abandon_changes(now);
     }
 
@@ -99,6 +99,11 @@ impl Device for Genius {
         self.stop_both(now)
     }
 
+    fn disarm(&mut self) {
+        self.rescue_until = None;
+        self.is_rescue_wanted = false;
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));
@@ -125,6 +130,10 @@ impl Device for Genius {
 
     fn motion_under_way(&self) -> bool {
         self.motion_waits()
+    }
+
+    fn as_told(&self, motion: Motion) -> Motion {
+        in_whole_degrees(motion)
     }
 
     fn state(&self) -> &AntennaState {

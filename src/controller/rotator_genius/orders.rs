@@ -160,6 +160,17 @@ fn without_position(rotator: &Rotator) -> Option<&'static str> {
     }
 }
 
+/// A position as it is sent; any other motion as it is.
+pub(super) fn in_whole_degrees(motion: Motion) -> Motion {
+    let Motion::Position { azimuth, elevation } = motion else { return motion };
+    let whole = |degrees: WholeDegrees| Angle::from_degrees(f64::from(degrees.degrees()));
+    Motion::Position {
+        // One that cannot be sent is refused with what was asked for.
+        azimuth: azimuth.map(|azimuth| whole_azimuth(azimuth).map_or(azimuth, whole)),
+        elevation: elevation.map(|elevation| whole(whole_elevation(elevation))),
+    }
+}
+
 /// The nearest whole degree. 360 is sent only when it was asked for as such: on a
 /// mount with its stop in the north it may be a whole turn away from 359.6.
 fn whole_azimuth(azimuth: Angle) -> Option<WholeDegrees> {
@@ -199,6 +210,19 @@ mod tests {
         ] {
             assert_eq!(azimuth(asked), sent, "{asked}");
         }
+    }
+
+    #[test]
+    fn a_position_is_told_as_it_is_sent() {
+        let position = |azimuth_deg, elevation_deg| Motion::Position {
+            azimuth: Some(Angle::from_degrees(azimuth_deg)),
+            elevation: Some(Angle::from_degrees(elevation_deg)),
+        };
+        assert_eq!(in_whole_degrees(position(120.5, 12.5)), position(121.0, 13.0));
+        assert_eq!(in_whole_degrees(position(359.6, 12.4)), position(359.0, 12.0));
+        assert_eq!(in_whole_degrees(position(370.0, 12.4)), position(370.0, 12.0));
+        let none = Motion::Position { azimuth: None, elevation: None };
+        assert_eq!(in_whole_degrees(none), none);
     }
 
     #[test]

@@ -51,6 +51,7 @@ impl Genius {
             self.rescue_until.map(|until| until.saturating_duration_since(now.steady));
         self.state.readings = panel::readings(&status, roles, rescue_left).into();
         self.state.checks = panel::checks(&status, roles).into();
+        self.state.checked_at = Some(now.utc);
         self.status = Some(status);
     }
 }

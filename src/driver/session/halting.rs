@@ -44,6 +44,7 @@ impl Session {
     /// The operator wants everything to stand still. Never refused.
     pub(super) fn halt(&mut self, now: Moment) {
         self.intent = Intent::Standby;
+        self.gate.device().disarm();
         self.begin_halt(true, now);
     }
 

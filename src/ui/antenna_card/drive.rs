@@ -56,6 +56,8 @@ pub struct DriveModel<'a> {
     pub elevation_range_deg: Option<(f64, f64)>,
     /// Where the antenna was told to be, in degrees.
     pub commanded_deg: (Option<f64>, Option<f64>),
+    /// Of the numbers that are shown for it.
+    pub commanded_decimals: usize,
     /// Why the last direction was not sent.
     pub go_to_refusal: Option<&'a str>,
     /// What the preview found: time to arrive, limits that are touched.
@@ -80,6 +82,11 @@ impl DriveState {
     /// Takes the next rate up (`by` positive) or down.
     pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, most_deg_s: f64) {
         self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, most_deg_s);
+    }
+
+    /// Puts the keyboard on the jog pad as soon as it is free.
+    pub fn focus_pad(&mut self) {
+        self.jog.focus();
     }
 
     /// Lets go of the jog key. Returns true if one was held.
@@ -130,6 +137,7 @@ pub(super) fn show(
         azimuth_range_deg: model.azimuth_range_deg,
         elevation_range_deg: model.elevation_range_deg,
         commanded_deg: model.commanded_deg,
+        decimals: model.commanded_decimals,
     };
     let asked = go_to::show(ui, fields, &go_to_model, &mut state.go_to);
     actions.extend(asked.map(|action| match action {

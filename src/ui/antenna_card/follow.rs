@@ -20,6 +20,8 @@ pub struct FollowModel<'a> {
     pub by_positions: Option<&'a str>,
     /// Where the antenna points.
     pub here: Option<Target>,
+    /// Of the numbers that are shown for it.
+    pub here_decimals: usize,
 }
 
 /// What this program is to follow.
@@ -56,10 +58,11 @@ pub(super) fn show(
             ("Follow the Sun".to_owned(), FollowChoice::Sun),
             ("Follow the Moon".to_owned(), FollowChoice::Moon),
         ];
-        let directions = [("Keep pointing to", model.here), ("Follow the typed", typed)];
-        for (words, direction) in directions {
+        let directions =
+            [("Keep pointing to", model.here, model.here_decimals), ("Follow the typed", typed, 1)];
+        for (words, direction, decimals) in directions {
             choices.extend(direction.map(|target| {
-                (format!("{words} {}", in_words(target)), FollowChoice::Direction(target))
+                (format!("{words} {}", in_words(target, decimals)), FollowChoice::Direction(target))
             }));
         }
         if let Some(satellite) = model.by_positions {
@@ -75,8 +78,8 @@ pub(super) fn show(
 }
 
 /// As the fields say it: azimuth, and elevation where there is one.
-fn in_words(target: Target) -> String {
+fn in_words(target: Target, decimals: usize) -> String {
     let angles = [Some(target.azimuth_deg), target.elevation_deg];
-    let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, 1));
+    let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, decimals));
     known.collect::<Vec<_>>().join(", ")
 }

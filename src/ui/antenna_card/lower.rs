@@ -2,7 +2,7 @@
 //! tracked, moving by hand, the other antennas, and what the unit tells. In a
 //! low window each part folds to one line with what matters most in it.
 
-use egui::{Align2, Rect, Ui, pos2};
+use egui::{Align2, Rect, Ui};
 
 use super::{
     CardAction, CardModel, CardState, Cursor, drive, faults, more, others, readings, track,
@@ -10,7 +10,6 @@ use super::{
 use crate::ui::{
     text, theme,
     widgets::{
-        axes_table,
         fold::{self, FoldModel},
         paint,
         travel_gauge::{self, TravelModel},
@@ -32,48 +31,70 @@ pub(super) fn show(
     at.skip(if short { 8.0 } else { 12.0 });
     drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
     at.skip(4.0);
-    let line =
-        |y: f32| Rect::from_min_max(pos2(card.left(), y), pos2(card.right(), y + fold::HEIGHT));
     if short && !model.travel.is_empty() {
         let value = travel_in_words(model.travel);
         let travel_line = FoldModel { title: "Travel", value: &value, mark: None };
-        fold::show(ui, line(at.y), &travel_line, &mut state.travel_open);
-        at.skip(fold::HEIGHT);
+        let opened = fold_line(ui, at, card, &travel_line, &mut state.travel_open);
         if state.travel_open {
             travel(ui, at, model.travel, false);
             at.skip(4.0);
         }
+        bring_into_sight(ui, at, opened);
     }
     if let Some(checks) = &model.faults {
+        let mut opened = None;
         if short {
             let (value, mark) = faults::in_words(ui, checks);
             let faults_line = FoldModel { title: "Faults", value: &value, mark: Some(mark) };
-            fold::show(ui, line(at.y), &faults_line, &mut state.faults_open);
-            at.skip(fold::HEIGHT);
+            opened = fold_line(ui, at, card, &faults_line, &mut state.faults_open);
         }
         if !short || state.faults_open {
             faults::show(ui, at, card, checks);
         }
+        bring_into_sight(ui, at, opened);
     }
     others::show(ui, at, card, model.others, short, actions);
     let told = model.readings;
-    if short && !told.is_empty() {
-        let (value, mark) = readings::in_words(ui, told);
-        let told_line = FoldModel { title: "Readings", value: &value, mark };
-        fold::show(ui, line(at.y), &told_line, &mut state.readings_open);
-        at.skip(fold::HEIGHT);
-    }
-    if !told.is_empty() && (!short || state.readings_open) {
-        readings::show(ui, at, told, !short);
+    if !told.is_empty() {
+        let mut opened = None;
+        if short {
+            let (value, mark) = readings::in_words(ui, told);
+            let told_line = FoldModel { title: "Readings", value: &value, mark };
+            opened = fold_line(ui, at, card, &told_line, &mut state.readings_open);
+        }
+        if !short || state.readings_open {
+            readings::show(ui, at, told, !short);
+        }
+        bring_into_sight(ui, at, opened);
     }
     if !model.more.actions.is_empty() {
         let value = more::in_words(&model.more);
         let more_line = FoldModel { title: "More", value: &value, mark: None };
-        fold::show(ui, line(at.y), &more_line, &mut state.more_open);
-        at.skip(fold::HEIGHT);
+        let opened = fold_line(ui, at, card, &more_line, &mut state.more_open);
         if state.more_open {
             more::show(ui, at, &model.more, &mut state.more, actions);
         }
+        bring_into_sight(ui, at, opened);
+    }
+}
+
+/// The line of a section. Gives the line if the section was opened just now.
+fn fold_line(
+    ui: &Ui,
+    at: &mut Cursor,
+    card: Rect,
+    model: &FoldModel<'_>,
+    open: &mut bool,
+) -> Option<Rect> {
+    let line = at.take(fold::HEIGHT).with_min_x(card.left()).with_max_x(card.right());
+    fold::show(ui, line, model, open).then_some(line)
+}
+
+/// What was opened may stand below the lower end of the card. The line itself
+/// stays in sight.
+fn bring_into_sight(ui: &Ui, at: &Cursor, opened: Option<Rect>) {
+    if let Some(line) = opened {
+        ui.scroll_to_rect(line.with_max_y(at.y), None);
     }
 }
 
@@ -111,12 +132,8 @@ fn travel_in_words(axes: &[TravelModel<'_>]) -> String {
     let words: Vec<String> = axes
         .iter()
         .map(|axis| {
-            let deg = axis.position_deg.map_or_else(
-                || axes_table::UNKNOWN.to_owned(),
-                |deg| format!("{deg:.1}°").replace('-', "−"),
-            );
             let limit = if axis.lower_limit || axis.upper_limit { " limit" } else { "" };
-            format!("{} {deg}{limit}", axis.name)
+            format!("{} {}{limit}", axis.name, axis.number())
         })
         .collect();
     words.join("  ")

@@ -26,6 +26,7 @@ const fn travel(name: &str, position_deg: f64) -> TravelModel<'_> {
         scale_deg: (0.0, 180.0),
         travel_deg: (6.0, 174.0),
         position_deg: Some(position_deg),
+        decimals: 1,
         lower_limit: false,
         upper_limit: false,
         turns: false,
@@ -49,6 +50,7 @@ fn model() -> CardModel<'static> {
         },
         sentence: Sentence { kind: SentenceKind::Tracking, spans: &SPANS },
         wanted: WantedColumn::Command,
+        decimals: 2,
         axes: &[
             AxisRow {
                 name: "Az",
@@ -90,6 +92,7 @@ fn model() -> CardModel<'static> {
             azimuth_range_deg: (0.0, 360.0),
             elevation_range_deg: Some((0.0, 90.0)),
             commanded_deg: (Some(185.5), Some(37.4)),
+            commanded_decimals: 2,
             go_to_refusal: None,
             go_to_note: None,
             stop_note: None,

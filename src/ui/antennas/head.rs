@@ -37,15 +37,17 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
         right = place.left() - 8.0;
         button.show(ui, words, place).clicked()
     };
-    if button("Save copy", is_read) {
-        commands.push(UiCommand::SaveSettings { antenna });
-    }
-    if button("Compare with file", is_read) {
-        commands.push(UiCommand::CompareSettings { antenna });
-    }
-    if button("Read again", unit.is_open() && !groups.is_empty()) {
-        let read = |key| UiCommand::Antenna(antenna, Command::ReadGroup(key));
-        commands.extend(groups.iter().map(|group| read(group.key)));
+    if !groups.is_empty() {
+        if button("Save copy", is_read) {
+            commands.push(UiCommand::SaveSettings { antenna });
+        }
+        if button("Compare with file", is_read) {
+            commands.push(UiCommand::CompareSettings { antenna });
+        }
+        if button("Read again", unit.is_open()) {
+            let read = |key| UiCommand::Antenna(antenna, Command::ReadGroup(key));
+            commands.extend(groups.iter().map(|group| read(group.key)));
+        }
     }
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right);
     let title = format!("{} settings", unit.name());

@@ -1,8 +1,8 @@
 //! The controls above the log, and what is said below it.
 
 use egui::{
-    Align, Align2, ComboBox, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder, WidgetInfo,
-    pos2, vec2,
+    Align, Align2, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::{ConsoleState, PADDING};
@@ -12,6 +12,7 @@ use crate::{
         format, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            drop_down::DropDown,
             paint,
         },
     },
@@ -64,16 +65,17 @@ pub(super) fn show(
 fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
     let chosen = &mut state.filter.antenna;
     let shown = chosen.clone().unwrap_or_else(|| ALL.to_owned());
-    let combo = ComboBox::from_id_salt("console antenna").selected_text(&shown).truncate();
-    let opened = combo.width(ANTENNA).show_ui(ui, |ui| {
+    let name = format!("Log of {shown}");
+    let antennas =
+        DropDown { button: Button::normal(&shown), salt: "console antenna", name: &name };
+    let (place, _) = ui.allocate_exact_size(vec2(ANTENNA, BUTTON), Sense::hover());
+    antennas.show(ui, place, |ui| {
         ui.selectable_value(chosen, None, ALL);
         for antenna in &model.antennas {
             let name = &antenna.config.name;
             ui.selectable_value(chosen, Some(name.clone()), name);
         }
     });
-    let name = format!("Log of {shown}");
-    opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
 }
 
 /// Draws the buttons from the right end and returns where they begin.

@@ -2,7 +2,7 @@
 //! before anything goes out, and nothing but questions goes out.
 
 use egui::{
-    Align, Align2, Color32, ComboBox, Key, Layout, Rect, RichText, Role, TextEdit, Ui, UiBuilder,
+    Align, Align2, Color32, Key, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder,
     WidgetInfo, pos2, vec2,
 };
 
@@ -18,6 +18,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            drop_down::DropDown,
             paint,
         },
     },
@@ -121,8 +122,10 @@ fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
     let layout = Layout::left_to_right(Align::Center);
     let builder = UiBuilder::new().id_salt("send fields").max_rect(rect).layout(layout);
     let shown = ui.scope_builder(builder, |ui| {
-        let combo = ComboBox::from_id_salt("queries").selected_text("Query").width(PICK);
-        let opened = combo.height(400.0).show_ui(ui, |ui| {
+        let button = Button::normal("Query");
+        let queries = DropDown { button, salt: "queries", name: "Pick a query" };
+        let (place, _) = ui.allocate_exact_size(vec2(PICK, BUTTON), Sense::hover());
+        queries.show(ui, place, |ui| {
             for (_, word) in Query::ALL {
                 let payload = format!("{word}?");
                 let asks = Meaning::of_request(&Frame::from_payload(&payload)).text;
@@ -132,7 +135,6 @@ fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
                 }
             }
         });
-        opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Pick a query"));
         let hint = RichText::new("STATUS?").color(t.t3);
         let edit = TextEdit::singleline(typed).id_salt("send").font(text::raw()).hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width() - GAP));

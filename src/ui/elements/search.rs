@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, Align2, ComboBox, Layout, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui,
-    UiBuilder, WidgetInfo, vec2,
+    Align, Align2, Layout, Rect, RichText, Role, ScrollArea, Sense, TextEdit, Ui, UiBuilder,
+    WidgetInfo, vec2,
 };
 
 use super::{sources::named_button, words};
@@ -12,7 +12,14 @@ use crate::{
     app::{Model, UiCommand, model::CatalogState},
     astro::time::seconds_between,
     orbit::{Catalog, Elements},
-    ui::{format, text, theme, widgets::paint},
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            drop_down::DropDown,
+            paint,
+        },
+    },
 };
 
 const ROW: f32 = 48.0;
@@ -140,9 +147,11 @@ fn fields(ui: &mut Ui, catalog: &Catalog, state: &mut SearchState) {
             edit.request_focus();
         }
         let shown = state.among.word().to_owned();
-        let combo = ComboBox::from_id_salt("group").selected_text(&shown).truncate();
-        let width = ui.available_width();
-        let opened = combo.width(width).show_ui(ui, |ui| {
+        let name = format!("Group, {shown}");
+        let groups = DropDown { button: Button::normal(&shown), salt: "group", name: &name };
+        let size = vec2(ui.available_width(), SMALL_HEIGHT);
+        let (place, _) = ui.allocate_exact_size(size, Sense::hover());
+        groups.show(ui, place, |ui| {
             for among in [Among::All, Among::Followed] {
                 let word = among.word().to_owned();
                 ui.selectable_value(&mut state.among, among, word);
@@ -152,8 +161,6 @@ fn fields(ui: &mut Ui, catalog: &Catalog, state: &mut SearchState) {
                 ui.selectable_value(&mut state.among, Among::Group(group.to_owned()), words);
             }
         });
-        let name = format!("Group, {shown}");
-        opened.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
     });
     // A source that is gone has no objects to search.
     if let Among::Group(group) = &state.among

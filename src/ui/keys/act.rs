@@ -104,6 +104,7 @@ fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
         });
     } else {
         commands.push(manual);
+        desk.operate.card.drive.focus_pad();
     }
 }
 

@@ -57,9 +57,9 @@ pub(super) fn show(
     } else {
         WantedColumn::Command
     };
+    let decimals = format::decimals(can);
     let checks = checks::of(antenna);
-    let unit = &snapshot.state.satrak;
-    let checked_at = unit.faults.as_ref().map(|(_, at)| format::time_z(*at)).unwrap_or_default();
+    let checked_at = checks::read_at(antenna).map(format::time_z).unwrap_or_default();
     let others = others(model);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
@@ -77,6 +77,7 @@ pub(super) fn show(
             },
             sentence: *sentence,
             wanted,
+            decimals,
             axes: &table,
             // Kept without a prediction too: the keys below must not jump.
             beam: Some(BeamModel {
@@ -103,6 +104,7 @@ pub(super) fn show(
                 azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
                 elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
                 commanded_deg: commanded.into(),
+                commanded_decimals: wanted.decimals(decimals),
                 go_to_refusal: None,
                 go_to_note: None,
                 stop_note: can.stop_note,
@@ -200,6 +202,7 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
                 .filter(|_| antenna.make().capabilities.has_program)
                 .map(|forecast| forecast.satellite.short_name()),
             here: state.measured.and_then(|measured| target(measured.pointing)),
+            here_decimals: format::decimals(antenna.make().capabilities).min(1),
         }),
     }
 }
@@ -210,7 +213,9 @@ fn others(model: &Model) -> Vec<OtherAntenna> {
     let others = antennas.filter(|(index, _)| *index != model.selected_antenna);
     let in_short = |(index, antenna): (usize, &AntennaModel)| {
         let measured = antenna.snapshot.state.measured;
-        let at = measured.map(|measured| format::pointing(measured.pointing)).unwrap_or_default();
+        let at = measured
+            .map(|measured| format::pointing(measured.pointing, antenna.make().capabilities))
+            .unwrap_or_default();
         let is_old = !at.is_empty() && !antenna.snapshot.link.is_open();
         OtherAntenna {
             index,

@@ -1,7 +1,7 @@
 //! Title and count, and the choice of satellites, span and lowest maximum
 //! elevation.
 
-use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, Filter, PassListAction, PassListModel};
 use crate::{
@@ -12,6 +12,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, RADIUS, SMALL_HEIGHT},
+            drop_down::DropDown,
             paint,
             segmented::{self, Segment},
         },
@@ -129,13 +130,10 @@ struct Menu {
 
 impl Menu {
     fn show(self, ui: &Ui, chosen: &str, choices: impl FnOnce(&mut Ui)) -> Rect {
-        let button = Button::quiet(chosen).chevron();
-        let place = self.line.with_min_x(self.line.right() - button.width(ui));
-        let response = button.show(ui, self.salt, place);
-        Popup::menu(&response).width(place.width()).accessible_name(self.name).show(|ui| {
-            ui.set_min_width(ui.available_width());
-            choices(ui);
-        });
+        let name = format!("{}: {chosen}", self.name);
+        let list = DropDown { button: Button::quiet(chosen), salt: self.salt, name: &name };
+        let place = self.line.with_min_x(self.line.right() - list.width(ui));
+        list.show(ui, place, choices);
         place
     }
 }

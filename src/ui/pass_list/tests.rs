@@ -181,12 +181,12 @@ fn tab_walks_from_the_drop_down_to_the_rows() {
 #[test]
 fn another_floor_is_chosen_from_the_drop_down() {
     let mut window = window(Desk::with(8));
-    window.get_by_role_and_label(Role::Button, "max ≥ 10°").click();
+    window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 10°").click();
     window.run();
     window.get_by_label("max ≥ 30°").click();
     window.run();
     assert_eq!(window.state().actions, [PassListAction::SetFloor(30.0)]);
-    window.get_by_role_and_label(Role::Button, "max ≥ 30°");
+    window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 30°");
 }
 
 #[test]
@@ -195,7 +195,7 @@ fn satellites_and_span_are_chosen_above_the_list() {
         let mut window = window(Desk { thumbnails, ..Desk::with(8) });
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
-        window.get_by_role_and_label(Role::Button, "48 h").click();
+        window.get_by_role_and_label(Role::ComboBox, "How far ahead: 48 h").click();
         window.run();
         window.get_by_label("6 h").click();
         window.run();
@@ -277,9 +277,9 @@ fn the_choices_in_the_head_never_touch() {
         let window = window(desk);
         let place = |name| window.get_by_label(name).rect();
         let count = place("Next passes, 98\u{2009}765");
-        assert!(count.right() < place("max ≥ 10°").left());
+        assert!(count.right() < place("Lowest maximum elevation: max ≥ 10°").left());
         assert!(place("All").right() < place("Filter the list").left());
-        assert!(place("Filter the list").right() < place("48 h").left());
+        assert!(place("Filter the list").right() < place("How far ahead: 48 h").left());
     }
 }
 

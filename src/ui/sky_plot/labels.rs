@@ -61,7 +61,10 @@ pub(super) struct Labels<'a> {
     tokens: &'a Tokens,
     dome: Dome,
     bounds: Rect,
+    /// What a label had better not cover.
     reserved: Vec<Rect>,
+    /// The labels that were painted: none lies on another one.
+    texts: Vec<Rect>,
     before: HashMap<Key, Memory>,
     memory: HashMap<Key, Memory>,
 }
@@ -75,7 +78,16 @@ impl<'a> Labels<'a> {
         bounds: Rect,
         before: HashMap<Key, Memory>,
     ) -> Self {
-        Self { painter, tokens, dome, bounds, reserved: Vec::new(), before, memory: HashMap::new() }
+        Self {
+            painter,
+            tokens,
+            dome,
+            bounds,
+            reserved: Vec::new(),
+            texts: Vec::new(),
+            before,
+            memory: HashMap::new(),
+        }
     }
 
     /// Keeps labels away from a box.
@@ -97,15 +109,20 @@ impl<'a> Labels<'a> {
     }
 
     /// Paints a label at the best place and keeps later ones away from it.
-    /// None when it was dropped.
+    /// None when it was dropped: what comes first goes before what comes later.
     pub(super) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
         let measure = job(label, Align::LEFT);
         let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
+        let is_free = |side: &Side| {
+            let rect = side.rect(label.mark, size, label.clearance);
+            !self.texts.iter().any(|text| text.intersects(rect))
+        };
+        let free: Vec<Side> = label.order.iter().copied().filter(is_free).collect();
         let place = place(
             label.mark,
             size,
             label.clearance,
-            label.order,
+            &free,
             self.bounds,
             &self.reserved,
             self.before.get(&label.key).copied(),
@@ -119,7 +136,7 @@ impl<'a> Labels<'a> {
             return None;
         }
         self.paint(label, place);
-        self.reserved.push(place.rect);
+        self.texts.push(place.rect);
         Some(place)
     }
 
@@ -153,4 +170,52 @@ fn job(label: &Label<'_>, align: Align) -> LayoutJob {
         job.append(&text, 0.0, TextFormat::simple(font.clone(), *colour));
     }
     job
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::{
+        sky_plot::{testing, track},
+        theme,
+        widgets::testing::window,
+    };
+    use egui::{pos2, vec2};
+
+    /// Whose labels there are when the pass is drawn on a disc of this radius. None
+    /// lies on another one.
+    fn labelled(radius: f32) -> Vec<Key> {
+        let dome = Dome { centre: pos2(200.0, 200.0), radius };
+        let bounds = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0));
+        let samples = testing::pass();
+        let mut harness = window(bounds.size(), Vec::new(), move |ui, found| {
+            let t = theme::tokens(ui.ctx());
+            let pass = testing::track(&samples);
+            let mut labels = Labels::new(ui.painter(), t, dome, bounds, HashMap::new());
+            let (events, ticks) = (track::events(&pass), track::ticks(dome, &pass));
+            track::label_events(&mut labels, dome, &events, t);
+            track::label_minutes(&mut labels, &ticks, &events, pass.los.time, t);
+            for (index, text) in labels.texts.iter().enumerate() {
+                let others = &labels.texts[index + 1..];
+                assert!(others.iter().all(|other| !other.intersects(*text)), "{radius}");
+            }
+            *found = labels.into_memory().into_keys().collect();
+        });
+        harness.run();
+        harness.state().clone()
+    }
+
+    #[test]
+    fn labels_that_have_no_room_are_dropped_and_those_of_the_ends_last() {
+        let minutes =
+            |keys: &[Key]| keys.iter().filter(|key| matches!(key, Key::Minute(_))).count();
+        let all = labelled(190.0);
+        assert!([Key::Aos, Key::Tca, Key::Los].iter().all(|key| all.contains(key)));
+        assert!(minutes(&all) > 0);
+        let few = labelled(60.0);
+        assert!([Key::Aos, Key::Los].iter().all(|key| few.contains(key)));
+        assert!(minutes(&few) < minutes(&all), "{few:?}");
+        let fewest = labelled(20.0);
+        assert!([Key::Aos, Key::Los].iter().all(|key| fewest.contains(key)), "{fewest:?}");
+    }
 }

@@ -143,14 +143,17 @@ pub(super) fn paint_events(painter: &Painter, dome: Dome, events: &[Event], t: &
     }
 }
 
-/// The labels of the events.
+/// The labels of the events; where there is no room for all, those of the ends
+/// come before the one of the highest point.
 pub(super) fn label_events(labels: &mut Labels<'_>, dome: Dome, events: &[Event], t: &Tokens) {
-    for event in events {
+    let is_top = |event: &&Event| event.form == EventForm::Diamond;
+    let (top, ends): (Vec<&Event>, Vec<&Event>) = events.iter().partition(is_top);
+    for event in ends.into_iter().chain(top) {
         let direction = event.sample.direction;
         let Some(mark) = dome.point(direction) else { continue };
         let first = format!("{} {}", event.word, format::time(event.sample.time));
         let azimuth = format::azimuth(direction.azimuth_deg());
-        let second = if event.form == EventForm::Diamond {
+        let second = if is_top(&event) {
             format!("el {} az {azimuth}", format::degrees(direction.elevation_deg(), 1))
         } else {
             format!("az {azimuth}")

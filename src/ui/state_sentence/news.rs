@@ -18,6 +18,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         return None;
     }
     let name = &antenna.config.name;
+    let can = antenna.make().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
     Some(match event {
         Event::Back { after, found } => {
@@ -67,8 +68,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         }
         Event::EndedShort { aim, at } => caution.plain(format!(
             "Stands at {} and not at {}.",
-            format::pointing(*at),
-            format::pointing(*aim)
+            format::pointing(*at, can),
+            format::pointing(*aim, can)
         )),
         Event::JogLeaseOver => {
             caution.plain("The jog was stopped: the window did not hold it in time.")

@@ -31,12 +31,22 @@ pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
     for at in scale.multiples(step_s) {
         ui.painter().vline(scale.x(at), lanes.y_range(), (1.0, t.line));
     }
-    let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
-    for at in scale.multiples(every_s).filter(|at| is_full_hour(*at)) {
-        let name = format::hours_minutes(at);
-        let place = pos2(scale.x(at), names.center().y);
+    for (x, name) in hour_names(ui, scale, names) {
+        let place = pos2(x, names.center().y);
         paint::text(ui, place, Align2::CENTER_CENTER, name, text::caption(), t.t3);
     }
+}
+
+/// The hours that are named, each with its middle. One that would reach beyond the
+/// end of the lane is left out.
+fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
+    let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
+    let hours = scale.multiples(every_s).filter(|at| is_full_hour(*at));
+    let named = hours.map(|at| (scale.x(at), format::hours_minutes(at)));
+    let fits = |(x, name): &(f32, String)| {
+        x + paint::text_width(ui, name, text::caption()) / 2.0 <= names.right()
+    };
+    named.filter(fits).collect()
 }
 
 /// Paints the now-line through `y`, with its triangle on top.
@@ -53,6 +63,27 @@ pub(super) fn now_line(ui: &Ui, scale: &Scale, now: Timestamp, y: Rangef) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ui::widgets::testing;
+
+    #[test]
+    fn no_name_of_an_hour_reaches_beyond_the_lane() {
+        let names = Rect::from_min_size(pos2(100.0, 0.0), vec2(504.0, 24.0));
+        // The end of the strip comes nearer to the last hour from one to the next.
+        let ends = ["22:56", "22:20", "22:12", "22:11", "22:10"];
+        let last = ends.map(|end| {
+            let now = format!("2026-11-14T{end}:00Z").parse::<Timestamp>().unwrap();
+            let now = now - jiff::SignedDuration::from_mins(12 * 60 - 10);
+            let scale = Scale::new(now, 12.0, names.x_range());
+            let mut window = testing::window([640.0, 80.0], Vec::new(), move |ui, shown| {
+                *shown = hour_names(ui, &scale, names);
+            });
+            window.run();
+            let (x, name) = window.state().last().unwrap().clone();
+            assert!(x + 12.0 < names.right(), "{name} at {x}");
+            name
+        });
+        assert_eq!(last, ["22:00", "21:00", "21:00", "21:00", "21:00"]);
+    }
 
     #[test]
     fn narrow_hours_are_not_all_named() {

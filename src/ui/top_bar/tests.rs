@@ -58,6 +58,7 @@ fn show_bar(ui: &mut Ui, stop: StopState<'_>) -> Vec<TopBarAction> {
         chips: &chips,
         alarms: AlarmModel { rows: &[ALARM], unopened: false },
         stop,
+        stop_about: "Stops every antenna.",
     };
     show(ui, rect, &model)
 }

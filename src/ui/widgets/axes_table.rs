@@ -4,6 +4,7 @@ use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
 
 use super::paint;
 use crate::ui::{
+    format,
     text::{self, Weight},
     theme,
     tokens::Tokens,
@@ -26,6 +27,23 @@ pub enum WantedColumn {
     Predicted,
 }
 
+impl WantedColumn {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Command => "Command",
+            Self::Predicted => "Predicted",
+        }
+    }
+
+    /// Of what it holds, for a unit whose angles have `of_unit`.
+    pub fn decimals(self, of_unit: usize) -> usize {
+        match self {
+            Self::Command => of_unit,
+            Self::Predicted => 2,
+        }
+    }
+}
+
 /// One axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AxisRow<'a> {
@@ -46,13 +64,11 @@ pub fn height(axes: usize) -> f32 {
     HEAD_HEIGHT + ROW_HEIGHT * axes as f32
 }
 
-/// Shows the table in `rect`. Every column keeps its place whatever it holds.
-pub fn show(ui: &Ui, rect: Rect, wanted: WantedColumn, axes: &[AxisRow<'_>]) {
+/// Shows the table in `rect`. What was measured and commanded has `decimals`, what
+/// is predicted has two. Every column keeps its place whatever it holds.
+pub fn show(ui: &Ui, rect: Rect, wanted: WantedColumn, decimals: usize, axes: &[AxisRow<'_>]) {
     let t = theme::tokens(ui);
-    let wanted_word = match wanted {
-        WantedColumn::Command => "Command",
-        WantedColumn::Predicted => "Predicted",
-    };
+    let wanted_word = wanted.word();
     let y = rect.top() + HEAD_HEIGHT / 2.0;
     let head = |x: f32, anchor: Align2, word: &str| {
         paint::text(ui, pos2(x, y), anchor, word, text::caption(), t.t3);
@@ -66,7 +82,7 @@ pub fn show(ui: &Ui, rect: Rect, wanted: WantedColumn, axes: &[AxisRow<'_>]) {
     for (index, axis) in axes.iter().enumerate() {
         let top = rect.top() + HEAD_HEIGHT + ROW_HEIGHT * index as f32;
         let row = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), ROW_HEIGHT));
-        show_row(ui, row, wanted, wanted_word, axis, t);
+        show_row(ui, row, wanted, decimals, axis, t);
     }
 }
 
@@ -74,7 +90,7 @@ fn show_row(
     ui: &Ui,
     row: Rect,
     wanted: WantedColumn,
-    wanted_word: &str,
+    decimals: usize,
     axis: &AxisRow<'_>,
     t: &Tokens,
 ) {
@@ -85,11 +101,12 @@ fn show_row(
         WantedColumn::Command => t.cmd,
         WantedColumn::Predicted => t.sat,
     };
+    let wanted_decimals = wanted.decimals(decimals);
     let texts = [
-        angle(axis.wanted_deg),
-        angle(axis.actual_deg),
-        signed(axis.error_deg),
-        signed(axis.rate_deg_s),
+        angle(axis.wanted_deg, wanted_decimals),
+        angle(axis.actual_deg, decimals),
+        signed(axis.error_deg, wanted_decimals),
+        signed(axis.rate_deg_s, 2),
     ];
     let looks: [(FontId, _); 4] =
         [(text::axis(), wanted_colour), (strong, t.t1), (text::axis(), t.t1), (text::axis(), t.t2)];
@@ -98,26 +115,23 @@ fn show_row(
         paint::text(ui, at, Align2::RIGHT_CENTER, words, font, colour);
     }
     let spoken = texts.map(|words| if words == UNKNOWN { "not known".to_owned() } else { words });
-    let [wanted, actual, error, rate] = spoken;
+    let [wanted_text, actual, error, rate] = spoken;
     let name = format!(
-        "{}: {wanted_word} {wanted}, actual {actual}, error {error}, rate {rate}",
-        axis.name
+        "{}: {} {wanted_text}, actual {actual}, error {error}, rate {rate}",
+        axis.name,
+        wanted.word()
     );
     paint::name_text(ui, ("axis", axis.name), row, &name);
 }
 
-/// Two decimals, with a true minus sign, or a dash.
-pub fn angle(degrees: Option<f64>) -> String {
-    degrees.map_or_else(|| UNKNOWN.to_owned(), |value| format!("{value:.2}").replace('-', "−"))
+/// A number with a true minus sign, or a dash.
+pub fn angle(degrees: Option<f64>, decimals: usize) -> String {
+    degrees.map_or_else(|| UNKNOWN.to_owned(), |value| format::number(value, decimals))
 }
 
-/// Two decimals with their sign, or a dash.
-fn signed(value: Option<f64>) -> String {
-    value.map_or_else(
-        || UNKNOWN.to_owned(),
-        // Adding zero turns a negative zero into the usual one.
-        |value| format!("{:+.2}", (value * 100.0).round() / 100.0 + 0.0).replace('-', "−"),
-    )
+/// The same with its sign.
+fn signed(value: Option<f64>, decimals: usize) -> String {
+    value.map_or_else(|| UNKNOWN.to_owned(), |value| format::signed(value, decimals))
 }
 
 #[cfg(test)]
@@ -128,10 +142,10 @@ mod tests {
 
     #[test]
     fn missing_numbers_are_dashes_and_small_errors_have_no_negative_zero() {
-        assert_eq!(angle(None), "–");
-        assert_eq!(angle(Some(-3.456)), "−3.46");
-        assert_eq!(signed(Some(-0.001)), "+0.00");
-        assert_eq!(signed(Some(-0.04)), "−0.04");
+        assert_eq!(angle(None, 2), "–");
+        assert_eq!(angle(Some(-3.456), 2), "−3.46");
+        assert_eq!(signed(Some(-0.001), 2), "+0.00");
+        assert_eq!(signed(Some(-0.04), 2), "−0.04");
     }
 
     #[test]
@@ -144,8 +158,29 @@ mod tests {
                 ..AxisRow::default()
             }];
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
-            show(ui, rect, WantedColumn::Predicted, &axes);
+            show(ui, rect, WantedColumn::Predicted, 2, &axes);
         });
         window.get_by_label("Az: Predicted not known, actual 185.51, error −0.04, rate not known");
+    }
+
+    #[test]
+    fn only_what_is_predicted_has_more_decimals_than_the_unit() {
+        for (wanted, said) in [
+            (WantedColumn::Command, "Az: Command 173, actual 172, error −1, rate −0.25"),
+            (WantedColumn::Predicted, "Az: Predicted 173.00, actual 172, error −1.00, rate −0.25"),
+        ] {
+            let window = testing::window([400.0, 200.0], wanted, |ui, wanted| {
+                let axes = [AxisRow {
+                    name: "Az",
+                    wanted_deg: Some(173.0),
+                    actual_deg: Some(172.0),
+                    error_deg: Some(-1.0),
+                    rate_deg_s: Some(-0.25),
+                }];
+                let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
+                show(ui, rect, *wanted, 0, &axes);
+            });
+            window.get_by_label(said);
+        }
     }
 }

@@ -69,12 +69,12 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
     let tick = bar.left() + TICK_PART as f32 * bar.width();
     ui.painter().vline(tick, (y - 7.0)..=(y + 7.0), (2.0, t.cmd));
 
-    let limit = format!(" of {}°", axes_table::angle(Some(model.half_beam_deg)));
+    let limit = format!(" of {}°", axes_table::angle(Some(model.half_beam_deg), 2));
     let limit_box =
         paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, &limit, text::small(), t.t2);
     let error = model.error_deg.map_or_else(
         || axes_table::UNKNOWN.to_owned(),
-        |error_deg| format!("{}°", axes_table::angle(Some(error_deg))),
+        |error_deg| format!("{}°", axes_table::angle(Some(error_deg), 2)),
     );
     let strong = text::sized(12.0, Weight::SemiBold);
     let at = pos2(limit_box.left(), y);

@@ -22,8 +22,9 @@ pub struct FoldModel<'a> {
     pub mark: Option<(Icon, Color32)>,
 }
 
-/// Shows the line in `rect` and flips `open` on a click.
-pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) {
+/// Shows the line in `rect` and flips `open` on a click. Whether it was opened by
+/// that: the caller then brings what stands below into sight.
+pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) -> bool {
     let t = theme::tokens(ui);
     let name = format!("{}: {}", model.title, model.value);
     let response = paint::control(ui, ("fold", model.title), rect, Role::Button, true, &name);
@@ -51,6 +52,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) {
     let room = rect.with_min_x(title.right() + 8.0).with_max_x(right);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, model.value, text::small(), t.t2);
     paint::focus_ring(ui, &response, 0);
+    *open && response.clicked()
 }
 
 #[cfg(test)]

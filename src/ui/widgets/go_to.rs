@@ -6,7 +6,7 @@ use egui::{Align2, Id, Key, Rect, Role, Sense, Ui, WidgetInfo, pos2};
 
 use super::{
     angle_field::{AngleField, RADIUS},
-    axes_table::{UNKNOWN, angle},
+    axes_table::angle,
     button::Button,
     paint,
 };
@@ -31,6 +31,8 @@ pub struct GoToModel {
     pub elevation_range_deg: Option<(f64, f64)>,
     /// Where the antenna was told to be, shown in fields that are empty.
     pub commanded_deg: (Option<f64>, Option<f64>),
+    /// Of the numbers that are shown for it.
+    pub decimals: usize,
 }
 
 /// A direction, in degrees.
@@ -164,7 +166,7 @@ fn field_row(
         Field::Azimuth => (&mut state.azimuth, model.commanded_deg.0),
         Field::Elevation => (&mut state.elevation, model.commanded_deg.1),
     };
-    let commanded = commanded.map_or_else(|| UNKNOWN.to_owned(), |deg| angle(Some(deg)));
+    let commanded = angle(commanded, model.decimals);
     let name = format!("Go to {}, degrees", field.name().to_lowercase());
     let id = ui.make_persistent_id(("go to", word));
     if model.locked {

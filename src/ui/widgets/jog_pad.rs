@@ -5,7 +5,10 @@ mod keys;
 
 use std::time::Duration;
 
-use egui::{Align2, EventFilter, Rect, Response, Stroke, StrokeKind, Ui, Vec2, ViewportId};
+use egui::{
+    Align2, EventFilter, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, ViewportId,
+    WidgetInfo,
+};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{
@@ -14,8 +17,8 @@ use crate::ui::{
     theme,
 };
 
-use hold::Frame;
 pub use hold::JogState;
+use hold::{Focus, Frame};
 pub use keys::{JogDirection, JogKeys, KeyLabel};
 
 /// A held key is reported at least so often.
@@ -40,7 +43,8 @@ pub struct JogModel<'a> {
 /// Shows the pad in `rect`, a square. Returns the direction that is held, in
 /// every frame in which it is held; the first frame with `None` is the release.
 /// A key is held with the pointer, or with the arrow keys, Space or Enter while
-/// the pad has the focus. Losing the window, the pointer or the focus releases
+/// one of them has the focus, or with the arrow keys alone while the pad as a
+/// whole has it ([`JogState::focus`]). Losing the window, the pointer or the focus releases
 /// it, and only a new press holds it again.
 pub fn show(
     ui: &Ui,
@@ -50,6 +54,10 @@ pub fn show(
 ) -> Option<JogDirection> {
     let side = (rect.width() * 5.0 / 17.0).floor();
     let mut frame = Frame::new(model.locked);
+    let whole = whole(ui, rect, !model.locked);
+    if keeps_arrows(ui, &whole) {
+        frame.focus = Some(Focus::Pad);
+    }
     let mut keys = Vec::new();
     for direction in JogDirection::ALL {
         let label = model.keys.label(direction);
@@ -68,6 +76,9 @@ pub fn show(
     frame.blocked = JogDirection::ALL
         .map(|direction| !keys.iter().any(|(at, _, free, _)| *at == direction && *free));
     ui.input(|input| frame.read(input));
+    if state.takes_focus(&frame) {
+        whole.request_focus();
+    }
     let held = state.step(&frame);
     if held.is_some() {
         // Without a frame nobody would hear that the key is still held.
@@ -77,7 +88,16 @@ pub fn show(
         paint_key(ui, *label, *free, model.locked, held == Some(*direction), response);
     }
     paint_middle(ui, rect, model, held.is_some());
+    paint::focus_ring(ui, &whole, RADIUS);
     held
+}
+
+/// What can have the focus in place of a single key. The pointer goes through it.
+fn whole(ui: &Ui, rect: Rect, free: bool) -> Response {
+    let sense = if free { Sense::focusable_noninteractive() } else { Sense::hover() };
+    let response = ui.interact(rect, ui.make_persistent_id("jog pad"), sense);
+    response.widget_info(|| WidgetInfo::labeled(Role::Group, free, "Jog with the arrow keys"));
+    response
 }
 
 /// Takes pointer and focus of one key into the frame.
@@ -86,17 +106,24 @@ fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Respo
         frame.pointer_on = Some(direction);
         response.request_focus();
     }
-    if response.has_focus() {
-        if ui.input(|input| !input.focused) {
-            // Coming back to the window must not bring the keys back to life.
-            response.surrender_focus();
-            return;
-        }
-        frame.focus = Some(direction);
-        let filter =
-            EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    if keeps_arrows(ui, response) {
+        frame.focus = Some(Focus::Key(direction));
     }
+}
+
+/// Whether it has the focus. The arrows then do not lead elsewhere.
+fn keeps_arrows(ui: &Ui, response: &Response) -> bool {
+    if ui.input(|input| !input.focused) {
+        // Coming back to the window must not bring the keys back to life.
+        response.surrender_focus();
+    }
+    if !response.has_focus() {
+        return false;
+    }
+    let filter =
+        EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    true
 }
 
 fn paint_key(ui: &Ui, label: KeyLabel, free: bool, locked: bool, held: bool, response: &Response) {

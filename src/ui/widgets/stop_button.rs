@@ -37,9 +37,11 @@ pub enum StopState<'a> {
 
 /// Shows STOP in `rect`; it says `clicked` in every state. The sentence of
 /// [`StopState::NotConfirmed`] is part of its name and has to stand beside it.
-pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>) -> Response {
+/// `about` says what it stops to whoever points at it or has it read aloud.
+pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>, about: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
     let t = theme::tokens(ui);
     let outline = state == StopState::AllStopped;
     let (fill, colour) = if outline { (Color32::TRANSPARENT, t.bad) } else { (t.stop, t.onstop) };
@@ -69,7 +71,7 @@ pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>) -> Response {
         paint::text(ui, key.center(), Align2::CENTER_CENTER, "Esc", font, colour);
     }
     paint::focus_ring(ui, &response, RADIUS);
-    response
+    response.on_hover_text(about)
 }
 
 fn name(state: StopState<'_>) -> String {
@@ -98,7 +100,7 @@ mod tests {
             for size in [SIZE, SMALL_SIZE] {
                 let mut window = testing::window([200.0, 80.0], 0, |ui, clicks| {
                     let rect = Rect::from_min_size(pos2(10.0, 10.0), size);
-                    if show(ui, rect, state).clicked() {
+                    if show(ui, rect, state, "Stops all.").clicked() {
                         *clicks += 1;
                     }
                 });

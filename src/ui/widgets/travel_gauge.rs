@@ -4,6 +4,7 @@ use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec
 
 use super::paint;
 use crate::ui::{
+    format,
     text::{self, Weight},
     theme,
     tokens::Tokens,
@@ -27,12 +28,24 @@ pub struct TravelModel<'a> {
     pub travel_deg: (f64, f64),
     /// Measured, in degrees.
     pub position_deg: Option<f64>,
+    /// Of the number that is shown for it.
+    pub decimals: usize,
     /// The limit switch at the lower end is set.
     pub lower_limit: bool,
     /// The limit switch at the upper end is set.
     pub upper_limit: bool,
     /// A tick for each full turn, for mounts that wrap their cables.
     pub turns: bool,
+}
+
+impl TravelModel<'_> {
+    /// The position as it is shown.
+    pub fn number(&self) -> String {
+        self.position_deg.map_or_else(
+            || super::axes_table::UNKNOWN.to_owned(),
+            |deg| format::degrees(deg, self.decimals),
+        )
+    }
 }
 
 /// The place of a value on the gauge, 0 at the lower end to 1 at the upper.
@@ -91,10 +104,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &TravelModel<'_>) {
         let end = Rect::from_min_max(pos2(from, y - 4.0), pos2(to, y + 4.0));
         ui.painter().rect_filled(end, 0.0, t.keep);
     }
-    let number = model.position_deg.map_or_else(
-        || super::axes_table::UNKNOWN.to_owned(),
-        |deg| format!("{deg:.1}°").replace('-', "−"),
-    );
+    let number = model.number();
     if let Some(deg) = model.position_deg {
         if let Some((from, to)) = near_end(deg, model.travel_deg) {
             let zone = Rect::from_min_max(pos2(x(from), y - 4.0), pos2(x(to), y + 4.0));
@@ -153,6 +163,7 @@ mod tests {
         scale_deg: (0.0, 180.0),
         travel_deg: (6.0, 174.0),
         position_deg: Some(175.0),
+        decimals: 1,
         lower_limit: false,
         upper_limit: true,
         turns: false,

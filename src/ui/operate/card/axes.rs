@@ -5,10 +5,13 @@ use crate::{
     astro::Angle,
     controller::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
     station::Mount,
-    ui::widgets::{
-        axes_table::AxisRow,
-        jog_pad::{JogDirection, JogKeys},
-        travel_gauge::TravelModel,
+    ui::{
+        format,
+        widgets::{
+            axes_table::AxisRow,
+            jog_pad::{JogDirection, JogKeys},
+            travel_gauge::TravelModel,
+        },
     },
 };
 
@@ -64,6 +67,7 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
             scale_deg,
             travel_deg,
             position_deg: axis.and_then(|axis| axis.angle_deg),
+            decimals: format::decimals(can).min(1),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
             turns: to - from > 360.0,

@@ -1,5 +1,7 @@
 //! The checks of a unit as the card shows them.
 
+use jiff::Timestamp;
+
 use crate::{
     app::antenna::AntennaModel,
     controller::{
@@ -9,6 +11,12 @@ use crate::{
     protocol::satrak::FaultKind,
     ui::words,
 };
+
+/// When the unit reported its checks.
+pub(super) fn read_at(antenna: &AntennaModel) -> Option<Timestamp> {
+    let state = &antenna.snapshot.state;
+    state.satrak.faults.as_ref().map(|(_, at)| *at).or(state.checked_at)
+}
 
 /// The checks of the unit; those of a Satrak also before it has reported them.
 pub(super) fn of(antenna: &AntennaModel) -> Vec<Check> {

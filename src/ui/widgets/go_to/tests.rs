@@ -8,6 +8,7 @@ const MODEL: GoToModel = GoToModel {
     azimuth_range_deg: (0.0, 360.0),
     elevation_range_deg: Some((0.0, 90.0)),
     commanded_deg: (Some(185.5), Some(37.4)),
+    decimals: 2,
 };
 
 type Story = (GoToState, Vec<GoToAction>);

@@ -11,11 +11,32 @@ enum Source {
     Keyboard(Key),
 }
 
+/// What has the focus of the keyboard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Focus {
+    /// The pad as a whole: the arrows are its keys.
+    Pad,
+    /// One key, for Space and Enter as well.
+    Key(JogDirection),
+}
+
 /// Which key is held, kept from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JogState {
     held: Option<(JogDirection, Source)>,
     focus: bool,
+    wish: Wish,
+}
+
+/// Whether the pad is to be given the keyboard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Wish {
+    #[default]
+    None,
+    /// Since this frame, by a key that may be among its events.
+    New,
+    /// As soon as the pad is free.
+    Waiting,
 }
 
 /// What one frame says about the pad.
@@ -27,14 +48,15 @@ pub(super) struct Frame {
     pub(super) blocked: [bool; 4],
     /// The pointer holds this key down.
     pub(super) pointer_on: Option<JogDirection>,
-    /// This key has the focus of the keyboard.
-    pub(super) focus: Option<JogDirection>,
+    pub(super) focus: Option<Focus>,
     pointer_lost: bool,
     pointer_pressed: bool,
     window_lost: bool,
     escape: bool,
     pressed: Vec<Key>,
     down: Vec<Key>,
+    /// Any key or button went down, on the pad or elsewhere.
+    anything_pressed: bool,
 }
 
 const USED: [Key; 6] =
@@ -52,6 +74,14 @@ impl Frame {
         self.pointer_pressed = input.pointer.primary_pressed();
         self.escape = input.key_pressed(Key::Escape);
         self.down = USED.into_iter().filter(|key| input.key_down(*key)).collect();
+        // The raw ones: those too that another control has taken.
+        self.anything_pressed = input.raw.events.iter().any(|event| {
+            matches!(
+                event,
+                Event::Key { pressed: true, repeat: false, .. }
+                    | Event::PointerButton { pressed: true, .. }
+            )
+        });
         self.pressed = input
             .events
             .iter()
@@ -89,7 +119,10 @@ impl Frame {
         let focus = self.focus?;
         self.pressed.iter().find_map(|key| {
             let direction = match key {
-                Key::Space | Key::Enter => Some(focus),
+                Key::Space | Key::Enter => match focus {
+                    Focus::Key(direction) => Some(direction),
+                    Focus::Pad => None,
+                },
                 arrow => JogDirection::of_arrow(*arrow),
             };
             Some((direction?, Source::Keyboard(*key)))
@@ -115,7 +148,27 @@ impl JogState {
         self.held.map(|(direction, _)| direction)
     }
 
-    /// One of the keys has the focus of the keyboard.
+    /// Puts the keyboard on the pad as soon as it is free. Nothing moves by that.
+    pub fn focus(&mut self) {
+        self.wish = Wish::New;
+    }
+
+    /// Whether the pad is to take the keyboard in this frame. Whoever presses
+    /// anything else before it is free does not wait for it any more.
+    pub(super) fn takes_focus(&mut self, frame: &Frame) -> bool {
+        let wish = std::mem::take(&mut self.wish);
+        let is_over = wish == Wish::Waiting && frame.anything_pressed;
+        if wish == Wish::None || is_over || frame.window_lost {
+            return false;
+        }
+        if frame.locked {
+            self.wish = Wish::Waiting;
+            return false;
+        }
+        frame.focus.is_none()
+    }
+
+    /// The pad or one of its keys has the focus of the keyboard.
     pub fn has_focus(self) -> bool {
         self.focus
     }

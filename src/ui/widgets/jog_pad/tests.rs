@@ -113,6 +113,80 @@ fn space_holds_the_key_with_the_focus() {
 }
 
 #[test]
+fn a_pad_that_is_given_the_keyboard_jogs_with_the_arrows_alone() {
+    let mut window = pad(Pad::default());
+    window.state_mut().state.focus();
+    window.run();
+    assert!(window.get_by_label("Jog with the arrow keys").is_focused());
+    assert_eq!(window.state().held, None, "the keyboard alone moves nothing");
+    for key in [Key::Enter, Key::Space] {
+        window.key_down(key);
+        window.run_steps(2);
+        assert_eq!(window.state().held, None, "{key:?} names no direction");
+        window.key_up(key);
+    }
+    for (key, direction) in
+        [(Key::ArrowUp, JogDirection::YPlus), (Key::ArrowLeft, JogDirection::XMinus)]
+    {
+        window.key_down(key);
+        window.run_steps(2);
+        assert_eq!(window.state().held, Some(direction));
+        window.key_up(key);
+        window.step();
+        assert_eq!(window.state().held, None);
+    }
+}
+
+#[test]
+fn an_arrow_that_is_already_down_does_not_jog_when_the_keyboard_comes() {
+    let mut window = pad(Pad { locked: true, ..Pad::default() });
+    window.key_down(Key::ArrowRight);
+    window.step();
+    window.state_mut().state.focus();
+    window.state_mut().locked = false;
+    window.run_steps(3);
+    assert!(window.get_by_label("Jog with the arrow keys").is_focused());
+    assert_eq!(window.state().held, None);
+}
+
+#[test]
+fn the_keyboard_comes_when_the_pad_is_free_unless_something_else_was_pressed() {
+    for (other, comes) in [(None, true), (Some(Key::F), false)] {
+        let mut window = pad(Pad { locked: true, ..Pad::default() });
+        window.state_mut().state.focus();
+        window.run_steps(2);
+        if let Some(key) = other {
+            window.key_press(key);
+            window.run_steps(2);
+        }
+        window.state_mut().locked = false;
+        window.run_steps(2);
+        assert_eq!(window.get_by_label("Jog with the arrow keys").is_focused(), comes);
+    }
+}
+
+#[test]
+fn losing_the_window_or_the_right_to_jog_takes_the_keyboard_away() {
+    for loses_window in [true, false] {
+        let mut window = pad(Pad::default());
+        window.state_mut().state.focus();
+        window.run();
+        window.key_down(Key::ArrowUp);
+        window.step();
+        assert_eq!(window.state().held, Some(JogDirection::YPlus));
+        window.input_mut().focused = !loses_window;
+        window.state_mut().locked = !loses_window;
+        window.run_steps(2);
+        assert_eq!(window.state().held, None);
+        window.input_mut().focused = true;
+        window.state_mut().locked = false;
+        window.run_steps(2);
+        assert!(!window.get_by_label("Jog with the arrow keys").is_focused());
+        assert_eq!(window.state().held, None);
+    }
+}
+
+#[test]
 fn losing_the_window_ends_a_jog_by_keyboard() {
     let mut window = pad(Pad::default());
     window.get_by_label("Jog Y+").focus();

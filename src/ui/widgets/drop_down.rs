@@ -1,0 +1,74 @@
+//! A button that opens choices below it.
+
+use egui::{Popup, Rect, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
+
+use super::button::Button;
+
+/// Higher lists scroll.
+const MOST_HEIGHT: f32 = 400.0;
+
+/// What shows the choice that was made, and offers the others.
+#[derive(Debug, Clone, Copy)]
+pub struct DropDown<'a> {
+    /// With what is chosen on it.
+    pub button: Button<'a>,
+    /// Tells it from others.
+    pub salt: &'static str,
+    /// What is chosen here, and what it is now, as it is read aloud.
+    pub name: &'a str,
+}
+
+impl DropDown<'_> {
+    /// The width that the button wants.
+    pub fn width(&self, ui: &Ui) -> f32 {
+        self.button.chevron().width(ui)
+    }
+
+    /// Shows the button in `rect`, and `choices` while it is open; a click on one
+    /// closes it.
+    pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) {
+        let response = self.button.chevron().show(ui, self.salt, rect);
+        response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
+        Popup::menu(&response).width(rect.width()).accessible_name(self.name).show(|ui| {
+            ui.set_min_width(ui.available_width());
+            ScrollArea::vertical().max_height(MOST_HEIGHT).show(ui, |ui| {
+                // A choice may be longer than the button is wide.
+                ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+                choices(ui);
+            });
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::widgets::{button::SMALL_HEIGHT, testing};
+    use egui::{pos2, vec2};
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn a_choice_is_made_and_closes_the_list() {
+        let long = "SFTP, by the key of the host that was shown before";
+        let words = ["FTP", long];
+        let mut window = testing::window([600.0, 200.0], "FTP", move |ui, chosen| {
+            let name = format!("Protocol, {chosen}");
+            let list = DropDown { button: Button::normal(chosen), salt: "list", name: &name };
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(120.0, SMALL_HEIGHT));
+            list.show(ui, rect, |ui| {
+                for word in words {
+                    ui.selectable_value(chosen, word, word);
+                }
+            });
+        });
+        assert!(window.query_by_label(long).is_none());
+        window.get_by_role_and_label(Role::ComboBox, "Protocol, FTP").click();
+        window.run();
+        let choice = window.get_by_label(long).rect();
+        assert!(choice.height() < 40.0 && choice.width() > 200.0, "on one line: {choice:?}");
+        window.get_by_label(long).click();
+        window.run();
+        window.get_by_role_and_label(Role::ComboBox, &format!("Protocol, {long}"));
+        assert!(window.query_by_role_and_label(Role::Button, "FTP").is_none());
+    }
+}
