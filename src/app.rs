@@ -36,6 +36,7 @@ use std::{
 };
 
 pub use command::UiCommand;
+pub use demo::DemoAddresses;
 pub use model::{Model, View};
 
 use self::{
@@ -51,7 +52,8 @@ use self::{
 };
 use crate::{
     driver::{self, Clock, Driver, Wake},
-    station::{self, DemoAddresses, LoadError, Station},
+    makes,
+    station::{self, LoadError, Station},
     ui,
 };
 
@@ -160,7 +162,10 @@ impl App {
     }
 
     fn load_station(&mut self) {
-        let loaded = self.settings_path.as_deref().map_or(Err(LoadError::Missing), station::load);
+        let loaded = match &self.settings_path {
+            Some(path) => station::load(path, &makes::kinds()),
+            None => Err(LoadError::Missing),
+        };
         match loaded {
             Ok(loaded) => {
                 for note in loaded.notes {

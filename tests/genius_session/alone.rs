@@ -2,6 +2,7 @@
 
 use azel::{
     astro::Angle,
+    controller::rotator_genius::Rotators,
     controller::{
         Motion,
         panel::Act,
@@ -11,7 +12,6 @@ use azel::{
     driver::{Command, Event, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::Rotators,
 };
 
 use super::rig::{Rig, azimuth, pair, to};

@@ -2,10 +2,10 @@
 
 use azel::{
     controller::Motion,
+    controller::rotator_genius::Rotators,
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},
-    station::Rotators,
 };
 
 use super::{

@@ -2,9 +2,9 @@
 
 use azel::{
     controller::panel::CheckState,
+    controller::rotator_genius::Rotators,
     driver::{Event, LinkState},
     sim::rotator_genius::{Fault, Quirk},
-    station::Rotators,
 };
 
 use super::{

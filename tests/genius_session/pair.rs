@@ -2,10 +2,10 @@
 
 use azel::{
     controller::panel::CheckState,
+    controller::rotator_genius::Rotators,
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::Rotators,
 };
 
 use super::rig::{Rig, azimuth, pair, to};

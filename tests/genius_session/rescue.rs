@@ -1,6 +1,7 @@
 //! Outside the limits nothing but STOP ends a motion.
 
 use azel::{
+    controller::rotator_genius::Rotators,
     controller::{
         panel::{Act, CheckState},
         rotator_genius::RESCUE,
@@ -9,7 +10,6 @@ use azel::{
     driver::{Command, Event, Refusal, StopState},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, Quirk, RotatorOptions},
-    station::Rotators,
 };
 
 use super::{

@@ -1,9 +1,7 @@
 //! Which of the two rotators is which axis of the antenna.
 
-use crate::{
-    protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status},
-    station::Rotators,
-};
+use super::Rotators;
+use crate::protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status};
 
 /// What the two rotators are for the antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,7 +10,7 @@ mod source;
 mod times;
 mod wish;
 
-use super::state::UnitClock;
+use super::UnitClock;
 use crate::{
     controller::settings::{Group, SettleError, Unfit, Values},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},

@@ -1,11 +1,27 @@
-use super::{super::NoteReason, *};
+//! Antennas of every make, written to the station file and read from it.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::*;
 use crate::{
+    app::DemoAddresses,
     astro::HorizonMask,
+    controller::{
+        rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        rotator_genius::{ROTATORS, Rotators},
+    },
     station::{
-        AfterPass, Antenna, Calibration, Connection, CountPoint, DemoAddresses, Following, Mount,
-        Rotators,
+        self, AfterPass, Antenna, CountPoint, Following, LoadError, Loaded, Mount, Note,
+        NoteReason, SaveError, Setting, Station, save,
     },
 };
+
+fn load(path: &Path) -> Result<Loaded, LoadError> {
+    station::load(path, &kinds())
+}
 
 fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
@@ -103,11 +119,7 @@ fn a_failed_save_keeps_the_old_file() {
 fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    let genius = Antenna {
-        connection: Connection::Genius {
-            address: "tower.example:9006".to_owned(),
-            rotators: Rotators::Second,
-        },
+    let mut genius = Antenna {
         mount: Mount::AzEl {
             azimuth_from_deg: -90.0,
             azimuth_to_deg: 450.5,
@@ -120,8 +132,9 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
             latency_s: 0.0,
             after: AfterPass::Next,
         },
-        ..Antenna::genius("Tower", "")
+        ..Antenna::genius("Tower", "tower.example:9006")
     };
+    genius.connection.put(&ROTATORS, Rotators::Second).unwrap();
     let calibration = Calibration {
         azimuth: vec![
             CountPoint { counts: 0, degrees: -12.5 },
@@ -129,15 +142,10 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
         ],
         elevation: Vec::new(),
     };
-    let rc2000c = Antenna {
-        connection: Connection::Rc2000c {
-            address: "serial.example:4002".to_owned(),
-            baud: 1200,
-            bus_address: 111,
-            calibration,
-        },
-        ..Antenna::rc2000c("Dish", "")
-    };
+    let mut rc2000c = Antenna::rc2000c("Dish", "serial.example:4002");
+    rc2000c.connection.put(&BAUD, 1200).unwrap();
+    rc2000c.connection.put(&BUS_ADDRESS, 111).unwrap();
+    calibration.put_into(&mut rc2000c.connection).unwrap();
     let station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
     save(&station, &path).unwrap();
     let loaded = load(&path).unwrap();
@@ -180,7 +188,7 @@ fn a_bad_field_of_an_rc2000c_costs_only_itself() {
          azimuth = [{ counts = 30, degrees = 90 }, { counts = 3630, degrees = 270.0 }]\n\
          elevation = [{ counts = 30, degrees = 0 }, { counts = 30, degrees = 9 }]\n",
     );
-    let Connection::Rc2000c { calibration, .. } = read.connection else { panic!("{read:?}") };
+    let calibration = Calibration::of(&read.connection);
     assert_eq!((calibration.azimuth.len(), calibration.elevation.len()), (2, 0));
     assert_eq!(places, ["connection.calibration.elevation"]);
 }
@@ -233,4 +241,67 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
         assert_eq!(station.antennas, []);
         assert_eq!(notes[0].place, "antenna[0].connection.address");
     }
+}
+
+/// What the file of a station with antennas of every make looks like: it must
+/// stay readable for ever.
+const WRITTEN: &str = include_str!("tests/station.toml");
+
+#[test]
+fn the_file_is_what_it_always_was() {
+    let mut station = Station::demo(&DemoAddresses {
+        satrak: "192.168.10.21:4001".to_owned(),
+        genius: "192.168.1.250:9006".to_owned(),
+        rc2000c: "/dev/ttyUSB0".to_owned(),
+    });
+    station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+    station.antennas.push(Antenna::genius("G2", "host.example:6"));
+    station.antennas.push(Antenna::rc2000c("Third", "COM3"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    save(&station, &path).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), WRITTEN);
+    assert_eq!(load(&path).unwrap().station, station);
+}
+
+#[test]
+fn each_kind_fits_what_it_says_of_itself() {
+    let mut keys: Vec<&str> = kinds().iter().map(|kind| kind.key).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    assert_eq!(keys.len(), ALL.len(), "two kinds of one key");
+    for kind in kinds() {
+        assert_eq!(kind.check_address(kind.usual_address), Ok(()), "{kind:?}");
+        for setting in kind.settings {
+            assert_eq!(setting.check(&setting.usual), Ok(()), "{kind:?}: {}", setting.key);
+        }
+        let mut tables = kind.settings.chunk_by(|a, b| a.table == b.table);
+        let mut seen = Vec::new();
+        assert!(tables.all(|table| {
+            let table = table[0].table;
+            let is_new = !seen.contains(&table);
+            seen.push(table);
+            is_new
+        }));
+        assert!(kind.makes.iter().all(|make| make.key == kind.key), "{kind:?}");
+        let antenna = kind.antenna("Antenna", kind.usual_address);
+        let controller = (kind.open)(&antenna);
+        assert_eq!(controller.capabilities(), antenna.connection.make().capabilities);
+        assert_eq!(controller.groups().len(), antenna.connection.make().groups.len());
+    }
+}
+
+#[test]
+fn what_a_setting_cannot_hold_changes_nothing() {
+    let mut connection = rc2000c::KIND.connection("COM3");
+    let before = connection.clone();
+    let put = |connection: &mut station::Connection, setting: &Setting, value: u32| {
+        connection.put(setting, value).unwrap_err()
+    };
+    assert_eq!(put(&mut connection, &BUS_ADDRESS, 48), "must be a whole number from 49 to 111");
+    let speeds = "must be one of 300, 600, 1200, 2400, 4800, 9600";
+    assert_eq!(put(&mut connection, &BAUD, 19_200), speeds);
+    let why = connection.put(&ROTATORS, Rotators::First).unwrap_err();
+    assert_eq!(why, "is no setting of \"rc2000c\"");
+    assert_eq!(connection, before);
 }
