@@ -2,11 +2,10 @@
 
 use azel::{
     astro::Angle,
-    controller::rotator_genius::Rotators,
     controller::{
         Motion,
         panel::Act,
-        rotator_genius::{ALONE, OTHER},
+        rotator_genius::{ALONE, OTHER, Rotators},
         settings::Value,
     },
     driver::{Command, Event, Refusal},

@@ -1,8 +1,7 @@
 //! Positions: what is sent, and what becomes of it.
 
 use azel::{
-    controller::Motion,
-    controller::rotator_genius::Rotators,
+    controller::{Motion, rotator_genius::Rotators},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},

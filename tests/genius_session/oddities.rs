@@ -1,8 +1,7 @@
 //! Oddities and faults: nothing of it stops the session from being right.
 
 use azel::{
-    controller::panel::CheckState,
-    controller::rotator_genius::Rotators,
+    controller::{panel::CheckState, rotator_genius::Rotators},
     driver::{Event, LinkState},
     sim::rotator_genius::{Fault, Quirk},
 };

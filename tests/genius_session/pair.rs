@@ -1,8 +1,7 @@
 //! Two rotators that turn one antenna.
 
 use azel::{
-    controller::panel::CheckState,
-    controller::rotator_genius::Rotators,
+    controller::{panel::CheckState, rotator_genius::Rotators},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, RotatorOptions},

@@ -1,10 +1,9 @@
 //! Outside the limits nothing but STOP ends a motion.
 
 use azel::{
-    controller::rotator_genius::Rotators,
     controller::{
         panel::{Act, CheckState},
-        rotator_genius::RESCUE,
+        rotator_genius::{RESCUE, Rotators},
         settings::Values,
     },
     driver::{Command, Event, Refusal, StopState},

@@ -3,8 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::Motion,
-    controller::rc2000c::BAUD,
+    controller::{Motion, rc2000c::BAUD},
     driver::{Command, Event, LinkState, Refusal},
     sim::rc2000c::{Fault, Options, Quirk},
 };
