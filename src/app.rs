@@ -36,7 +36,6 @@ use std::{
 };
 
 pub use command::UiCommand;
-pub use demo::DemoAddresses;
 pub use model::{Model, View};
 
 use self::{
@@ -52,7 +51,7 @@ use self::{
 };
 use crate::{
     driver::{self, Clock, Driver, Wake},
-    makes,
+    makes::{self, DemoAddresses},
     station::{self, LoadError, Station},
     ui,
 };

@@ -11,5 +11,4 @@ pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;
 
-use crate::device::wire;
 pub use crate::device::*;

@@ -1,5 +1,9 @@
 //! The makes of controllers that there are: the one list to which another is
-//! added.
+//! added. The demo station is made of them.
+
+mod demo;
+
+pub use demo::DemoAddresses;
 
 use crate::{
     controller::{Make, rc2000c, rotator_genius, satrak},

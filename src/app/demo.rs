@@ -2,8 +2,6 @@
 //! sockets on the loopback and a pseudo-terminal. The rest of the program does
 //! not know.
 
-mod station;
-
 use std::{
     collections::BTreeMap,
     io,
@@ -12,9 +10,9 @@ use std::{
 };
 
 use jiff::Timestamp;
-pub use station::DemoAddresses;
 
 use crate::{
+    makes::DemoAddresses,
     orbit::Elements,
     protocol::rotator_genius::WholeDegrees,
     sim::{Serving, rc2000c, rotator_genius, satrak},

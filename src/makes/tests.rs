@@ -7,7 +7,6 @@ use std::{
 
 use super::*;
 use crate::{
-    app::DemoAddresses,
     astro::HorizonMask,
     controller::{
         rc2000c::{BAUD, BUS_ADDRESS, Calibration},

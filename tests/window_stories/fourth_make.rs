@@ -254,8 +254,8 @@ impl Moves for Lever {
 fn unit() -> (String, mpsc::Receiver<String>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap().to_string();
-    let (tell, heard) = mpsc::channel();
-    thread::spawn(move || {
+    let (tell, heard) = mpsc::sync_channel(64);
+    let serve = move || {
         let (mut stream, _) = listener.accept().unwrap();
         let lines = BufReader::new(stream.try_clone().unwrap()).lines();
         let mut place = "10 20".to_owned();
@@ -268,9 +268,10 @@ fn unit() -> (String, mpsc::Receiver<String>) {
                 aim.clone_into(&mut place);
             }
             // Whoever listened may have seen enough.
-            let _ = tell.send(line);
+            let _ = tell.try_send(line);
         }
-    });
+    };
+    thread::Builder::new().name("lever".to_owned()).spawn(serve).unwrap();
     (address, heard)
 }
 

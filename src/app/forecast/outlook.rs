@@ -176,7 +176,7 @@ fn thinned(track: &[Sample]) -> Vec<Sample> {
 mod tests {
     use super::*;
     use crate::{
-        app::DemoAddresses,
+        makes::DemoAddresses,
         orbit::{PassSearch, bundled, passes},
     };
 

@@ -5,7 +5,7 @@ use std::{
 
 use super::*;
 use crate::{
-    app::DemoAddresses,
+    makes::DemoAddresses,
     orbit::{bundled, read_element_bytes, write_omm_json},
 };
 

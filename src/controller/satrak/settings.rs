@@ -1,6 +1,8 @@
 //! The settings of a Satrak: one description of all its groups, and the way
 //! between their values and the words of the protocol.
 
+#[cfg(test)]
+mod copy_tests;
 mod general;
 mod place;
 mod proof;

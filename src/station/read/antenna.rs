@@ -36,7 +36,7 @@ impl Fields<'_> {
         let controller = self.text("controller", "");
         let address = self.text("address", "");
         let Some(kind) = kinds.iter().find(|kind| kind.key == controller) else {
-            self.invalid("controller", one_of(kinds));
+            self.invalid("controller", any_of(kinds));
             return None;
         };
         let mut antenna = kind.antenna(kind.name, &address);
@@ -195,7 +195,7 @@ fn above(
 }
 
 /// What the controller of an antenna may be.
-fn one_of(kinds: &[&Kind]) -> String {
+fn any_of(kinds: &[&Kind]) -> String {
     let keys: Vec<String> = kinds.iter().map(|kind| format!("{:?}", kind.key)).collect();
     match keys.split_last() {
         Some((last, before)) if !before.is_empty() => {

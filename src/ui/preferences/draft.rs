@@ -84,10 +84,9 @@ fn name(antenna: &Typed<Antenna>) -> String {
 mod tests {
     use super::*;
     use crate::{
-        app::DemoAddresses,
         astro::HorizonMask,
         controller::rc2000c::{BAUD, BUS_ADDRESS, Calibration},
-        makes,
+        makes::{self, DemoAddresses},
     };
 
     fn station() -> Station {
