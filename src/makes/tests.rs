@@ -13,7 +13,7 @@ use crate::{
         rotator_genius::{ROTATORS, Rotators},
     },
     station::{
-        self, AfterPass, Antenna, CountPoint, Following, LoadError, Loaded, Mount, Note,
+        self, AfterPass, Antenna, CountPoint, Following, Holds, LoadError, Loaded, Mount, Note,
         NoteReason, SaveError, Setting, Station, save,
     },
 };
@@ -273,15 +273,18 @@ fn each_kind_fits_what_it_says_of_itself() {
         assert_eq!(kind.check_address(kind.usual_address), Ok(()), "{kind:?}");
         for setting in kind.settings {
             assert_eq!(setting.check(&setting.usual), Ok(()), "{kind:?}: {}", setting.key);
+            let is_left_out = matches!(setting.holds, Holds::Text | Holds::Points);
+            assert_eq!(setting.usual.is_empty(), is_left_out, "{kind:?}: {}", setting.key);
         }
-        let mut tables = kind.settings.chunk_by(|a, b| a.table == b.table);
-        let mut seen = Vec::new();
-        assert!(tables.all(|table| {
-            let table = table[0].table;
-            let is_new = !seen.contains(&table);
-            seen.push(table);
-            is_new
-        }));
+        let tables = kind.settings.chunk_by(|a, b| a.table == b.table);
+        let tables = tables.map(|settings| settings[0].table.map(|table| table.key));
+        let beside = kind.settings.iter().filter(|setting| setting.table.is_none());
+        let mut names: Vec<&str> = tables.flatten().chain(beside.map(|of| of.key)).collect();
+        names.extend(["controller", "address"]);
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count, "{kind:?}: two things of one name: {names:?}");
         assert!(kind.makes.iter().all(|make| make.key == kind.key), "{kind:?}");
         let antenna = kind.antenna("Antenna", kind.usual_address);
         let controller = (kind.open)(&antenna);

@@ -37,14 +37,14 @@ pub struct Table {
 /// What a setting can hold.
 #[derive(Debug)]
 pub enum Holds {
-    /// Any text; an empty one is not written to the file.
+    /// Any text; an empty one, which is the usual one, is not written to the file.
     Text,
     /// One of these.
     OneOf(&'static [Choice]),
     /// A whole number within these ends.
     Whole(RangeInclusive<u32>),
-    /// Two measured points or more that make a scale, or none; none are not
-    /// written to the file.
+    /// Two measured points or more that make a scale, or none; none, which is
+    /// usual, are not written to the file.
     Points,
 }
 
@@ -73,7 +73,7 @@ pub enum Value {
 
 impl Value {
     /// It holds nothing that could be written.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         match self {
             Self::Text(text) => text.is_empty(),
             Self::Points(points) => points.is_empty(),
@@ -113,7 +113,7 @@ impl Setting {
         }
     }
 
-    /// What stands for it in the station file, as a value that it can hold.
+    /// What stands for it in the station file, not yet checked.
     pub(super) fn read(&self, value: toml::Value) -> Result<Value, String> {
         let read = match &self.holds {
             Holds::Text => value.as_str().filter(|text| !text.trim().is_empty()).map(Value::from),
@@ -127,8 +127,7 @@ impl Setting {
             }
             Holds::Points => Some(Value::Points(points(value)?)),
         };
-        let read = read.ok_or_else(|| self.wanted())?;
-        self.check(&read).map(|()| read)
+        read.ok_or_else(|| self.wanted())
     }
 
     /// What is wanted where something else stands, to stand behind its name.

@@ -31,50 +31,31 @@ fn placed(section: &'static str, fields: impl IntoIterator<Item = Of>) -> Vec<Pl
 fn mount() -> [Of; 7] {
     [
         Of::number("Azimuth of the lower axis", ranges::LOWER_AXIS_AZIMUTH_DEG, "°", |antenna| {
-            match &mut antenna.mount {
-                Mount::Xy { lower_axis_azimuth_deg, .. } => Some(lower_axis_azimuth_deg),
-                Mount::AzEl { .. } => None,
-            }
+            xy(antenna).map(|[azimuth, ..]| azimuth)
         }),
         Of::number("Travel from", ranges::TRAVEL_FROM_DEG, "°", |antenna| {
-            match &mut antenna.mount {
-                Mount::Xy { travel_from_deg, .. } => Some(travel_from_deg),
-                Mount::AzEl { .. } => None,
-            }
+            xy(antenna).map(|[_, from, _]| from)
         }),
-        Of::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| match &mut antenna.mount {
-            Mount::Xy { travel_to_deg, .. } => Some(travel_to_deg),
-            Mount::AzEl { .. } => None,
+        Of::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| {
+            xy(antenna).map(|[.., to]| to)
         }),
         Of::number("Azimuth from", ranges::AZIMUTH_FROM_DEG, "°", |antenna| {
-            match &mut antenna.mount {
-                Mount::AzEl { azimuth_from_deg, .. } => Some(azimuth_from_deg),
-                Mount::Xy { .. } => None,
-            }
+            az_el(antenna).map(|[from, ..]| from)
         }),
         Of::number("Azimuth to", ranges::AZIMUTH_TO_DEG, "°", |antenna| {
-            match &mut antenna.mount {
-                Mount::AzEl { azimuth_to_deg, .. } => Some(azimuth_to_deg),
-                Mount::Xy { .. } => None,
-            }
+            az_el(antenna).map(|[_, to, ..]| to)
         })
         .checked(|antenna| {
             let [(from, to), _] = antenna.mount.travel_deg();
             let is_right = ranges::AZIMUTH_SPAN_DEG.contains(&(to - from));
             is_right.then_some(()).ok_or("must be 1 to 1080° more than Azimuth from")
         }),
-        Of::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| match &mut antenna
-            .mount
-        {
-            Mount::AzEl { elevation_from_deg, .. } => Some(elevation_from_deg),
-            Mount::Xy { .. } => None,
+        Of::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| {
+            az_el(antenna).map(|[_, _, from, _]| from)
         })
         .when(has_elevation),
         Of::number("Elevation to", ranges::ELEVATION_TO_DEG, "°", |antenna| {
-            match &mut antenna.mount {
-                Mount::AzEl { elevation_to_deg, .. } => Some(elevation_to_deg),
-                Mount::Xy { .. } => None,
-            }
+            az_el(antenna).map(|[.., to]| to)
         })
         .when(has_elevation)
         .checked(|antenna| {
@@ -83,6 +64,26 @@ fn mount() -> [Of; 7] {
             is_right.then_some(()).ok_or("must be 1° or more above Elevation from")
         }),
     ]
+}
+
+/// Azimuth of the lower axis and both ends of the travel, of crossed axes.
+fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
+    match &mut antenna.mount {
+        Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
+            Some([lower_axis_azimuth_deg, travel_from_deg, travel_to_deg])
+        }
+        Mount::AzEl { .. } => None,
+    }
+}
+
+/// Both ends of the azimuth and of the elevation, of elevation over azimuth.
+fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
+    match &mut antenna.mount {
+        Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg } => {
+            Some([azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg])
+        }
+        Mount::Xy { .. } => None,
+    }
 }
 
 fn beam() -> [Of; 3] {
