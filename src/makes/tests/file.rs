@@ -1,0 +1,264 @@
+//! Antennas of every make, written to the station file and read from it.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::super::*;
+use crate::{
+    astro::HorizonMask,
+    controller::{
+        rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        rotator_genius::{ROTATORS, Rotators},
+    },
+    station::{
+        self, AfterPass, Antenna, CountPoint, Following, LoadError, Loaded, Mount, Note,
+        NoteReason, SaveError, Station, save,
+    },
+};
+
+fn load(path: &Path) -> Result<Loaded, LoadError> {
+    station::load(path, &kinds())
+}
+
+fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn a_station_comes_back_as_it_was_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deep/station.toml");
+    let mut station = Station::demo(&DemoAddresses {
+        satrak: "192.168.10.21:4001".to_owned(),
+        genius: "192.168.1.250:9006".to_owned(),
+        rc2000c: "/dev/ttyUSB0".to_owned(),
+    });
+    station.name = "Şile \"1\"".to_owned();
+    station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+    station.horizon_mask = HorizonMask::parse("350 2.5\n10, -0.1\n123.25 12").ok();
+    save(&station, &path).unwrap();
+    let loaded = load(&path).unwrap();
+    assert_eq!(loaded.notes, []);
+    assert_eq!(loaded.station, station);
+    save(&Station::default(), &path).unwrap();
+    assert_eq!(load(&path.with_extension("toml.old")).unwrap().station, station);
+}
+
+#[test]
+fn a_bad_field_costs_only_itself() {
+    let (_folder, path) = written(
+        "name = 'Here'\nelevation_floor_deg = 'ten'\nelevtion = 3\n\
+         horizon_mask = '''\n0 5\n90 x'''\n\
+         [site]\nlatitude_deg = 95.0\nlongitude_deg = 1.0\naltitude_m = 0.0\n\
+         [[antenna]]\nname = 'A'\nbeam_width_deg = -1\n\
+         [antenna.connection]\ncontroller = 'satrak'\naddress = 'h:4001'\n\
+         [[antenna]]\nname = 'B'\n[antenna.connection]\ncontroller = 'satrak'\naddress = 'h'\n",
+    );
+    let Loaded { station, notes } = load(&path).unwrap();
+    assert_eq!(station.name, "Here");
+    assert_eq!(station.antennas.len(), 1);
+    assert_eq!(station.antennas[0].name, "A");
+    let places: Vec<&str> = notes.iter().map(|note| note.place.as_str()).collect();
+    assert_eq!(
+        places,
+        [
+            "site",
+            "horizon_mask",
+            "elevation_floor_deg",
+            "antenna[0].beam_width_deg",
+            "antenna[1].connection.address",
+            "elevtion"
+        ]
+    );
+    let NoteReason::Invalid(why) = &notes[1].reason else { panic!("{:?}", notes[1]) };
+    assert_eq!(why, "line 2 does not hold an azimuth and an elevation");
+    assert_eq!(notes[5].reason, NoteReason::Unknown);
+}
+
+#[test]
+fn a_second_antenna_of_the_same_name_gets_a_name_of_its_own() {
+    let one = "[[antenna]]\nname = 'Mast'\n[antenna.connection]\n\
+               controller = 'satrak'\naddress = 'h:4001'\n";
+    let (_folder, path) = written(&format!("{one}{}{one}", one.replace("'Mast'", "' MAST 2'")));
+    let Loaded { station, notes } = load(&path).unwrap();
+    let names: Vec<&str> = station.antennas.iter().map(|antenna| &*antenna.name).collect();
+    assert_eq!(names, ["Mast", " MAST 2", "Mast 3"]);
+    assert_eq!(notes.len(), 1);
+    assert_eq!(notes[0].place, "antenna[2].name");
+    let NoteReason::Invalid(why) = &notes[0].reason else { panic!("{:?}", notes[0]) };
+    assert_eq!(why, "another antenna has it too, this one is called Mast 3");
+}
+
+#[test]
+fn what_cannot_be_read_is_left_alone() {
+    let (_folder, path) = written("name = \"open");
+    assert!(matches!(load(&path), Err(LoadError::Syntax { .. })));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "name = \"open");
+    let (_folder, path) = written("version = 99");
+    assert!(matches!(load(&path), Err(LoadError::Newer { found: 99, .. })));
+    assert!(matches!(load(Path::new("/nowhere/at/all.toml")), Err(LoadError::Missing)));
+}
+
+#[test]
+fn a_failed_save_keeps_the_old_file() {
+    let (folder, path) = written("name = 'Old'");
+    // A folder of that name cannot be replaced by a file.
+    let taken = folder.path().join("taken");
+    fs::create_dir_all(taken.join("inside")).unwrap();
+    assert!(matches!(save(&Station::default(), &taken), Err(SaveError::Write { .. })));
+    assert_eq!(load(&path).unwrap().station.name, "Old");
+}
+
+#[test]
+fn what_a_make_alone_has_comes_back_as_it_was_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    let mut genius = Antenna {
+        mount: Mount::AzEl {
+            azimuth_from_deg: -90.0,
+            azimuth_to_deg: 450.5,
+            elevation_from_deg: -5.0,
+            elevation_to_deg: 180.0,
+        },
+        follow: Following {
+            period_s: 0.5,
+            dead_band_deg: 1.25,
+            latency_s: 0.0,
+            after: AfterPass::Next,
+        },
+        ..Antenna::genius("Tower", "tower.example:9006")
+    };
+    genius.connection.put(&ROTATORS, Rotators::Second).unwrap();
+    let calibration = Calibration {
+        azimuth: vec![
+            CountPoint { counts: 0, degrees: -12.5 },
+            CountPoint { counts: 65_535, degrees: 372.25 },
+        ],
+        elevation: Vec::new(),
+    };
+    let mut rc2000c = Antenna::rc2000c("Dish", "serial.example:4002");
+    rc2000c.connection.put(&BAUD, 1200).unwrap();
+    rc2000c.connection.put(&BUS_ADDRESS, 111).unwrap();
+    calibration.put_into(&mut rc2000c.connection).unwrap();
+    let station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
+    save(&station, &path).unwrap();
+    let loaded = load(&path).unwrap();
+    assert_eq!(loaded.notes, []);
+    assert_eq!(loaded.station, station);
+}
+
+/// The one antenna of a file and the places of what was not taken over.
+fn antenna(text: &str) -> (Antenna, Vec<String>) {
+    let (_folder, path) = written(&format!("[[antenna]]\n{text}"));
+    let Loaded { station, notes } = load(&path).unwrap();
+    let place = |note: Note| note.place.trim_start_matches("antenna[0].").to_owned();
+    let places = notes.into_iter().map(place).collect();
+    (station.antennas.into_iter().next().unwrap(), places)
+}
+
+#[test]
+fn a_bad_field_of_an_rc2000c_costs_only_itself() {
+    let usual = Antenna::rc2000c("RC2000C", "COM3");
+    let (read, places) = antenna(
+        "[antenna.connection]\ncontroller = 'rc2000c'\naddress = 'COM3'\nbaud = 19200\n\
+         bus_address = 48\nelement_file = 'x'\n[antenna.connection.calibration]\n\
+         azimuth = [{ counts = 30, degrees = 90 }]\n\
+         elevation = [{ counts = 70000, degrees = 0 }, { counts = 1, degrees = 9 }]\n",
+    );
+    assert_eq!(read, usual);
+    assert_eq!(
+        places,
+        [
+            "connection.baud",
+            "connection.bus_address",
+            "connection.calibration.azimuth",
+            "connection.calibration.elevation",
+            "connection.element_file",
+        ]
+    );
+    let (read, places) = antenna(
+        "[antenna.connection]\ncontroller = 'rc2000c'\naddress = 'COM3'\n\
+         [antenna.connection.calibration]\n\
+         azimuth = [{ counts = 30, degrees = 90 }, { counts = 3630, degrees = 270.0 }]\n\
+         elevation = [{ counts = 30, degrees = 0 }, { counts = 30, degrees = 9 }]\n",
+    );
+    let calibration = Calibration::of(&read.connection);
+    assert_eq!((calibration.azimuth.len(), calibration.elevation.len()), (2, 0));
+    assert_eq!(places, ["connection.calibration.elevation"]);
+}
+
+#[test]
+fn a_bad_field_of_a_genius_costs_only_itself() {
+    let usual = Antenna::genius("Genius", "h:9006");
+    let (read, places) = antenna(
+        "[antenna.connection]\ncontroller = 'genius'\naddress = 'h:9006'\nrotators = 'both'\n\
+         [antenna.mount]\ntype = 'xy'\nelevation_from_deg = 95\n\
+         [antenna.follow]\nperiod_s = 0\ndead_band_deg = -1\nlatency_s = 'none'\nafter = 3\n",
+    );
+    assert_eq!(read, usual);
+    assert_eq!(
+        places,
+        [
+            "connection.rotators",
+            "mount.type",
+            "mount.elevation_from_deg",
+            "follow.period_s",
+            "follow.dead_band_deg",
+            "follow.latency_s",
+            "follow.after",
+        ]
+    );
+}
+
+#[test]
+fn ends_of_an_axis_that_cross_are_not_used() {
+    let genius = "[antenna.connection]\ncontroller = 'genius'\naddress = 'h:9006'\n";
+    let (read, places) = antenna(&format!(
+        "{genius}[antenna.mount]\nazimuth_from_deg = 180\nazimuth_to_deg = 170\n\
+         elevation_from_deg = 30\nelevation_to_deg = 20\n"
+    ));
+    assert_eq!(read.mount.travel_deg(), [(180.0, 360.0), (30.0, 180.0)]);
+    assert_eq!(places, ["mount.azimuth_to_deg", "mount.elevation_to_deg"]);
+    // The usual upper end does not fit any more: the least that does stands in.
+    let (read, places) = antenna(&format!("{genius}[antenna.mount]\nazimuth_from_deg = 360\n"));
+    assert_eq!(read.mount.travel_deg(), [(360.0, 361.0), (0.0, 180.0)]);
+    assert_eq!(places, Vec::<String>::new());
+}
+
+#[test]
+fn a_serial_port_is_for_an_rc2000c_alone() {
+    for controller in ["satrak", "genius"] {
+        let (_folder, path) = written(&format!(
+            "[[antenna]]\n[antenna.connection]\ncontroller = '{controller}'\naddress = 'COM3'\n"
+        ));
+        let Loaded { station, notes } = load(&path).unwrap();
+        assert_eq!(station.antennas, []);
+        assert_eq!(notes[0].place, "antenna[0].connection.address");
+    }
+}
+
+/// What the file of a station with antennas of every make looks like: it must
+/// stay readable for ever.
+const WRITTEN: &str = include_str!("station.toml");
+
+#[test]
+fn the_file_is_what_it_always_was() {
+    let mut station = Station::demo(&DemoAddresses {
+        satrak: "192.168.10.21:4001".to_owned(),
+        genius: "192.168.1.250:9006".to_owned(),
+        rc2000c: "/dev/ttyUSB0".to_owned(),
+    });
+    station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+    station.antennas.push(Antenna::genius("G2", "host.example:6"));
+    station.antennas.push(Antenna::rc2000c("Third", "COM3"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    save(&station, &path).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), WRITTEN);
+    assert_eq!(load(&path).unwrap().station, station);
+}
