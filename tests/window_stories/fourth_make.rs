@@ -5,7 +5,7 @@ mod lever;
 
 use std::{
     sync::{Arc, mpsc},
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use azel::{
@@ -24,6 +24,9 @@ use crate::{
     preferences::{saved, write},
     rig::{self, SIZES, asked, says, settle},
 };
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 fn all_kinds() -> Vec<&'static Kind> {
     let mut kinds = makes::kinds();
@@ -112,11 +115,13 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
     let handle: AntennaHandle = driver.open(&antenna);
     let until = |is_so: &dyn Fn(&Snapshot) -> bool| {
+        let since = Instant::now();
         while !is_so(&handle.snapshot()) {
-            woken.recv_timeout(Duration::from_secs(20)).unwrap();
+            woken.recv_timeout(PATIENCE).unwrap();
+            assert!(since.elapsed() < PATIENCE, "{:?}", handle.snapshot());
         }
     };
-    let next = || heard.recv_timeout(Duration::from_secs(20)).unwrap();
+    let next = || heard.recv_timeout(PATIENCE).unwrap();
     until(&|shown| at(shown, 10.0, 20.0));
     handle
         .send(Command::Position {

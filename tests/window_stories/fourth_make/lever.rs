@@ -95,10 +95,7 @@ struct Lever {
     heard: Vec<u8>,
     /// When the place was asked for that was not told yet.
     asked: Option<Instant>,
-    next_poll: Option<Instant>,
 }
-
-const PERIOD: Duration = Duration::from_millis(50);
 
 impl Lever {
     fn of(connection: &Connection) -> Self {
@@ -109,7 +106,6 @@ impl Lever {
             orders: VecDeque::new(),
             heard: Vec::new(),
             asked: None,
-            next_poll: None,
         }
     }
 }
@@ -122,12 +118,10 @@ impl Device for Lever {
     fn link_up(&mut self, now: Moment) {
         self.state.link_since = Some(now.steady);
         self.orders = [self.greeting.clone()].into();
-        self.next_poll = Some(now.steady);
+        (self.asked, self.heard) = (None, Vec::new());
     }
 
-    fn link_down(&mut self, _: Moment) {
-        (self.asked, self.next_poll) = (None, None);
-    }
+    fn link_down(&mut self, _: Moment) {}
 
     fn sent(&mut self, _: &[u8], _: Moment) {}
 
@@ -168,19 +162,16 @@ impl Device for Lever {
         if let Some(order) = self.orders.pop_front() {
             return Some(order.into_bytes());
         }
-        self.next_poll.filter(|due| *due <= now.steady && self.asked.is_none())?;
-        self.next_poll = Some(now.steady + PERIOD);
-        self.asked = Some(now.steady);
-        Some(b"P?\n".to_vec())
+        self.asked.is_none().then(|| {
+            self.asked = Some(now.steady);
+            b"P?\n".to_vec()
+        })
     }
 
+    /// Always: while it waits for an answer, that answer and the operator's STOP
+    /// must be heard all the same.
     fn due(&self, now: Moment) -> Instant {
-        let next = now.steady + PERIOD;
-        if self.orders.is_empty() {
-            self.next_poll.unwrap_or(next).max(now.steady)
-        } else {
-            now.steady
-        }
+        now.steady
     }
 
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
@@ -219,7 +210,7 @@ impl Device for Lever {
     }
 
     fn poll_period(&self) -> Duration {
-        PERIOD
+        Duration::from_millis(50)
     }
 }
 
@@ -248,7 +239,8 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
         let mut place = "10 20".to_owned();
         for line in lines.map_while(Result::ok) {
             if line == "P?" {
-                writeln!(stream, "P {place}").unwrap();
+                // In one piece, or the second one waits for the first to be seen.
+                stream.write_all(format!("P {place}\n").as_bytes()).unwrap();
                 continue;
             }
             if let Some(aim) = line.strip_prefix("G ") {
