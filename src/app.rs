@@ -51,7 +51,8 @@ use self::{
 };
 use crate::{
     driver::{self, Clock, Driver, Wake},
-    station::{self, DemoAddresses, LoadError, Station},
+    makes::{self, DemoAddresses},
+    station::{self, LoadError, Station},
     ui,
 };
 
@@ -160,7 +161,10 @@ impl App {
     }
 
     fn load_station(&mut self) {
-        let loaded = self.settings_path.as_deref().map_or(Err(LoadError::Missing), station::load);
+        let loaded = match &self.settings_path {
+            Some(path) => station::load(path, &makes::kinds()),
+            None => Err(LoadError::Missing),
+        };
         match loaded {
             Ok(loaded) => {
                 for note in loaded.notes {

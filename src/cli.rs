@@ -29,7 +29,7 @@ enum Command {
     /// Serve a simulated controller to anyone who connects
     Simulate {
         #[command(subcommand)]
-        controller: simulate::Controller,
+        simulator: simulate::Simulator,
     },
 }
 
@@ -39,7 +39,7 @@ impl Cli {
         match self.command {
             None => window::run(self.station)?,
             Some(Command::Passes(options)) => return passes::run(&options),
-            Some(Command::Simulate { controller }) => simulate::run(controller)?,
+            Some(Command::Simulate { simulator }) => simulate::run(&simulator)?,
         }
         Ok(ExitCode::SUCCESS)
     }

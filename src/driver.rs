@@ -27,10 +27,7 @@ pub use snapshot::{
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
-use crate::{
-    controller::{Moves, rc2000c::Rc2000c, rotator_genius::Genius, satrak::Satrak},
-    station::{Antenna, Connection},
-};
+use crate::station::{Antenna, Link};
 
 /// How many commands may wait. The window sends at most a few a frame.
 const COMMANDS: usize = 64;
@@ -153,21 +150,13 @@ impl Driver {
 
     /// Starts the session of one antenna.
     pub fn open(&self, antenna: &Antenna) -> AntennaHandle {
-        let (controller, dial): (Box<dyn Moves>, Dial) = match &antenna.connection {
-            Connection::Satrak { address, element_file } => (
-                Box::new(Satrak::new(antenna.poll, element_file.clone())),
-                dial_tcp(address.clone()),
-            ),
-            Connection::Genius { address, rotators } => {
-                (Box::new(Genius::new(antenna.poll, *rotators)), dial_tcp(address.clone()))
-            }
-            Connection::Rc2000c { address, baud, bus_address, calibration } => (
-                Box::new(Rc2000c::new(antenna, *baud, *bus_address, calibration)),
-                dial_line(address, *baud),
-            ),
+        let connection = &antenna.connection;
+        let dial = match connection.kind().link {
+            Link::Tcp => dial_tcp(connection.address.clone()),
+            Link::Line { baud } => dial_line(&connection.address, connection.whole(baud)),
         };
-        let (session, handle) =
-            Session::new(controller, antenna, dial, self.clock.clone(), Arc::clone(&self.wake));
+        let (clock, wake) = (self.clock.clone(), Arc::clone(&self.wake));
+        let (session, handle) = Session::new(antenna.controller(), antenna, dial, clock, wake);
         self.sessions.spawn_on(session.run(), &self.runtime);
         handle
     }

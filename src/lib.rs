@@ -1,16 +1,18 @@
 //! Azel: the console of a satellite ground station.
 //!
 //! The folders are layers; a lower one never names a higher one. From the
-//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`controller`], [`station`],
-//! [`plan`], [`driver`], [`sim`], [`app`], [`ui`]; [`secret`] and `whole_file` stand below
-//! them all. The README's architecture section holds the picture and the invariants.
+//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`station`],
+//! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`app`], [`ui`]; [`secret`] and
+//! `whole_file` stand below them all. The README's architecture section holds the picture and the invariants.
 
 pub mod app;
 pub mod astro;
 pub mod cli;
 pub mod controller;
+pub mod device;
 pub mod driver;
 pub mod library;
+pub mod makes;
 pub mod orbit;
 pub mod plan;
 pub mod protocol;

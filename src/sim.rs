@@ -1,5 +1,6 @@
 //! Simulators of the controllers on real sockets and pseudo-terminals.
 
+mod command_line;
 mod names;
 mod port;
 mod prng;
@@ -7,4 +8,5 @@ pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;
 
+pub use command_line::{Command, Serving, StartError, Starting};
 pub use names::UnknownName;

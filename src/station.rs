@@ -4,22 +4,24 @@
 mod antenna;
 mod calibration;
 mod connection;
-mod demo;
 mod file;
 mod following;
+mod kind;
 mod mount;
 pub mod ranges;
 mod read;
+mod setting;
 
 pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
-pub use calibration::{CalibrationError, CountLine};
-pub use connection::{Calibration, Connection, CountPoint, Rotators};
-pub(crate) use connection::{check_address, check_line};
-pub use demo::{DEMO_ELEMENT_FILE, DemoAddresses};
+pub use calibration::{CalibrationError, CountLine, CountPoint};
+pub use connection::Connection;
+pub(crate) use connection::check_address;
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub use following::{AfterPass, Following};
+pub use kind::{Kind, Link, Usual};
 pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
+pub use setting::{Choice, Holds, Setting, Table, Value};
 
 use serde::{Serialize, Serializer};
 
@@ -63,7 +65,7 @@ impl Default for Station {
     fn default() -> Self {
         Self {
             name: "Station".to_owned(),
-            site: read::default_site(),
+            site: Site::default(),
             horizon_mask: None,
             elevation_floor_deg: 10.0,
             favourites: vec![

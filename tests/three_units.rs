@@ -15,10 +15,10 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{Angle, AzEl, time},
-    controller::{Moves, rc2000c::Rc2000c, rotator_genius::Genius, satrak::Satrak},
+    controller::rc2000c::Calibration,
     driver::{AntennaHandle, Clock, Command, Dial, LinkState, Session, StopState, Stream},
     sim::{rc2000c, rotator_genius, satrak},
-    station::{Antenna, Calibration, Connection, CountLine, CountPoint, Mount, Rotators, Station},
+    station::{Antenna, CountLine, CountPoint, Mount, Station},
 };
 use jiff::Timestamp;
 use tokio::{
@@ -65,8 +65,9 @@ fn dial(serve: impl Fn(DuplexStream) + Send + 'static) -> Dial {
     })
 }
 
-fn open(controller: Box<dyn Moves>, antenna: &Antenna, dial: Dial) -> AntennaHandle {
-    let (session, handle) = Session::new(controller, antenna, dial, clock(), Arc::new(|| {}));
+fn open(antenna: &Antenna, dial: Dial) -> AntennaHandle {
+    let (session, handle) =
+        Session::new(antenna.controller(), antenna, dial, clock(), Arc::new(|| {}));
     tokio::spawn(session.run());
     handle
 }
@@ -90,11 +91,10 @@ fn of_satrak() -> Pair {
         let control = served.clone();
         tokio::spawn(async move { control.serve(far).await });
     });
-    let controller = Box::new(Satrak::new(antenna.poll, String::new()));
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {
         name: "Satrak",
-        handle: open(controller, &antenna, dial),
+        handle: open(&antenna, dial),
         set_fault: Box::new(move |fault, on| faulty.set_fault(FAULTS[fault], on)),
         faults: FAULTS.len(),
         drop_clients: Box::new(move || dropping.drop_clients()),
@@ -123,19 +123,16 @@ fn of_genius() -> Pair {
         ..Options::default()
     };
     let control = Control::new(&options);
-    let connection =
-        Connection::Genius { address: "in memory".to_owned(), rotators: Rotators::Pair };
-    let antenna = Antenna { connection, ..Antenna::genius("Genius", "in memory") };
+    let antenna = Antenna::genius("Genius", "in memory");
     let served = control.clone();
     let dial = dial(move |far| {
         let control = served.clone();
         tokio::spawn(async move { control.serve(far).await });
     });
-    let controller = Box::new(Genius::new(antenna.poll, Rotators::Pair));
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {
         name: "Genius",
-        handle: open(controller, &antenna, dial),
+        handle: open(&antenna, dial),
         set_fault: Box::new(move |fault, on| faulty.set_fault(FAULTS[fault], on)),
         faults: FAULTS.len(),
         drop_clients: Box::new(move || dropping.drop_clients()),
@@ -182,8 +179,8 @@ fn of_rc2000c() -> Pair {
         let control = served.clone();
         tokio::spawn(async move { control.serve(far).await });
     });
-    let controller = Box::new(Rc2000c::new(&antenna, 9600, 50, &calibration));
-    let handle = open(controller, &antenna, dial);
+    calibration.put_into(&mut antenna.connection).unwrap();
+    let handle = open(&antenna, dial);
     handle.send(Command::Connect).unwrap();
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {

@@ -84,7 +84,7 @@ impl AntennaModel {
 
     /// What its controller is and can do.
     pub fn make(&self) -> &'static Make {
-        Make::of(&self.config.connection)
+        self.config.connection.make()
     }
 
     /// What its controller remembers.

@@ -92,7 +92,7 @@ impl CopyWork {
         let name = &antenna.config.name;
         let head = CopyHead {
             antenna: name.clone(),
-            address: antenna.config.connection.address().to_owned(),
+            address: antenna.config.connection.address.clone(),
             controller: antenna.controller().to_owned(),
             saved_at: now,
         };

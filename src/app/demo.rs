@@ -4,27 +4,23 @@
 
 use std::{
     collections::BTreeMap,
-    future::Future,
     io,
     net::{IpAddr, Ipv4Addr, SocketAddr},
-    pin::Pin,
     thread,
 };
 
 use jiff::Timestamp;
 
 use crate::{
+    makes::DemoAddresses,
     orbit::Elements,
     protocol::rotator_genius::WholeDegrees,
-    sim::{rc2000c, rotator_genius, satrak},
-    station::{DEMO_ELEMENT_FILE, DemoAddresses, Station},
+    sim::{Serving, rc2000c, rotator_genius, satrak},
+    station::Station,
 };
 
 /// Any free port that only this machine reaches.
 const LOOPBACK: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
-
-/// Ends when it is dropped.
-type Serving = Pin<Box<dyn Future<Output = ()> + Send>>;
 
 /// Running simulators. Dropping it ends them.
 pub(super) struct Demo {
@@ -37,7 +33,7 @@ impl Demo {
     /// Starts the simulators of `station`, whose Satrak holds `elements`.
     pub(super) fn start(station: &Station, elements: Vec<Elements>) -> io::Result<Self> {
         let satrak = satrak::Options {
-            elements: BTreeMap::from([(DEMO_ELEMENT_FILE.to_owned(), elements)]),
+            elements: BTreeMap::from([(satrak::BUNDLED_FILE.to_owned(), elements)]),
             ..satrak::Options::new(station.site, Timestamp::now())
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;

@@ -27,6 +27,13 @@ pub enum SiteError {
     Altitude(f64),
 }
 
+/// Istanbul.
+impl Default for Site {
+    fn default() -> Self {
+        Self { latitude_deg: 41.02, longitude_deg: 29.17, altitude_m: 100.0 }
+    }
+}
+
 impl Site {
     /// A site at `latitude_deg` (-90 to 90, north positive), `longitude_deg`
     /// (-180 to 360, east positive) and `altitude_m` above the WGS84

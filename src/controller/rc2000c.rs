@@ -9,6 +9,7 @@ mod axes;
 mod checks;
 mod device;
 mod exchange;
+mod kind;
 mod line;
 mod meaning;
 mod names;
@@ -30,10 +31,11 @@ use crate::{
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
     },
-    station::{Antenna, Calibration, Mount, PollRates},
+    station::{Antenna, Mount, PollRates},
 };
 use axes::Axes;
 use exchange::{Outstanding, Purpose};
+pub use kind::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS, KIND};
 use line::Line;
 use names::Names;
 use past::Past;
@@ -126,18 +128,20 @@ struct HeldJog {
 }
 
 impl Rc2000c {
-    /// The unit at `bus_address` (49 to 111; beyond, that of the factory) of a
-    /// line of `baud` bits a second, which turns `antenna`. Silent until the link
-    /// is up.
-    pub fn new(antenna: &Antenna, baud: u32, bus_address: u8, calibration: &Calibration) -> Self {
-        let address = Address::new(bus_address).unwrap_or(Address::FACTORY);
+    /// The unit that turns `antenna`, as the settings of its connection say.
+    /// Silent until the link is up.
+    pub fn of(antenna: &Antenna) -> Self {
+        let connection = &antenna.connection;
+        let bus_address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();
+        let address =
+            bus_address.and_then(|number| Address::new(number).ok()).unwrap_or(Address::FACTORY);
         Self {
             rates: antenna.poll,
             mount: antenna.mount,
             maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
             address,
-            axes: Axes::new(calibration),
-            line: Line::new(baud),
+            axes: Axes::new(&Calibration::of(connection)),
+            line: Line::new(connection.whole(&BAUD)),
             decoder: Decoder::new(address),
             state: AntennaState::default(),
             status: None,

@@ -8,6 +8,7 @@ mod actions;
 mod changes;
 mod device;
 mod exchange;
+mod kind;
 mod orders;
 mod panel;
 mod record;
@@ -28,10 +29,11 @@ use super::{
 };
 use crate::{
     protocol::rotator_genius::{Decoder, Request, Status},
-    station::{PollRates, Rotators},
+    station::PollRates,
 };
 pub use actions::{OTHER, RESCUE};
 use exchange::{Outstanding, Purpose};
+pub use kind::{KIND, ROTATORS, Rotators};
 use orders::Order;
 pub use settings::GROUPS;
 use turning::Turning;

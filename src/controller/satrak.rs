@@ -4,6 +4,7 @@
 mod changes;
 mod device;
 mod exchange;
+mod kind;
 mod prepare;
 mod record;
 mod schedule;
@@ -16,8 +17,9 @@ use std::{
     time::{Duration, Instant},
 };
 
+pub use super::{SatrakState, UnitClock};
+pub use kind::{ELEMENT_FILE, KIND};
 pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
-pub use state::{SatrakState, UnitClock};
 
 use super::{
     AntennaState, Capabilities, Happening, JogSpeeds, Make, Moment, Motion, PrepareError,

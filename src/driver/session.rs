@@ -103,7 +103,7 @@ impl Session {
         let (events, read_events) = mpsc::channel(EVENTS);
         let stop = Arc::new(Notify::new());
         let gate = Gate::new(controller, antenna.limits, antenna.mount);
-        let make = Make::of(&antenna.connection);
+        let make = antenna.connection.make();
         let (wanted, link) = if make.capabilities.waits_for_word {
             (Wanted::No, LinkState::Off)
         } else {

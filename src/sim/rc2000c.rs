@@ -8,6 +8,7 @@
 //! not told as moving, and a command for a drive in alarm is acknowledged.
 
 mod axis;
+mod command_line;
 mod connection;
 mod control;
 mod feed;
@@ -19,6 +20,7 @@ mod server;
 mod tracking;
 mod unit;
 
+pub use command_line::COMMAND;
 pub use control::{Control, Mode, Snapshot};
 #[cfg(unix)]
 pub use pty::PtySimulator;

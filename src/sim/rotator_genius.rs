@@ -7,6 +7,7 @@
 //! its client leaves, and a rotator that is no longer driven still coasts.
 
 mod command;
+mod command_line;
 mod connection;
 mod control;
 mod quirks;
@@ -16,6 +17,7 @@ mod server;
 mod travel;
 mod unit;
 
+pub use command_line::COMMAND;
 pub use control::{Control, RotatorState, Snapshot};
 pub use quirks::{Fault, Quirk};
 pub use server::{Options, RotatorOptions, Simulator};

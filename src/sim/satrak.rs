@@ -7,6 +7,7 @@
 //! switched on.
 
 mod answer;
+mod command_line;
 mod connection;
 mod control;
 mod folder;
@@ -17,6 +18,7 @@ mod tracking;
 mod unit;
 
 pub use answer::ErrorCode;
+pub use command_line::{BUNDLED_FILE, COMMAND};
 pub use control::{Control, Snapshot};
 pub use quirks::{Fault, Quirk};
 pub use server::{Options, Simulator};

@@ -4,8 +4,11 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{AfterPass, Calibration, Connection, Following, Mount, Rotators};
-use crate::astro::{Angle, AzEl};
+use super::{Connection, Following, Mount};
+use crate::{
+    astro::{Angle, AzEl},
+    device::Moves,
+};
 
 /// One controller on one link, with its mount, limits and park position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -68,109 +71,9 @@ impl PollRates {
 }
 
 impl Antenna {
-    /// A Satrak at `address` with the factory figures of its document.
-    pub fn satrak(name: &str, address: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            connection: Connection::Satrak {
-                address: address.to_owned(),
-                element_file: String::new(),
-            },
-            mount: Mount::Xy {
-                lower_axis_azimuth_deg: 0.0,
-                travel_from_deg: 5.0,
-                travel_to_deg: 175.0,
-            },
-            beam_width_deg: 0.88,
-            park: Direction { azimuth_deg: 0.0, elevation_deg: 90.0 },
-            limits: MotionLimits {
-                minimum_elevation_deg: 5.0,
-                maximum_rate_deg_s: 3.0,
-                maximum_step_deg: 5.0,
-            },
-            poll: PollRates { idle_hz: 2.0, moving_hz: 5.0 },
-            follow: Following {
-                period_s: 1.0,
-                dead_band_deg: 0.1,
-                latency_s: 0.3,
-                after: AfterPass::Hold,
-            },
-        }
-    }
-
-    /// A Rotator Genius at `address` that turns azimuth and elevation.
-    pub fn genius(name: &str, address: &str) -> Self {
-        Self {
-            connection: Connection::Genius {
-                address: address.to_owned(),
-                rotators: Rotators::Pair,
-            },
-            mount: Mount::AzEl {
-                azimuth_from_deg: 0.0,
-                azimuth_to_deg: 360.0,
-                elevation_from_deg: 0.0,
-                elevation_to_deg: 180.0,
-            },
-            beam_width_deg: 20.0,
-            limits: MotionLimits {
-                minimum_elevation_deg: 0.0,
-                maximum_rate_deg_s: 4.0,
-                maximum_step_deg: 10.0,
-            },
-            park: Direction { azimuth_deg: 0.0, elevation_deg: 0.0 },
-            poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
-            follow: Following {
-                period_s: 1.0,
-                dead_band_deg: 0.5,
-                latency_s: 0.5,
-                after: AfterPass::Hold,
-            },
-            ..Self::satrak(name, "")
-        }
-    }
-
-    /// An RC2000C at `address` on the bus address of the factory, not calibrated.
-    pub fn rc2000c(name: &str, address: &str) -> Self {
-        Self {
-            connection: Connection::Rc2000c {
-                address: address.to_owned(),
-                baud: 9600,
-                bus_address: 50,
-                calibration: Calibration::default(),
-            },
-            mount: Mount::AzEl {
-                azimuth_from_deg: 0.0,
-                azimuth_to_deg: 360.0,
-                elevation_from_deg: 0.0,
-                elevation_to_deg: 90.0,
-            },
-            beam_width_deg: 1.5,
-            limits: MotionLimits {
-                minimum_elevation_deg: 5.0,
-                maximum_rate_deg_s: 2.0,
-                maximum_step_deg: 5.0,
-            },
-            park: Direction { azimuth_deg: 180.0, elevation_deg: 45.0 },
-            poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
-            follow: Following {
-                period_s: 2.0,
-                dead_band_deg: 0.2,
-                latency_s: 0.5,
-                after: AfterPass::Hold,
-            },
-            ..Self::satrak(name, "")
-        }
-    }
-
-    /// An antenna with the controller that has this key in the station file, the
-    /// usual figures and name of its make; `None` where there is no such.
-    pub fn of_controller(key: &str, address: &str) -> Option<Self> {
-        Some(match key {
-            "satrak" => Self::satrak("Satrak", address),
-            "genius" => Self::genius("Genius", address),
-            "rc2000c" => Self::rc2000c("RC2000C", address),
-            _ => return None,
-        })
+    /// Its controller, silent until its link is up.
+    pub fn controller(&self) -> Box<dyn Moves> {
+        (self.connection.kind().open)(self)
     }
 
     /// Whether two names are too alike for the operator to tell two antennas

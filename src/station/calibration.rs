@@ -1,7 +1,38 @@
 //! From the counts of a position sensor to degrees and back, by points that the
 //! operator has measured.
 
-use super::CountPoint;
+use serde::Serialize;
+
+use super::ranges;
+
+/// A count and the angle at which it was read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CountPoint {
+    /// As on the front panel, 0 to 65535.
+    pub counts: u16,
+    /// As the mount counts, degrees.
+    pub degrees: f64,
+}
+
+impl CountPoint {
+    /// Whether points make a scale, in any order; the reason when they do not.
+    /// None at all are a scale that is not known yet.
+    pub(crate) fn check(points: &[Self]) -> Result<(), String> {
+        if points.is_empty() {
+            return Ok(());
+        }
+        let range = ranges::CALIBRATED_DEG;
+        if !points.iter().all(|point| range.contains(&point.degrees)) {
+            let words = format!("must hold angles from {} to {}°", range.start(), range.end());
+            return Err(words.replace('-', "−"));
+        }
+        CountLine::through(points).map(|_| ()).map_err(|error| match error {
+            CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
+            CalibrationError::SameCounts(counts) => format!("must not hold {counts} counts twice"),
+            CalibrationError::Flat => "must hold angles that change with the counts".to_owned(),
+        })
+    }
+}
 
 /// Two lines that grow by less than this differ from a flat one by noise only,
 /// degrees a count.
@@ -132,5 +163,25 @@ mod tests {
         assert_eq!(refused(&[(30, 0.0), (40, 1.0), (30, 2.0)]), CalibrationError::SameCounts(30));
         assert_eq!(refused(&[(30, 7.0), (40, 7.0)]), CalibrationError::Flat);
         assert_eq!(refused(&[(30, f64::NAN), (40, 7.0)]), CalibrationError::Flat);
+    }
+
+    #[test]
+    fn a_scale_has_two_points_and_a_slope() {
+        let check = |points: &[(u16, f64)]| {
+            let points = points.iter().map(|&(counts, degrees)| CountPoint { counts, degrees });
+            CountPoint::check(&points.collect::<Vec<_>>())
+        };
+        assert_eq!(check(&[]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, 270.0), (200, 181.0)]), Ok(()));
+        assert_eq!(check(&[(100, 90.0), (300, -90.0)]), Ok(()));
+        for bad in [
+            &[(100, 90.0)][..],
+            &[(100, 90.0), (100, 91.0)],
+            &[(100, 90.0), (200, 90.0)],
+            &[(100, 90.0), (200, 9000.0)],
+            &[(100, f64::NAN), (200, 90.0)],
+        ] {
+            assert!(check(bad).is_err(), "{bad:?}");
+        }
     }
 }

@@ -1,106 +1,114 @@
-//! Which controller an antenna has, and where it answers.
+//! Which controller an antenna has, where it answers and what it has to know.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{CalibrationError, CountLine, ranges};
+use super::{CountPoint, Kind, Setting, Value};
+use crate::device::Make;
 
-/// Which controller, and where it answers.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(tag = "controller", rename_all = "lowercase")]
-pub enum Connection {
-    /// SVS Satrak on TCP.
-    Satrak {
-        /// Host and port, such as `192.168.10.21:4001`.
-        address: String,
-        /// The element file on the unit from which satellites are chosen;
-        /// empty for the one that the unit uses already.
-        #[serde(skip_serializing_if = "String::is_empty")]
-        element_file: String,
-    },
-    /// 4O3A Rotator Genius on TCP.
-    Genius {
-        /// Host and port, such as `192.168.1.250:9006`.
-        address: String,
-        /// What its two rotators turn.
-        rotators: Rotators,
-    },
-    /// Research Concepts RC2000C on a serial line or a serial server.
-    Rc2000c {
-        /// A serial port, such as `/dev/ttyUSB0` or `COM3`, or the host and port
-        /// of a serial server that hands the bytes on as they are.
-        address: String,
-        /// Bits a second of the line. A serial server is set to it by its own
-        /// means; here it tells how long replies take.
-        baud: u32,
-        /// On the bus, 49 to 111.
-        bus_address: u8,
-        /// What its counts mean.
-        calibration: Calibration,
-    },
-}
-
-/// What the two rotators of a Rotator Genius turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Rotators {
-    /// One the azimuth and one the elevation of the same antenna.
-    Pair,
-    /// The first one turns the antenna, the second something else.
-    First,
-    /// The second one turns the antenna, the first something else.
-    Second,
-}
-
-/// What the counts of a position sensor mean: points that the operator has
-/// measured. Between and beyond them a straight line is laid.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct Calibration {
-    /// Of the azimuth; two points or more, or none while it is not calibrated.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub azimuth: Vec<CountPoint>,
-    /// Of the elevation, likewise.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub elevation: Vec<CountPoint>,
-}
-
-/// A count and the angle at which it was read.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CountPoint {
-    /// As on the front panel, 0 to 65535.
-    pub counts: u16,
-    /// As the mount counts, degrees.
-    pub degrees: f64,
-}
-
-impl CountPoint {
-    /// Whether points make a scale, in any order; the reason when they do not.
-    /// None at all are a scale that is not known yet.
-    pub(crate) fn check(points: &[Self]) -> Result<(), String> {
-        if points.is_empty() {
-            return Ok(());
-        }
-        let range = ranges::CALIBRATED_DEG;
-        if !points.iter().all(|point| range.contains(&point.degrees)) {
-            let words = format!("must hold angles from {} to {}°", range.start(), range.end());
-            return Err(words.replace('-', "−"));
-        }
-        CountLine::through(points).map(|_| ()).map_err(|error| match error {
-            CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
-            CalibrationError::SameCounts(counts) => format!("must not hold {counts} counts twice"),
-            CalibrationError::Flat => "must hold angles that change with the counts".to_owned(),
-        })
-    }
+/// Which controller, where it answers, and the settings that its kind has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Connection {
+    kind: &'static Kind,
+    /// Where the controller answers: a host and a port such as
+    /// `192.168.10.21:4001`, or a serial port such as `/dev/ttyUSB0` or `COM3`.
+    pub address: String,
+    /// In the order of the settings of the kind.
+    values: Vec<Value>,
 }
 
 impl Connection {
-    /// Where the controller answers, for the operator's eyes.
-    pub fn address(&self) -> &str {
-        match self {
-            Self::Satrak { address, .. }
-            | Self::Genius { address, .. }
-            | Self::Rc2000c { address, .. } => address,
+    /// To `address`, with the usual settings.
+    pub(super) fn new(kind: &'static Kind, address: &str) -> Self {
+        let values = kind.settings.iter().map(|setting| setting.usual.clone()).collect();
+        Self { kind, address: address.to_owned(), values }
+    }
+
+    /// What is at the other end.
+    pub fn kind(&self) -> &'static Kind {
+        self.kind
+    }
+
+    /// What the rest of the program takes it for.
+    pub fn make(&self) -> &'static Make {
+        (self.kind.make)(self)
+    }
+
+    /// The value of a setting; the usual one where its kind has no such.
+    pub fn value<'a>(&'a self, setting: &'a Setting) -> &'a Value {
+        self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(&setting.usual)
+    }
+
+    /// The text or word of a setting; empty where it holds neither.
+    pub fn text<'a>(&'a self, setting: &'a Setting) -> &'a str {
+        match self.value(setting) {
+            Value::Text(text) => text,
+            Value::Word(word) => word,
+            Value::Whole(_) | Value::Points(_) => "",
         }
     }
+
+    /// The whole number of a setting; 0 where it holds none.
+    pub fn whole(&self, setting: &Setting) -> u32 {
+        let Value::Whole(number) = self.value(setting) else { return 0 };
+        *number
+    }
+
+    /// The points of a setting; none where it holds no such.
+    pub fn points<'a>(&'a self, setting: &'a Setting) -> &'a [CountPoint] {
+        let Value::Points(points) = self.value(setting) else { return &[] };
+        points
+    }
+
+    /// Puts a value that the setting can hold. One that it cannot hold, or a
+    /// setting that its kind does not have, changes nothing; the reason stands
+    /// behind the name of the setting.
+    pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), String> {
+        let value = value.into();
+        setting.check(&value)?;
+        let place = self.place(setting).and_then(|place| self.values.get_mut(place));
+        *place.ok_or_else(|| format!("is no setting of {:?}", self.kind.key))? = value;
+        Ok(())
+    }
+
+    fn place(&self, setting: &Setting) -> Option<usize> {
+        let is_it = |of: &&Setting| (of.key, of.table) == (setting.key, setting.table);
+        self.kind.settings.iter().position(is_it)
+    }
+}
+
+impl Serialize for Connection {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let all: Vec<Held<'_>> = self.kind.settings.iter().copied().zip(&self.values).collect();
+        let mut map = out.serialize_map(None)?;
+        map.serialize_entry("controller", self.kind.key)?;
+        map.serialize_entry("address", &self.address)?;
+        for held in all.chunk_by(|(a, _), (b, _)| a.table == b.table) {
+            match held.first().and_then(|(setting, _)| setting.table) {
+                Some(table) => map.serialize_entry(table.key, &OfTable(held))?,
+                None => write(held, &mut map)?,
+            }
+        }
+        map.end()
+    }
+}
+
+type Held<'a> = (&'static Setting, &'a Value);
+
+/// The settings of one table and their values.
+struct OfTable<'a>(&'a [Held<'a>]);
+
+impl Serialize for OfTable<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let mut map = out.serialize_map(None)?;
+        write(self.0, &mut map)?;
+        map.end()
+    }
+}
+
+fn write<M: SerializeMap>(held: &[Held<'_>], map: &mut M) -> Result<(), M::Error> {
+    held.iter()
+        .filter(|(_, value)| !value.is_empty())
+        .try_for_each(|(setting, value)| map.serialize_entry(setting.key, value))
 }
 
 /// Whether `address` is a host and a port; the reason when it is not.
@@ -139,26 +147,6 @@ mod tests {
         }
         for bad in ["", "host:", "host:0", "host:70000", ":4001"] {
             assert!(check_line(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn a_scale_has_two_points_and_a_slope() {
-        let check = |points: &[(u16, f64)]| {
-            let points = points.iter().map(|&(counts, degrees)| CountPoint { counts, degrees });
-            CountPoint::check(&points.collect::<Vec<_>>())
-        };
-        assert_eq!(check(&[]), Ok(()));
-        assert_eq!(check(&[(100, 90.0), (300, 270.0), (200, 181.0)]), Ok(()));
-        assert_eq!(check(&[(100, 90.0), (300, -90.0)]), Ok(()));
-        for bad in [
-            &[(100, 90.0)][..],
-            &[(100, 90.0), (100, 91.0)],
-            &[(100, 90.0), (200, 90.0)],
-            &[(100, 90.0), (200, 9000.0)],
-            &[(100, f64::NAN), (200, 90.0)],
-        ] {
-            assert!(check(bad).is_err(), "{bad:?}");
         }
     }
 }

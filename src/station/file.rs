@@ -7,7 +7,7 @@ use std::{
 
 use serde::Serialize;
 
-use super::{Note, Station, from_toml};
+use super::{Kind, Note, Station, from_toml};
 use crate::whole_file;
 
 /// The version that this program writes. A file of a later one is left alone.
@@ -76,8 +76,8 @@ pub fn settings_path() -> Option<PathBuf> {
         .map(|dirs| dirs.config_dir().join("station.toml"))
 }
 
-/// Reads the station at `path`.
-pub fn load(path: &Path) -> Result<Loaded, LoadError> {
+/// Reads the station at `path`, whose controllers are of these kinds.
+pub fn load(path: &Path, kinds: &[&'static Kind]) -> Result<Loaded, LoadError> {
     let text = fs::read_to_string(path).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => LoadError::Missing,
         _ => LoadError::Read { source, path: path.to_owned() },
@@ -88,7 +88,7 @@ pub fn load(path: &Path) -> Result<Loaded, LoadError> {
     if version > VERSION {
         return Err(LoadError::Newer { found: version, path: path.to_owned() });
     }
-    let (station, notes) = from_toml(table);
+    let (station, notes) = from_toml(table, kinds);
     Ok(Loaded { station, notes })
 }
 
@@ -106,6 +106,3 @@ pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
     whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SaveError::Write { source, path: path.to_owned() })
 }
-
-#[cfg(test)]
-mod tests;

@@ -44,9 +44,5 @@ pub const ELEVATION_TO_DEG: RangeInclusive<f64> = 0.0..=180.0;
 /// By how much the upper end is above the lower one, degrees.
 pub const ELEVATION_SPAN_DEG: RangeInclusive<f64> = 1.0..=270.0;
 
-/// Speeds of a serial line that an RC2000C knows, bits a second.
-pub const BAUDS: [u32; 6] = [300, 600, 1200, 2400, 4800, 9600];
-/// Address of an RC2000C on its bus.
-pub const BUS_ADDRESS: RangeInclusive<u8> = 49..=111;
 /// An angle that belongs to a count, degrees as the mount counts.
 pub const CALIBRATED_DEG: RangeInclusive<f64> = -360.0..=1440.0;

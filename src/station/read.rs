@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use toml::{Table, Value};
 
-use super::{Antenna, Station, ranges};
+use super::{Antenna, Kind, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -28,8 +28,9 @@ pub enum NoteReason {
     Unknown,
 }
 
-/// The station of a parsed settings file, and what was not taken over.
-pub fn from_toml(mut table: Table) -> (Station, Vec<Note>) {
+/// The station of a parsed settings file whose controllers are of these kinds,
+/// and what was not taken over.
+pub fn from_toml(mut table: Table, kinds: &[&'static Kind]) -> (Station, Vec<Note>) {
     let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
     let default = Station::default();
     // Read by `file`, which refuses what a newer program wrote.
@@ -44,16 +45,10 @@ pub fn from_toml(mut table: Table) -> (Station, Vec<Note>) {
             10.0,
         ),
         favourites: fields.favourites(default.favourites),
-        antennas: fields.antennas(),
+        antennas: fields.antennas(kinds),
     };
     fields.name_the_unknown();
     (station, fields.notes)
-}
-
-/// The site of a station without settings.
-pub(super) fn default_site() -> Site {
-    // Istanbul. The range check of `new` is there for typed values.
-    Site::new(41.02, 29.17, 100.0).unwrap_or_else(|_| unreachable!("a place in Istanbul"))
 }
 
 struct Fields<'a> {
@@ -101,10 +96,10 @@ impl Fields<'_> {
     }
 
     fn site(&mut self) -> Site {
-        let Some(value) = self.table.remove("site") else { return default_site() };
+        let Some(value) = self.table.remove("site") else { return Site::default() };
         value.try_into().unwrap_or_else(|error: toml::de::Error| {
             self.invalid("site", error.message());
-            default_site()
+            Site::default()
         })
     }
 
@@ -124,7 +119,7 @@ impl Fields<'_> {
         })
     }
 
-    fn antennas(&mut self) -> Vec<Antenna> {
+    fn antennas(&mut self, kinds: &[&'static Kind]) -> Vec<Antenna> {
         let tables = match self.table.remove("antenna") {
             None => return Vec::new(),
             Some(Value::Array(tables)) => tables,
@@ -141,7 +136,7 @@ impl Fields<'_> {
                 continue;
             };
             let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-            if let Some(mut antenna) = fields.antenna() {
+            if let Some(mut antenna) = fields.antenna(kinds) {
                 let others: Vec<&str> = antennas.iter().map(|other| &*other.name).collect();
                 let name = Antenna::free_name(&antenna.name, &others);
                 if name != antenna.name {

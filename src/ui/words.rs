@@ -9,10 +9,7 @@ pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
 
-use crate::{
-    controller::{Make, Motion},
-    driver::Intent,
-};
+use crate::{controller::Motion, driver::Intent, makes};
 
 /// The likely cause of numbers that cannot be read, and what to do.
 pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
@@ -35,8 +32,8 @@ pub fn motion(motion: Motion) -> &'static str {
 
 /// What an action of some make is called.
 fn action_name(key: &str) -> &'static str {
-    let actions = Make::ALL.iter().flat_map(|make| make.actions);
-    actions.into_iter().find(|action| action.key == key).map_or("Action", |action| action.label)
+    let mut actions = makes::makes().flat_map(|make| make.actions);
+    actions.find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 
 /// The end of an axis, or the way towards it, as the jog keys call it.

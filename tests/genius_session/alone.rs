@@ -5,13 +5,12 @@ use azel::{
     controller::{
         Motion,
         panel::Act,
-        rotator_genius::{ALONE, OTHER},
+        rotator_genius::{ALONE, OTHER, Rotators},
         settings::Value,
     },
     driver::{Command, Event, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::Rotators,
 };
 
 use super::rig::{Rig, azimuth, pair, to};

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use azel::{
     astro::Angle,
+    controller::rotator_genius::Rotators,
     driver::{Command, Event, Found, LinkLoss, LinkState, Refusal},
     sim::rotator_genius::Fault,
-    station::Rotators,
 };
 
 use super::{

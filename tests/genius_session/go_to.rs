@@ -1,11 +1,10 @@
 //! Positions: what is sent, and what becomes of it.
 
 use azel::{
-    controller::Motion,
+    controller::{Motion, rotator_genius::Rotators},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},
-    station::Rotators,
 };
 
 use super::{

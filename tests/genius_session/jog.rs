@@ -1,10 +1,10 @@
 //! Jogging: press turns, release stops, and nothing outlives the key.
 
 use azel::{
+    controller::rotator_genius::Rotators,
     driver::{Command, Event, Intent, LinkState, Refusal},
     protocol::rotator_genius::{Moving, RotatorNumber},
     sim::rotator_genius::Fault,
-    station::Rotators,
 };
 
 use super::{

@@ -1,10 +1,9 @@
 //! Oddities and faults: nothing of it stops the session from being right.
 
 use azel::{
-    controller::panel::CheckState,
+    controller::{panel::CheckState, rotator_genius::Rotators},
     driver::{Event, LinkState},
     sim::rotator_genius::{Fault, Quirk},
-    station::Rotators,
 };
 
 use super::{

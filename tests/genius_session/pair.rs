@@ -2,11 +2,10 @@
 
 use azel::{
     astro::AzEl,
-    controller::panel::CheckState,
+    controller::{panel::CheckState, rotator_genius::Rotators},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::Rotators,
 };
 
 use super::rig::{Rig, azimuth, pair, to};

@@ -3,13 +3,12 @@
 use azel::{
     controller::{
         panel::{Act, CheckState},
-        rotator_genius::RESCUE,
+        rotator_genius::{RESCUE, Rotators},
         settings::Values,
     },
     driver::{Command, Event, Refusal, StopState},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, Quirk, RotatorOptions},
-    station::Rotators,
 };
 
 use super::{

@@ -11,13 +11,13 @@ use std::{
 
 use azel::{
     astro::{Angle, time},
-    controller::rotator_genius::Genius,
+    controller::rotator_genius::{ROTATORS, Rotators},
     driver::{
         AntennaHandle, Clock, Command, Dial, Event, LinkState, Session, Snapshot, StopState, Stream,
     },
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions, RotatorState},
-    station::{Antenna, Connection, Rotators},
+    station::Antenna,
 };
 use jiff::Timestamp;
 use tokio::time::{Instant, sleep};
@@ -29,8 +29,9 @@ const MOST_READINGS: u64 = 2_000_000;
 
 /// An antenna whose device turns what `rotators` says.
 pub(super) fn antenna(rotators: Rotators) -> Antenna {
-    let connection = Connection::Genius { address: "in memory".into(), rotators };
-    Antenna { connection, ..Antenna::genius("Mast", "in memory") }
+    let mut antenna = Antenna::genius("Mast", "in memory");
+    antenna.connection.put(&ROTATORS, rotators).unwrap();
+    antenna
 }
 
 /// An azimuth rotator at 173 degrees and an elevation one at the horizon.
@@ -64,7 +65,6 @@ pub(super) fn is_stopping(stop: StopState) -> bool {
 
 /// The session of `antenna` over links from `dial`, and its near end.
 pub(super) fn session(antenna: &Antenna, dial: Dial) -> (Session, AntennaHandle) {
-    let Connection::Genius { rotators, .. } = antenna.connection else { panic!("no Genius") };
     let readings = AtomicU64::new(0);
     let started = Instant::now();
     let clock = Clock::new(move || {
@@ -72,8 +72,7 @@ pub(super) fn session(antenna: &Antenna, dial: Dial) -> (Session, AntennaHandle)
         assert!(readings.fetch_add(1, Ordering::Relaxed) < MOST_READINGS, "a busy loop");
         time::add_seconds(Timestamp::UNIX_EPOCH, started.elapsed().as_secs_f64())
     });
-    let genius = Genius::new(antenna.poll, rotators);
-    Session::new(Box::new(genius), antenna, dial, clock, Arc::new(|| {}))
+    Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}))
 }
 
 /// An operator in front of a running session.

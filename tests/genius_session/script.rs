@@ -6,9 +6,9 @@ use std::{
 };
 
 use azel::{
+    controller::rotator_genius::Rotators,
     driver::{AntennaHandle, Dial, Event, Stream},
     protocol::rotator_genius::Request,
-    station::Rotators,
 };
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, DuplexStream},

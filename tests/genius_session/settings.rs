@@ -4,10 +4,12 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
-    controller::settings::{Change, ReadFailure, SettleError, Value, Values},
+    controller::{
+        rotator_genius::Rotators,
+        settings::{Change, ReadFailure, SettleError, Value, Values},
+    },
     driver::{AntennaHandle, Command},
     sim::rotator_genius::{Fault, Options, Quirk},
-    station::Rotators,
 };
 
 use super::{

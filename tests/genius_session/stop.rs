@@ -1,9 +1,9 @@
 //! STOP: past everything, never refused, and not over before it is proved.
 
 use azel::{
+    controller::rotator_genius::Rotators,
     driver::{Command, Event, Intent, LinkState, StopState},
     sim::rotator_genius::Fault,
-    station::Rotators,
 };
 use tokio::time::Instant;
 

@@ -2,12 +2,12 @@
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    controller::rotator_genius::Genius,
+    controller::rotator_genius::{ROTATORS, Rotators},
     driver::{Command, Event, Intent},
     plan::{Follow, FollowStats, Target},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions},
-    station::{Antenna, Connection, Mount, Rotators},
+    station::{Antenna, Mount},
 };
 
 use super::{
@@ -21,7 +21,7 @@ const LEAD_S: f64 = 180.0;
 /// As fast as the simulated rotators are.
 fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
-    antenna.connection = Connection::Genius { address: "in memory".to_owned(), rotators };
+    antenna.connection.put(&ROTATORS, rotators).unwrap();
     antenna.limits.maximum_rate_deg_s = 4.0;
     antenna.mount = Mount::AzEl {
         azimuth_from_deg: 0.0,
@@ -52,9 +52,7 @@ async fn connected(options: &Options, antenna: &Antenna, scene: &Scene) -> (Rig,
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(options);
     let device = control.clone();
-    let Connection::Genius { rotators, .. } = antenna.connection else { panic!("{antenna:?}") };
-    let genius = Genius::new(antenna.poll, rotators);
-    let mut rig = Rig::start(Box::new(genius), antenna, utc_origin, move |far| {
+    let mut rig = Rig::start(antenna.controller(), antenna, utc_origin, move |far| {
         let device = device.clone();
         async move { device.serve(far).await }
     });

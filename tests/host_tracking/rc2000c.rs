@@ -2,11 +2,11 @@
 
 use azel::{
     astro::{Angle, time::add_seconds},
-    controller::rc2000c::Rc2000c,
+    controller::rc2000c::Calibration,
     driver::{Command, Event},
     plan::FollowStats,
     sim::rc2000c::{Control, Options},
-    station::{Antenna, Calibration, Connection, CountPoint, Mount},
+    station::{Antenna, CountPoint, Mount},
 };
 
 use super::{
@@ -33,12 +33,7 @@ fn antenna_to(azimuth_to_deg: f64, elevation_to_deg: f64) -> Antenna {
         elevation: vec![point(30, 0.0), point(1830, elevation_to_deg)],
     };
     let mut antenna = Antenna::rc2000c("Dish", "in memory");
-    antenna.connection = Connection::Rc2000c {
-        address: "in memory".to_owned(),
-        baud: 9600,
-        bus_address: 50,
-        calibration,
-    };
+    calibration.put_into(&mut antenna.connection).unwrap();
     antenna.mount = Mount::AzEl {
         azimuth_from_deg: 0.0,
         azimuth_to_deg,
@@ -58,11 +53,7 @@ async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
 async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(&Options::default());
-    let Connection::Rc2000c { baud, bus_address, calibration, .. } = &antenna.connection else {
-        panic!("{antenna:?}")
-    };
-    let unit = Rc2000c::new(antenna, *baud, *bus_address, calibration);
-    let mut rig = Rig::start(Box::new(unit), antenna, utc_origin, move |far| {
+    let mut rig = Rig::start(antenna.controller(), antenna, utc_origin, move |far| {
         let control = control.clone();
         async move { control.serve(far).await }
     });

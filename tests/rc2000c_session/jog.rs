@@ -3,10 +3,9 @@
 use std::time::Duration;
 
 use azel::{
-    controller::Motion,
+    controller::{Motion, rc2000c::BAUD},
     driver::{Command, Event, LinkState, Refusal},
     sim::rc2000c::{Fault, Options, Quirk},
-    station::Connection,
 };
 
 use super::rig::{Rig, antenna, uncalibrated};
@@ -120,9 +119,7 @@ async fn a_session_that_was_held_up_ends_the_jog_and_does_not_renew_it() {
 #[tokio::test(start_paused = true)]
 async fn a_line_of_1200_baud_is_fast_enough_to_jog_without_a_break() {
     let mut slow = antenna();
-    if let Connection::Rc2000c { baud, .. } = &mut slow.connection {
-        *baud = 1200;
-    }
+    slow.connection.put(&BAUD, 1200).unwrap();
     let mut rig = Rig::connected(&Options { baud: 1200, ..Options::default() }, &slow).await;
     rig.send(Command::Manual);
     rig.seconds(0.5).await;

@@ -12,12 +12,12 @@ use std::{
 use azel::{
     controller::{
         panel::{Act, CheckState},
-        rc2000c::Rc2000c,
+        rc2000c::Calibration,
         settings::Value,
     },
     driver::{AntennaHandle, Clock, Command, Dial, Event, Found, Session, Snapshot, Stream},
     sim::rc2000c::{Control, Options},
-    station::{Antenna, Calibration, Connection, CountPoint, Mount},
+    station::{Antenna, CountPoint, Mount},
 };
 use jiff::Timestamp;
 use tokio::time::{Instant, sleep};
@@ -63,18 +63,12 @@ pub(super) fn uncalibrated() -> Antenna {
 
 fn with_calibration(calibration: Calibration) -> Antenna {
     let mut antenna = Antenna::rc2000c("Dish", "in memory");
-    if let Connection::Rc2000c { calibration: held, .. } = &mut antenna.connection {
-        *held = calibration;
-    }
+    calibration.put_into(&mut antenna.connection).unwrap();
     antenna
 }
 
 /// The session of `antenna` over links from `dial`, and its near end.
 pub(super) fn session(antenna: &Antenna, dial: Dial) -> (Session, AntennaHandle) {
-    let Connection::Rc2000c { baud, bus_address, calibration, .. } = &antenna.connection else {
-        panic!("{antenna:?}")
-    };
-    let controller = Rc2000c::new(antenna, *baud, *bus_address, calibration);
     let started = Instant::now();
     let readings = AtomicU64::new(0);
     let clock = Clock::new(move || {
@@ -82,7 +76,7 @@ pub(super) fn session(antenna: &Antenna, dial: Dial) -> (Session, AntennaHandle)
         assert!(readings.fetch_add(1, Ordering::Relaxed) < MOST_READINGS, "a busy loop");
         Timestamp::UNIX_EPOCH + started.elapsed()
     });
-    Session::new(Box::new(controller), antenna, dial, clock, Arc::new(|| {}))
+    Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}))
 }
 
 impl Rig {

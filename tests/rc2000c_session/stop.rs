@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use azel::{
     astro::Angle,
+    controller::rc2000c::BAUD,
     driver::{Command, Event, Intent, LinkState, StopState},
     sim::rc2000c::{Fault, Options, Quirk},
-    station::Connection,
 };
 
 use super::rig::{Rig, antenna};
@@ -127,9 +127,7 @@ async fn orders_that_wait_are_dropped_by_a_stop() {
 async fn a_stop_is_proved_on_the_slowest_lines_too() {
     for baud in [300, 600, 1200] {
         let mut slow = antenna();
-        if let Connection::Rc2000c { baud: held, .. } = &mut slow.connection {
-            *held = baud;
-        }
+        slow.connection.put(&BAUD, baud).unwrap();
         let mut rig = Rig::start(&Options { baud, ..Options::default() }, &slow);
         rig.send(Command::Connect);
         rig.until_found().await;

@@ -15,12 +15,13 @@ use azel::{
         model::CatalogState,
         uploads::{Failure, Places, Stage},
     },
+    controller::satrak::ELEMENT_FILE,
     driver::{
         Clock,
         files::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},
     },
     sim::satrak::{Control, Options, Simulator},
-    station::{self, Antenna, Connection, Station},
+    station::{self, Antenna, Station},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -52,8 +53,8 @@ impl Desk {
     fn new(files: Unit, favourites: Vec<u32>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let (address, control, end) = simulate(&files);
-        let connection = Connection::Satrak { address, element_file: FILE.to_owned() };
-        let antenna = Antenna { connection, ..Antenna::satrak("Satrak", "") };
+        let mut antenna = Antenna::satrak("Satrak", &address);
+        antenna.connection.put(&ELEMENT_FILE, FILE).unwrap();
         let station = Station { antennas: vec![antenna], favourites, ..Station::default() };
         let path = folder.path().join("station.toml");
         station::save(&station, &path).unwrap();

@@ -5,9 +5,9 @@ use std::net::TcpStream;
 use azel::{
     app::Model,
     astro::{Angle, AzEl},
-    controller::{Make, Measured},
+    controller::Measured,
     driver::{Clock, Command, LinkState},
-    station,
+    makes, station,
 };
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
@@ -61,8 +61,7 @@ fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
     let mut window = demo(&folder);
     let model = window.state().model();
     assert!(model.demo);
-    let keys: Vec<&str> =
-        model.antennas.iter().map(|of| Make::of(&of.config.connection).key).collect();
+    let keys: Vec<&str> = model.antennas.iter().map(|of| of.make().key).collect();
     assert_eq!(keys, ["satrak", "genius", "rc2000c"]);
     for antenna in [SATRAK, GENIUS] {
         step_until(&mut window, "it is measured", |model| measured(model, antenna).is_some());
@@ -95,12 +94,12 @@ fn the_simulators_end_with_the_demonstration() {
     let mut window = demo(&folder);
     let addresses = window.state().model().antennas.iter().take(2);
     let addresses: Vec<String> =
-        addresses.map(|antenna| antenna.config.connection.address().to_owned()).collect();
+        addresses.map(|antenna| antenna.config.connection.address.clone()).collect();
     window.get_by_role_and_label(Role::Tab, "Preferences").click();
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save and use").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
-    let saved = station::load(&folder.path().join("station.toml")).unwrap();
+    let saved = station::load(&folder.path().join("station.toml"), &makes::kinds()).unwrap();
     assert_eq!(saved.notes, []);
     assert_eq!(saved.station, window.state().model().station);
     for address in addresses {

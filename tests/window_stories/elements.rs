@@ -9,6 +9,7 @@ use azel::{
         sources::{SourceWork, Sources},
     },
     astro::time::add_seconds,
+    makes,
     orbit::{FetchProblem, FileReport, MergeSummary, Place, Source, SourceReport},
     station,
 };
@@ -375,5 +376,11 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     step_until(&mut window, "its passes", |model| {
         model.forecasts.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });
-    assert!(station::load(&settings).unwrap().station.favourites.contains(&METEOR_M2_3));
+    assert!(
+        station::load(&settings, &makes::kinds())
+            .unwrap()
+            .station
+            .favourites
+            .contains(&METEOR_M2_3)
+    );
 }

@@ -18,6 +18,7 @@ mod drive;
 mod elements;
 mod extremes;
 mod following;
+mod fourth_make;
 mod keys;
 mod makes;
 mod mask;

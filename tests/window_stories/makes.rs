@@ -8,9 +8,10 @@ use azel::{
     controller::{
         AxisMotion, Measured, Pointing,
         panel::{Check, CheckState, Reading, Tone},
+        rotator_genius::{ROTATORS, Rotators},
     },
     driver::{Intent, LinkState, Snapshot},
-    station::{Antenna, Connection, Mount, Rotators},
+    station::{Antenna, Mount},
 };
 
 use crate::{
@@ -25,9 +26,9 @@ pub(crate) fn pair() -> Antenna {
 
 /// A Rotator Genius of which one rotator turns the antenna.
 pub(crate) fn alone() -> Antenna {
-    let address = "192.168.1.250:9006".to_owned();
-    let connection = Connection::Genius { address, rotators: Rotators::First };
-    Antenna { connection, ..Antenna::genius("Mast", "") }
+    let mut antenna = Antenna::genius("Mast", "192.168.1.250:9006");
+    antenna.connection.put(&ROTATORS, Rotators::First).unwrap();
+    antenna
 }
 
 /// An RC2000C whose azimuth axis turns by more than a turn.

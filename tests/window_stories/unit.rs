@@ -13,11 +13,12 @@ use std::{
 use azel::{
     app::{App, Model, Settings},
     astro::time::add_seconds,
+    controller::satrak::ELEMENT_FILE,
     driver::Clock,
     orbit::bundled,
     protocol::satrak::{Frame, Reply, Status, encode},
-    sim::satrak::{Control, Options, Simulator},
-    station::{Antenna, Connection, DEMO_ELEMENT_FILE, Station},
+    sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
+    station::{Antenna, Station},
 };
 use egui_kittest::Harness;
 use jiff::Timestamp;
@@ -51,7 +52,7 @@ impl Unit {
         let elements =
             station.favourites.iter().map(|number| catalog.get(*number).unwrap().clone());
         let options = Options {
-            elements: BTreeMap::from([(DEMO_ELEMENT_FILE.to_owned(), elements.collect())]),
+            elements: BTreeMap::from([(BUNDLED_FILE.to_owned(), elements.collect())]),
             reply_delay,
             ..Options::new(station.site, utc)
         };
@@ -74,10 +75,8 @@ impl Unit {
 
     /// The station with this unit as its antenna.
     pub(crate) fn station(&self) -> Station {
-        let address = self.address.to_string();
-        let element_file = DEMO_ELEMENT_FILE.to_owned();
-        let connection = Connection::Satrak { address: address.clone(), element_file };
-        let antenna = Antenna { connection, ..Antenna::satrak("Satrak", &address) };
+        let mut antenna = Antenna::satrak("Satrak", &self.address.to_string());
+        antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).unwrap();
         Station { antennas: vec![antenna], ..rig::station() }
     }
 

@@ -8,7 +8,6 @@ use jiff::Timestamp;
 use super::PassKey;
 use crate::{
     astro::{Angle, Site, time::add_seconds},
-    controller::Make,
     orbit::{Elements, Pass, Propagator},
     plan::{Reach, Sample, Trackability, trackability},
     station::{Antenna, Station},
@@ -154,7 +153,7 @@ fn reach(antenna: &Antenna) -> Reach {
         mount: antenna.mount,
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
-        has_elevation: Make::of(&antenna.connection).capabilities.has_elevation,
+        has_elevation: antenna.connection.make().capabilities.has_elevation,
     }
 }
 
@@ -177,8 +176,8 @@ fn thinned(track: &[Sample]) -> Vec<Sample> {
 mod tests {
     use super::*;
     use crate::{
+        makes::DemoAddresses,
         orbit::{PassSearch, bundled, passes},
-        station::DemoAddresses,
     };
 
     #[test]

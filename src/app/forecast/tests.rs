@@ -5,8 +5,8 @@ use std::{
 
 use super::*;
 use crate::{
+    makes::DemoAddresses,
     orbit::{bundled, read_element_bytes, write_omm_json},
-    station::DemoAddresses,
 };
 
 const ISS: u32 = 25_544;

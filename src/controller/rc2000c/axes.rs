@@ -1,10 +1,11 @@
 //! The two axes: from a status to angles, and from angles to counts and jogs.
 
+use super::Calibration;
 use crate::{
     astro::Angle,
     controller::{Axis, AxisMotion, Pointing},
     protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
-    station::{Calibration, CountLine, Mount},
+    station::{CountLine, Mount},
 };
 
 /// An axis that stands may read one step more or less.

@@ -22,7 +22,7 @@ impl Bench {
     /// Asked who it is, not answered yet.
     fn new() -> Self {
         let antenna = Antenna::rc2000c("Dish", "/dev/ttyUSB0");
-        let unit = Rc2000c::new(&antenna, 9600, 50, &Calibration::default());
+        let unit = Rc2000c::of(&antenna);
         let mut bench =
             Self { unit, now: Moment { steady: Instant::now(), utc: Timestamp::UNIX_EPOCH } };
         assert_eq!(bench.poll(), None, "silent without a link");

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    ALONE, GROUPS, Genius, PAIR, PATIENCE,
+    ALONE, GROUPS, Genius, PAIR, PATIENCE, Rotators,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
     orders::in_whole_degrees,
@@ -16,7 +16,6 @@ use crate::{
         settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::rotator_genius::Decoder,
-    station::Rotators,
 };
 
 impl Device for Genius {

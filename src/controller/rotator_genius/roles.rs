@@ -1,9 +1,7 @@
 //! Which of the two rotators is which axis of the antenna.
 
-use crate::{
-    protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees},
-    station::Rotators,
-};
+use super::Rotators;
+use crate::protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees};
 
 /// Just below a whole turn, degrees: an azimuth that is not told as 360.
 const BELOW_TURN_DEG: f64 = 359.999;

@@ -1,6 +1,8 @@
 //! The settings of a Satrak: one description of all its groups, and the way
 //! between their values and the words of the protocol.
 
+#[cfg(test)]
+mod copy_tests;
 mod general;
 mod place;
 mod proof;
@@ -10,7 +12,7 @@ mod source;
 mod times;
 mod wish;
 
-use super::state::UnitClock;
+use super::UnitClock;
 use crate::{
     controller::settings::{Group, SettleError, Unfit, Values},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},

@@ -1,57 +1,19 @@
-//! What a Satrak reported beyond the state that all antennas share.
+//! From what a Satrak reports to the state that all antennas share.
 
 use jiff::Timestamp;
 
-use super::settings::{group_of, values_of};
+use super::{
+    UnitClock,
+    settings::{group_of, values_of},
+};
 use crate::{
     astro::{AzEl, time::seconds_between},
     controller::{
         AntennaState, Axis, AxisMotion, Measured, Moment, Phase, Program,
         settings::{HeldGroup, ReadFailure},
     },
-    protocol::satrak::{
-        AxisMotion as UnitMotion, Faults, GpsData, Query, Reply, Satellite, Settings,
-        StartStopTime, Status, TrackState, Version,
-    },
+    protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
 };
-
-/// What the unit reported, each part as last read. `None` means not read.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SatrakState {
-    /// Control unit and drive unit, as they name themselves.
-    pub version: Option<Version>,
-    /// The last state could not be read, and the unit seems to write decimal
-    /// commas.
-    pub decimal_commas: bool,
-    /// A fault or warning exists.
-    pub fault_flag: bool,
-    /// The faults, and when they were read.
-    pub faults: Option<(Faults, Timestamp)>,
-    /// The unit's clock.
-    pub clock: Option<UnitClock>,
-    /// The clock was set from GPS.
-    pub clock_from_gps: Option<bool>,
-    /// The GPS receiver.
-    pub gps: Option<GpsData>,
-    /// The general settings.
-    pub settings: Option<Settings>,
-    /// The satellite that the unit holds.
-    pub satellite: Option<Satellite>,
-    /// When it tracks.
-    pub window: Option<StartStopTime>,
-}
-
-/// The unit's clock against ours.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UnitClock {
-    /// How far the unit is ahead of us, in seconds; half the way over the link
-    /// is taken off.
-    pub ahead_s: f64,
-    /// It was set by somebody.
-    pub is_set: bool,
-    /// When it was read, by our clock.
-    pub read_at: Timestamp,
-}
 
 impl AntennaState {
     /// Takes over what a reply says. `asked` is when the question went out.

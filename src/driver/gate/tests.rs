@@ -13,7 +13,7 @@ use super::*;
 use crate::{
     astro::AzEl,
     controller::{
-        Axis, AxisMotion, Capabilities, Extent, Happening, Make, Measured, Question, TrackTarget,
+        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
         WireLine,
         settings::{Change, Group},
     },
@@ -129,7 +129,7 @@ impl Case {
     /// What the gate says; it is checked that only an allowed motion starts.
     fn ask(&self, motion: Motion) -> Result<(), Refusal> {
         let started = Arc::new(Mutex::new(Vec::new()));
-        let can = Make::of(&self.antenna.connection).capabilities;
+        let can = self.antenna.connection.make().capabilities;
         let metal = Metal { can, state: self.state.clone(), started: Arc::clone(&started) };
         let mut gate = Gate::new(Box::new(metal), self.antenna.limits, self.antenna.mount);
         let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
@@ -343,7 +343,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
         *azimuth_to_deg = 450.0;
     }
     let metal = Metal {
-        can: Make::of(&case.antenna.connection).capabilities,
+        can: case.antenna.connection.make().capabilities,
         state: case.state.clone(),
         started: Arc::default(),
     };

@@ -186,6 +186,7 @@ impl Session {
             self.urgent.clear();
         }
         self.unread = true;
+        let mut hurries = false;
         loop {
             // After a long wait a jog may be over that the controller would renew.
             let now = self.now();
@@ -204,8 +205,10 @@ impl Session {
                 return None;
             }
             self.publish(now);
-            // What the last look has brought about goes out without a wait.
-            if !self.urgent.is_empty() || self.gate.device().due(now) <= now.steady {
+            // What the last look has brought about goes out without a wait. A
+            // controller that is due for ever must not keep out the next word.
+            hurries = !hurries && self.gate.device().due(now) <= now.steady;
+            if hurries || !self.urgent.is_empty() {
                 continue;
             }
             match self.wait(&mut reader, &mut buffer).await {

@@ -2,19 +2,18 @@
 
 use std::ops::RangeInclusive;
 
-use serde::de::DeserializeOwned;
 use toml::Value;
 
 use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, Calibration, Connection, CountPoint, Direction, Following, MotionLimits,
-    Mount, PollRates, Rotators, check_address, check_line, ranges,
+    AfterPass, Antenna, Connection, Direction, Following, Kind, MotionLimits, Mount, PollRates,
+    Setting, ranges,
 };
 
 impl Fields<'_> {
     /// An antenna needs a controller and an address: nothing stands in for them.
-    pub(super) fn antenna(&mut self) -> Option<Antenna> {
-        let default = self.inner("connection", connection)?;
+    pub(super) fn antenna(&mut self, kinds: &[&'static Kind]) -> Option<Antenna> {
+        let default = self.inner("connection", |connection| connection.connected(kinds))?;
         let name = self.text("name", &default.name);
         Some(Antenna {
             name,
@@ -30,6 +29,39 @@ impl Fields<'_> {
             follow: self.inner("follow", |follow| follow.following(default.follow)),
             connection: default.connection,
         })
+    }
+
+    /// An antenna with this connection and the usual figures of its kind.
+    fn connected(&mut self, kinds: &[&'static Kind]) -> Option<Antenna> {
+        let controller = self.text("controller", "");
+        let address = self.text("address", "");
+        let Some(kind) = kinds.iter().find(|kind| kind.key == controller) else {
+            self.invalid("controller", any_of(kinds));
+            return None;
+        };
+        let mut antenna = kind.antenna(kind.name, &address);
+        for settings in kind.settings.chunk_by(|a, b| a.table == b.table) {
+            let connection = &mut antenna.connection;
+            match settings.first().and_then(|setting| setting.table) {
+                Some(table) => self.inner(table.key, |inner| inner.settings(settings, connection)),
+                None => self.settings(settings, connection),
+            }
+        }
+        if let Err(why) = kind.check_address(&address) {
+            self.invalid("address", why);
+            return None;
+        }
+        Some(antenna)
+    }
+
+    fn settings(&mut self, settings: &[&Setting], connection: &mut Connection) {
+        for setting in settings {
+            let Some(value) = self.table.remove(setting.key) else { continue };
+            let put = setting.read(value).and_then(|value| connection.put(setting, value));
+            if let Err(why) = put {
+                self.invalid(setting.key, why);
+            }
+        }
     }
 
     fn direction(&mut self, default: Direction) -> Direction {
@@ -78,52 +110,6 @@ impl Fields<'_> {
             latency_s: self.number("latency_s", &ranges::LATENCY_S, latency_s),
             after: self.one_of("after", &after, default.after),
         }
-    }
-
-    fn baud(&mut self, default: u32) -> u32 {
-        let Some(value) = self.table.remove("baud") else { return default };
-        let read = value.as_integer().and_then(|baud| u32::try_from(baud).ok());
-        read.filter(|baud| ranges::BAUDS.contains(baud)).unwrap_or_else(|| {
-            let known = ranges::BAUDS.map(|baud| baud.to_string()).join(", ");
-            self.invalid("baud", format!("must be one of {known}"));
-            default
-        })
-    }
-
-    fn bus_address(&mut self, default: u8) -> u8 {
-        let Some(value) = self.table.remove("bus_address") else { return default };
-        let read = value.as_integer().and_then(|number| u8::try_from(number).ok());
-        read.filter(|number| ranges::BUS_ADDRESS.contains(number)).unwrap_or_else(|| {
-            let (low, high) = ranges::BUS_ADDRESS.into_inner();
-            self.invalid("bus_address", format!("must be a whole number from {low} to {high}"));
-            default
-        })
-    }
-
-    fn points(&mut self, key: &str) -> Vec<CountPoint> {
-        #[derive(serde::Deserialize)]
-        struct Point {
-            counts: u16,
-            degrees: f64,
-        }
-        let points: Vec<Point> = self.list(key);
-        let points: Vec<CountPoint> = points
-            .into_iter()
-            .map(|Point { counts, degrees }| CountPoint { counts, degrees })
-            .collect();
-        if let Err(why) = CountPoint::check(&points) {
-            self.invalid(key, why);
-            return Vec::new();
-        }
-        points
-    }
-
-    fn list<T: DeserializeOwned>(&mut self, key: &str) -> Vec<T> {
-        let Some(value) = self.table.remove(key) else { return Vec::new() };
-        value.try_into().unwrap_or_else(|error: toml::de::Error| {
-            self.invalid(key, error.message());
-            Vec::new()
-        })
     }
 
     fn one_of<T: Copy>(&mut self, key: &str, known: &[(&str, T)], default: T) -> T {
@@ -199,44 +185,6 @@ impl Fields<'_> {
     }
 }
 
-/// An antenna with this connection and the usual figures of its controller.
-fn connection(fields: &mut Fields<'_>) -> Option<Antenna> {
-    let controller = fields.text("controller", "");
-    let address = fields.text("address", "");
-    let Some(mut antenna) = Antenna::of_controller(&controller, &address) else {
-        fields.invalid("controller", "must be \"satrak\", \"genius\" or \"rc2000c\"");
-        return None;
-    };
-    let mut check: fn(&str) -> Result<(), &'static str> = check_address;
-    match &mut antenna.connection {
-        Connection::Satrak { element_file, .. } => *element_file = fields.text("element_file", ""),
-        Connection::Genius { rotators, .. } => {
-            let known = [
-                ("pair", Rotators::Pair),
-                ("first", Rotators::First),
-                ("second", Rotators::Second),
-            ];
-            *rotators = fields.one_of("rotators", &known, *rotators);
-        }
-        Connection::Rc2000c { baud, bus_address, calibration, .. } => {
-            check = check_line;
-            *baud = fields.baud(*baud);
-            *bus_address = fields.bus_address(*bus_address);
-            *calibration = fields.inner("calibration", |inner| Calibration {
-                azimuth: inner.points("azimuth"),
-                elevation: inner.points("elevation"),
-            });
-        }
-    }
-    match check(&address) {
-        Ok(()) => Some(antenna),
-        Err(why) => {
-            fields.invalid("address", why);
-            None
-        }
-    }
-}
-
 /// What the upper end of an axis may be whose lower end is `from`.
 fn above(
     from: f64,
@@ -244,4 +192,15 @@ fn above(
     range: &RangeInclusive<f64>,
 ) -> RangeInclusive<f64> {
     (from + span.start()).max(*range.start())..=(from + span.end()).min(*range.end())
+}
+
+/// What the controller of an antenna may be.
+fn any_of(kinds: &[&Kind]) -> String {
+    let keys: Vec<String> = kinds.iter().map(|kind| format!("{:?}", kind.key)).collect();
+    match keys.split_last() {
+        Some((last, before)) if !before.is_empty() => {
+            format!("must be {} or {last}", before.join(", "))
+        }
+        _ => format!("must be {}", keys.concat()),
+    }
 }

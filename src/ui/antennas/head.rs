@@ -57,7 +57,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     let (words, colour) = match saved(unit) {
         Some(Ok(words)) => (words, t.ok),
         Some(Err(words)) => (words, t.bad),
-        None => (format!("{}, {}", unit.antenna.config.connection.address(), read(unit)), t.t2),
+        None => (format!("{}, {}", unit.antenna.config.connection.address, read(unit)), t.t2),
     };
     let down = room.translate(vec2(0.0, 13.0));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), colour);

@@ -147,7 +147,7 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
 
 fn second_line(antenna: &AntennaModel) -> String {
     let state = &antenna.snapshot.state;
-    let address = antenna.config.connection.address();
+    let address = &antenna.config.connection.address;
     let make: &Make = antenna.make();
     if make.key == satrak::MAKE.key {
         let version = state.satrak.version.as_ref();

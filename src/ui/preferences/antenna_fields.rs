@@ -2,134 +2,156 @@
 //! mount that it has, and those that all have.
 
 use super::{
-    connection_fields::{CALIBRATION, UNIT},
-    fields::{Description, Section},
+    connection_fields,
+    fields::{Description, Placed},
 };
-use crate::{
-    controller::Make,
-    station::{AfterPass, Antenna, Mount, ranges},
-};
+use crate::station::{AfterPass, Antenna, Kind, Mount, ranges};
 
 type Of = Description<Antenna>;
 
-/// All that any antenna may have.
-pub(super) const SECTIONS: &[Section<Antenna>] = &[
-    ("", UNIT),
-    ("Mount", MOUNT),
-    ("Calibration", CALIBRATION),
-    ("Beam and park", BEAM),
-    ("Limits", LIMITS),
-    ("Questions to the unit", POLL),
-    ("Tracking by this program", FOLLOW),
-];
+/// All that an antenna of this kind may have.
+pub(super) fn all(kind: &'static Kind) -> Vec<Placed<Antenna>> {
+    let common = [
+        placed("Beam and park", beam()),
+        placed("Limits", limits()),
+        placed("Questions to the unit", poll()),
+        placed("Tracking by this program", follow()),
+    ];
+    let mut all = connection_fields::unit(kind);
+    all.extend(placed("Mount", mount()));
+    all.extend(connection_fields::tables(kind));
+    all.extend(common.into_iter().flatten());
+    all
+}
 
-const MOUNT: &[Of] = &[
-    Of::number("Azimuth of the lower axis", ranges::LOWER_AXIS_AZIMUTH_DEG, "°", |antenna| {
-        match &mut antenna.mount {
-            Mount::Xy { lower_axis_azimuth_deg, .. } => Some(lower_axis_azimuth_deg),
-            Mount::AzEl { .. } => None,
+fn placed(section: &'static str, fields: impl IntoIterator<Item = Of>) -> Vec<Placed<Antenna>> {
+    fields.into_iter().map(|field| (section, field)).collect()
+}
+
+fn mount() -> [Of; 7] {
+    [
+        Of::number("Azimuth of the lower axis", ranges::LOWER_AXIS_AZIMUTH_DEG, "°", |antenna| {
+            xy(antenna).map(|[azimuth, ..]| azimuth)
+        }),
+        Of::number("Travel from", ranges::TRAVEL_FROM_DEG, "°", |antenna| {
+            xy(antenna).map(|[_, from, _]| from)
+        }),
+        Of::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| {
+            xy(antenna).map(|[.., to]| to)
+        }),
+        Of::number("Azimuth from", ranges::AZIMUTH_FROM_DEG, "°", |antenna| {
+            az_el(antenna).map(|[from, ..]| from)
+        }),
+        Of::number("Azimuth to", ranges::AZIMUTH_TO_DEG, "°", |antenna| {
+            az_el(antenna).map(|[_, to, ..]| to)
+        })
+        .checked(|antenna| {
+            let [(from, to), _] = antenna.mount.travel_deg();
+            let is_right = ranges::AZIMUTH_SPAN_DEG.contains(&(to - from));
+            is_right.then_some(()).ok_or("must be 1 to 1080° more than Azimuth from")
+        }),
+        Of::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| {
+            az_el(antenna).map(|[_, _, from, _]| from)
+        })
+        .when(has_elevation),
+        Of::number("Elevation to", ranges::ELEVATION_TO_DEG, "°", |antenna| {
+            az_el(antenna).map(|[.., to]| to)
+        })
+        .when(has_elevation)
+        .checked(|antenna| {
+            let [_, (from, to)] = antenna.mount.travel_deg();
+            let is_right = ranges::ELEVATION_SPAN_DEG.contains(&(to - from));
+            is_right.then_some(()).ok_or("must be 1° or more above Elevation from")
+        }),
+    ]
+}
+
+/// Azimuth of the lower axis and both ends of the travel, of crossed axes.
+fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
+    match &mut antenna.mount {
+        Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
+            Some([lower_axis_azimuth_deg, travel_from_deg, travel_to_deg])
         }
-    }),
-    Of::number("Travel from", ranges::TRAVEL_FROM_DEG, "°", |antenna| match &mut antenna.mount {
-        Mount::Xy { travel_from_deg, .. } => Some(travel_from_deg),
         Mount::AzEl { .. } => None,
-    }),
-    Of::number("Travel to", ranges::TRAVEL_TO_DEG, "°", |antenna| match &mut antenna.mount {
-        Mount::Xy { travel_to_deg, .. } => Some(travel_to_deg),
-        Mount::AzEl { .. } => None,
-    }),
-    Of::number("Azimuth from", ranges::AZIMUTH_FROM_DEG, "°", |antenna| {
-        match &mut antenna.mount {
-            Mount::AzEl { azimuth_from_deg, .. } => Some(azimuth_from_deg),
-            Mount::Xy { .. } => None,
+    }
+}
+
+/// Both ends of the azimuth and of the elevation, of elevation over azimuth.
+fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
+    match &mut antenna.mount {
+        Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg } => {
+            Some([azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg])
         }
-    }),
-    Of::number("Azimuth to", ranges::AZIMUTH_TO_DEG, "°", |antenna| match &mut antenna.mount {
-        Mount::AzEl { azimuth_to_deg, .. } => Some(azimuth_to_deg),
         Mount::Xy { .. } => None,
-    })
-    .checked(|antenna| {
-        let [(from, to), _] = antenna.mount.travel_deg();
-        let is_right = ranges::AZIMUTH_SPAN_DEG.contains(&(to - from));
-        is_right.then_some(()).ok_or("must be 1 to 1080° more than Azimuth from")
-    }),
-    Of::number("Elevation from", ranges::ELEVATION_FROM_DEG, "°", |antenna| {
-        match &mut antenna.mount {
-            Mount::AzEl { elevation_from_deg, .. } => Some(elevation_from_deg),
-            Mount::Xy { .. } => None,
-        }
-    })
-    .when(has_elevation),
-    Of::number("Elevation to", ranges::ELEVATION_TO_DEG, "°", |antenna| {
-        match &mut antenna.mount {
-            Mount::AzEl { elevation_to_deg, .. } => Some(elevation_to_deg),
-            Mount::Xy { .. } => None,
-        }
-    })
-    .when(has_elevation)
-    .checked(|antenna| {
-        let [_, (from, to)] = antenna.mount.travel_deg();
-        let is_right = ranges::ELEVATION_SPAN_DEG.contains(&(to - from));
-        is_right.then_some(()).ok_or("must be 1° or more above Elevation from")
-    }),
-];
+    }
+}
 
-const BEAM: &[Of] = &[
-    Of::number("Beam width", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
-        Some(&mut antenna.beam_width_deg)
-    }),
-    Of::number("Park azimuth", ranges::AZIMUTH_DEG, "°", |antenna| {
-        Some(&mut antenna.park.azimuth_deg)
-    }),
-    Of::number("Park elevation", ranges::ELEVATION_DEG, "°", |antenna| {
-        Some(&mut antenna.park.elevation_deg)
-    })
-    .when(has_elevation),
-];
+fn beam() -> [Of; 3] {
+    [
+        Of::number("Beam width", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
+            Some(&mut antenna.beam_width_deg)
+        }),
+        Of::number("Park azimuth", ranges::AZIMUTH_DEG, "°", |antenna| {
+            Some(&mut antenna.park.azimuth_deg)
+        }),
+        Of::number("Park elevation", ranges::ELEVATION_DEG, "°", |antenna| {
+            Some(&mut antenna.park.elevation_deg)
+        })
+        .when(has_elevation),
+    ]
+}
 
-const LIMITS: &[Of] = &[
-    Of::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
-        Some(&mut antenna.limits.minimum_elevation_deg)
-    }),
-    Of::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
-        Some(&mut antenna.limits.maximum_rate_deg_s)
-    }),
-    Of::number("Maximum step", ranges::MAXIMUM_STEP_DEG, "°", |antenna| {
-        Some(&mut antenna.limits.maximum_step_deg)
-    })
-    .when(|antenna| Make::of(&antenna.connection).capabilities.steps),
-];
+fn limits() -> [Of; 3] {
+    [
+        Of::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
+            Some(&mut antenna.limits.minimum_elevation_deg)
+        }),
+        Of::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
+            Some(&mut antenna.limits.maximum_rate_deg_s)
+        }),
+        Of::number("Maximum step", ranges::MAXIMUM_STEP_DEG, "°", |antenna| {
+            Some(&mut antenna.limits.maximum_step_deg)
+        })
+        .when(|antenna| antenna.connection.make().capabilities.steps),
+    ]
+}
 
-const POLL: &[Of] = &[
-    Of::number("Poll while standing", ranges::POLL_HZ, "Hz", |antenna| {
-        Some(&mut antenna.poll.idle_hz)
-    }),
-    Of::number("Poll while moving", ranges::POLL_HZ, "Hz", |antenna| {
-        Some(&mut antenna.poll.moving_hz)
-    }),
-];
+fn poll() -> [Of; 2] {
+    [
+        Of::number("Poll while standing", ranges::POLL_HZ, "Hz", |antenna| {
+            Some(&mut antenna.poll.idle_hz)
+        }),
+        Of::number("Poll while moving", ranges::POLL_HZ, "Hz", |antenna| {
+            Some(&mut antenna.poll.moving_hz)
+        }),
+    ]
+}
 
-const FOLLOW: &[Of] = &[
-    Of::number("New position every", ranges::FOLLOW_PERIOD_S, "s", |antenna| {
-        Some(&mut antenna.follow.period_s)
-    }),
-    Of::number("Dead band", ranges::DEAD_BAND_DEG, "°", |antenna| {
-        Some(&mut antenna.follow.dead_band_deg)
-    }),
-    Of::number("Latency", ranges::LATENCY_S, "s", |antenna| Some(&mut antenna.follow.latency_s)),
-    Of::choice(
-        "After a pass",
-        &["Hold", "Park", "Wait for the next"],
-        |antenna| AFTER.iter().position(|after| *after == antenna.follow.after),
-        |antenna, index| {
-            antenna.follow.after = AFTER.get(index).copied().unwrap_or(antenna.follow.after);
-        },
-    ),
-];
+fn follow() -> [Of; 4] {
+    [
+        Of::number("New position every", ranges::FOLLOW_PERIOD_S, "s", |antenna| {
+            Some(&mut antenna.follow.period_s)
+        }),
+        Of::number("Dead band", ranges::DEAD_BAND_DEG, "°", |antenna| {
+            Some(&mut antenna.follow.dead_band_deg)
+        }),
+        Of::number("Latency", ranges::LATENCY_S, "s", |antenna| {
+            Some(&mut antenna.follow.latency_s)
+        }),
+        Of::choice(
+            "After a pass",
+            &["Hold", "Park", "Wait for the next"],
+            |antenna| AFTER.iter().position(|after| *after == antenna.follow.after),
+            |antenna, index| {
+                antenna.follow.after = AFTER.get(index).copied().unwrap_or(antenna.follow.after);
+            },
+        ),
+    ]
+}
 
 const AFTER: [AfterPass; 3] = [AfterPass::Hold, AfterPass::Park, AfterPass::Next];
 
 /// The antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
-    Make::of(&antenna.connection).capabilities.has_elevation
+    antenna.connection.make().capabilities.has_elevation
 }

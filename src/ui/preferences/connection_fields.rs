@@ -1,150 +1,104 @@
 //! The fields of an antenna that its make sets: where its controller answers
-//! and what that has to know.
+//! and what that has to know. All of them follow from the description of the make.
 
 use super::{
-    antenna_fields::has_elevation,
-    fields::{Checked, Description, Look},
+    fields::{Checked, Description, Look, Placed},
     points,
 };
 use crate::{
-    station::{
-        Antenna, Calibration, Connection, CountLine, CountPoint, Rotators, check_address,
-        check_line, ranges,
-    },
+    station::{Antenna, Choice, CountLine, CountPoint, Holds, Kind, Link, Setting, Value},
     ui::format,
 };
 
 type Of = Description<Antenna>;
 
-pub(super) const UNIT: &[Of] = &[
-    Of::text("Name", not_empty, |antenna| Some(&mut antenna.name)),
-    Of::text("Address of the Satrak", check_address, |antenna| match &mut antenna.connection {
-        Connection::Satrak { address, .. } => Some(address),
-        _ => None,
-    }),
-    Of::text(
-        "Element file on the unit",
-        |_| Ok(()),
-        |antenna| match &mut antenna.connection {
-            Connection::Satrak { element_file, .. } => Some(element_file),
-            _ => None,
-        },
-    ),
-    Of::text("Address of the Genius", check_address, |antenna| match &mut antenna.connection {
-        Connection::Genius { address, .. } => Some(address),
-        _ => None,
-    }),
-    Of::choice(
-        "Rotators of this antenna",
-        &["Azimuth, elevation", "First one", "Second one"],
-        |antenna| match &antenna.connection {
-            Connection::Genius { rotators, .. } => ROTATORS.iter().position(|of| of == rotators),
-            _ => None,
-        },
-        |antenna, index| {
-            let (Connection::Genius { rotators, .. }, Some(chosen)) =
-                (&mut antenna.connection, ROTATORS.get(index))
-            else {
-                return;
-            };
-            *rotators = *chosen;
-        },
-    )
-    .noted(|antenna| {
-        let words = "It turns the azimuth; the other rotator turns something else.";
-        (!has_elevation(antenna)).then(|| words.to_owned())
-    }),
-    Of::text("Port or address", check_line, |antenna| match &mut antenna.connection {
-        Connection::Rc2000c { address, .. } => Some(address),
-        _ => None,
-    })
-    .noted(|_| {
-        let words = "A serial port, such as /dev/ttyUSB0 or COM3, or the host and port of \
-                     a serial server.";
-        Some(words.to_owned())
-    }),
-    Of::choice(
-        "Line speed, baud",
-        &["300", "600", "1200", "2400", "4800", "9600"],
-        |antenna| match &antenna.connection {
-            Connection::Rc2000c { baud, .. } => ranges::BAUDS.iter().position(|of| of == baud),
-            _ => None,
-        },
-        |antenna, index| {
-            let (Connection::Rc2000c { baud, .. }, Some(chosen)) =
-                (&mut antenna.connection, ranges::BAUDS.get(index))
-            else {
-                return;
-            };
-            *baud = *chosen;
-        },
-    ),
-    Of::written("Bus address", Look::Number, write_bus_address, read_bus_address),
-];
+/// The name, the address and the settings that stand beside it.
+pub(super) fn unit(kind: &'static Kind) -> Vec<Placed<Antenna>> {
+    let settings = kind.settings.iter().filter(|setting| setting.table.is_none());
+    let mut unit = vec![
+        ("", Of::text("Name", not_empty, |antenna| Some(&mut antenna.name))),
+        ("", address(kind)),
+    ];
+    unit.extend(settings.map(|setting| ("", field(setting))));
+    unit
+}
 
-const POINTS: Look = Look::Lines { hint: "counts degrees, one pair a line" };
-
-pub(super) const CALIBRATION: &[Of] = &[
-    Of::written(
-        "Azimuth counts",
-        POINTS,
-        |antenna| Some(points::write(&calibration(antenna)?.azimuth)),
-        |antenna, text| put_points(antenna, text, |table| &mut table.azimuth),
-    )
-    .noted(|antenna| fit(&calibration(antenna)?.azimuth)),
-    Of::written(
-        "Elevation counts",
-        POINTS,
-        |antenna| Some(points::write(&calibration(antenna)?.elevation)),
-        |antenna, text| put_points(antenna, text, |table| &mut table.elevation),
-    )
-    .noted(|antenna| fit(&calibration(antenna)?.elevation)),
-];
-
-const ROTATORS: [Rotators; 3] = [Rotators::Pair, Rotators::First, Rotators::Second];
+/// The settings that stand in tables of their own.
+pub(super) fn tables(kind: &'static Kind) -> Vec<Placed<Antenna>> {
+    let placed = |setting: &&'static Setting| Some((setting.table?.title, field(setting)));
+    kind.settings.iter().filter_map(placed).collect()
+}
 
 pub(super) fn not_empty(text: &str) -> Checked {
     if text.is_empty() { Err("must not be empty") } else { Ok(()) }
 }
 
-fn write_bus_address(antenna: &Antenna) -> Option<String> {
-    let Connection::Rc2000c { bus_address, .. } = antenna.connection else { return None };
-    Some(bus_address.to_string())
+fn address(kind: &'static Kind) -> Of {
+    let (label, note) = match kind.link {
+        Link::Tcp => (format!("Address of the {}", kind.name), None),
+        Link::Line { .. } => {
+            let words = "A serial port, such as /dev/ttyUSB0 or COM3, or the host and port of \
+                         a serial server.";
+            ("Port or address".to_owned(), Some(words.to_owned()))
+        }
+    };
+    let write = |antenna: &Antenna| Some(antenna.connection.address.clone());
+    let read = |antenna: &mut Antenna, text: &str| {
+        kind.check_address(text)?;
+        text.clone_into(&mut antenna.connection.address);
+        Ok(())
+    };
+    Of::written(label, Look::Words, write, read).noted(move |_| note.clone())
 }
 
-fn read_bus_address(antenna: &mut Antenna, text: &str) -> Result<(), String> {
-    let read = text.parse().ok().filter(|number| ranges::BUS_ADDRESS.contains(number));
-    let (low, high) = ranges::BUS_ADDRESS.into_inner();
-    let read = read.ok_or_else(|| format!("must be a whole number from {low} to {high}"))?;
-    if let Connection::Rc2000c { bus_address, .. } = &mut antenna.connection {
-        *bus_address = read;
+fn field(setting: &'static Setting) -> Of {
+    let look = match &setting.holds {
+        Holds::Text => Look::Words,
+        Holds::OneOf(choices) => Look::Choice(choices.iter().map(|choice| choice.name).collect()),
+        Holds::Whole(_) => Look::Number,
+        Holds::Points => Look::Lines { hint: "counts degrees, one pair a line" },
+    };
+    Of::written(
+        setting.label,
+        look,
+        |antenna| Some(text(&setting.holds, antenna.connection.value(setting))),
+        |antenna, text| antenna.connection.put(setting, value(setting, text)?),
+    )
+    .noted(|antenna| {
+        let value = antenna.connection.value(setting);
+        let of_setting = (setting.note)(value).map(str::to_owned);
+        of_setting.or_else(|| fit(antenna.connection.points(setting)))
+    })
+}
+
+/// A value as it is shown and typed.
+fn text(holds: &Holds, value: &Value) -> String {
+    if let Holds::OneOf(choices) = holds {
+        let chosen = choices.iter().find(|choice| choice.value == *value);
+        return chosen.map(|choice| choice.name.to_owned()).unwrap_or_default();
     }
-    Ok(())
-}
-
-fn calibration(antenna: &Antenna) -> Option<&Calibration> {
-    let Connection::Rc2000c { calibration, .. } = &antenna.connection else { return None };
-    Some(calibration)
-}
-
-fn put_points(
-    antenna: &mut Antenna,
-    text: &str,
-    place: fn(&mut Calibration) -> &mut Vec<CountPoint>,
-) -> Result<(), String> {
-    let read = points::read(text)?;
-    if let Connection::Rc2000c { calibration, .. } = &mut antenna.connection {
-        *place(calibration) = read;
+    match value {
+        Value::Text(text) => text.clone(),
+        Value::Word(word) => (*word).to_owned(),
+        Value::Whole(number) => number.to_string(),
+        Value::Points(points) => points::write(points),
     }
-    Ok(())
+}
+
+/// The value that is meant by what is typed.
+fn value(setting: &Setting, text: &str) -> Result<Value, String> {
+    let named = |choices: &'static [Choice]| choices.iter().find(|choice| choice.name == text);
+    let value = match &setting.holds {
+        Holds::Text => Some(text.into()),
+        Holds::OneOf(choices) => named(choices).map(|choice| choice.value.clone()),
+        Holds::Whole(_) => text.parse().ok().map(Value::Whole),
+        Holds::Points => Some(points::read(text)?.into()),
+    };
+    value.ok_or_else(|| setting.wanted())
 }
 
 /// How well the points of one axis fit a straight line.
 fn fit(points: &[CountPoint]) -> Option<String> {
-    if points.is_empty() {
-        let words = "Not calibrated: the antenna is shown in counts and goes to no angle.";
-        return Some(words.to_owned());
-    }
     // Two points are always on it.
     let line = CountLine::through(points).ok().filter(|_| points.len() > 2)?;
     let residuals = line.residuals_deg(points);

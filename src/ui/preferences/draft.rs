@@ -6,7 +6,7 @@ use super::{
     fields::{Standing, Typed},
     station_fields::{self, Ground},
 };
-use crate::station::{Antenna, Station};
+use crate::station::{Antenna, Kind, Station};
 
 /// The whole form.
 #[derive(PartialEq)]
@@ -18,18 +18,17 @@ pub(super) struct Draft {
 impl Draft {
     pub(super) fn of(station: &Station) -> Self {
         Self {
-            ground: Typed::of(Ground::of(station), station_fields::SECTIONS),
+            ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
         }
     }
 
-    /// One more antenna whose controller has this key, to be filled in.
-    pub(super) fn add_antenna(&mut self, key: &str) {
-        let Some(mut antenna) = Antenna::of_controller(key, usual_address(key)) else { return };
+    /// One more antenna whose controller is of this kind, to be filled in.
+    pub(super) fn add_antenna(&mut self, kind: &'static Kind) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-        antenna.name = Antenna::free_name(&antenna.name, &taken);
-        self.antennas.push(typed(antenna));
+        let name = Antenna::free_name(kind.name, &taken);
+        self.antennas.push(typed(kind.antenna(&name, kind.usual_address)));
     }
 
     /// How the fields of the site stand.
@@ -72,7 +71,8 @@ impl Draft {
 }
 
 fn typed(antenna: Antenna) -> Typed<Antenna> {
-    Typed::of(antenna, antenna_fields::SECTIONS)
+    let fields = antenna_fields::all(antenna.connection.kind());
+    Typed::of(antenna, fields)
 }
 
 /// As typed; the name is the first field.
@@ -80,23 +80,13 @@ fn name(antenna: &Typed<Antenna>) -> String {
     antenna.fields.first().map(|field| field.text.clone()).unwrap_or_default()
 }
 
-/// Where a unit answers as it leaves the factory, or else an example.
-fn usual_address(key: &str) -> &'static str {
-    match key {
-        "genius" => "192.168.1.250:9006",
-        "rc2000c" if cfg!(windows) => "COM3",
-        "rc2000c" => "/dev/ttyUSB0",
-        _ => "192.168.10.21:4001",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
         astro::HorizonMask,
-        controller::Make,
-        station::{Connection, DemoAddresses},
+        controller::rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        makes::{self, DemoAddresses},
     };
 
     fn station() -> Station {
@@ -122,13 +112,12 @@ mod tests {
     #[test]
     fn each_make_can_be_added_and_used_as_it_stands() {
         let mut draft = Draft::of(&Station::default());
-        for make in Make::ALL {
-            draft.add_antenna(make.key);
+        for kind in makes::kinds().into_iter().chain(makes::kinds()) {
+            draft.add_antenna(kind);
         }
         let station = draft.read().unwrap();
-        let keys: Vec<&str> =
-            station.antennas.iter().map(|of| Make::of(&of.connection).key).collect();
-        assert_eq!(keys, Make::ALL.iter().map(|make| make.key).collect::<Vec<_>>());
+        let kinds: Vec<&Kind> = station.antennas.iter().map(|of| of.connection.kind()).collect();
+        assert_eq!(kinds, [makes::kinds(), makes::kinds()].concat());
     }
 
     #[test]
@@ -155,7 +144,7 @@ mod tests {
                 .iter()
                 .zip(&draft.antennas[antenna].fields)
                 .filter(|(standing, _)| standing.problem.is_some())
-                .map(|(_, field)| field.description.label)
+                .map(|(_, field)| &*field.description.label)
                 .collect();
             assert_eq!(wrong, [label], "{typed}");
             assert_eq!(draft.read(), None);
@@ -178,7 +167,7 @@ mod tests {
         "steep".clone_into(write(genius, "Elevation to"));
         "Second one".clone_into(write(genius, "Rotators of this antenna"));
         let station = draft.read().unwrap();
-        assert!(!Make::of(&station.antennas[1].connection).capabilities.has_elevation);
+        assert!(!station.antennas[1].connection.make().capabilities.has_elevation);
         "Azimuth, elevation".clone_into(write(&mut draft.antennas[1], "Rotators of this antenna"));
         assert_eq!(draft.read(), None);
         assert_eq!(write(&mut draft.antennas[1], "Elevation to"), "steep");
@@ -193,12 +182,10 @@ mod tests {
         "111".clone_into(write(unit, "Bus address"));
         "100 -5\n2100; 95".clone_into(write(unit, "Elevation counts"));
         let station = draft.read().unwrap();
-        let Connection::Rc2000c { address, baud, bus_address, calibration } =
-            &station.antennas[2].connection
-        else {
-            panic!("{:?}", station.antennas[2])
-        };
-        assert_eq!((address.as_str(), *baud, *bus_address), ("host:4002", 1200, 111));
+        let connection = &station.antennas[2].connection;
+        let calibration = Calibration::of(connection);
+        assert_eq!(connection.address, "host:4002");
+        assert_eq!((connection.whole(&BAUD), connection.whole(&BUS_ADDRESS)), (1200, 111));
         assert_eq!(calibration.elevation.len(), 2);
         assert!((calibration.elevation[0].degrees + 5.0).abs() < 1e-9);
     }

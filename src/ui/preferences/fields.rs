@@ -2,17 +2,17 @@
 //! may be. The text as typed is kept apart from the value, so nothing is lost
 //! by a typing error.
 
-use std::ops::RangeInclusive;
+use std::{borrow::Cow, ops::RangeInclusive};
 
 /// Where a value stands in a `T`; `None` where it has no such.
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
 /// Why a value cannot be used, to stand behind the name of its field.
 pub(super) type Checked = Result<(), &'static str>;
-/// Fields that belong together, with what stands above them.
-pub(super) type Section<T> = (&'static str, &'static [Description<T>]);
+/// What stands above fields that belong together, and one of them.
+pub(super) type Placed<T> = (&'static str, Description<T>);
 
 /// How a field looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) enum Look {
     /// For a name or an address.
     Words,
@@ -23,35 +23,46 @@ pub(super) enum Look {
     /// Many lines. The hint stands there while it is empty.
     Lines { hint: &'static str },
     /// One of these.
-    Choice(&'static [&'static str]),
+    Choice(Vec<&'static str>),
 }
+
+type Write<T> = Box<dyn Fn(&T) -> Option<String>>;
+type Read<T> = Box<dyn Fn(&mut T, &str) -> Result<(), String>>;
 
 /// How a value is written and read back.
 enum Value<T> {
     Number { range: RangeInclusive<f64>, place: Place<T, f64> },
     Text { check: fn(&str) -> Checked, place: Place<T, String> },
     Choice { words: &'static [&'static str], get: fn(&T) -> Option<usize>, set: fn(&mut T, usize) },
-    Written { write: fn(&T) -> Option<String>, read: fn(&mut T, &str) -> Result<(), String> },
+    Written { write: Write<T>, read: Read<T> },
 }
 
 /// One line of a form.
 pub(super) struct Description<T> {
-    pub(super) label: &'static str,
+    pub(super) label: Cow<'static, str>,
     pub(super) look: Look,
     /// Stands behind the field.
     pub(super) unit: &'static str,
     value: Value<T>,
     is_used: fn(&T) -> bool,
     check: fn(&T) -> Checked,
-    note: fn(&T) -> Option<String>,
+    note: Write<T>,
 }
 
 impl<T> Description<T> {
-    const fn new(label: &'static str, look: Look, value: Value<T>) -> Self {
-        Self { label, look, unit: "", value, is_used: |_| true, check: |_| Ok(()), note: |_| None }
+    fn new(label: impl Into<Cow<'static, str>>, look: Look, value: Value<T>) -> Self {
+        Self {
+            label: label.into(),
+            look,
+            unit: "",
+            value,
+            is_used: |_| true,
+            check: |_| Ok(()),
+            note: Box::new(|_| None),
+        }
     }
 
-    pub(super) const fn number(
+    pub(super) fn number(
         label: &'static str,
         range: RangeInclusive<f64>,
         unit: &'static str,
@@ -61,7 +72,7 @@ impl<T> Description<T> {
     }
 
     /// Words that `check` takes, without the blanks around them.
-    pub(super) const fn text(
+    pub(super) fn text(
         label: &'static str,
         check: fn(&str) -> Checked,
         place: Place<T, String>,
@@ -70,39 +81,40 @@ impl<T> Description<T> {
     }
 
     /// One of `words`, by its place among them.
-    pub(super) const fn choice(
+    pub(super) fn choice(
         label: &'static str,
         words: &'static [&'static str],
         get: fn(&T) -> Option<usize>,
         set: fn(&mut T, usize),
     ) -> Self {
-        Self::new(label, Look::Choice(words), Value::Choice { words, get, set })
+        Self::new(label, Look::Choice(words.to_vec()), Value::Choice { words, get, set })
     }
 
     /// Anything that has a way to be written and read. What is read with an error
     /// leaves the value as it is.
-    pub(super) const fn written(
-        label: &'static str,
+    pub(super) fn written(
+        label: impl Into<Cow<'static, str>>,
         look: Look,
-        write: fn(&T) -> Option<String>,
-        read: fn(&mut T, &str) -> Result<(), String>,
+        write: impl Fn(&T) -> Option<String> + 'static,
+        read: impl Fn(&mut T, &str) -> Result<(), String> + 'static,
     ) -> Self {
-        Self::new(label, look, Value::Written { write, read })
+        let value = Value::Written { write: Box::new(write), read: Box::new(read) };
+        Self::new(label, look, value)
     }
 
     /// Not shown, and of no consequence, unless `is_used` says so.
-    pub(super) const fn when(self, is_used: fn(&T) -> bool) -> Self {
+    pub(super) fn when(self, is_used: fn(&T) -> bool) -> Self {
         Self { is_used, ..self }
     }
 
     /// What must hold together with other fields.
-    pub(super) const fn checked(self, check: fn(&T) -> Checked) -> Self {
+    pub(super) fn checked(self, check: fn(&T) -> Checked) -> Self {
         Self { check, ..self }
     }
 
     /// What stands below the field.
-    pub(super) const fn noted(self, note: fn(&T) -> Option<String>) -> Self {
-        Self { note, ..self }
+    pub(super) fn noted(self, note: impl Fn(&T) -> Option<String> + 'static) -> Self {
+        Self { note: Box::new(note), ..self }
     }
 
     /// The text of the value, for a `whole` that has it.
@@ -162,7 +174,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 pub(super) struct Field<T: 'static> {
     /// What stands above it and its neighbours.
     pub(super) section: &'static str,
-    pub(super) description: &'static Description<T>,
+    pub(super) description: Description<T>,
     pub(super) text: String,
     /// As it was before anything was typed.
     before: String,
@@ -192,13 +204,11 @@ pub(super) struct Typed<T: 'static> {
 }
 
 impl<T: Clone> Typed<T> {
-    /// The fields of those `sections` that `base` has.
-    pub(super) fn of(base: T, sections: &'static [Section<T>]) -> Self {
+    /// Those of `fields` that `base` has.
+    pub(super) fn of(base: T, fields: Vec<Placed<T>>) -> Self {
         let mut whole = base.clone();
-        let all = sections.iter().flat_map(|(section, descriptions)| {
-            descriptions.iter().map(move |description| (*section, description))
-        });
-        let fields = all
+        let fields = fields
+            .into_iter()
             .filter_map(|(section, description)| {
                 let before = description.write(&mut whole)?;
                 Some(Field { section, description, text: before.clone(), before })
@@ -217,7 +227,7 @@ impl<T: Clone> Typed<T> {
         let mut whole = self.base.clone();
         let read = |field: &Field<T>| field.description.read(&mut whole, &field.text).err();
         let problems: Vec<Option<String>> = self.fields.iter().map(read).collect();
-        let described = || self.fields.iter().map(|field| field.description).zip(&problems);
+        let described = || self.fields.iter().map(|field| &field.description).zip(&problems);
         // Together they say nothing while one of them is wrong.
         let is_whole = described().all(|(of, problem)| problem.is_none() || !(of.is_used)(&whole));
         let standings = described()

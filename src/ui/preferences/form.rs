@@ -10,7 +10,7 @@ use super::{
     fields::{Field, Look, Standing},
 };
 use crate::{
-    controller::Make,
+    makes,
     ui::{
         text, theme,
         widgets::{
@@ -70,7 +70,7 @@ fn antennas(ui: &mut Ui, draft: &mut Draft) {
     for index in 0..draft.antennas.len() {
         let standings = draft.antenna_standings(index);
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
-        let make = Make::of(&antenna.before().connection).name;
+        let make = antenna.before().connection.make().name;
         card(ui, &format!("Antenna {}: {make}", index + 1), |ui| {
             fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
             ui.add_space(4.0);
@@ -84,20 +84,14 @@ fn antennas(ui: &mut Ui, draft: &mut Draft) {
     }
     card(ui, "One more antenna", |ui| {
         ui.horizontal_wrapped(|ui| {
-            for make in distinct_makes() {
+            for kind in makes::kinds() {
+                let make = kind.connection("").make();
                 if ui.button(format!("Add {}", make.name)).clicked() {
-                    draft.add_antenna(make.key);
+                    draft.add_antenna(kind);
                 }
             }
         });
     });
-}
-
-/// One of each key: what else tells two makes apart is set in the form.
-fn distinct_makes() -> impl Iterator<Item = &'static Make> {
-    let is_first = |index: usize, key| Make::ALL.iter().position(|of| of.key == key) == Some(index);
-    let all = Make::ALL.iter().copied().enumerate();
-    all.filter(move |(index, make)| is_first(*index, make.key)).map(|(_, make)| make)
 }
 
 fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
@@ -120,17 +114,17 @@ fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Sta
             Some(_) => Some(t.bad),
             None => field.is_edited().then_some(t.sat),
         };
-        let (label, unit) = (field.description.label, field.description.unit);
+        let (label, unit) = (field.description.label.clone(), field.description.unit);
         ui.horizontal_top(|ui| {
-            let words = RichText::new(label).font(text::body()).color(t.t2);
+            let words = RichText::new(&*label).font(text::body()).color(t.t2);
             let left = Layout::left_to_right(Align::Center);
-            let label = ui
+            let name = ui
                 .allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
                     ui.set_min_width(LABEL);
                     ui.label(words).id
                 })
                 .inner;
-            ui.scope(|ui| edit(ui, group, field, border).labelled_by(label));
+            ui.scope(|ui| edit(ui, group, field, border).labelled_by(name));
             let words = RichText::new(unit).font(text::body()).color(t.t3);
             ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
         });
@@ -155,9 +149,9 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
             widget.bg_stroke = Stroke::new(2.0, colour);
         }
     }
-    let label = field.description.label;
+    let label = &*field.description.label;
     let text = &mut field.text;
-    let edit = match field.description.look {
+    let edit = match &field.description.look {
         Look::Wrapped => TextEdit::multiline(text)
             .return_key(None)
             .desired_rows(1)
@@ -200,7 +194,7 @@ fn choice(
     ui: &mut Ui,
     salt: (&str, &str),
     text: &mut String,
-    words: &'static [&'static str],
+    words: &[&str],
     border: Option<Color32>,
 ) -> Response {
     let state = |word: &str| if word == text { Segment::Chosen } else { Segment::Free };

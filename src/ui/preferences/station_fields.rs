@@ -2,7 +2,7 @@
 
 use super::{
     connection_fields::not_empty,
-    fields::{Description, Look, Section},
+    fields::{Description, Look, Placed},
 };
 use crate::{
     astro::{HorizonMask, MaskTextError, Site},
@@ -56,9 +56,8 @@ fn rounded(degrees: f64) -> f64 {
 type Of = Description<Ground>;
 
 /// All that a station has besides its antennas.
-pub(super) const SECTIONS: &[Section<Ground>] = &[(
-    "",
-    &[
+pub(super) fn all() -> Vec<Placed<Ground>> {
+    let all = [
         Of::text("Name", not_empty, |ground| Some(&mut ground.name)),
         Of::number("Latitude", -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
         Of::number("Longitude, east", -180.0..=360.0, "°", |ground| {
@@ -82,8 +81,9 @@ pub(super) const SECTIONS: &[Section<Ground>] = &[(
             },
             read_mask,
         ),
-    ],
-)];
+    ];
+    all.into_iter().map(|field| ("", field)).collect()
+}
 
 /// Catalogue numbers, with commas between.
 fn favourites(ground: &Ground) -> String {

@@ -9,7 +9,7 @@ use crate::{
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let name = &antenna.config.name;
-    let address = antenna.config.connection.address();
+    let address = &antenna.config.connection.address;
     let state = &antenna.snapshot.state;
     let unreadable = state.satrak.decimal_commas.then(|| unreadable(model, antenna)).flatten();
     if unreadable.is_some() {

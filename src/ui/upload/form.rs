@@ -6,9 +6,10 @@ use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2
 
 use crate::{
     app::uploads::{Cargo, Chosen, Order},
+    controller::satrak::ELEMENT_FILE,
     driver::files::{FACTORY_USER, FileName, Peer, TleFile, UNIT_FOLDER},
     orbit::Catalog,
-    station::{Antenna, Connection},
+    station::Antenna,
     ui::{text, theme, widgets::card},
 };
 
@@ -45,13 +46,9 @@ struct Checked {
 impl Form {
     /// What is known of `antenna` without being asked.
     pub(super) fn of(antenna: &Antenna) -> Self {
-        let file = match &antenna.connection {
-            Connection::Satrak { element_file, .. } => element_file.clone(),
-            _ => String::new(),
-        };
         Self {
-            file,
-            host: host(antenna.connection.address()),
+            file: antenna.connection.text(&ELEMENT_FILE).to_owned(),
+            host: host(&antenna.connection.address),
             port: SSH.to_owned(),
             folder: UNIT_FOLDER.to_owned(),
             user: String::new(),
@@ -196,10 +193,7 @@ mod tests {
 
     fn form() -> Form {
         let mut antenna = Antenna::satrak("Satrak", "192.168.10.21:4001");
-        antenna.connection = Connection::Satrak {
-            address: "192.168.10.21:4001".to_owned(),
-            element_file: "active.txt".to_owned(),
-        };
+        antenna.connection.put(&ELEMENT_FILE, "active.txt").unwrap();
         Form { user: "op".to_owned(), ..Form::of(&antenna) }
     }
 

@@ -1,7 +1,7 @@
 //! The tracking window and the clock (sections 8 to 11 and 20).
 
 use super::{
-    super::state::UnitClock,
+    super::UnitClock,
     proof::Proof,
     wish::{Wish, cannot},
 };

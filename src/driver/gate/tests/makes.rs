@@ -1,7 +1,7 @@
 //! What differs from make to make.
 
 use super::*;
-use crate::station::{Connection, Rotators};
+use crate::controller::rotator_genius::{ROTATORS, Rotators};
 
 fn of(antenna: Antenna, intent: Intent) -> Case {
     let mut case = Case { antenna, ..Case::new(intent) };
@@ -21,7 +21,7 @@ fn rc2000c(intent: Intent) -> Case {
 
 fn alone(intent: Intent) -> Case {
     let mut antenna = Antenna::genius("Mast", "");
-    antenna.connection = Connection::Genius { address: String::new(), rotators: Rotators::First };
+    antenna.connection.put(&ROTATORS, Rotators::First).unwrap();
     of(antenna, intent)
 }
 
@@ -87,7 +87,7 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
         let mut case = rc2000c(Intent::Position);
         case.axes()[0].angle_deg = Some(at_deg);
         let metal = Metal {
-            can: Make::of(&case.antenna.connection).capabilities,
+            can: case.antenna.connection.make().capabilities,
             state: case.state.clone(),
             started: Arc::default(),
         };
@@ -122,7 +122,7 @@ fn tipped(intent: Intent) -> (Case, Gate) {
     case.axes()[1].angle_deg = Some(120.0);
     case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(20.0, 60.0).into();
     let metal = Metal {
-        can: Make::of(&case.antenna.connection).capabilities,
+        can: case.antenna.connection.make().capabilities,
         state: case.state.clone(),
         started: Arc::default(),
     };

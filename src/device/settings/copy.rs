@@ -4,9 +4,6 @@
 //! The file is TOML, one table for each group. A password is never in it, and
 //! a service setting is only shown, never taken from it.
 
-#[cfg(test)]
-mod tests;
-
 use std::fmt::Write as _;
 
 use jiff::Timestamp;

@@ -1,11 +1,26 @@
-use super::{super::NoteReason, *};
+//! Antennas of every make, written to the station file and read from it.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use super::super::*;
 use crate::{
     astro::HorizonMask,
+    controller::{
+        rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        rotator_genius::{ROTATORS, Rotators},
+    },
     station::{
-        AfterPass, Antenna, Calibration, Connection, CountPoint, DemoAddresses, Following, Mount,
-        Rotators,
+        self, AfterPass, Antenna, CountPoint, Following, LoadError, Loaded, Mount, Note,
+        NoteReason, SaveError, Station, save,
     },
 };
+
+fn load(path: &Path) -> Result<Loaded, LoadError> {
+    station::load(path, &kinds())
+}
 
 fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
@@ -103,11 +118,7 @@ fn a_failed_save_keeps_the_old_file() {
 fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    let genius = Antenna {
-        connection: Connection::Genius {
-            address: "tower.example:9006".to_owned(),
-            rotators: Rotators::Second,
-        },
+    let mut genius = Antenna {
         mount: Mount::AzEl {
             azimuth_from_deg: -90.0,
             azimuth_to_deg: 450.5,
@@ -120,8 +131,9 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
             latency_s: 0.0,
             after: AfterPass::Next,
         },
-        ..Antenna::genius("Tower", "")
+        ..Antenna::genius("Tower", "tower.example:9006")
     };
+    genius.connection.put(&ROTATORS, Rotators::Second).unwrap();
     let calibration = Calibration {
         azimuth: vec![
             CountPoint { counts: 0, degrees: -12.5 },
@@ -129,15 +141,10 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
         ],
         elevation: Vec::new(),
     };
-    let rc2000c = Antenna {
-        connection: Connection::Rc2000c {
-            address: "serial.example:4002".to_owned(),
-            baud: 1200,
-            bus_address: 111,
-            calibration,
-        },
-        ..Antenna::rc2000c("Dish", "")
-    };
+    let mut rc2000c = Antenna::rc2000c("Dish", "serial.example:4002");
+    rc2000c.connection.put(&BAUD, 1200).unwrap();
+    rc2000c.connection.put(&BUS_ADDRESS, 111).unwrap();
+    calibration.put_into(&mut rc2000c.connection).unwrap();
     let station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
     save(&station, &path).unwrap();
     let loaded = load(&path).unwrap();
@@ -180,7 +187,7 @@ fn a_bad_field_of_an_rc2000c_costs_only_itself() {
          azimuth = [{ counts = 30, degrees = 90 }, { counts = 3630, degrees = 270.0 }]\n\
          elevation = [{ counts = 30, degrees = 0 }, { counts = 30, degrees = 9 }]\n",
     );
-    let Connection::Rc2000c { calibration, .. } = read.connection else { panic!("{read:?}") };
+    let calibration = Calibration::of(&read.connection);
     assert_eq!((calibration.azimuth.len(), calibration.elevation.len()), (2, 0));
     assert_eq!(places, ["connection.calibration.elevation"]);
 }
@@ -233,4 +240,25 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
         assert_eq!(station.antennas, []);
         assert_eq!(notes[0].place, "antenna[0].connection.address");
     }
+}
+
+/// What the file of a station with antennas of every make looks like: it must
+/// stay readable for ever.
+const WRITTEN: &str = include_str!("station.toml");
+
+#[test]
+fn the_file_is_what_it_always_was() {
+    let mut station = Station::demo(&DemoAddresses {
+        satrak: "192.168.10.21:4001".to_owned(),
+        genius: "192.168.1.250:9006".to_owned(),
+        rc2000c: "/dev/ttyUSB0".to_owned(),
+    });
+    station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+    station.antennas.push(Antenna::genius("G2", "host.example:6"));
+    station.antennas.push(Antenna::rc2000c("Third", "COM3"));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    save(&station, &path).unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), WRITTEN);
+    assert_eq!(load(&path).unwrap().station, station);
 }

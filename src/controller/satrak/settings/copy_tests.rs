@@ -1,9 +1,9 @@
 //! A copy and the unit that it is of.
 
-use super::*;
-use crate::controller::{
-    satrak::GROUPS,
-    settings::{GroupState, HeldGroup, ReadFailure, Secret, Values},
+use super::GROUPS;
+use crate::device::settings::{
+    CopyError, CopyHead, GroupState, Held, HeldGroup, ReadFailure, Secret, SettingsCopy, Value,
+    Values, Verdict,
 };
 
 fn head() -> CopyHead {

@@ -5,11 +5,11 @@ use super::{Access, Change, Field, Group, Guard, ReadFailure, SettleError, Settl
 
 /// A change that is under way.
 #[derive(Debug)]
-pub(in crate::controller) struct Settling {
+pub(crate) struct Settling {
     /// What was asked for.
-    pub(in crate::controller) change: Change,
+    pub(crate) change: Change,
     /// The group of it.
-    pub(in crate::controller) group: &'static Group,
+    pub(crate) group: &'static Group,
     step: Step,
     /// As read before anything was sent.
     before: Values,
@@ -19,7 +19,7 @@ pub(in crate::controller) struct Settling {
 
 /// What a change waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::controller) enum Step {
+pub(crate) enum Step {
     /// The present values.
     Look,
     /// The answer to the command.
@@ -33,7 +33,7 @@ pub(in crate::controller) enum Step {
 impl Settling {
     /// The first step of `change` on a device with these groups; an error when it
     /// cannot be begun.
-    pub(in crate::controller) fn new(
+    pub(crate) fn new(
         change: &Change,
         groups: &'static [&'static Group],
     ) -> Result<Self, SettleError> {
@@ -52,12 +52,12 @@ impl Settling {
     }
 
     /// What it waits for.
-    pub(in crate::controller) fn step(&self) -> Step {
+    pub(crate) fn step(&self) -> Step {
         self.step
     }
 
     /// How far it is, for the operator.
-    pub(in crate::controller) fn shown(&self) -> SettleStep {
+    pub(crate) fn shown(&self) -> SettleStep {
         match self.step {
             Step::Look => SettleStep::Looking,
             Step::Send => SettleStep::Sending,
@@ -66,22 +66,22 @@ impl Settling {
     }
 
     /// It may be sent only while nothing moves.
-    pub(in crate::controller) fn needs_standstill(&self) -> bool {
+    pub(crate) fn needs_standstill(&self) -> bool {
         self.group.guard(&self.change.values) == Guard::Service
     }
 
     /// Whether the device may have taken something of it.
-    pub(in crate::controller) fn may_be_sent(&self) -> bool {
+    pub(crate) fn may_be_sent(&self) -> bool {
         self.step != Step::Look
     }
 
     /// What the device held before.
-    pub(in crate::controller) fn before(&self) -> &Values {
+    pub(crate) fn before(&self) -> &Values {
         &self.before
     }
 
     /// The present values came.
-    pub(in crate::controller) fn looked(&mut self, held: Values) -> Result<(), SettleError> {
+    pub(crate) fn looked(&mut self, held: Values) -> Result<(), SettleError> {
         self.before = held;
         if self.has_changed_meanwhile() {
             return Err(SettleError::ChangedMeanwhile);
@@ -91,13 +91,13 @@ impl Settling {
     }
 
     /// The device has taken the command.
-    pub(in crate::controller) fn accepted(&mut self) {
+    pub(crate) fn accepted(&mut self) {
         self.step = Step::ReadBack;
     }
 
     /// The values after the command came; the fields with these keys do not hold
     /// what was asked for.
-    pub(in crate::controller) fn read_back(&mut self, held: &Values, differing: Vec<&'static str>) {
+    pub(crate) fn read_back(&mut self, held: &Values, differing: Vec<&'static str>) {
         self.result = match std::mem::replace(&mut self.result, Ok(())) {
             Ok(()) | Err(SettleError::Unanswered) if differing.is_empty() => Ok(()),
             Ok(()) => Err(SettleError::Differs(differing)),
@@ -110,7 +110,7 @@ impl Settling {
     }
 
     /// The device said no to what it waits for.
-    pub(in crate::controller) fn refused(&mut self, code: String) -> Result<(), SettleError> {
+    pub(crate) fn refused(&mut self, code: String) -> Result<(), SettleError> {
         match self.step {
             Step::Look => return Err(SettleError::Unread(ReadFailure::Refused(code))),
             Step::Send => {
@@ -124,7 +124,7 @@ impl Settling {
     }
 
     /// No answer came, or none that can be read.
-    pub(in crate::controller) fn unanswered(&mut self) -> Result<(), SettleError> {
+    pub(crate) fn unanswered(&mut self) -> Result<(), SettleError> {
         match self.step {
             Step::Look => return Err(SettleError::Unread(ReadFailure::Unanswered)),
             Step::Send => {
@@ -145,14 +145,14 @@ impl Settling {
     }
 
     /// The device holds the values; whether it can work with them is in `verdict`.
-    pub(in crate::controller) fn judge(&mut self, verdict: Result<(), SettleError>) {
+    pub(crate) fn judge(&mut self, verdict: Result<(), SettleError>) {
         if self.result.is_ok() {
             self.result = verdict;
         }
     }
 
     /// What came of it.
-    pub(in crate::controller) fn result(&self) -> Result<(), SettleError> {
+    pub(crate) fn result(&self) -> Result<(), SettleError> {
         self.result.clone()
     }
 

@@ -13,5 +13,5 @@ pub use field::{Access, Field, Group, Guard, Kind};
 pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
 };
-pub(super) use settling::{Settling, Step};
+pub(crate) use settling::{Settling, Step};
 pub use value::{Unfit, Value, Values};

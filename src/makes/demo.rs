@@ -1,9 +1,10 @@
 //! The station that is shown before there are settings.
 
-use super::{Antenna, Calibration, Connection, CountPoint, Direction, Mount, Rotators, Station};
-
-/// The element file that the simulated Satrak holds.
-pub const DEMO_ELEMENT_FILE: &str = "active.txt";
+use crate::{
+    controller::{rc2000c::Calibration, satrak::ELEMENT_FILE},
+    sim::satrak::BUNDLED_FILE,
+    station::{Antenna, CountPoint, Mount, Station},
+};
 
 /// Where the three simulated controllers answer.
 #[derive(Debug, Clone, Default)]
@@ -33,18 +34,14 @@ impl Station {
 }
 
 fn satrak(address: &str) -> Antenna {
-    Antenna {
-        connection: Connection::Satrak {
-            address: address.to_owned(),
-            element_file: DEMO_ELEMENT_FILE.to_owned(),
-        },
-        ..Antenna::satrak("Satrak", address)
-    }
+    let mut antenna = Antenna::satrak("Satrak", address);
+    // A Satrak has this setting, and it takes any text.
+    antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).ok();
+    antenna
 }
 
 fn genius(address: &str) -> Antenna {
     Antenna {
-        connection: Connection::Genius { address: address.to_owned(), rotators: Rotators::Pair },
         mount: Mount::AzEl {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
@@ -65,13 +62,12 @@ fn rc2000c(address: &str) -> Antenna {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    antenna.park = Direction { azimuth_deg: 180.0, elevation_deg: 45.0 };
-    if let Connection::Rc2000c { calibration, .. } = &mut antenna.connection {
-        let point = |counts, degrees| CountPoint { counts, degrees };
-        *calibration = Calibration {
-            azimuth: vec![point(30, 90.0), point(3630, 270.0)],
-            elevation: vec![point(30, 0.0), point(1830, 90.0)],
-        };
-    }
+    let point = |counts, degrees| CountPoint { counts, degrees };
+    let calibration = Calibration {
+        azimuth: vec![point(30, 90.0), point(3630, 270.0)],
+        elevation: vec![point(30, 0.0), point(1830, 90.0)],
+    };
+    // An RC2000C has these settings, and the points make a scale.
+    calibration.put_into(&mut antenna.connection).ok();
     antenna
 }

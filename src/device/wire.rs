@@ -81,11 +81,11 @@ impl Finding {
 
 /// Lines that wait for the session to take them.
 #[derive(Debug, Default)]
-pub(super) struct WireQueue(VecDeque<WireLine>);
+pub(crate) struct WireQueue(VecDeque<WireLine>);
 
 impl WireQueue {
     /// Adds the newest.
-    pub(super) fn push(&mut self, line: WireLine) {
+    pub(crate) fn push(&mut self, line: WireLine) {
         if self.0.len() == MOST_WAITING {
             self.0.pop_front();
         }
@@ -93,7 +93,7 @@ impl WireQueue {
     }
 
     /// Takes the oldest.
-    pub(super) fn pop(&mut self) -> Option<WireLine> {
+    pub(crate) fn pop(&mut self) -> Option<WireLine> {
         self.0.pop_front()
     }
 }

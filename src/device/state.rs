@@ -5,9 +5,8 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
-    Moment,
+    Moment, SatrakState,
     panel::{Check, Reading},
-    satrak::SatrakState,
     settings::{Change, GroupState, Held, SettleError, Settled},
 };
 use crate::astro::{Angle, AzEl};
@@ -45,12 +44,12 @@ pub struct AntennaState {
 
 impl AntennaState {
     /// What is known of a group of settings.
-    pub(super) fn group(&mut self, key: &'static str) -> &mut GroupState {
+    pub(crate) fn group(&mut self, key: &'static str) -> &mut GroupState {
         Arc::make_mut(&mut self.held).entry(key).or_default()
     }
 
     /// A change is over, for good or bad. `is_followed` by another one of its group.
-    pub(super) fn end_change(
+    pub(crate) fn end_change(
         &mut self,
         change: Change,
         result: Result<(), SettleError>,

@@ -1,0 +1,132 @@
+//! What an RC2000C says of itself to the station.
+
+use super::{MAKE, Rc2000c};
+use crate::station::{
+    AfterPass, Antenna, Choice, Connection, CountPoint, Direction, Following, Holds, Kind, Link,
+    MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+};
+
+/// An RC2000C in the station: on the bus address of the factory, not calibrated.
+pub static KIND: Kind = Kind {
+    key: MAKE.key,
+    name: "RC2000C",
+    link: Link::Line { baud: &BAUD },
+    usual_address: if cfg!(windows) { "COM3" } else { "/dev/ttyUSB0" },
+    usual: Usual {
+        mount: Mount::AzEl {
+            azimuth_from_deg: 0.0,
+            azimuth_to_deg: 360.0,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        },
+        beam_width_deg: 1.5,
+        park: Direction { azimuth_deg: 180.0, elevation_deg: 45.0 },
+        limits: MotionLimits {
+            minimum_elevation_deg: 5.0,
+            maximum_rate_deg_s: 2.0,
+            maximum_step_deg: 5.0,
+        },
+        poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
+        follow: Following {
+            period_s: 2.0,
+            dead_band_deg: 0.2,
+            latency_s: 0.5,
+            after: AfterPass::Hold,
+        },
+    },
+    settings: &[&BAUD, &BUS_ADDRESS, &AZIMUTH_POINTS, &ELEVATION_POINTS],
+    makes: &[&MAKE],
+    make: |_| &MAKE,
+    open: |antenna| Box::new(Rc2000c::of(antenna)),
+};
+
+/// Bits a second of the line. A serial server is set to it by its own means; here
+/// it tells how long replies take.
+pub static BAUD: Setting = Setting {
+    key: "baud",
+    table: None,
+    label: "Line speed, baud",
+    holds: Holds::OneOf(&[
+        Choice { value: Value::Whole(300), name: "300" },
+        Choice { value: Value::Whole(600), name: "600" },
+        Choice { value: Value::Whole(1200), name: "1200" },
+        Choice { value: Value::Whole(2400), name: "2400" },
+        Choice { value: Value::Whole(4800), name: "4800" },
+        Choice { value: Value::Whole(9600), name: "9600" },
+    ]),
+    usual: Value::Whole(9600),
+    note: |_| None,
+};
+
+/// Its address on the bus.
+pub static BUS_ADDRESS: Setting = Setting {
+    key: "bus_address",
+    table: None,
+    label: "Bus address",
+    holds: Holds::Whole(49..=111),
+    usual: Value::Whole(50),
+    note: |_| None,
+};
+
+/// What its counts mean.
+const CALIBRATION: Table = Table { key: "calibration", title: "Calibration" };
+
+/// What the counts of the azimuth mean.
+pub static AZIMUTH_POINTS: Setting = Setting {
+    key: "azimuth",
+    table: Some(CALIBRATION),
+    label: "Azimuth counts",
+    holds: Holds::Points,
+    usual: Value::Points(Vec::new()),
+    note: not_calibrated,
+};
+
+/// What the counts of the elevation mean.
+pub static ELEVATION_POINTS: Setting = Setting {
+    key: "elevation",
+    table: Some(CALIBRATION),
+    label: "Elevation counts",
+    holds: Holds::Points,
+    usual: Value::Points(Vec::new()),
+    note: not_calibrated,
+};
+
+fn not_calibrated(value: &Value) -> Option<&'static str> {
+    let is_empty = matches!(value, Value::Points(points) if points.is_empty());
+    is_empty.then_some("Not calibrated: the antenna is shown in counts and goes to no angle.")
+}
+
+/// What the counts of both position sensors mean: points that the operator has
+/// measured. Between and beyond them a straight line is laid. Two points or more
+/// of each, or none while it is not calibrated.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Calibration {
+    /// Of the azimuth.
+    pub azimuth: Vec<CountPoint>,
+    /// Of the elevation.
+    pub elevation: Vec<CountPoint>,
+}
+
+impl Calibration {
+    /// That of an RC2000C at the other end of `connection`.
+    pub fn of(connection: &Connection) -> Self {
+        Self {
+            azimuth: connection.points(&AZIMUTH_POINTS).to_vec(),
+            elevation: connection.points(&ELEVATION_POINTS).to_vec(),
+        }
+    }
+
+    /// Puts it into the settings of `connection`, or says why it cannot be.
+    pub fn put_into(self, connection: &mut Connection) -> Result<(), String> {
+        connection.put(&AZIMUTH_POINTS, self.azimuth)?;
+        connection.put(&ELEVATION_POINTS, self.elevation)
+    }
+}
+
+impl Antenna {
+    /// An RC2000C at `address` on the bus address of the factory, not calibrated,
+    /// with the usual figures.
+    pub fn rc2000c(name: &str, address: &str) -> Self {
+        KIND.antenna(name, address)
+    }
+}

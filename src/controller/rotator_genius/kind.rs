@@ -1,0 +1,119 @@
+//! What a Rotator Genius says of itself to the station.
+
+use super::{ALONE, Genius, PAIR};
+use crate::station::{
+    AfterPass, Antenna, Choice, Connection, Direction, Following, Holds, Kind, Link, MotionLimits,
+    Mount, PollRates, Setting, Usual, Value,
+};
+
+/// A Rotator Genius in the station, which turns azimuth and elevation unless
+/// [`ROTATORS`] says something else.
+pub static KIND: Kind = Kind {
+    key: PAIR.key,
+    name: "Genius",
+    link: Link::Tcp,
+    usual_address: "192.168.1.250:9006",
+    usual: Usual {
+        mount: Mount::AzEl {
+            azimuth_from_deg: 0.0,
+            azimuth_to_deg: 360.0,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 180.0,
+        },
+        beam_width_deg: 20.0,
+        park: Direction { azimuth_deg: 0.0, elevation_deg: 0.0 },
+        limits: MotionLimits {
+            minimum_elevation_deg: 0.0,
+            maximum_rate_deg_s: 4.0,
+            maximum_step_deg: 10.0,
+        },
+        poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
+        follow: Following {
+            period_s: 1.0,
+            dead_band_deg: 0.5,
+            latency_s: 0.5,
+            after: AfterPass::Hold,
+        },
+    },
+    settings: &[&ROTATORS],
+    makes: &[&PAIR, &ALONE],
+    make: |connection| match Rotators::of(connection) {
+        Rotators::Pair => &PAIR,
+        Rotators::First | Rotators::Second => &ALONE,
+    },
+    open: |antenna| Box::new(Genius::new(antenna.poll, Rotators::of(&antenna.connection))),
+};
+
+/// What the two rotators turn: a value of [`Rotators`].
+pub static ROTATORS: Setting = Setting {
+    key: "rotators",
+    table: None,
+    label: "Rotators of this antenna",
+    holds: Holds::OneOf(&[
+        Choice { value: Value::Word("pair"), name: "Azimuth, elevation" },
+        Choice { value: Value::Word("first"), name: "First one" },
+        Choice { value: Value::Word("second"), name: "Second one" },
+    ]),
+    usual: Value::Word("pair"),
+    note: |value| {
+        let is_alone = *value != Value::Word("pair");
+        is_alone.then_some("It turns the azimuth; the other rotator turns something else.")
+    },
+};
+
+/// What the two rotators of a Rotator Genius turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotators {
+    /// One the azimuth and one the elevation of the same antenna.
+    Pair,
+    /// The first one turns the antenna, the second something else.
+    First,
+    /// The second one turns the antenna, the first something else.
+    Second,
+}
+
+impl Rotators {
+    /// Those of a Genius at the other end of `connection`.
+    pub fn of(connection: &Connection) -> Self {
+        match connection.text(&ROTATORS) {
+            "first" => Self::First,
+            "second" => Self::Second,
+            _ => Self::Pair,
+        }
+    }
+}
+
+impl From<Rotators> for Value {
+    fn from(rotators: Rotators) -> Self {
+        Self::Word(match rotators {
+            Rotators::Pair => "pair",
+            Rotators::First => "first",
+            Rotators::Second => "second",
+        })
+    }
+}
+
+impl Antenna {
+    /// A Rotator Genius at `address` that turns azimuth and elevation, with the
+    /// usual figures.
+    pub fn genius(name: &str, address: &str) -> Self {
+        KIND.antenna(name, address)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn its_rotators_say_which_make_it_is() {
+        let mut connection = KIND.connection("h:9006");
+        for (rotators, has_elevation) in
+            [(Rotators::First, false), (Rotators::Second, false), (Rotators::Pair, true)]
+        {
+            connection.put(&ROTATORS, rotators).unwrap();
+            assert_eq!(Rotators::of(&connection), rotators);
+            assert_eq!(connection.make().capabilities.has_elevation, has_elevation);
+        }
+    }
+}

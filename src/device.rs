@@ -1,0 +1,268 @@
+//! What any controller is to the rest of the program: what it can do, what it
+//! tells, what it can be told, whatever its make.
+//!
+//! Invariant: a [`Moves`] can make metal move, so only the driver's gate holds
+//! one; everyone else sees its [`Device`] side.
+
+mod capabilities;
+mod make;
+pub mod panel;
+mod satrak;
+pub mod settings;
+mod state;
+pub(crate) mod wire;
+
+use std::time::{Duration, Instant};
+
+use jiff::Timestamp;
+
+pub use capabilities::{Capabilities, JogSpeed, JogSpeeds};
+pub use make::Make;
+pub use satrak::{SatrakState, UnitClock};
+pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
+pub use wire::{Direction, Finding, WireLine};
+
+use crate::{astro::Angle, protocol::satrak::Query};
+use panel::Act;
+use settings::{Change, Group};
+
+/// One instant on both clocks: the steady one for intervals, UTC for the sky.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Moment {
+    /// Never jumps.
+    pub steady: Instant,
+    /// May be corrected at any time.
+    pub utc: Timestamp,
+}
+
+/// What makes metal move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// Both axes turn at these rates until stopped; degrees a second.
+    Jog {
+        /// First axis, signed.
+        x_deg_s: f64,
+        /// Second axis, signed.
+        y_deg_s: f64,
+    },
+    /// Both axes turn by this much; degrees.
+    Step {
+        /// First axis, signed.
+        x_deg: f64,
+        /// Second axis, signed.
+        y_deg: f64,
+    },
+    /// To a direction; `None` leaves that angle as it is.
+    Position {
+        /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
+        /// the position of that axis: 370 is not 10.
+        azimuth: Option<Angle>,
+        /// Elevation. On a mount whose elevation axis travels over the zenith it is
+        /// the position of that axis: 120 points up 60 degrees on the other side.
+        elevation: Option<Angle>,
+    },
+    /// The controller follows the target it holds.
+    StartProgram,
+    /// The controller starts to follow by itself whenever its target is due.
+    EnableAuto,
+    /// What only this make can do: one of [`Make::actions`], by its key.
+    Action(&'static str),
+}
+
+/// What an antenna shall follow, as far as a controller that tracks by itself
+/// needs to know.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TrackTarget {
+    /// Up to nine digits.
+    pub catalog_number: u32,
+    /// As in the elements.
+    pub name: String,
+    /// When to start.
+    pub from: Timestamp,
+    /// When to end.
+    pub until: Timestamp,
+}
+
+/// What the operator asks a device by hand; it changes nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Question {
+    /// To a Satrak.
+    Satrak(Query),
+}
+
+/// How much a halt ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// What moves now.
+    Motion,
+    /// What moves now or may begin to, whatever is known of it.
+    Everything,
+}
+
+/// What came of something that was asked of the device.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Happening {
+    /// The target was sent and read back: the device holds it.
+    Prepared(TrackTarget),
+    /// The target is not on the device.
+    NotPrepared(TrackTarget, PrepareError),
+    /// The device took the command; whether it moves is seen in its state.
+    Accepted(Motion),
+    /// The device said no. Its code stands as it came.
+    Refused(Motion, String),
+    /// No answer came. It is not sent again; the state will tell.
+    Unanswered(Motion),
+    /// The device said no to a halt. Its code stands as it came.
+    HaltRefused(String),
+    /// The device said no to switching auto-track off, or did not answer.
+    AutoStaysOn,
+}
+
+/// Why the device does not hold the target.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum PrepareError {
+    /// A name, file or time cannot be carried by the protocol.
+    #[error("cannot be sent: {0}")]
+    CannotBeSent(String),
+    /// The device said no. Its code stands as it came.
+    #[error("refused with {code}")]
+    Refused {
+        /// As it came.
+        code: String,
+    },
+    /// No answer to a setting.
+    #[error("no answer")]
+    Unanswered,
+    /// The read-back shows something else.
+    #[error("holds {held}")]
+    Differs {
+        /// What the device holds now.
+        held: String,
+    },
+    /// The device has no elements of it.
+    #[error("no elements in {file}")]
+    NotOnDevice {
+        /// The element file that was searched.
+        file: String,
+    },
+    /// Neither the device nor the settings name an element file.
+    #[error("no element file is named")]
+    NoElementFile,
+    /// A halt came in between.
+    #[error("stopped")]
+    Stopped,
+}
+
+/// A controller as everyone may use it: nothing here starts a motion.
+pub trait Device: Send {
+    /// What it can do.
+    fn capabilities(&self) -> Capabilities;
+
+    /// The link has come up: forget what was outstanding, ask everything anew.
+    fn link_up(&mut self, now: Moment);
+
+    /// The link is gone: nothing that was asked will be answered.
+    fn link_down(&mut self, now: Moment);
+
+    /// Bytes that were written, for [`Self::next_wire_line`].
+    fn sent(&mut self, bytes: &[u8], now: Moment);
+
+    /// What went over the link and was not taken yet, oldest first.
+    fn next_wire_line(&mut self) -> Option<WireLine>;
+
+    /// Takes bytes that came in. Any bytes are harmless.
+    fn receive(&mut self, bytes: &[u8], now: Moment);
+
+    /// The bytes to send now, if something is due.
+    fn poll(&mut self, now: Moment) -> Option<Vec<u8>>;
+
+    /// When [`Self::poll`] is to be called next at the latest.
+    fn due(&self, now: Moment) -> Instant;
+
+    /// The bytes that stop all motion and end the device's own program. To be
+    /// written at once, before and despite anything else; motions that wait are
+    /// dropped. With [`Extent::Motion`] a program that is known to be off is
+    /// left alone.
+    fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
+
+    /// The operator has pressed STOP, whatever else was halted before: nothing of
+    /// what was allowed for a while is allowed any more.
+    fn disarm(&mut self) {}
+
+    /// After this long a halt that is not proved is sent again: by then a state
+    /// that was asked for after it has come in.
+    fn halt_patience(&self) -> Duration {
+        Duration::from_secs(1)
+    }
+
+    /// Puts a target on the device without moving it. The outcome comes as a
+    /// [`Happening`].
+    fn prepare(&mut self, target: TrackTarget);
+
+    /// What the device remembers and can be told: the same for its whole life.
+    fn groups(&self) -> &'static [&'static Group];
+
+    /// Reads the group with this key anew. It is then among
+    /// [`AntennaState::held`].
+    fn read_group(&mut self, group: &str);
+
+    /// Puts new values of a group on the device and reads them back. How far it
+    /// is, and what came of it, stands in [`AntennaState::held`].
+    fn settle(&mut self, change: Change, now: Moment);
+
+    /// Asks this between its own questions. What is no question to this device
+    /// is dropped.
+    fn ask(&mut self, question: Question);
+
+    /// The device no longer starts to follow by itself.
+    fn disable_auto(&mut self);
+
+    /// A motion is queued, or sent and not answered.
+    fn motion_under_way(&self) -> bool;
+
+    /// What `motion` becomes in the words of the device, such as whole degrees.
+    fn as_told(&self, motion: Motion) -> Motion {
+        motion
+    }
+
+    /// What is known.
+    fn state(&self) -> &AntennaState;
+
+    /// What came of earlier requests, oldest first.
+    fn next_happening(&mut self) -> Option<Happening>;
+
+    /// Without any good reply for this long, the link counts as lost.
+    fn patience(&self) -> Duration;
+
+    /// The time between two questions at present.
+    fn poll_period(&self) -> Duration;
+}
+
+/// The side of a controller that moves metal. Only the gate holds it.
+pub trait Moves: Device {
+    /// Why `motion` must not be started or go on, where that is special to this
+    /// device. The gate asks it after its own rules, and again while a jog runs.
+    fn objection(&self, _motion: &Motion, _now: Moment) -> Option<&'static str> {
+        None
+    }
+
+    /// Queues a motion other than an action. It is sent once, and not at all
+    /// when a halt comes first.
+    fn start(&mut self, motion: Motion);
+
+    /// Queues what only this make can do. A controller without
+    /// [`Make::actions`] is never asked.
+    fn act(&mut self, act: Act);
+}
+
+/// What a motion aims at: an angle that is left as it is stays as measured.
+pub fn aimed(
+    azimuth: Option<Angle>,
+    elevation: Option<Angle>,
+    measured: Option<Pointing>,
+) -> Pointing {
+    Pointing {
+        azimuth: azimuth.or(measured.and_then(|measured| measured.azimuth)),
+        elevation: elevation.or(measured.and_then(|measured| measured.elevation)),
+    }
+}

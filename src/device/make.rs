@@ -1,0 +1,27 @@
+//! What the rest of the program knows of a make of controller without a link.
+
+use super::{Capabilities, panel::Action, settings::Group};
+
+/// One make of controller, as the rest of the program knows it without a link.
+#[derive(Debug)]
+pub struct Make {
+    /// As in the station file.
+    pub key: &'static str,
+    /// As on the box.
+    pub name: &'static str,
+    /// Why it may have refused or closed the connection, in a sentence.
+    pub closed_note: Option<&'static str>,
+    /// What it can do.
+    pub capabilities: Capabilities,
+    /// What it remembers and can be told.
+    pub groups: &'static [&'static Group],
+    /// What only it can do.
+    pub actions: &'static [Action],
+}
+
+impl Make {
+    /// The action with this key.
+    pub fn action(&self, key: &str) -> Option<&'static Action> {
+        self.actions.iter().find(|action| action.key == key)
+    }
+}

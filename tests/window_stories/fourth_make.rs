@@ -1,0 +1,141 @@
+//! A make of controller that the library does not know: described and driven
+//! here, it is read from the station file, set up in the form and moved.
+
+mod lever;
+
+use std::{
+    sync::{Arc, mpsc},
+    time::{Duration, Instant},
+};
+
+use azel::{
+    app::View,
+    astro::{Angle, AzEl},
+    controller::Pointing,
+    driver::{AntennaHandle, Clock, Command, Driver, Snapshot, StopState},
+    makes,
+    station::{self, Antenna, Kind, Station, Value},
+};
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use self::lever::{CODE, GEAR, KIND, SHAFTS, unit};
+use crate::{
+    preferences::{saved, write},
+    rig::{self, SIZES, asked, says, settle},
+};
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn all_kinds() -> Vec<&'static Kind> {
+    let mut kinds = makes::kinds();
+    kinds.push(&KIND);
+    kinds
+}
+
+fn at(shown: &Snapshot, azimuth_deg: f64, elevation_deg: f64) -> bool {
+    let there = Pointing::from(AzEl::from_degrees(azimuth_deg, elevation_deg));
+    let measured = shown.state.measured.map(|measured| measured.pointing);
+    let off = measured.and_then(|measured| measured.separation(there));
+    off.is_some_and(|off| off.degrees() < 0.01)
+}
+
+#[test]
+fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
+    const TEXT: &str = "[[antenna]]\n[antenna.connection]\ncontroller = 'lever'\n\
+        address = 'tower:7'\ncode = 'eureka'\nlength = 3\n\
+        [antenna.connection.drive]\ngear = 'reverse'\nshafts = 4\noil = true\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    std::fs::write(&path, TEXT).unwrap();
+    let loaded = station::load(&path, &all_kinds()).unwrap();
+    let notes: Vec<&str> = loaded.notes.iter().map(|note| &*note.place).collect();
+    assert_eq!(
+        notes,
+        [
+            "antenna[0].connection.drive.gear",
+            "antenna[0].connection.drive.oil",
+            "antenna[0].connection.length"
+        ]
+    );
+    let [antenna] = &loaded.station.antennas[..] else { panic!("{:?}", loaded.station) };
+    let connection = &antenna.connection;
+    assert_eq!((&*antenna.name, antenna.beam_width_deg.round()), ("Lever", 7.0));
+    assert_eq!((connection.text(&CODE), connection.text(&GEAR)), ("eureka", "low"));
+    assert_eq!(connection.whole(&SHAFTS), 4);
+
+    let mut station = loaded.station.clone();
+    station.antennas[0].connection.put(&GEAR, Value::Word("high")).unwrap();
+    station::save(&station, &path).unwrap();
+    let again = station::load(&path, &all_kinds()).unwrap();
+    assert_eq!((again.station, again.notes), (station, Vec::new()));
+
+    let known = station::load(&path, &makes::kinds()).unwrap();
+    assert_eq!(known.station.antennas, [], "without its kind it is not known");
+}
+
+#[test]
+fn its_own_settings_are_fields_of_the_form() {
+    for size in SIZES {
+        let antenna = KIND.antenna("Lever", KIND.usual_address);
+        let mut model = crate::makes::model(antenna.clone(), rig::quiet());
+        (model.view, model.station.antennas) = (View::Preferences, vec![antenna]);
+        let mut window = rig::window(size, model);
+        assert!(says(&window, "Antenna 1: Archimedes Lever"));
+        assert!(says(&window, "It takes no orders so.") && says(&window, "Drive"));
+        write(&mut window, "Address of the Lever", "tower:8");
+        write(&mut window, "Access code", "eureka");
+        assert!(!says(&window, "It takes no orders so."));
+        let gear = window.get_by_role_and_label(Role::RadioButton, "High gear");
+        gear.scroll_to_me();
+        settle(&mut window);
+        window.get_by_role_and_label(Role::RadioButton, "High gear").click();
+        settle(&mut window);
+        write(&mut window, "Shafts", "5");
+        assert!(says(&window, "Shafts must be a whole number from 1 to 4."));
+        write(&mut window, "Shafts", "3");
+        window.get_by_role_and_label(Role::Button, "Save and use").click();
+        let station: Station = saved(asked(&mut window));
+        let connection = &station.antennas[0].connection;
+        assert_eq!((&*connection.address, connection.text(&CODE)), ("tower:8", "eureka"));
+        assert_eq!((connection.text(&GEAR), connection.whole(&SHAFTS)), ("high", 3));
+    }
+}
+
+#[test]
+fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
+    let (address, heard) = unit();
+    let mut antenna: Antenna = KIND.antenna("Lever", &address);
+    antenna.connection.put(&CODE, "eureka").unwrap();
+    let (woke, woken) = mpsc::sync_channel(1);
+    let wake = Arc::new(move || {
+        let _ = woke.try_send(());
+    });
+    let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
+    let handle: AntennaHandle = driver.open(&antenna);
+    let until = |is_so: &dyn Fn(&Snapshot) -> bool| {
+        let since = Instant::now();
+        while !is_so(&handle.snapshot()) {
+            woken.recv_timeout(PATIENCE).unwrap();
+            assert!(since.elapsed() < PATIENCE, "{:?}", handle.snapshot());
+        }
+    };
+    let next = || heard.recv_timeout(PATIENCE).unwrap();
+    until(&|shown| at(shown, 10.0, 20.0));
+    handle
+        .send(Command::Position {
+            azimuth: Some(Angle::from_degrees(200.0)),
+            elevation: Some(Angle::from_degrees(40.0)),
+        })
+        .unwrap();
+    until(&|shown| at(shown, 200.0, 40.0));
+    handle.stop();
+    until(&|shown| matches!(shown.stop, StopState::Stopped { .. }));
+    assert_eq!([next(), next(), next()], ["C eureka low 2", "G 200 40", "S"]);
+
+    let mut shown = crate::makes::model(antenna, Snapshot::clone(&handle.snapshot()));
+    shown.view = View::Operate;
+    let window = rig::window(SIZES[0], shown);
+    assert!(says(&window, "200.00"), "the card shows where it is");
+}

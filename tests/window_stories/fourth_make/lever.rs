@@ -1,0 +1,255 @@
+//! A make of controller that turns an antenna by one long lever.
+
+use std::{
+    collections::VecDeque,
+    io::{BufRead as _, BufReader, Write as _},
+    net::TcpListener,
+    sync::mpsc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use azel::{
+    astro::AzEl,
+    controller::{
+        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, Happening, JogSpeeds, Make,
+        Measured, Moment, Motion, Moves, Question, TrackTarget, WireLine, aimed,
+        panel::Act,
+        satrak,
+        settings::{Change, Group},
+    },
+    station::{Choice, Connection, Holds, Kind, Link, Setting, Table, Usual, Value},
+};
+
+pub(crate) static KIND: Kind = Kind {
+    key: "lever",
+    name: "Lever",
+    link: Link::Tcp,
+    usual_address: "lever.example:1",
+    usual: Usual { beam_width_deg: 7.0, ..satrak::KIND.usual },
+    settings: &[&CODE, &GEAR, &SHAFTS],
+    makes: &[&MAKE],
+    make: |_| &MAKE,
+    open: |antenna| Box::new(Lever::of(&antenna.connection)),
+};
+
+pub(crate) static CODE: Setting = Setting {
+    key: "code",
+    table: None,
+    label: "Access code",
+    holds: Holds::Text,
+    usual: Value::Text(String::new()),
+    note: |value| (*value == Value::Text(String::new())).then_some("It takes no orders so."),
+};
+
+pub(crate) static GEAR: Setting = Setting {
+    key: "gear",
+    table: Some(DRIVE),
+    label: "Gear",
+    holds: Holds::OneOf(&[
+        Choice { value: Value::Word("low"), name: "Low gear" },
+        Choice { value: Value::Word("high"), name: "High gear" },
+    ]),
+    usual: Value::Word("low"),
+    note: |_| None,
+};
+
+pub(crate) static SHAFTS: Setting = Setting {
+    key: "shafts",
+    table: Some(DRIVE),
+    label: "Shafts",
+    holds: Holds::Whole(1..=4),
+    usual: Value::Whole(2),
+    note: |_| None,
+};
+
+const DRIVE: Table = Table { key: "drive", title: "Drive" };
+
+static MAKE: Make = Make {
+    key: "lever",
+    name: "Archimedes Lever",
+    closed_note: None,
+    capabilities: Capabilities {
+        axes: ["Az", "El"],
+        has_program: false,
+        takes_positions: true,
+        arrives_within_deg: 1.0,
+        position_step_deg: 0.0,
+        has_elevation: true,
+        jog: JogSpeeds::AnyRate,
+        jogs_one_axis: false,
+        steps: false,
+        ends_jogs: false,
+        waits_for_word: false,
+        stop_note: None,
+    },
+    groups: &[],
+    actions: &[],
+};
+
+/// Speaks in lines: a code, `P?` answered with a place, `G` and a place, `S`.
+struct Lever {
+    greeting: String,
+    state: AntennaState,
+    orders: VecDeque<String>,
+    heard: Vec<u8>,
+    /// When the place was asked for that was not told yet.
+    asked: Option<Instant>,
+}
+
+impl Lever {
+    fn of(connection: &Connection) -> Self {
+        let (code, gear) = (connection.text(&CODE), connection.text(&GEAR));
+        Self {
+            greeting: format!("C {code} {gear} {}\n", connection.whole(&SHAFTS)),
+            state: AntennaState::default(),
+            orders: VecDeque::new(),
+            heard: Vec::new(),
+            asked: None,
+        }
+    }
+}
+
+impl Device for Lever {
+    fn capabilities(&self) -> Capabilities {
+        MAKE.capabilities
+    }
+
+    fn link_up(&mut self, now: Moment) {
+        self.state.link_since = Some(now.steady);
+        self.orders = [self.greeting.clone()].into();
+        (self.asked, self.heard) = (None, Vec::new());
+    }
+
+    fn link_down(&mut self, _: Moment) {}
+
+    fn sent(&mut self, _: &[u8], _: Moment) {}
+
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        None
+    }
+
+    fn receive(&mut self, bytes: &[u8], now: Moment) {
+        self.heard.extend_from_slice(bytes);
+        while let Some(end) = self.heard.iter().position(|byte| *byte == b'\n') {
+            let line: Vec<u8> = self.heard.drain(..=end).collect();
+            let line = String::from_utf8_lossy(&line);
+            let place: Vec<f64> =
+                line.split(' ').filter_map(|word| word.trim().parse().ok()).collect();
+            let (&[azimuth, elevation], Some(asked)) = (&place[..], self.asked.take()) else {
+                continue;
+            };
+            let axis = |angle_deg| Axis {
+                angle_deg: Some(angle_deg),
+                motion: AxisMotion::Still,
+                plus_limit: false,
+                minus_limit: false,
+            };
+            self.state.measured = Some(Measured {
+                at: now.utc,
+                asked,
+                received: now.steady,
+                pointing: AzEl::from_degrees(azimuth, elevation).into(),
+                axes: [axis(azimuth), axis(elevation)],
+            });
+            self.state.motion_lock = Some(false);
+            self.state.traffic.replies += 1;
+            self.state.traffic.last_reply = Some(now.steady);
+        }
+    }
+
+    fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
+        if let Some(order) = self.orders.pop_front() {
+            return Some(order.into_bytes());
+        }
+        self.asked.is_none().then(|| {
+            self.asked = Some(now.steady);
+            b"P?\n".to_vec()
+        })
+    }
+
+    /// Always: while it waits for an answer, that answer and the operator's STOP
+    /// must be heard all the same.
+    fn due(&self, now: Moment) -> Instant {
+        now.steady
+    }
+
+    fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
+        self.orders.clear();
+        b"S\n".to_vec()
+    }
+
+    fn prepare(&mut self, _: TrackTarget) {}
+
+    fn groups(&self) -> &'static [&'static Group] {
+        MAKE.groups
+    }
+
+    fn read_group(&mut self, _: &str) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
+    fn ask(&mut self, _: Question) {}
+
+    fn disable_auto(&mut self) {}
+
+    fn motion_under_way(&self) -> bool {
+        !self.orders.is_empty()
+    }
+
+    fn state(&self) -> &AntennaState {
+        &self.state
+    }
+
+    fn next_happening(&mut self) -> Option<Happening> {
+        None
+    }
+
+    fn patience(&self) -> Duration {
+        Duration::from_secs(5)
+    }
+
+    fn poll_period(&self) -> Duration {
+        Duration::from_millis(50)
+    }
+}
+
+impl Moves for Lever {
+    fn start(&mut self, motion: Motion) {
+        let Motion::Position { azimuth, elevation } = motion else { return };
+        let measured = self.state.measured.map(|measured| measured.pointing);
+        let aim = aimed(azimuth, elevation, measured);
+        if let Some(AzEl { azimuth, elevation }) = aim.direction() {
+            self.orders.push_back(format!("G {} {}\n", azimuth.degrees(), elevation.degrees()));
+        }
+    }
+
+    fn act(&mut self, _: Act) {}
+}
+
+/// A unit that is at once where it is sent; the lines that it hears, questions
+/// left out.
+pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    let (tell, heard) = mpsc::sync_channel(64);
+    let serve = move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let lines = BufReader::new(stream.try_clone().unwrap()).lines();
+        let mut place = "10 20".to_owned();
+        for line in lines.map_while(Result::ok) {
+            if line == "P?" {
+                // In one piece, or the second one waits for the first to be seen.
+                stream.write_all(format!("P {place}\n").as_bytes()).unwrap();
+                continue;
+            }
+            if let Some(aim) = line.strip_prefix("G ") {
+                aim.clone_into(&mut place);
+            }
+            // Whoever listened may have seen enough.
+            let _ = tell.try_send(line);
+        }
+    };
+    thread::Builder::new().name("lever".to_owned()).spawn(serve).unwrap();
+    (address, heard)
+}
