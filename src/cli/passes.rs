@@ -106,8 +106,8 @@ pub(super) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let found = pool.install(|| {
         let found = passes_of_all(&satellites, &search, &|done| progress.show(done), &|| false);
         match &mask {
-            Some(mask) => clear_of(mask, &search, &satellites, &found),
-            None => found,
+            Some(mask) => clear_of(mask, &search, &satellites, found),
+            None => found.collect(),
         }
     });
     progress.end();
@@ -134,11 +134,12 @@ fn clear_of(
     mask: &HorizonMask,
     search: &PassSearch,
     satellites: &[input::Satellite],
-    found: &[(usize, Pass)],
+    found: impl Iterator<Item = (usize, Pass)>,
 ) -> Vec<(usize, Pass)> {
     use rayon::prelude::*;
 
     found
+        .collect::<Vec<_>>()
         .par_iter()
         .flat_map_iter(|(index, pass)| {
             let stretches = satellites

@@ -25,6 +25,7 @@ const WHOLE_ABOVE: f64 = 6_755_399_441_055_744.0;
 /// A real number, or several side by side.
 pub(super) trait Number:
     Copy
+    + From<f64>
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -45,11 +46,12 @@ pub(super) trait Number:
     fn nearest(self) -> Self {
         self + WHOLE_ABOVE - WHOLE_ABOVE
     }
-    /// Within 1e-15, for angles up to a million.
+    /// Within 1e-13, for angles up to a thousand; beyond, within what is left of the
+    /// angle's digits.
     fn sin_cos(self) -> (Self, Self) {
         circle::sin_cos(self)
     }
-    /// The angle of the direction (`x`, `self`), -pi to pi, within 1e-13.
+    /// The angle of the direction (`x`, `self`), -pi to pi, within 5e-11.
     fn atan2(self, x: Self) -> Self;
     /// The nearest number from `low` to `high`.
     fn within(self, low: f64, high: f64) -> Self;
@@ -109,20 +111,23 @@ impl Number for Lanes {
     }
 }
 
-/// The polynomial's value, constant term first.
-pub(super) fn series<N: Number, const COUNT: usize>(polynomial: &[f64; COUNT], at: N) -> N {
+/// The polynomial's value, constant term first. Its coefficients may differ from
+/// lane to lane.
+pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], at: N) -> N
+where
+    N: Number + Add<C, Output = N>,
+    C: Copy + Into<N>,
+{
     polynomial.split_last().map_or(N::of(0.0), |(highest, others)| {
-        others.iter().rev().fold(N::of(*highest), |sum, coefficient| sum * at + *coefficient)
+        others.iter().rev().fold((*highest).into(), |sum, coefficient| sum * at + *coefficient)
     })
 }
 
-/// Up to as many numbers as there are lanes; the last one fills the rest.
-pub(super) fn lanes_of(numbers: &[f64]) -> Lanes {
-    let mut lanes = [numbers.last().copied().unwrap_or_default(); LANES];
-    for (lane, number) in lanes.iter_mut().zip(numbers) {
-        *lane = *number;
+/// Puts a number into a lane; nothing beyond the last.
+pub(super) fn set(numbers: &mut Lanes, lane: usize, number: f64) {
+    if let Some(place) = numbers.as_mut_array().get_mut(lane) {
+        *place = number;
     }
-    Lanes::from(lanes)
 }
 
 /// The number of one lane; not a number beyond the last.

@@ -1,12 +1,13 @@
 //! SGP4 and SDP4: where a satellite is at a time.
 
+mod abreast;
 mod round;
 mod secular;
 
 use glam::DVec3;
 use jiff::Timestamp;
 
-pub(super) use self::secular::{Secular, expand};
+pub(super) use self::secular::{Plane, Secular, expand};
 use super::Elements;
 use crate::astro::time;
 

@@ -116,7 +116,6 @@ pub(super) fn search(
     let propagators: Vec<&Propagator> =
         satellites.iter().map(|satellite| &satellite.propagator).collect();
     let mut passes: Vec<Forecast> = passes_of_all(&propagators, &window, &tell, cancelled)
-        .into_iter()
         .filter(|(_, pass)| pass.los.time > now)
         .filter_map(|(index, pass)| {
             let satellite = Arc::clone(satellites.get(index)?);

@@ -8,13 +8,10 @@
 //! number of turns, the satellite goes by, and there is at most one pass about
 //! each such instant. The exact state there tells whether there is one.
 
-use super::{Pass, arcs::Arcs, side_by_side::SideBySide, track::Track};
+use super::{arcs::Arcs, track::Track};
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{
-        lanes::{LANES, Number},
-        propagator::{Secular, WGS72_RADIUS_KM, expand},
-    },
+    orbit::propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
 };
 
 /// The mean distance may change by this share within a window; more is a decay.
@@ -30,19 +27,19 @@ const RADIUS_MARGIN_KM: f64 = 15.0;
 
 /// The track of a satellite that geometry can be trusted with.
 pub(super) struct Circular<'a> {
+    /// Its place among the satellites of the search.
+    pub(super) index: usize,
     pub(super) track: &'a Track<'a>,
     pub(super) secular: &'a Secular,
-    pub(super) sin_inclination: f64,
-    pub(super) cos_inclination: f64,
     arcs: Arcs,
     /// How far outside the window a pass may have its middle and still reach in.
-    half_pass_s: f64,
+    pub(super) half_pass_s: f64,
 }
 
 impl<'a> Circular<'a> {
     /// `None` when the orbit, or what it becomes within the window, is not round
     /// and near, or when the horizon lies too low.
-    pub(super) fn new(track: &'a Track<'a>) -> Option<Self> {
+    pub(super) fn new(index: usize, track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
         let minutes = |at_s: f64| (track.start_since_epoch_s + at_s) / 60.0;
@@ -60,20 +57,19 @@ impl<'a> Circular<'a> {
         }
         let farthest_km = highest * WGS72_RADIUS_KM + RADIUS_MARGIN_KM;
         // Angular speed at its least.
-        let rate_rad_s = 0.95 * secular.argument[1] / 60.0;
+        let rate_rad_s = 0.95 * secular.plane.argument[1] / 60.0;
         let turning = EARTH_RATE_RAD_S / rate_rad_s;
         let reach = |elevation: f64| {
             let angle = (window.radius_km * elevation.cos() / farthest_km).acos() - elevation;
             angle + MARGIN + 1.5 * angle * turning * turning
         };
-        let (sin_inclination, cos_inclination) = secular.inclination.sin_cos();
+        let Plane { sin_inclination, cos_inclination, .. } = secular.plane;
         let visible = reach(window.horizon);
         let possible = (0.0..FARTHEST_REACH).contains(&visible) && sin_inclination >= 0.0;
         possible.then(|| Self {
+            index,
             track,
             secular,
-            sin_inclination,
-            cos_inclination,
             arcs: Arcs::new(
                 window.sin_latitude * cos_inclination,
                 window.cos_latitude * sin_inclination,
@@ -83,22 +79,11 @@ impl<'a> Circular<'a> {
         })
     }
 
-    /// Adds all passes of the window, in order.
-    pub(super) fn passes(&self, cancelled: &dyn Fn() -> bool, found: &mut Vec<Pass>) {
-        let side_by_side = SideBySide::new(self.track, self.secular, self.half_pass_s);
-        for guesses in self.fly_bys(cancelled).chunks(LANES) {
-            if cancelled() {
-                break;
-            }
-            side_by_side.passes(guesses, found);
-        }
-    }
-
     /// The times in which the site is near enough to the plane, in pieces.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (f64, f64)> {
         let end_s = self.track.window.length_s + self.half_pass_s;
         let beta_at = |at_s: f64| {
-            let [node, node_rate, _] = expand(&self.secular.node, self.minutes(at_s));
+            let [node, node_rate, _] = expand(&self.secular.plane.node, self.minutes(at_s));
             let beta = self.track.window.sidereal_at(at_s) + self.track.window.longitude - node;
             (beta, EARTH_RATE_RAD_S - node_rate / 60.0)
         };
@@ -117,8 +102,13 @@ impl<'a> Circular<'a> {
             .take_while(move |(start_s, _)| *start_s < end_s)
     }
 
+    /// From node to node, on the average.
+    pub(super) fn rate_rad_s(&self) -> f64 {
+        self.secular.plane.argument[1] / 60.0
+    }
+
     /// Minutes since the epoch.
-    pub(super) fn minutes<N: Number>(&self, at_s: N) -> N {
-        (at_s + self.track.start_since_epoch_s) * (1.0 / 60.0)
+    fn minutes(&self, at_s: f64) -> f64 {
+        (at_s + self.track.start_since_epoch_s) / 60.0
     }
 }

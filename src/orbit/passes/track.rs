@@ -13,8 +13,8 @@ use crate::{
     astro::time,
     orbit::{
         PropagationError, Propagator, State,
-        lanes::{Lanes, Number, Vector},
-        propagator::{Resumable, Secular},
+        lanes::{Number, Vector},
+        propagator::Resumable,
     },
 };
 
@@ -29,14 +29,42 @@ const CREST_TIME_TOLERANCE_S: f64 = 8e-3;
 /// Distance of the second state where one does not show the speed well enough.
 const MENDING_STEP_S: f64 = 15.0;
 
+/// How far a series made from a state can be trusted.
+#[derive(Default)]
+pub(super) struct Exactness<N = f64> {
+    /// SGP4's velocity is the change of its position only within this.
+    pub(super) drift_km_s: N,
+}
+
+impl<N: Number> Exactness<N> {
+    /// Whether an extreme `tau` seconds from the state it follows from is as
+    /// exact as is asked for.
+    pub(super) fn is_crest(&self, tau: N, place: &Place<N>) -> N::Answer {
+        let (tau, range_km) = (tau.abs(), place.range_km);
+        tau.is_less(N::of(LONGEST_STEP_S))
+            & (tau * self.drift_km_s).is_less(range_km * CREST_TOLERANCE)
+            & self.drift_km_s.is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
+    }
+
+    /// Whether a place `tau` seconds from the state it follows from is where the
+    /// height passes `sine`, as exactly as is asked for.
+    pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &Place<N>) -> N::Answer {
+        let tau = tau.abs();
+        let rise_km_s = place.height.rate.abs() * place.range_km;
+        tau.is_less(N::of(LONGEST_STEP_S))
+            & place.crosses(sine)
+            & ((tau * self.drift_km_s).is_less(rise_km_s * TIME_TOLERANCE_S)
+                | tau.is_less(N::of(TIME_TOLERANCE_S)))
+    }
+}
+
 /// A satellite as the site of a window sees it.
 pub(super) struct Track<'a> {
     pub(super) window: &'a Window,
     pub(super) propagator: &'a Propagator,
     /// From the epoch of the elements to the start of the window.
     pub(super) start_since_epoch_s: f64,
-    /// SGP4's velocity is the change of its position only within this.
-    drift_km_s: f64,
+    pub(super) exactness: Exactness,
     resumable: Cell<Resumable>,
     propagations: Cell<u64>,
 }
@@ -48,10 +76,12 @@ impl<'a> Track<'a> {
             window,
             propagator,
             start_since_epoch_s,
-            drift_km_s: f64::max(
-                propagator.drift_km_s(start_since_epoch_s),
-                propagator.drift_km_s(start_since_epoch_s + window.length_s),
-            ),
+            exactness: Exactness {
+                drift_km_s: f64::max(
+                    propagator.drift_km_s(start_since_epoch_s),
+                    propagator.drift_km_s(start_since_epoch_s + window.length_s),
+                ),
+            },
             resumable: Cell::default(),
             propagations: Cell::new(0),
         }
@@ -74,14 +104,6 @@ impl<'a> Track<'a> {
         let state = self.propagator.state_after(self.start_since_epoch_s + at_s, &mut resumable);
         self.resumable.set(resumable);
         Some(LocalSeries::new(self.window, at_s, self.earth_fixed(at_s, &state.ok()?)))
-    }
-
-    /// The series around exact states of an orbit that is round. Whoever uses
-    /// them [counts](Self::count) them.
-    pub(super) fn round_series(&self, secular: &Secular, at_s: Lanes) -> LocalSeries<Lanes> {
-        let minutes = (at_s + self.start_since_epoch_s) * (1.0 / 60.0);
-        let (position_km, velocity_km_s) = secular.motion(minutes, self.window.sidereal_at(at_s));
-        LocalSeries::new(self.window, at_s, EarthFixed { position_km, velocity_km_s })
     }
 
     fn earth_fixed(&self, at_s: f64, teme: &State) -> EarthFixed {
@@ -136,7 +158,7 @@ impl<'a> Track<'a> {
                 return None;
             }
             let tau = place.at_s - series.at_s;
-            if self.is_exact_crest(tau, &place) {
+            if self.exactness.is_crest(tau, &place) {
                 return Some((series, place));
             }
             if tau.abs() <= LONGEST_STEP_S {
@@ -147,33 +169,12 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// Whether an extreme `tau` seconds from the state it follows from is as
-    /// exact as is asked for.
-    pub(super) fn is_exact_crest<N: Number>(&self, tau: N, place: &Place<N>) -> N::Answer {
-        let (tau, range_km) = (tau.abs(), place.range_km);
-        tau.is_less(N::of(LONGEST_STEP_S))
-            & (tau * self.drift_km_s).is_less(range_km * CREST_TOLERANCE)
-            & N::of(self.drift_km_s)
-                .is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
-    }
-
     /// The extreme near a series, with the speed that a second state shows.
     fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, Place)> {
         let second = self.series(series.at_s + MENDING_STEP_S)?;
         let series = series.mended(&second);
         let place = series.extreme(bend, 2.0 * LONGEST_STEP_S)?;
         Some((series, place))
-    }
-
-    /// Whether a place `tau` seconds from the state it follows from is where the
-    /// height passes the horizon, as exactly as is asked for.
-    pub(super) fn is_timed<N: Number>(&self, tau: N, place: &Place<N>) -> N::Answer {
-        let tau = tau.abs();
-        let rise_km_s = place.height.rate.abs() * place.range_km;
-        tau.is_less(N::of(LONGEST_STEP_S))
-            & place.crosses(self.window.sin_horizon)
-            & ((tau * self.drift_km_s).is_less(rise_km_s * TIME_TOLERANCE_S)
-                | tau.is_less(N::of(TIME_TOLERANCE_S)))
     }
 
     /// Where the height passes the horizon between `below_s`, where it is less,
@@ -193,7 +194,7 @@ impl<'a> Track<'a> {
             let series = self.series(at_s)?;
             let near = Some(series.crossing(sine, 0.0)).filter(|place| inside(place.at_s));
             if let Some(place) = near
-                && self.is_timed(place.at_s - at_s, &place)
+                && self.exactness.is_crossing(sine, place.at_s - at_s, &place)
             {
                 return Some(place);
             }

@@ -80,8 +80,8 @@ impl Window {
 
     /// Earth-fixed axes turned to east, north, up.
     pub(super) fn to_enu<N: Number>(&self, ecef: Vector<N>) -> Vector<N> {
-        let [east, north, up] = self.axes.map(|axis| ecef.dot(axis.into()));
-        Vector::new(east, north, up)
+        let [east, north, up] = self.axes;
+        Vector::new(ecef.dot(east.into()), ecef.dot(north.into()), ecef.dot(up.into()))
     }
 
     /// The vector from the site to an Earth-fixed position, east, north, up.

@@ -20,31 +20,26 @@ pub(super) const MOST_ECCENTRICITY: f64 = 0.05;
 const LEAST_ECCENTRICITY: f64 = 1e-6;
 
 /// What the periodic terms depend on.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Waves {
-    sin_inclination: f64,
-    cos_inclination: f64,
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Waves<N = f64> {
     /// 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
-    square: f64,
-    seven: f64,
-    three: f64,
+    pub(super) square: N,
+    pub(super) seven: N,
+    pub(super) three: N,
     /// The odd part of the gravity field: what it adds to the eccentricity
     /// vector, and to the mean angle.
-    odd_vector: f64,
-    odd_angle: f64,
+    pub(super) odd_vector: N,
+    pub(super) odd_angle: N,
 }
 
 impl Waves {
-    pub(super) fn new(inclination: f64) -> Self {
-        let (sin_inclination, cos_inclination) = inclination.sin_cos();
+    pub(super) fn new(sin_inclination: f64, cos_inclination: f64) -> Self {
         let square = cos_inclination * cos_inclination;
         let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
         // An orbit against the Earth's turn in the equator would divide by nothing.
         let with_turn =
             if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
         Self {
-            sin_inclination,
-            cos_inclination,
             square: 1.0 - square,
             seven: 7.0 * square - 1.0,
             three: 3.0 * square - 1.0,
@@ -55,16 +50,16 @@ impl Waves {
 }
 
 /// What the drag does once a revolution.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct DragWave {
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct DragWave<N = f64> {
     /// Mean anomaly: at the epoch, and its change per minute without drag.
-    pub(super) anomaly: [f64; 2],
-    pub(super) eta: f64,
+    pub(super) anomaly: [N; 2],
+    pub(super) eta: N,
     /// Perigee against mean anomaly: the factor, its share of the epoch, and
     /// its growth per minute.
-    pub(super) angle: [f64; 3],
+    pub(super) angle: [N; 3],
     /// Eccentricity: the factor, and the sine at the epoch.
-    pub(super) eccentricity: [f64; 2],
+    pub(super) eccentricity: [N; 2],
 }
 
 /// Position in km and inertial velocity in km/s.
@@ -75,8 +70,8 @@ pub(in crate::orbit) type Motion<N> = (Vector<N>, Vector<N>);
 ///
 /// Only for orbits that are nearly round and well above the ground at those
 /// times.
-pub(super) fn motion<N: Number>(secular: &Secular, minutes: N, turn: N) -> Motion<N> {
-    let Secular { waves, drag_wave, .. } = secular;
+pub(super) fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
+    let Secular { plane, waves, drag_wave, .. } = secular;
 
     let [anomaly, anomaly_rate] = drag_wave.anomaly;
     let anomaly = minutes * anomaly_rate + anomaly;
@@ -89,16 +84,16 @@ pub(super) fn motion<N: Number>(secular: &Secular, minutes: N, turn: N) -> Motio
     let root_axis = series(&secular.root_axis, minutes);
     let axis = root_axis * root_axis;
     let [wave, wave_at_epoch] = drag_wave.eccentricity;
-    let eccentricity = (series(&secular.eccentricity, minutes)
+    let eccentricity = (series(&plane.eccentricity, minutes)
         - (sin_shifted - wave_at_epoch) * wave)
         .within(LEAST_ECCENTRICITY, 1.0);
 
     // The eccentricity vector, toward the node and across, with the long waves.
-    let (sin_perigee, cos_perigee) = (series(&secular.perigee, minutes) - shift).sin_cos();
+    let (sin_perigee, cos_perigee) = (series(&plane.perigee, minutes) - shift).sin_cos();
     let by_parameter = N::of(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
     let along = eccentricity * cos_perigee;
     let across = eccentricity * sin_perigee + by_parameter * waves.odd_vector;
-    let mean = series(&secular.argument, minutes) + by_parameter * along * waves.odd_angle;
+    let mean = series(&plane.argument, minutes) + by_parameter * along * waves.odd_angle;
 
     let (sine, cosine) = eccentric_angle(mean, along, across);
     let toward = along * cosine + across * sine;
@@ -119,22 +114,21 @@ pub(super) fn motion<N: Number>(secular: &Secular, minutes: N, turn: N) -> Motio
     let by_parameter = N::of(1.0) / parameter;
     let first = by_parameter * (0.5 * WGS72.j2);
     let second = first * by_parameter;
-    let distance = radius * (-(second * flatness * (1.5 * waves.three)) + 1.0)
-        + first * cos_double * (0.5 * waves.square);
+    let distance = radius * (-(second * flatness * waves.three * 1.5) + 1.0)
+        + first * cos_double * waves.square * 0.5;
     let (sin_place, cos_place) =
-        turned(sin_true, cos_true, second * sin_double * (-0.25 * waves.seven));
-    let tilt = second * cos_double * (1.5 * waves.cos_inclination * waves.sin_inclination);
-    let (sin_tilt, cos_tilt) =
-        turned(N::of(waves.sin_inclination), N::of(waves.cos_inclination), tilt);
+        turned(sin_true, cos_true, second * sin_double * waves.seven * -0.25);
+    let tilt = second * cos_double * plane.cos_inclination * plane.sin_inclination * 1.5;
+    let (sin_tilt, cos_tilt) = turned(plane.sin_inclination, plane.cos_inclination, tilt);
     let node =
-        series(&secular.node, minutes) - turn + second * sin_double * (1.5 * waves.cos_inclination);
+        series(&plane.node, minutes) - turn + second * sin_double * plane.cos_inclination * 1.5;
     let (sin_node, cos_node) = node.sin_cos();
 
     // Radians per time unit of the theory, in which gravity is 1.
     let rate = N::of(1.0) / (axis * root_axis);
     let outward = root_axis * crossing * by_radius - rate * first * sin_double * waves.square;
     let around = parameter.sqrt() * by_radius
-        + rate * first * (cos_double * waves.square + 1.5 * waves.three);
+        + rate * first * (cos_double * waves.square + waves.three * 1.5);
 
     let up = Vector::new(
         cos_node * cos_place - sin_node * cos_tilt * sin_place,
@@ -182,7 +176,11 @@ fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{Propagator, bundled, lanes::Lanes, propagator::Resumable};
+    use crate::orbit::{
+        Propagator, bundled,
+        lanes::{LANES, Lanes},
+        propagator::Resumable,
+    };
 
     #[test]
     fn states_agree_with_the_library_over_the_whole_catalog() {
@@ -198,7 +196,9 @@ mod tests {
                 if times.iter().any(|minutes| !secular.is_round_at(*minutes)) {
                     continue;
                 }
-                let (positions, velocities) = motion(secular, Lanes::from(times), Lanes::of(0.0));
+                let mut abreast = Secular::default();
+                (0..LANES).for_each(|lane| abreast.set(lane, secular));
+                let (positions, velocities) = motion(&abreast, Lanes::from(times), Lanes::of(0.0));
                 for (lane, minutes) in times.iter().enumerate() {
                     let state = propagator.state_after(minutes * 60.0, &mut Resumable::default());
                     let state = state.unwrap();

@@ -27,22 +27,38 @@ const LEAST_ECCENTRICITY: f64 = 1e-4;
 /// Perigees below this height, in Earth radii, get the shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
-/// Polynomials of the minutes since the epoch, constant term first.
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::orbit) struct Secular {
-    /// Radians.
-    pub(in crate::orbit) inclination: f64,
-    /// Right ascension of the ascending node, radians.
-    pub(in crate::orbit) node: [f64; 3],
-    /// Argument of perigee plus mean anomaly, radians.
-    pub(in crate::orbit) argument: [f64; 6],
-    /// Argument of perigee, radians.
-    pub(in crate::orbit) perigee: [f64; 2],
-    pub(in crate::orbit) eccentricity: [f64; 2],
+/// The slow motion of an orbit, or of several side by side. Polynomials of the
+/// minutes since the epoch, constant term first.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(in crate::orbit) struct Secular<N = f64> {
+    pub(in crate::orbit) plane: Plane<N>,
     /// Square root of the semi-major axis, in square roots of Earth radii.
-    pub(in crate::orbit) root_axis: [f64; 5],
-    pub(super) drag_wave: DragWave,
-    pub(super) waves: Waves,
+    pub(in crate::orbit) root_axis: [N; 5],
+    pub(super) drag_wave: DragWave<N>,
+    pub(super) waves: Waves<N>,
+}
+
+/// The plane of the orbit, and where in it the satellite is on the average.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(in crate::orbit) struct Plane<N = f64> {
+    pub(in crate::orbit) sin_inclination: N,
+    pub(in crate::orbit) cos_inclination: N,
+    /// Right ascension of the ascending node, radians.
+    pub(in crate::orbit) node: [N; 3],
+    /// Argument of perigee plus mean anomaly, radians.
+    pub(in crate::orbit) argument: [N; 6],
+    /// Argument of perigee, radians.
+    pub(in crate::orbit) perigee: [N; 2],
+    pub(in crate::orbit) eccentricity: [N; 2],
+}
+
+impl<N: Number> Secular<N> {
+    /// The state so many `minutes` after the epoch, in axes that stand at the
+    /// angle `turn`, in radians, from those of TEME about the pole; for times at
+    /// which the orbit [is round](Secular::is_round_at).
+    pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
+        round::motion(self, minutes, turn)
+    }
 }
 
 impl Secular {
@@ -66,7 +82,7 @@ impl Secular {
     /// the epoch.
     pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
         let root_axis = series(&self.root_axis, minutes);
-        (root_axis * root_axis, series(&self.eccentricity, minutes))
+        (root_axis * root_axis, series(&self.plane.eccentricity, minutes))
     }
 
     /// The eccentricity swings around its polynomial by this much, once a
@@ -86,27 +102,21 @@ impl Secular {
             && axis * (1.0 - eccentricity - wave) > LOWEST_PERIGEE
     }
 
-    /// The states so many `minutes` after the epoch, in axes that stand at the
-    /// angle `turn`, in radians, from those of TEME about the pole; for times at
-    /// which the orbit [is round](Self::is_round_at).
-    pub(in crate::orbit) fn motion<N: Number>(&self, minutes: N, turn: N) -> Motion<N> {
-        round::motion(self, minutes, turn)
-    }
-
     /// How fast, in km/s, the drag carries the satellite off the way that
     /// SGP4's velocities point so many minutes after the epoch: they are those
     /// of an orbit that keeps its size and shape.
     pub(super) fn drag_drift_km_s(&self, minutes: f64) -> f64 {
         let [root_axis, shrinking, _] = expand(&self.root_axis, minutes);
-        let [_, rate, _] = expand(&self.argument, minutes);
+        let [_, rate, _] = expand(&self.plane.argument, minutes);
         let axis = root_axis * root_axis;
         let inward = 4.0 * (root_axis * shrinking).abs();
         // The angle grows by powers of the time, the speed follows from the size.
         let speed_up = WGS72.ke * (root_axis.powi(-3) - self.root_axis[0].powi(-3));
-        let ahead = axis * (rate - self.argument[1] - speed_up).abs();
+        let ahead = axis * (rate - self.plane.argument[1] - speed_up).abs();
         // Once a revolution the drag changes the shape and turns it back.
         let DragWave { eta, angle, eccentricity, .. } = &self.drag_wave;
-        let swing = eccentricity[0].abs() + 3.0 * (self.eccentricity[0] * eta * angle[0]).abs();
+        let swing =
+            eccentricity[0].abs() + 3.0 * (self.plane.eccentricity[0] * eta * angle[0]).abs();
         (inward + ahead + 2.0 * swing * axis * rate) * WGS72.ae / 60.0
     }
 
@@ -114,7 +124,8 @@ impl Secular {
         let (n, e) = (orbit.mean_motion, orbit.eccentricity);
         let axis = (WGS72.ke / n).powf(2.0 / 3.0);
         let round = 1.0 - e * e;
-        let theta2 = orbit.inclination.cos().powi(2);
+        let (sin_inclination, cos_inclination) = orbit.inclination.sin_cos();
+        let theta2 = cos_inclination.powi(2);
         let precession = Precession::new(orbit, axis);
 
         // The density function: its parameters depend on the perigee height.
@@ -155,7 +166,7 @@ impl Secular {
             * (1.0 + 2.75 * (eta * eta + eta * e) + e * eta.powi(3));
 
         let thickness = ((120.0 - s_km) / WGS72.ae * xi).powi(4) * bstar;
-        let odd = -2.0 * xi * (WGS72.j3 / WGS72.j2) * n * orbit.inclination.sin();
+        let odd = -2.0 * xi * (WGS72.j3 / WGS72.j2) * n * sin_inclination;
         let angle_wave = [
             -2.0 / 3.0 * thickness / (e * eta),
             (1.0 + eta * orbit.mean_anomaly.cos()).powi(3),
@@ -166,12 +177,13 @@ impl Secular {
         let [d2, d3, d4] = if low { [0.0; 3] } else { shrinking(c1, axis, xi, s) };
         let root = axis.sqrt();
         let longer = if low { 0.0 } else { n };
-        Self {
-            inclination: orbit.inclination,
+        let plane = Plane {
+            sin_inclination,
+            cos_inclination,
             node: [
                 orbit.right_ascension,
                 precession.node,
-                -3.5 * round * precession.first * orbit.inclination.cos() * c1,
+                -3.5 * round * precession.first * cos_inclination * c1,
             ],
             argument: [
                 orbit.argument_of_perigee + orbit.mean_anomaly,
@@ -188,6 +200,9 @@ impl Secular {
             ],
             perigee: [orbit.argument_of_perigee, precession.perigee],
             eccentricity: [e, -c4],
+        };
+        Self {
+            plane,
             root_axis: [root, -c1 * root, -d2 * root, -d3 * root, -d4 * root],
             drag_wave: DragWave {
                 anomaly: [orbit.mean_anomaly, precession.anomaly],
@@ -195,7 +210,7 @@ impl Secular {
                 angle: if low || e <= LEAST_ECCENTRICITY { [0.0; 3] } else { angle_wave },
                 eccentricity: [if low { 0.0 } else { c5 }, orbit.mean_anomaly.sin()],
             },
-            waves: Waves::new(orbit.inclination),
+            waves: Waves::new(sin_inclination, cos_inclination),
         }
     }
 }
