@@ -25,7 +25,7 @@ impl Station {
             name: "Demo station".to_owned(),
             antennas: vec![
                 satrak(&addresses.satrak),
-                genius(&addresses.genius),
+                Antenna::genius("Genius", &addresses.genius),
                 rc2000c(&addresses.rc2000c),
             ],
             ..Self::default()
@@ -38,18 +38,6 @@ fn satrak(address: &str) -> Antenna {
     // A Satrak has this setting, and it takes any text.
     antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).ok();
     antenna
-}
-
-fn genius(address: &str) -> Antenna {
-    Antenna {
-        mount: Mount::AzEl {
-            azimuth_from_deg: 0.0,
-            azimuth_to_deg: 360.0,
-            elevation_from_deg: 0.0,
-            elevation_to_deg: 90.0,
-        },
-        ..Antenna::genius("Genius", address)
-    }
 }
 
 /// The mount of the simulated RC2000C turns from east over south to west, 20

@@ -18,7 +18,8 @@ pub static KIND: Kind = Kind {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
             elevation_from_deg: 0.0,
-            elevation_to_deg: 180.0,
+            // Over the zenith only where the operator says that it may.
+            elevation_to_deg: 90.0,
         },
         beam_width_deg: 20.0,
         park: Direction { azimuth_deg: 0.0, elevation_deg: 0.0 },

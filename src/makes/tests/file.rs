@@ -222,11 +222,11 @@ fn ends_of_an_axis_that_cross_are_not_used() {
         "{genius}[antenna.mount]\nazimuth_from_deg = 180\nazimuth_to_deg = 170\n\
          elevation_from_deg = 30\nelevation_to_deg = 20\n"
     ));
-    assert_eq!(read.mount.travel_deg(), [(180.0, 360.0), (30.0, 180.0)]);
+    assert_eq!(read.mount.travel_deg(), [(180.0, 360.0), (30.0, 90.0)]);
     assert_eq!(places, ["mount.azimuth_to_deg", "mount.elevation_to_deg"]);
     // The usual upper end does not fit any more: the least that does stands in.
     let (read, places) = antenna(&format!("{genius}[antenna.mount]\nazimuth_from_deg = 360\n"));
-    assert_eq!(read.mount.travel_deg(), [(360.0, 361.0), (0.0, 180.0)]);
+    assert_eq!(read.mount.travel_deg(), [(360.0, 361.0), (0.0, 90.0)]);
     assert_eq!(places, Vec::<String>::new());
 }
 
@@ -254,7 +254,11 @@ fn the_file_is_what_it_always_was() {
         rc2000c: "/dev/ttyUSB0".to_owned(),
     });
     station.antennas.push(Antenna::satrak("Second", "host.example:5"));
-    station.antennas.push(Antenna::genius("G2", "host.example:6"));
+    let mut tower = Antenna::genius("G2", "host.example:6");
+    if let Mount::AzEl { elevation_to_deg, .. } = &mut tower.mount {
+        *elevation_to_deg = 180.0;
+    }
+    station.antennas.push(tower);
     station.antennas.push(Antenna::rc2000c("Third", "COM3"));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");

@@ -117,6 +117,9 @@ fn an_action_that_moves_passes_every_rule() {
 /// tipped over: they point to an azimuth of 20 and an elevation of 60 degrees.
 fn tipped(intent: Intent) -> (Case, Gate) {
     let mut case = genius(intent);
+    if let Mount::AzEl { elevation_to_deg, .. } = &mut case.antenna.mount {
+        *elevation_to_deg = 180.0;
+    }
     case.antenna.limits.minimum_elevation_deg = 5.0;
     case.axes()[0].angle_deg = Some(200.0);
     case.axes()[1].angle_deg = Some(120.0);
