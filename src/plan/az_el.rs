@@ -15,10 +15,10 @@ use super::{
 };
 use crate::astro::{Angle, AzEl};
 use seen::Seen;
-pub(super) use way::Way;
+pub(super) use way::{Choice, Way};
 
-/// Another way than the plain one has to point better by this, degrees: nobody
-/// tips an antenna over for less.
+/// Another way than the preferred one has to point better by this, degrees: nobody
+/// tips an antenna over, or sends it back, for less.
 const WORTH_DEG: f64 = 0.1;
 
 /// The two axes.
@@ -54,14 +54,21 @@ pub(super) struct Planned {
 
 impl AzElAxes {
     /// The way along `samples`, `step_s` seconds apart, with the least error from
-    /// where the axes stand now; the plain one when no other is better.
-    pub(super) fn best(&self, samples: &[Sample], step_s: f64, start: Start) -> Planned {
-        let mut best = self.along(samples, step_s, start, Way::Plain);
+    /// where the axes stand now; the one to `prefer` when no other is better.
+    pub(super) fn best(
+        &self,
+        samples: &[Sample],
+        step_s: f64,
+        start: Start,
+        prefer: Way,
+    ) -> Planned {
+        let mut best = self.along(samples, step_s, start, prefer);
         let mut best_deg = self.error_deg(samples, step_s, start, &best) - WORTH_DEG;
         if best_deg <= 0.0 {
             return best;
         }
-        for way in self.others(samples) {
+        let ways = std::iter::once(Way::Plain).chain(self.others(samples));
+        for way in ways.filter(|way| *way != prefer) {
             let planned = self.along(samples, step_s, start, way);
             let error_deg = self.error_deg(samples, step_s, start, &planned);
             if error_deg < best_deg {

@@ -28,7 +28,7 @@ fn waiting() -> Start {
 
 /// The way that is taken, and its root of the mean square error, degrees.
 fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Way, f64) {
-    let planned = axes.best(samples, 1.0, start);
+    let planned = axes.best(samples, 1.0, start, Way::Plain);
     (planned.way, axes.error_deg(samples, 1.0, start, &planned))
 }
 

@@ -16,6 +16,15 @@ pub(in crate::plan) enum Way {
     Back,
 }
 
+/// How free the choice of a way is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::plan) enum Choice {
+    /// This one unless another is clearly better.
+    Prefer(Way),
+    /// This one.
+    Keep(Way),
+}
+
 impl Way {
     /// For each sample, whether the axes are tipped over.
     pub(super) fn tipped(self, samples: &[Sample]) -> Vec<bool> {
@@ -26,8 +35,9 @@ impl Way {
         let is_tipped = |index: usize| match self {
             Self::Plain => false,
             Self::Flipped => true,
-            Self::Over => index > top,
-            Self::Back => index <= top,
+            // A pass that is highest where the samples begin has changed already.
+            Self::Over => index > top || top == 0,
+            Self::Back => index <= top && top > 0,
         };
         (0..samples.len()).map(is_tipped).collect()
     }
@@ -45,4 +55,27 @@ pub(super) fn azimuths_deg(samples: &[Sample], tipped: &[bool]) -> Vec<f64> {
         at.degrees()
     };
     samples.iter().zip(tipped).map(azimuth).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::Timestamp;
+
+    use super::*;
+    use crate::astro::AzEl;
+
+    #[test]
+    fn what_is_left_of_a_pass_stays_on_the_side_to_which_it_has_changed() {
+        let pass: Vec<Sample> = [20.0, 60.0, 85.0, 50.0, 10.0]
+            .map(|elevation_deg| Sample {
+                time: Timestamp::UNIX_EPOCH,
+                direction: AzEl::from_degrees(40.0, elevation_deg),
+            })
+            .into();
+        assert_eq!(Way::Over.tipped(&pass), [false, false, false, true, true]);
+        assert_eq!(Way::Back.tipped(&pass), [true, true, true, false, false]);
+        let rest = pass.get(3..).unwrap();
+        assert_eq!(Way::Over.tipped(rest), Way::Flipped.tipped(rest));
+        assert_eq!(Way::Back.tipped(rest), Way::Plain.tipped(rest));
+    }
 }

@@ -1,6 +1,6 @@
 //! What to tell one axis.
 
-use jiff::Timestamp;
+use std::time::Instant;
 
 use super::{drives::Drives, path::Path, swing_rate::SwingRate};
 use crate::station::Following;
@@ -74,7 +74,7 @@ impl Axis {
 
     /// Its full rate, degrees a second, when a position that was measured at `at`
     /// ends a long swing.
-    pub(super) fn watch(&mut self, at: Timestamp, position_deg: Option<f64>) -> Option<f64> {
+    pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
         self.swing_rate.take(at, position_deg, self.told.to_deg)
     }
 

@@ -8,7 +8,7 @@ use crate::{
     },
     plan::{
         Sample,
-        az_el::{AzElAxes, Planned, Start, Way},
+        az_el::{AzElAxes, Choice, Planned, Start, Way},
         within_rate::within_rate,
     },
     station::{MotionLimits, Mount},
@@ -54,14 +54,18 @@ impl Drives {
         samples: &[Sample],
         step_s: f64,
         start: Start,
-        way: Option<Way>,
+        choice: Choice,
     ) -> Planned {
-        match (self.mount, way) {
+        match (self.mount, choice) {
             (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => {
                 self.along_crossed(samples, step_s, Angle::from_degrees(lower_axis_azimuth_deg))
             }
-            (Mount::AzEl { .. }, Some(way)) => self.az_el().along(samples, step_s, start, way),
-            (Mount::AzEl { .. }, None) => self.az_el().best(samples, step_s, start),
+            (Mount::AzEl { .. }, Choice::Keep(way)) => {
+                self.az_el().along(samples, step_s, start, way)
+            }
+            (Mount::AzEl { .. }, Choice::Prefer(way)) => {
+                self.az_el().best(samples, step_s, start, way)
+            }
         }
     }
 
@@ -190,7 +194,7 @@ mod tests {
     }
 
     fn positions(drives: &Drives, sample: Sample) -> [f64; 2] {
-        let planned = drives.along(&[sample], 1.0, Start::default(), Some(Way::Plain));
+        let planned = drives.along(&[sample], 1.0, Start::default(), Choice::Keep(Way::Plain));
         planned.axes_deg.map(|axis| axis[0])
     }
 

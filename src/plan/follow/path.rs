@@ -7,7 +7,7 @@ use crate::{
     astro::time::{add_seconds, seconds_between},
     plan::{
         Sample,
-        az_el::{Planned, Start, Way},
+        az_el::{Choice, Planned, Start, Way},
     },
 };
 
@@ -43,7 +43,7 @@ impl Path {
         drives: &Drives,
         (from, to): (Timestamp, Timestamp),
         start: Start,
-        way: Option<Way>,
+        choice: Choice,
     ) -> Option<Self> {
         let span_s = seconds_between(from, to).max(0.0);
         let step_s = (span_s / MOST_POINTS).max(LEAST_STEP_S);
@@ -55,7 +55,7 @@ impl Path {
             })
             .collect();
         let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let Planned { way, axes_deg: axes, .. } = drives.along(&samples, step_s, start, way);
+        let Planned { way, axes_deg: axes, .. } = drives.along(&samples, step_s, start, choice);
         let to = samples.last()?.time;
         Some(Self { from, to, step_s, most_deg, axes, way })
     }

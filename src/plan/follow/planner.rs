@@ -1,5 +1,7 @@
 //! What to command next.
 
+use std::time::Instant;
+
 use jiff::Timestamp;
 
 use super::{
@@ -15,7 +17,7 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     orbit::PropagationError,
-    plan::az_el::{Start, Way},
+    plan::az_el::{Choice, Start, Way},
     station::Following,
 };
 
@@ -101,8 +103,9 @@ impl Planner {
     }
 
     /// Takes where the axes were measured at `at`, degrees as the mount counts: long
-    /// swings teach how fast they turn.
-    pub fn watch(&mut self, at: Timestamp, positions_deg: [Option<f64>; 2]) {
+    /// swings teach how fast they turn. The clock is the steady one: UTC may be
+    /// corrected in the middle of a swing.
+    pub fn watch(&mut self, at: Instant, positions_deg: [Option<f64>; 2]) {
         let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in each {
             if let Some(found_deg_s) = axis.watch(at, position_deg) {
@@ -147,11 +150,15 @@ impl Planner {
         now < *ends && !is_short
     }
 
-    /// The way of a pass that has begun: it is kept where a path is worked out anew
-    /// for other rates.
-    fn begun_way(&self, now: Timestamp) -> Option<Way> {
-        let (path, _) = self.path.as_ref().filter(|_| self.reaches_on(now))?;
-        (path.seconds(now) >= 0.0).then_some(path.way())
+    /// Where a path is worked out anew for other rates, its way is kept once the
+    /// pass has begun, and left before only for one that is clearly better: no
+    /// antenna is to go to and fro.
+    fn choice(&self, now: Timestamp) -> Choice {
+        match self.path.as_ref().filter(|_| self.reaches_on(now)) {
+            Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.way()),
+            Some((path, _)) => Choice::Prefer(path.way()),
+            None => Choice::Prefer(Way::Plain),
+        }
     }
 
     fn new_path(&self, now: Timestamp, axes_deg: [Option<f64>; 2]) -> Option<(Path, Timestamp)> {
@@ -160,10 +167,7 @@ impl Planner {
         let from = aos.max(now);
         let to = los.min(add_seconds(from, PATH_S));
         let start = Start { axes_deg, lead_s: seconds_between(now, from) };
-        Some((
-            Path::along(&self.course, &self.drives, (from, to), start, self.begun_way(now))?,
-            los,
-        ))
+        Some((Path::along(&self.course, &self.drives, (from, to), start, self.choice(now))?, los))
     }
 }
 

@@ -1,8 +1,8 @@
 //! How fast an axis really turns, as its long swings show.
 
-use jiff::Timestamp;
+use std::time::Instant;
 
-use crate::{astro::time::seconds_between, station::ranges};
+use crate::station::ranges;
 
 /// As it sets out, and before it arrives, an axis may be slower, degrees.
 const RAMP_DEG: f64 = 5.0;
@@ -11,6 +11,8 @@ const RAMP_DEG: f64 = 5.0;
 const LEAST_WAY_DEG: f64 = 20.0;
 /// And from so many positions.
 const LEAST_READINGS: usize = 8;
+/// More positions tell no more; an axis that never arrives gives them for ever.
+const MOST_READINGS: usize = 4096;
 
 /// The swing of an axis that is under way.
 #[derive(Debug, Clone, Default)]
@@ -23,7 +25,7 @@ struct Swing {
     from_deg: f64,
     to_deg: f64,
     /// When and where it was measured at its full rate.
-    readings: Vec<(Timestamp, f64)>,
+    readings: Vec<(Instant, f64)>,
 }
 
 impl SwingRate {
@@ -32,7 +34,7 @@ impl SwingRate {
     /// second, when a swing that was long enough has just ended.
     pub(super) fn take(
         &mut self,
-        at: Timestamp,
+        at: Instant,
         position_deg: Option<f64>,
         to_deg: Option<f64>,
     ) -> Option<f64> {
@@ -52,13 +54,15 @@ impl SwingRate {
 }
 
 impl Swing {
-    fn take(&mut self, at: Timestamp, position_deg: f64) -> Option<f64> {
+    fn take(&mut self, at: Instant, position_deg: f64) -> Option<f64> {
         let way = (self.to_deg - self.from_deg).signum();
         if (position_deg - self.from_deg) * way < RAMP_DEG {
             return None;
         }
         if (self.to_deg - position_deg) * way >= RAMP_DEG {
-            self.readings.push((at, position_deg));
+            if self.readings.len() < MOST_READINGS {
+                self.readings.push((at, position_deg));
+            }
             return None;
         }
         let rate_deg_s = self.rate_deg_s();
@@ -78,8 +82,8 @@ impl Swing {
         }
         let after = self.readings.iter().skip(self.readings.len() / 4);
         let pairs = self.readings.iter().zip(after);
-        let rate = |((from, from_deg), (to, to_deg)): (&(Timestamp, f64), &(Timestamp, f64))| {
-            (to_deg - from_deg).abs() / seconds_between(*from, *to)
+        let rate = |((from, from_deg), (to, to_deg)): (&(Instant, f64), &(Instant, f64))| {
+            (to_deg - from_deg).abs() / to.duration_since(*from).as_secs_f64()
         };
         let mut rates: Vec<f64> = pairs.map(rate).collect();
         rates.sort_by(f64::total_cmp);
@@ -91,8 +95,9 @@ impl Swing {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
-    use crate::astro::time::add_seconds;
 
     /// What is learned of an axis that turns from 10 to `to_deg` at `rate_deg_s`,
     /// is measured `each_s` and shown as `seen` makes of second and position.
@@ -103,6 +108,7 @@ mod tests {
         seen: impl Fn(f64, f64) -> f64,
     ) -> Option<f64> {
         let mut rate = SwingRate::default();
+        let start = Instant::now();
         let way_deg: f64 = to_deg - 10.0;
         let readings = ((way_deg.abs() / rate_deg_s + 5.0) / each_s) as u32;
         let found = (0..readings).filter_map(|reading| {
@@ -110,7 +116,11 @@ mod tests {
             // It sets out after a second.
             let turned_deg = (rate_deg_s * (second - 1.0).max(0.0)).min(way_deg.abs());
             let position_deg = seen(second, 10.0 + turned_deg.copysign(way_deg));
-            rate.take(add_seconds(Timestamp::UNIX_EPOCH, second), Some(position_deg), Some(to_deg))
+            rate.take(
+                start + Duration::try_from_secs_f64(second).unwrap(),
+                Some(position_deg),
+                Some(to_deg),
+            )
         });
         let found: Vec<f64> = found.collect();
         assert!(found.len() < 2, "{found:?}");
@@ -160,7 +170,8 @@ mod tests {
     #[test]
     fn a_swing_that_is_called_off_counts_as_far_as_it_went() {
         let mut rate = SwingRate::default();
-        let at = |second: u32| add_seconds(Timestamp::UNIX_EPOCH, f64::from(second));
+        let start = Instant::now();
+        let at = |second: u32| start + Duration::from_secs(second.into());
         for second in 0..20 {
             assert_eq!(rate.take(at(second), Some(f64::from(second) * 2.0), Some(180.0)), None);
         }

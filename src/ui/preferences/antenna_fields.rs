@@ -62,6 +62,10 @@ fn mount() -> [Of; 7] {
             let [_, (from, to)] = antenna.mount.travel_deg();
             let is_right = ranges::ELEVATION_SPAN_DEG.contains(&(to - from));
             is_right.then_some(()).ok_or("must be 1° or more above Elevation from")
+        })
+        .noted(|antenna| {
+            let words = "Beyond 90° the antenna may be tipped over the zenith to track.";
+            antenna.mount.tips_over().then(|| words.to_owned())
         }),
     ]
 }

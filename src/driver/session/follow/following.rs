@@ -91,7 +91,7 @@ impl Following {
             return;
         }
         let positions_deg = measured.axes.map(|axis| axis.angle_deg);
-        self.planner.watch(measured.at, positions_deg);
+        self.planner.watch(measured.asked, positions_deg);
         let is_up = self.phase == FollowPhase::Following;
         let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
         self.predicted = direction.map(|direction| Sample { time: measured.at, direction });

@@ -1,4 +1,7 @@
-use std::collections::VecDeque;
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
 
 use super::*;
 use crate::{
@@ -10,6 +13,7 @@ use crate::{
 
 /// How finely the metal is simulated, seconds.
 const TICK_S: f64 = 0.05;
+const TICK: Duration = Duration::from_millis(50);
 
 /// Two axes that go to where they were told, at their rate and after a while.
 #[derive(Clone)]
@@ -138,6 +142,7 @@ fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, met
     let mut planner = Planner::new(follow, drives, following).unwrap();
     let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
+    let started = Instant::now();
     let mut run = Run { stats: FollowStats::default(), azimuths_deg: Vec::new() };
     let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
     let mut next_look_s = 0.0;
@@ -145,7 +150,7 @@ fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, met
         let now_s = f64::from(tick) * TICK_S;
         let now = add_seconds(begin, now_s);
         if tick % 5 == 0 {
-            planner.watch(now, metal.axes_deg.map(Some));
+            planner.watch(started + TICK * tick, metal.axes_deg.map(Some));
         }
         if now_s >= next_look_s {
             next_look_s += following.period_s;
