@@ -213,6 +213,15 @@ impl AntennaModel {
         by_unit || view.is_some_and(|view| view.phase == FollowPhase::Following)
     }
 
+    /// It moves, or is told from here to be somewhere. Without a link nobody knows,
+    /// and other settings may be what brings it back.
+    pub fn is_busy(&self) -> bool {
+        let snapshot = &self.snapshot;
+        let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
+        let tracks = snapshot.following.is_some() || snapshot.intent == Intent::Track;
+        snapshot.link.is_open() && (moves || tracks)
+    }
+
     /// The target that is followed stands where the mount does not get to.
     pub fn is_out_of_reach(&self) -> bool {
         let predicted = self.snapshot.following.as_ref().and_then(|view| view.predicted);

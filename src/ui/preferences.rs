@@ -86,7 +86,8 @@ pub fn show(
     ui.painter().hline(footer.x_range(), footer.top() + 0.5, (1.0, t.line));
     let read = draft.read();
     let edited = draft != before;
-    let can_save = read.is_some() && (edited || model.demo);
+    let busy = read.as_ref().and_then(|station| busy(model, station));
+    let can_save = read.is_some() && (edited || model.demo) && busy.is_none();
     let save = Button::primary("Save and use").locked(!can_save);
     let revert = Button::normal("Revert").locked(!edited);
     let place = |right: f32, width: f32| {
@@ -96,7 +97,10 @@ pub fn show(
     let saving = place(footer.right() - PADDING, save.width(ui));
     let reverting = place(saving.left() - 8.0, revert.width(ui));
     let room = footer.with_min_x(footer.left() + PADDING).with_max_x(reverting.left() - PADDING);
-    let (words, colour) = outcome(ui, model, read.is_some(), edited, state);
+    let (words, colour) = match busy {
+        Some(name) => (format!("{name} moves or tracks. Stop it, then save."), t.warn),
+        None => outcome(ui, model, read.is_some(), edited, state),
+    };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), colour);
     paint::name_text(ui, "outcome", room, &words).on_hover_text(&words);
     let reverted = revert.show(ui, "revert", reverting).clicked();
@@ -110,6 +114,16 @@ pub fn show(
     } else {
         state.draft = Some((station, draft));
     }
+}
+
+/// The antenna that would be let go in the middle of a motion, because it is
+/// changed or left out in `station`.
+fn busy<'a>(model: &'a Model, station: &Station) -> Option<&'a str> {
+    // The simulators of the demonstration end with it.
+    let mut antennas = model.antennas.iter().filter(|_| !model.demo);
+    let busy =
+        antennas.find(|antenna| antenna.is_busy() && !station.antennas.contains(&antenna.config));
+    busy.map(|antenna| antenna.config.name.as_str())
 }
 
 /// What stands beside the buttons.

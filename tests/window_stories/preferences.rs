@@ -1,7 +1,10 @@
 //! The settings of the station, typed, corrected, saved and reverted.
 
+use std::time::Instant;
+
 use azel::{
     app::{Model, UiCommand, View},
+    driver::{LinkLoss, LinkState, Snapshot},
     station::Station,
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -212,4 +215,34 @@ fn two_antennas_of_one_name_are_not_saved() {
         assert!(says(&window, "Name must differ from that of antenna 1."));
         assert!(is_disabled(&window, "Save and use"));
     }
+}
+
+#[test]
+fn an_antenna_that_moves_is_not_let_go_by_saving() {
+    let changed = |snapshot| {
+        let mut model = rig::model(snapshot);
+        model.view = View::Preferences;
+        let mut window = rig::window(SIZES[0], model);
+        write(&mut window, "Beam width", "3");
+        window
+    };
+    for snapshot in [states::moving(), states::tracking(0.1)] {
+        let window = changed(snapshot);
+        assert!(is_disabled(&window, "Save and use"));
+        assert!(says(&window, "Satrak moves or tracks. Stop it, then save."));
+    }
+    let now = Instant::now();
+    let link = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };
+    for snapshot in [states::holding(), Snapshot { link, ..states::moving() }] {
+        assert!(!is_disabled(&changed(snapshot), "Save and use"));
+    }
+}
+
+#[test]
+fn what_does_not_touch_the_antenna_is_saved_while_it_moves() {
+    let mut model = rig::model(states::moving());
+    model.view = View::Preferences;
+    let mut window = rig::window(SIZES[0], model);
+    write(&mut window, "Latitude", "40");
+    assert!(!is_disabled(&window, "Save and use"));
 }
