@@ -66,6 +66,10 @@ pub struct Settings {
     /// Where host keys, old uploads and secrets are kept; `None` for the user's
     /// own places.
     pub upload_places: Option<uploads::Places>,
+    /// The program that is started as the dead-man; `None` for none.
+    pub dead_man: Option<PathBuf>,
+    /// Where motions by hand are marked; `None` for nowhere.
+    pub marks: Option<PathBuf>,
 }
 
 /// The app behind the window.
@@ -100,7 +104,9 @@ impl App {
         let keeper = Keeper::beside(settings_path.as_deref());
         ui::theme::install(ctx, keeper.memory.theme);
         let wake = wake(ctx.clone());
-        let driver = Driver::start(clock.clone(), Arc::clone(&wake))?;
+        let driver = Driver::start(clock.clone(), Arc::clone(&wake))?
+            .guarded_by(settings.dead_man.clone())
+            .marking_in(settings.marks.clone());
         let model = Model {
             now: clock.utc(),
             steady: Instant::now(),

@@ -6,7 +6,12 @@ mod window;
 
 use std::{path::PathBuf, process::ExitCode};
 
+#[cfg(unix)]
+use anyhow::Context as _;
 use clap::{Parser, Subcommand};
+
+#[cfg(unix)]
+use crate::driver::dead_man;
 
 /// Console for the operator of a satellite ground station.
 ///
@@ -26,6 +31,13 @@ pub struct Cli {
 enum Command {
     /// Predict passes from element files
     Passes(passes::Options),
+    /// Stop a unit when the beat on standard input ends; started by the window
+    #[cfg(unix)]
+    #[command(name = dead_man::SUBCOMMAND, hide = true)]
+    DeadMan {
+        /// STOP as the unit understands it, in hexadecimal digits
+        stop: String,
+    },
     /// Serve a simulated controller to anyone who connects
     Simulate {
         #[command(subcommand)]
@@ -39,10 +51,25 @@ impl Cli {
         match self.command {
             None => window::run(self.station)?,
             Some(Command::Passes(options)) => return passes::run(&options),
+            #[cfg(unix)]
+            Some(Command::DeadMan { stop }) => {
+                let bytes = from_hexadecimal(&stop).context("STOP is not in hexadecimal digits")?;
+                dead_man::watch_over(&bytes)?;
+            }
             Some(Command::Simulate { simulator }) => simulate::run(&simulator)?,
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+#[cfg(unix)]
+fn from_hexadecimal(digits: &str) -> Option<Vec<u8>> {
+    let pairs = digits.as_bytes().chunks(2);
+    let byte = |pair: &[u8]| match pair {
+        [_, _] => u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok(),
+        _ => None,
+    };
+    pairs.map(byte).collect()
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
-pub use capabilities::{Capabilities, JogSpeed, JogSpeeds};
+pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
 pub use make::Make;
 pub use satrak::{SatrakState, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
@@ -185,6 +185,10 @@ pub trait Device: Send {
     /// left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
+    /// STOP of everything as [`Self::halt`] writes it, for the process that
+    /// writes it when this one no longer can.
+    fn stop_bytes(&self) -> Vec<u8>;
+
     /// The operator has pressed STOP, whatever else was halted before: nothing of
     /// what was allowed for a while is allowed any more.
     fn disarm(&mut self) {}
@@ -198,6 +202,9 @@ pub trait Device: Send {
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
     fn prepare(&mut self, target: TrackTarget);
+
+    /// Asks for the position without waiting for its turn.
+    fn look(&mut self, now: Moment);
 
     /// What the device remembers and can be told: the same for its whole life.
     fn groups(&self) -> &'static [&'static Group];

@@ -3,23 +3,37 @@
 //! nothing here waits for it.
 
 mod clock;
+pub mod dead_man;
+mod debts;
 pub mod files;
 mod gate;
 mod intent;
 mod link;
+mod safety;
 mod session;
 mod snapshot;
 mod time_sync;
 mod wire_log;
 
-use std::{io, sync::Arc, thread, time::Duration};
+use std::{
+    future::{Future, poll_fn},
+    io,
+    panic::{self, AssertUnwindSafe},
+    path::PathBuf,
+    sync::Arc,
+    task::Poll,
+    thread,
+    time::Duration,
+};
 
 use tokio::sync::{Notify, mpsc, watch};
 
 pub use clock::Clock;
+pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
+pub use safety::Safety;
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, Snapshot, StopState,
@@ -37,6 +51,9 @@ const EVENTS: usize = 256;
 /// How long the end of the program waits for the last STOP: as long as a session
 /// tries to reach a unit once more and to see it stand.
 const FAREWELL: Duration = Duration::from_secs(6);
+
+/// The longest rest of a session that breaks down again and again.
+const MOST_REST: Duration = Duration::from_secs(5);
 
 /// Called after every new snapshot or event; wakes the window.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -71,11 +88,6 @@ impl AntennaHandle {
     /// it, which must be told to the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         self.commands.try_send(command).map_err(mpsc::error::TrySendError::into_inner)
-    }
-
-    /// The session has ended, and not because of this handle.
-    pub fn has_ended(&self) -> bool {
-        self.commands.is_closed()
     }
 
     /// The newest snapshot.
@@ -119,6 +131,8 @@ pub struct Driver {
     sessions: tokio_util::task::TaskTracker,
     clock: Clock,
     wake: Wake,
+    dead_man: Option<PathBuf>,
+    debts: Debts,
 }
 
 impl Driver {
@@ -140,7 +154,32 @@ impl Driver {
             // Nobody may be waiting any more.
             let _ = tell_ended.send(());
         })?;
-        Ok(Self { runtime: handle, end: Some(end), ended, sessions, clock, wake })
+        Ok(Self {
+            runtime: handle,
+            end: Some(end),
+            ended,
+            sessions,
+            clock,
+            wake,
+            dead_man: None,
+            debts: Debts::default(),
+        })
+    }
+
+    /// Starts `program` as the dead-man of motions by hand: this program, which
+    /// knows [`dead_man::SUBCOMMAND`].
+    #[must_use]
+    pub fn guarded_by(mut self, program: Option<PathBuf>) -> Self {
+        self.dead_man = program;
+        self
+    }
+
+    /// Keeps marks of motions by hand in `folder`, so that the next start knows of
+    /// them.
+    #[must_use]
+    pub fn marking_in(mut self, folder: Option<PathBuf>) -> Self {
+        self.debts = Debts::marked_in(folder);
+        self
     }
 
     /// Where other work on the driver's thread is spawned.
@@ -150,16 +189,59 @@ impl Driver {
 
     /// Starts the session of one antenna.
     pub fn open(&self, antenna: &Antenna) -> AntennaHandle {
-        let connection = &antenna.connection;
-        let dial = match connection.kind().link {
-            Link::Tcp => dial_tcp(connection.address.clone()),
-            Link::Line { baud } => dial_line(&connection.address, connection.whole(baud)),
+        let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake));
+        let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
+        let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
+        let open = move || {
+            let (controller, dial) = (antenna.controller(), dial(&antenna));
+            let (wires, debts) = (ends.clone(), debts.clone());
+            let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts);
+            match &dead_man {
+                Some(program) => session.guarded_by(program.clone()),
+                None => session,
+            }
         };
-        let (clock, wake) = (self.clock.clone(), Arc::clone(&self.wake));
-        let (session, handle) = Session::new(antenna.controller(), antenna, dial, clock, wake);
-        self.sessions.spawn_on(session.run(), &self.runtime);
+        self.sessions.spawn_on(keep_alive(open, wires), &self.runtime);
         handle
     }
+
+    /// The STOPs that are owed.
+    pub fn debts(&self) -> &Debts {
+        &self.debts
+    }
+}
+
+/// Opens the links of `antenna`.
+fn dial(antenna: &Antenna) -> Dial {
+    let connection = &antenna.connection;
+    match connection.kind().link {
+        Link::Tcp => dial_tcp(connection.address.clone()),
+        Link::Line { baud } => dial_line(&connection.address, connection.whole(baud)),
+    }
+}
+
+/// Runs a session, and another one where it breaks down: the antenna may move
+/// unwatched, so STOP is the first word of the next.
+async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
+    let mut broke = 0_u32;
+    while caught(async { open().run().await }).await.is_none() {
+        wires.stop();
+        wires.tell(&Event::Safety(Safety::SessionBroke));
+        // The first restart waits for nothing; one that breaks again and again must
+        // not keep the other sessions from running.
+        tokio::time::sleep(MOST_REST.min(Duration::from_millis(200) * broke)).await;
+        broke = broke.saturating_add(1);
+    }
+}
+
+/// The outcome of `work`; `None` when it panicked.
+async fn caught<F: Future>(work: F) -> Option<F::Output> {
+    let mut work = Box::pin(work);
+    poll_fn(move |context| {
+        let polled = panic::catch_unwind(AssertUnwindSafe(|| work.as_mut().poll(context)));
+        polled.map_or(Poll::Ready(None), |polled| polled.map(Some))
+    })
+    .await
 }
 
 /// Waits, within reason, until every session has said its last STOP.

@@ -7,7 +7,7 @@ use crate::{
         Motion, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
-    driver::{Event, FollowProblem, Found, LinkLoss},
+    driver::{Event, FollowProblem, Found, LinkLoss, Safety},
     protocol::satrak::FaultKind,
     station::Note,
 };
@@ -57,9 +57,8 @@ pub enum AlarmKind {
     StartedByItself,
     /// The unit moves without having been asked to by this console.
     MovesByItself,
-    /// The part of the program that talks to the antenna broke down and was
-    /// started again.
-    SessionBroke,
+    /// A matter of safety.
+    Safety(Safety),
     /// The part of the program that talks to the antenna is too busy to take
     /// what was asked for.
     NotTaken,
@@ -105,7 +104,7 @@ impl Alarm {
             AlarmKind::LinkLost(_)
             | AlarmKind::StopNotConfirmed
             | AlarmKind::StopRefused(_)
-            | AlarmKind::SessionBroke
+            | AlarmKind::Safety(_)
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
@@ -241,6 +240,9 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
+        // Said where it was asked for; many antennas have such an axis.
+        Event::Safety(Safety::StoppedByFlags { .. }) => return None,
+        Event::Safety(matter) => AlarmKind::Safety(matter),
         Event::JogLeaseOver => AlarmKind::JogLeaseOver,
         Event::JogPositionOld => AlarmKind::JogPositionOld,
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,

@@ -104,19 +104,7 @@ impl App {
         for event in events {
             self.take_event(index, event);
         }
-        self.revive_session(index);
         self.watch_state(index);
-    }
-
-    /// A session never ends while its antenna is in use. If one did, the
-    /// antenna may move unwatched: start another, with STOP as its first word.
-    fn revive_session(&mut self, index: usize) {
-        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
-        if antenna.handle.has_ended() {
-            antenna.handle = self.driver.open(&antenna.config);
-            antenna.handle.stop();
-            self.model.alarms.raise(Some(index), AlarmKind::SessionBroke, self.model.now);
-        }
     }
 
     fn take_event(&mut self, index: usize, event: Event) {

@@ -22,7 +22,8 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
              Start it in a desktop session."
         );
     }
-    let settings = Settings { path: station, ..Settings::default() };
+    let settings =
+        Settings { path: station, dead_man: this_program(), marks: marks(), ..Settings::default() };
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
@@ -56,6 +57,17 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
             bail!("The window broke down: {why}")
         }
     }
+}
+
+/// In the user's data folder.
+fn marks() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("marks"))
+}
+
+/// On Linux a name that holds also after the file was replaced by a newer one.
+fn this_program() -> Option<PathBuf> {
+    let running = PathBuf::from("/proc/self/exe");
+    if running.exists() { Some(running) } else { std::env::current_exe().ok() }
 }
 
 fn has_display() -> bool {

@@ -24,7 +24,7 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion,
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion, Standstill,
     wire::WireQueue,
 };
 use crate::{
@@ -60,6 +60,8 @@ pub const MAKE: Make = Make {
         steps: false,
         ends_jogs: true,
         waits_for_word: true,
+        // A count is some hundredths of a degree; slow speed is a few tenths.
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.25 },
         stop_note: None,
     },
     groups: &[],

@@ -23,7 +23,7 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment,
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Standstill,
     settings::{Change, Settling},
     wire::WireQueue,
 };
@@ -58,6 +58,8 @@ pub const PAIR: Make = Make {
         steps: false,
         ends_jogs: false,
         waits_for_word: false,
+        // Whole degrees; the slowest rotators it drives take three minutes a turn.
+        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 2.0 },
         stop_note: Some("STOP stops both rotators."),
     },
     groups: GROUPS,

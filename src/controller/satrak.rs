@@ -23,7 +23,7 @@ pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 
 use super::{
     AntennaState, Capabilities, Happening, JogSpeeds, Make, Moment, Motion, PrepareError,
-    settings::Change, wire::WireQueue,
+    Standstill, settings::Change, wire::WireQueue,
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -51,6 +51,9 @@ pub const MAKE: Make = Make {
         steps: true,
         ends_jogs: false,
         waits_for_word: false,
+        // Hundredths of a degree; below a quarter of a degree a second nothing but
+        // tracking moves, which is switched off with STOP.
+        standstill: Standstill { resolution_deg: 0.01, slowest_deg_s: 0.25 },
         stop_note: None,
     },
     groups: GROUPS,

@@ -30,8 +30,19 @@ pub struct Capabilities {
     /// Whatever is asked of it may take its panel from somebody who stands in
     /// front of it. It is left alone until the operator connects to it.
     pub waits_for_word: bool,
+    /// How standstill is told from its slowest motion.
+    pub standstill: Standstill,
     /// What STOP does beyond stopping this antenna, in a sentence.
     pub stop_note: Option<&'static str>,
+}
+
+/// How standstill is told from the slowest motion of a unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standstill {
+    /// Angles are told in steps of this, degrees.
+    pub resolution_deg: f64,
+    /// Slowest rate at which a motion of its own runs on, degrees a second.
+    pub slowest_deg_s: f64,
 }
 
 /// How fast a controller jogs.

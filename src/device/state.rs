@@ -18,6 +18,8 @@ pub struct AntennaState {
     pub measured: Option<Measured>,
     /// The device's own tracking program.
     pub program: Option<Program>,
+    /// Something besides the two axes turns, such as the polarization.
+    pub turns_besides: bool,
     /// Something is wrong that forbids motion; `None` until the device was
     /// asked on this link, and while a new fault is not yet known by name.
     pub motion_lock: Option<bool>,

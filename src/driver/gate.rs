@@ -107,6 +107,9 @@ pub enum Refusal {
     /// A stop is under way.
     #[error("a stop is under way")]
     Stopping,
+    /// No dead-man can be had, so nothing would end it if this program ended.
+    #[error("nothing would stop it if this program ended")]
+    Unguarded,
 }
 
 /// What the rules look at beside the motion itself.

@@ -6,15 +6,48 @@ mod tcp;
 
 use std::{future::Future, io, pin::Pin};
 
-use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::io::{AsyncRead, AsyncWrite, DuplexStream};
 
 pub use tcp::dial_tcp;
 
 use crate::station::check_address;
 
+/// A second handle of an open link, for the dead-man.
+#[cfg(unix)]
+pub(super) type Duplicate = std::os::fd::OwnedFd;
+/// No other process can be given a handle here.
+#[cfg(not(unix))]
+pub(super) type Duplicate = std::convert::Infallible;
+
 /// An open link.
-pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {}
-impl<T: AsyncRead + AsyncWrite + Send + Unpin> Stream for T {}
+pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {
+    /// Another handle of the same connection, which another process can write to.
+    /// `None` where the far end lives in this process and ends with it.
+    fn duplicate(&self) -> io::Result<Option<Duplicate>>;
+
+    /// `bytes` as they leave the last layer of the link, parity included.
+    fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
+        bytes.to_vec()
+    }
+}
+
+/// The far end is another task of this process.
+impl Stream for DuplexStream {
+    fn duplicate(&self) -> io::Result<Option<Duplicate>> {
+        Ok(None)
+    }
+}
+
+/// Duplicates the handle of `link`.
+#[cfg(unix)]
+fn duplicate_of(link: &impl std::os::fd::AsFd) -> io::Result<Option<Duplicate>> {
+    link.as_fd().try_clone_to_owned().map(Some)
+}
+
+#[cfg(not(unix))]
+fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
+    Err(io::ErrorKind::Unsupported.into())
+}
 
 /// Opens the link, as often as asked.
 pub type Dial =

@@ -6,25 +6,31 @@ mod command;
 mod converse;
 mod farewell;
 mod follow;
+mod guard;
 mod halting;
 mod jog;
 mod liveness;
+mod marking;
+mod standstill;
 mod step;
 mod supervise;
 mod wanted;
 
 use std::{
+    path::PathBuf,
     sync::Arc,
     time::{Duration, Instant},
 };
 
-use tokio::sync::{Notify, mpsc, watch};
+use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
 
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Snapshot, Wake,
-    WireLog, gate::Gate,
+    WireLog,
+    debts::{Debts, Unit},
+    gate::Gate,
 };
 use crate::{
     controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
@@ -32,19 +38,72 @@ use crate::{
 };
 use command::Waiting;
 use follow::{Following, Manner};
+use guard::Guard;
 use halting::Halting;
 use jog::Jog;
+use marking::Marking;
+use standstill::{Figures, Rest};
 use step::Stepping;
 use supervise::Doubt;
 use wanted::Wanted;
 
-/// The far ends of the channels to the window.
+/// How far an antenna sways while it stands, degrees.
+const SWAY_DEG: f64 = 0.1;
+
+/// The far ends of the channels to the window. They outlive a session that
+/// breaks down: the next one takes them over.
+#[derive(Clone)]
 pub struct Wires {
-    commands: mpsc::Receiver<Command>,
+    /// One session at a time reads them.
+    commands: Arc<AsyncMutex<mpsc::Receiver<Command>>>,
     stop: Arc<Notify>,
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
     wake: Wake,
+    wire_log: WireLog,
+}
+
+impl Wires {
+    /// The far and the near ends for one antenna.
+    pub(super) fn new(antenna: &Antenna, wake: Wake) -> (Self, AntennaHandle) {
+        let (send_command, commands) = mpsc::channel(COMMANDS);
+        let (events, read_events) = mpsc::channel(EVENTS);
+        let stop = Arc::new(Notify::new());
+        let (_, link) = first_link(antenna);
+        let first = Arc::new(Snapshot::before_anything(link));
+        let (snapshots, read_snapshots) = watch::channel(first);
+        let handle =
+            AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
+        let commands = Arc::new(AsyncMutex::new(commands));
+        let wire_log = handle.wire().clone();
+        (Self { commands, stop, snapshots, events, wake, wire_log }, handle)
+    }
+
+    /// Puts STOP before the next word.
+    pub(super) fn stop(&self) {
+        self.stop.notify_one();
+    }
+
+    /// Tells the window.
+    pub(super) fn tell(&self, event: &Event) {
+        if self.events.try_send(event.clone()).is_err() {
+            tracing::warn!(?event, "nobody reads the events; one was dropped");
+        }
+        (self.wake)();
+    }
+
+    fn stop_handle(&self) -> Arc<Notify> {
+        Arc::clone(&self.stop)
+    }
+}
+
+/// What a new session wants of the link, and how that is shown.
+fn first_link(antenna: &Antenna) -> (Wanted, LinkState) {
+    if antenna.connection.make().capabilities.waits_for_word {
+        return (Wanted::No, LinkState::Off);
+    }
+    let since = tokio::time::Instant::now().into_std();
+    (Wanted::Yes, LinkState::Connecting { since })
 }
 
 /// One antenna's session.
@@ -59,7 +118,15 @@ pub struct Session {
     dial: Dial,
     clock: Clock,
     wires: Wires,
-    wire_log: WireLog,
+    unit: Unit,
+    debts: Debts,
+    /// Tells this session from others of the same unit.
+    number: u64,
+    marking: Marking,
+    figures: Figures,
+    rest: Rest,
+    /// When the look came in that the rest was watched by last.
+    looked: Option<Instant>,
     link: LinkState,
     /// When the link went away while it had been up before.
     away_since: Option<Instant>,
@@ -77,6 +144,9 @@ pub struct Session {
     /// What this program follows, position by position.
     following: Option<Following>,
     jog: Option<Jog>,
+    /// The direction of a hold that ended before its key came up.
+    ended_hold: Option<[f64; 2]>,
+    guard: Guard,
     /// A step that is not known to be over.
     stepping: Option<Stepping>,
     /// Is done as soon as no halt is under way.
@@ -99,22 +169,25 @@ impl Session {
         clock: Clock,
         wake: Wake,
     ) -> (Self, AntennaHandle) {
-        let (send_command, commands) = mpsc::channel(COMMANDS);
-        let (events, read_events) = mpsc::channel(EVENTS);
-        let stop = Arc::new(Notify::new());
+        let (wires, handle) = Wires::new(antenna, wake);
+        (Self::over(controller, antenna, dial, clock, wires, Debts::default()), handle)
+    }
+
+    /// A session of `antenna` that reads and writes `wires`, and owes in `debts`.
+    pub(super) fn over(
+        controller: Box<dyn Moves>,
+        antenna: &Antenna,
+        dial: Dial,
+        clock: Clock,
+        wires: Wires,
+        debts: Debts,
+    ) -> Self {
         let gate = Gate::new(controller, antenna.limits, antenna.mount);
         let make = antenna.connection.make();
-        let (wanted, link) = if make.capabilities.waits_for_word {
-            (Wanted::No, LinkState::Off)
-        } else {
-            let since = tokio::time::Instant::now().into_std();
-            (Wanted::Yes, LinkState::Connecting { since })
-        };
-        let first = Arc::new(Snapshot::before_anything(link.clone()));
-        let (snapshots, read_snapshots) = watch::channel(first);
-        let handle =
-            AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
-        let session = Self {
+        let (wanted, link) = first_link(antenna);
+        let unit = Unit::of(antenna);
+        let number = debts.begin(&unit, wires.stop_handle());
+        Self {
             name: antenna.name.clone(),
             gate,
             make,
@@ -123,8 +196,14 @@ impl Session {
             wanted,
             dial,
             clock,
-            wires: Wires { commands, stop, snapshots, events, wake },
-            wire_log: handle.wire().clone(),
+            wires,
+            unit,
+            debts,
+            number,
+            marking: Marking::None,
+            figures: Figures::of(make.capabilities, SWAY_DEG),
+            rest: Rest::default(),
+            looked: None,
             link,
             away_since: None,
             told_lost: false,
@@ -136,22 +215,26 @@ impl Session {
             target: None,
             following: None,
             jog: None,
+            ended_hold: None,
+            guard: Guard::new(None),
             stepping: None,
             waiting: None,
             halting: None,
             doubt: None,
             stopped_at: None,
             urgent: Vec::new(),
-        };
-        (session, handle)
+        }
+    }
+
+    /// Starts `program` as the dead-man of motions by hand.
+    #[must_use]
+    pub fn guarded_by(self, program: PathBuf) -> Self {
+        Self { guard: Guard::new(Some(program)), ..self }
     }
 
     fn tell(&self, event: Event) {
         tracing::info!(antenna = self.name, ?event, "event");
-        if self.wires.events.try_send(event).is_err() {
-            tracing::warn!(antenna = self.name, "nobody reads the events; one was dropped");
-        }
-        (self.wires.wake)();
+        self.wires.tell(&event);
     }
 
     /// Puts out a new snapshot when anything in it has changed.
@@ -164,6 +247,7 @@ impl Session {
             target: self.target.clone(),
             following: self.following.as_ref().map(Following::view),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
+            unguarded: self.guard.is_missing,
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
             step: self.stepping.map(|stepping| stepping.steps_deg),
             state: self.gate.state().clone(),
@@ -187,7 +271,7 @@ impl Session {
     fn record(&mut self) {
         let mut is_awaited = false;
         while let Some(line) = self.gate.device().next_wire_line() {
-            is_awaited |= self.wire_log.push(line);
+            is_awaited |= self.wires.wire_log.push(line);
         }
         if is_awaited {
             (self.wires.wake)();

@@ -7,7 +7,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{Intent, Refusal};
+use super::{Intent, Refusal, Safety};
 use crate::{
     controller::{
         AntennaState, Motion, Pointing, PrepareError, TrackTarget,
@@ -34,6 +34,8 @@ pub struct Snapshot {
     pub following: Option<FollowView>,
     /// The stop button.
     pub stop: StopState,
+    /// No dead-man could be had for the last motion by hand that needed one.
+    pub unguarded: bool,
     /// Signed rates of a jog that is held, degrees a second.
     pub jog: Option<[f64; 2]>,
     /// Signed amounts of a step that is not known to be over, degrees.
@@ -55,6 +57,7 @@ impl Snapshot {
             target: None,
             following: None,
             stop: StopState::Ready,
+            unguarded: false,
             jog: None,
             step: None,
             state: AntennaState::default(),
@@ -272,6 +275,8 @@ pub enum Event {
     JogLeaseOver,
     /// A jog was ended because the position grew too old.
     JogPositionOld,
+    /// A matter of safety.
+    Safety(Safety),
     /// The antenna stands still after a stop.
     Stopped,
     /// It still moves three seconds after a stop.

@@ -4,10 +4,12 @@
 mod alarms;
 mod faults;
 mod refusals;
+mod safety;
 
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
+pub use safety::safety;
 
 use crate::{controller::Motion, driver::Intent, makes};
 

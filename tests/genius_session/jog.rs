@@ -41,7 +41,8 @@ async fn each_way_of_each_rotator_has_its_command() {
         rig.hold(rates, 1.0).await;
         rig.send(Command::EndJog);
         rig.until_still(3).await;
-        rig.seconds(0.5).await;
+        // Its reading has to stay for a while before the next one may begin.
+        rig.seconds(1.5).await;
     }
     assert_eq!(rig.orders(), ["|M1", "|S", "|P2", "|S", "|M2", "|S"]);
     assert_eq!(rig.events(), []);

@@ -203,7 +203,7 @@ async fn a_limit_byte_without_a_meaning_counts_as_outside() {
     let check = shown.state.checks.iter().find(|check| check.name == "Limits of rotator 1");
     assert_eq!(check.unwrap().state, CheckState::Unknown);
     device.handle.send(to(Some(120.0), None)).unwrap();
-    device.seconds(1.0).await;
+    device.seconds(2.0).await;
     // The key that was held may have begun something.
     assert_eq!(device.orders(), ["|S", "|A1120"]);
 }

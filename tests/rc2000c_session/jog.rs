@@ -79,7 +79,7 @@ async fn a_stop_and_standstill_stand_between_two_axes() {
     let between = rig.times("3U")[0] - rig.times("3X")[0];
     // The simulated axis needs 0.8 s to run out, which only its counts tell.
     assert!(between > Duration::from_millis(600), "{between:?}");
-    rig.hold([FAST, FAST], 2.0).await;
+    rig.hold([FAST, FAST], 4.0).await;
     assert_eq!(rig.events(), [Event::NotSent(Refusal::OneAxis)]);
 }
 

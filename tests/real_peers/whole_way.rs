@@ -70,6 +70,7 @@ impl Desk {
             library: Some(folder.path().join("elements")),
             path: Some(path),
             upload_places: Some(places),
+            ..Settings::default()
         };
         let window = Harness::builder()
             .with_size([1440.0, 3200.0])

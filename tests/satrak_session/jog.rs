@@ -73,8 +73,8 @@ async fn turning_round_stops_first_and_waits_for_standstill() {
     rig.hold([-3.0, 0.0], 3.0).await;
     assert_eq!(rig.orders(), ["MOVE=,3,0", "STOP=", "MOVE=,-3,0"]);
     let between = rig.times("MOVE=")[1].duration_since(rig.times("STOP=")[0]).as_secs_f64();
-    // The simulated axis needs 0.6 s to slow down.
-    assert!((0.6..1.1).contains(&between), "{between}");
+    // The simulated axis needs 0.6 s to slow down, and two looks have to agree.
+    assert!((0.6..1.7).contains(&between), "{between}");
     assert_eq!(rig.shown().jog, Some([-3.0, 0.0]));
     assert_eq!(rig.events(), []);
 }

@@ -105,10 +105,15 @@ impl Device for Rc2000c {
             outstanding.disown();
         }
         let stands = |status: &Status| status.polarization_motion == PolarizationMotion::Still;
-        self.holds_polarization =
+        // A halt of a jog must not take back what STOP has begun.
+        self.holds_polarization |=
             extent == Extent::Everything && !self.status.as_ref().is_some_and(stands);
         self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
         self.look_soon(now);
+        Request::Stop.to_bytes(self.address)
+    }
+
+    fn stop_bytes(&self) -> Vec<u8> {
         Request::Stop.to_bytes(self.address)
     }
 
@@ -119,6 +124,10 @@ impl Device for Rc2000c {
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn look(&mut self, now: Moment) {
+        self.look_soon(now);
     }
 
     fn groups(&self) -> &'static [&'static Group] {

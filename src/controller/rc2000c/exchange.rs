@@ -167,6 +167,7 @@ impl Rc2000c {
             phase: Phase::Tracking,
             auto: None,
         });
+        self.state.turns_besides = status.polarization_motion != PolarizationMotion::Still;
         self.hold_polarization(&status);
         // From question to question, so that a slow line does not make it slower.
         self.poll_at = Some(answered.sent.steady + self.rates.period(self.moving()));

@@ -15,7 +15,7 @@ use crate::{
         panel::Act,
         settings::{Change, Group, SettleError, SettleStep},
     },
-    protocol::rotator_genius::Decoder,
+    protocol::rotator_genius::{Decoder, Request},
 };
 
 impl Device for Genius {
@@ -98,6 +98,10 @@ impl Device for Genius {
         self.stop_both(now)
     }
 
+    fn stop_bytes(&self) -> Vec<u8> {
+        Request::Stop.to_bytes()
+    }
+
     fn disarm(&mut self) {
         self.rescue_until = None;
         self.is_rescue_wanted = false;
@@ -106,6 +110,10 @@ impl Device for Genius {
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn look(&mut self, now: Moment) {
+        self.look_soon(now);
     }
 
     fn groups(&self) -> &'static [&'static Group] {

@@ -119,12 +119,21 @@ impl Device for Satrak {
         halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
 
+    fn stop_bytes(&self) -> Vec<u8> {
+        let halts = [Halt::Stop, Halt::TrackOff];
+        halts.into_iter().flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         // An answer to a step of the former preparation must not move this one.
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();
         }
         self.preparation = Some(Preparation::new(target));
+    }
+
+    fn look(&mut self, now: Moment) {
+        self.look_soon(now);
     }
 
     fn groups(&self) -> &'static [&'static Group] {

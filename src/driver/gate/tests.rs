@@ -48,6 +48,10 @@ impl Device for Metal {
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         Vec::new()
     }
+    fn stop_bytes(&self) -> Vec<u8> {
+        Vec::new()
+    }
+    fn look(&mut self, _: Moment) {}
     fn prepare(&mut self, _: TrackTarget) {}
     fn motion_under_way(&self) -> bool {
         false

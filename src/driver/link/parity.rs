@@ -12,6 +12,7 @@ use std::{
 
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 
+use super::{Duplicate, Stream};
 use crate::protocol::rc2000c::Parity;
 
 /// Longer writes go out in pieces of this.
@@ -59,6 +60,18 @@ pub(super) struct WithParity<S> {
 impl<S> WithParity<S> {
     pub(super) fn new(stream: S, parity: Parity, heard: Arc<Heard>) -> Self {
         Self { stream, parity, heard }
+    }
+}
+
+impl<S: Stream> Stream for WithParity<S> {
+    fn duplicate(&self) -> io::Result<Option<Duplicate>> {
+        self.stream.duplicate()
+    }
+
+    fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
+        let mut prepared = bytes.to_vec();
+        self.parity.prepare(&mut prepared);
+        self.stream.on_wire(&prepared)
     }
 }
 

@@ -4,8 +4,16 @@ use std::{io, sync::Arc};
 
 use serial2_tokio::{CharSize, FlowControl, SerialPort, Settings, StopBits};
 
-use super::{Dial, Stream, parity::WithParity};
+use super::{Dial, Duplicate, Stream, parity::WithParity};
 use crate::protocol::rc2000c::Parity;
+
+impl Stream for SerialPort {
+    /// The library hands out no handle. The one make on a serial line ends its
+    /// jogs by itself.
+    fn duplicate(&self) -> io::Result<Option<Duplicate>> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
 
 /// Opens the serial port `name` at `baud` bits a second, with seven bits and
 /// even parity.

@@ -5,10 +5,16 @@ use std::{io, sync::Arc};
 use tokio::net::TcpStream;
 
 use super::{
-    Dial, Stream,
+    Dial, Duplicate, Stream, duplicate_of,
     parity::{Heard, WithParity},
 };
 use crate::protocol::rc2000c::Parity;
+
+impl Stream for TcpStream {
+    fn duplicate(&self) -> io::Result<Option<Duplicate>> {
+        duplicate_of(self)
+    }
+}
 
 /// Opens TCP links to `address` (host and port).
 pub fn dial_tcp(address: String) -> Dial {

@@ -25,6 +25,8 @@ pub enum Command {
     },
     /// The jog key is up.
     EndJog,
+    /// For a minute, move by hand although no dead-man can be had.
+    AllowUnguarded,
     /// One step of the two axes.
     Step {
         /// Signed, degrees.
@@ -42,6 +44,8 @@ pub enum Command {
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
+    /// The operator has seen that the antenna stands: no STOP is owed any more.
+    SeenStanding,
     /// To the park position.
     Park,
     /// Open the link, and keep it.
@@ -82,6 +86,8 @@ impl Session {
         match command {
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
+            Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::SeenStanding => self.take_word_for_standstill(),
             Command::Standby => self.leave_for(Intent::Standby, now),
             Command::Manual => self.leave_for(Intent::Manual, now),
             Command::Hold => self.leave_for(Intent::Position, now),
@@ -133,6 +139,7 @@ impl Session {
         }
         self.aim = None;
         self.following = None;
+        self.ended_hold = None;
         self.intent = intent;
     }
 
@@ -223,7 +230,16 @@ impl Session {
             Command::ReadGroup(_) | Command::Ask(_) => {}
             Command::Connect => self.wanted = Wanted::Yes,
             // Told by the link itself; the keys are locked anyway.
-            Command::Jog { .. } | Command::EndJog => self.jog = None,
+            Command::Jog { rates_deg_s } => {
+                self.jog = None;
+                self.ended_hold = Some(rates_deg_s);
+            }
+            Command::EndJog => {
+                self.jog = None;
+                self.ended_hold = None;
+            }
+            Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::SeenStanding => self.take_word_for_standstill(),
             Command::Standby => {
                 self.intent = Intent::Standby;
                 self.following = None;

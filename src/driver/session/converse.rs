@@ -7,7 +7,7 @@ use tokio::{
     time::{sleep_until, timeout},
 };
 
-use super::{Command, Session, wanted::Wanted};
+use super::{Command, Session, Wires, wanted::Wanted};
 use crate::{
     controller::{Extent, Moment},
     driver::{LinkLoss, LinkState, Stream},
@@ -45,6 +45,7 @@ pub(super) enum Turn {
 impl Session {
     /// Runs until the handle is dropped; a jog is stopped before the end.
     pub async fn run(mut self) {
+        self.look_for_mark().await;
         let mut attempt = 0;
         loop {
             if self.wanted == Wanted::No && !self.is_sent_for().await {
@@ -63,7 +64,8 @@ impl Session {
             }
         }
         if self.halting.is_some() || self.jog.is_some() {
-            self.last_attempt().await;
+            self.mark_debt().await;
+            self.pay_debt().await;
         }
         self.link = LinkState::Off;
         let now = self.now();
@@ -100,7 +102,7 @@ impl Session {
         loop {
             tokio::select! {
                 biased;
-                turn = next_word(&mut self.wires.commands, &self.wires.stop) => {
+                turn = next_word(&self.wires) => {
                     if !self.answer_without_link(turn) {
                         return Ok(None);
                     }
@@ -119,8 +121,11 @@ impl Session {
     /// Waits between two attempts; `None` when the session is to end.
     async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
         let now = self.now();
-        if self.jog.take().is_some_and(|jog| jog.started) {
-            self.halt_quietly(now);
+        if let Some(jog) = self.jog.take() {
+            self.ended_hold = Some(jog.rates_deg_s);
+            if jog.started {
+                self.halt_quietly(now);
+            }
         }
         self.waiting = None;
         let mut retry_at = now.steady + wait;
@@ -143,7 +148,7 @@ impl Session {
             let until = self.halt_due().into_iter().chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
-                turn = next_word(&mut self.wires.commands, &self.wires.stop) => {
+                turn = next_word(&self.wires) => {
                     if !self.answer_without_link(turn) {
                         return None;
                     }
@@ -170,12 +175,22 @@ impl Session {
     /// What was asked for before a stop is void, also where it still waits to
     /// be read.
     pub(super) fn halt_and_forget(&mut self, now: Moment) {
-        while self.wires.commands.try_recv().is_ok() {}
+        if let Ok(mut commands) = self.wires.commands.try_lock() {
+            while commands.try_recv().is_ok() {}
+        }
         self.halt(now);
     }
 
     /// Talks until the link is lost; `None` when the session is to end.
     async fn talk(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
+        let stop = self.gate.device().stop_bytes();
+        self.guard.link_up(&*stream, &stop);
+        let end = self.talk_over(stream).await;
+        self.guard.link_down();
+        end
+    }
+
+    async fn talk_over(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
         let (mut reader, mut writer) = tokio::io::split(stream);
         let mut buffer = [0; 4096];
         let start = self.now();
@@ -191,6 +206,7 @@ impl Session {
             // After a long wait a jog may be over that the controller would renew.
             let now = self.now();
             self.watch_jog(now);
+            self.beat(now);
             if let Err(loss) = self.send(&mut writer).await {
                 return Some(loss);
             }
@@ -264,12 +280,18 @@ impl Session {
     async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Turn {
         let now = self.now();
         let due = self.gate.device().due(now);
-        let until = self.supervise_due().into_iter().chain(self.link_due()).chain([due]).min();
+        let until = self
+            .supervise_due()
+            .into_iter()
+            .chain(self.marking_due(now.steady))
+            .chain(self.link_due())
+            .chain([due])
+            .min();
         // A deadline that brings about nothing must not spin.
         let until = until.unwrap_or(due).max(now.steady + LEAST_WAIT);
         tokio::select! {
             biased;
-            turn = next_word(&mut self.wires.commands, &self.wires.stop) => turn,
+            turn = next_word(&self.wires) => turn,
             read = reader.read(buffer) => match read {
                 Ok(0) => Turn::Lost(LinkLoss::Closed),
                 Ok(count) => Turn::Bytes(count),
@@ -281,19 +303,20 @@ impl Session {
 }
 
 /// The next word from the window, a stop before anything else.
-pub(super) async fn next_word(
-    commands: &mut tokio::sync::mpsc::Receiver<Command>,
-    stop: &tokio::sync::Notify,
-) -> Turn {
+pub(super) async fn next_word(wires: &Wires) -> Turn {
     tokio::select! {
         biased;
-        () = stop.notified() => Turn::Stop,
-        command = commands.recv() => match command {
-            // What was asked for just before the end is not begun any more.
-            Some(command) if !commands.is_closed() => Turn::Command(command),
-            _ => Turn::Over,
-        },
+        () = wires.stop.notified() => Turn::Stop,
+        command = next_command(wires) => command.map_or(Turn::Over, Turn::Command),
     }
+}
+
+/// `None` when the window is gone: what was asked for just before the end is not
+/// begun any more.
+async fn next_command(wires: &Wires) -> Option<Command> {
+    let mut commands = wires.commands.lock().await;
+    let command = commands.recv().await?;
+    (!commands.is_closed()).then_some(command)
 }
 
 pub(super) async fn write(

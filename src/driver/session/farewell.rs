@@ -11,9 +11,9 @@ use super::{
     Session,
     converse::{CONNECT, HURRY, LEAST_WAIT, WRITE},
 };
-use crate::driver::Stream;
+use crate::driver::{LinkState, Stream};
 
-/// How long the end of a session waits for standstill.
+/// How long the end of a session waits for standstill, beside what its proof takes.
 const GOODBYE: Duration = Duration::from_millis(1500);
 
 impl Session {
@@ -29,7 +29,7 @@ impl Session {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];
-        let until = tokio::time::Instant::now() + GOODBYE;
+        let until = tokio::time::Instant::now() + GOODBYE + self.figures.gap();
         while self.halting.is_some() && tokio::time::Instant::now() < until {
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
@@ -69,19 +69,28 @@ impl Session {
         until.min(self.halt_due().map_or(due, |halt| halt.min(due)).into())
     }
 
-    /// The session ends while a stop is owed and there is no link.
-    pub(super) async fn last_attempt(&mut self) {
-        let until = tokio::time::Instant::now() + CONNECT;
-        while tokio::time::Instant::now() < until {
+    /// The window has let go of this antenna while a stop is owed to its unit: it
+    /// is tried until it is proved, or another session of the unit sees to it.
+    pub(super) async fn pay_debt(&mut self) {
+        let now = self.now();
+        self.halt_quietly(now);
+        while self.halting.is_some() {
+            if self.debts.hand_over(&self.unit, self.number) {
+                return;
+            }
             if let Ok(Ok(stream)) = timeout(CONNECT, (self.dial)()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
+                self.link = LinkState::Up { since: now.steady };
                 self.halt_quietly(now);
-                return self.say_goodbye(&mut reader, &mut writer).await;
+                self.say_goodbye(&mut reader, &mut writer).await;
+                let now = self.now();
+                self.gate.device().link_down(now);
             }
-            tokio::time::sleep(HURRY).await;
+            if self.halting.is_some() {
+                tokio::time::sleep(HURRY).await;
+            }
         }
-        tracing::error!(antenna = self.name, "the last STOP could not be sent: no link");
     }
 }

@@ -3,12 +3,18 @@
 use std::time::{Duration, Instant};
 
 use super::{Event, Session};
-use crate::controller::{Moment, Motion};
+use crate::{
+    controller::{Measured, Moment, Motion},
+    driver::Safety,
+};
 
 /// A hold that was not renewed for this long is over.
 pub(super) const LEASE: Duration = Duration::from_millis(300);
 /// A jog needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
+
+/// A motor takes no longer to begin to turn.
+const EFFECT: Duration = Duration::from_millis(1500);
 
 /// A jog key that is held.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,11 +27,19 @@ pub(super) struct Jog {
     pub(super) started: bool,
     /// The gate said no, and the operator was told.
     pub(super) refused: bool,
+    /// The look before it began, until it is seen to turn the antenna.
+    pub(super) unseen: Option<Measured>,
 }
 
 impl Session {
     /// The key is down. Called again and again while it stays down.
     pub(super) fn hold_jog(&mut self, rates_deg_s: [f64; 2], now: Moment) {
+        // A hold that ended needs a new press, or the same key could move metal
+        // again after a freeze of the window.
+        if self.ended_hold.is_some_and(|ended| is_same_way(ended, rates_deg_s)) {
+            return;
+        }
+        self.ended_hold = None;
         let until = now.steady + LEASE;
         match &mut self.jog {
             Some(jog) if same(jog.rates_deg_s, rates_deg_s) => jog.until = until,
@@ -35,7 +49,8 @@ impl Session {
                 if turn_around {
                     self.halt_quietly(now);
                 }
-                self.jog = Some(Jog { rates_deg_s, until, started: false, refused: false });
+                self.jog =
+                    Some(Jog { rates_deg_s, until, started: false, refused: false, unseen: None });
             }
         }
         self.start_jog(now);
@@ -43,6 +58,7 @@ impl Session {
 
     /// The key is up.
     pub(super) fn release_jog(&mut self, now: Moment) {
+        self.ended_hold = None;
         if self.jog.take().is_some_and(|jog| jog.started) {
             self.halt_quietly(now);
         }
@@ -50,15 +66,26 @@ impl Session {
 
     /// Sends a held jog to the gate once no halt is under way.
     fn start_jog(&mut self, now: Moment) {
-        let Some(jog) = self.jog.as_mut().filter(|jog| !jog.started) else { return };
-        if self.halting.is_some() {
+        if self.halting.is_some() || self.jog.as_ref().is_none_or(|jog| jog.started) {
             return;
         }
+        if !self.is_marked(now) {
+            return;
+        }
+        let Some(jog) = &mut self.jog else { return };
         let [x_deg_s, y_deg_s] = jog.rates_deg_s;
         let motion = Motion::Jog { x_deg_s, y_deg_s };
-        match self.gate.start(motion, self.intent, false, now) {
+        let started = self
+            .gate
+            .check(motion, self.intent, now)
+            .and_then(|()| self.arm_dead_man(now))
+            .and_then(|()| self.gate.start(motion, self.intent, false, now));
+        let before = self.gate.state().measured;
+        let Some(jog) = &mut self.jog else { return };
+        match started {
             Ok(()) => {
                 jog.started = true;
+                jog.unseen = before;
                 self.stopped_at = None;
             }
             // A key that stays down tries again, but the reason is told once.
@@ -70,8 +97,28 @@ impl Session {
         }
     }
 
+    /// Tells of a jog that the unit took and that turns nothing.
+    fn watch_effect(&mut self) {
+        let Some(jog) = &mut self.jog else { return };
+        let Some((before, look)) = jog.unseen.zip(self.gate.state().measured) else { return };
+        let turned = self.figures.turned(&before, &look).is_some();
+        let waited = look.asked.saturating_duration_since(before.asked);
+        // The slowest jog must have had the time to show.
+        let rate_deg_s = jog.rates_deg_s.into_iter().map(f64::abs).fold(0.0, f64::max);
+        let expected_deg = rate_deg_s * waited.saturating_sub(EFFECT).as_secs_f64();
+        let is_due = expected_deg > 4.0 * self.figures.tolerance_deg();
+        let has_angles = look.axes.iter().any(|axis| axis.angle_deg.is_some());
+        if turned || is_due || !has_angles {
+            jog.unseen = None;
+        }
+        if is_due && !turned && has_angles {
+            self.tell(Event::Safety(Safety::JogWithoutEffect));
+        }
+    }
+
     /// Ends a jog that is no longer renewed, or that moves blindly.
     pub(super) fn watch_jog(&mut self, now: Moment) {
+        self.watch_effect();
         let Some(jog) = &self.jog else { return };
         let over = now.steady >= jog.until;
         if !jog.started {
@@ -93,10 +140,17 @@ impl Session {
             self.gate.check(motion, self.intent, now).err().map(Event::NotSent)
         };
         if let Some(event) = end {
+            self.ended_hold = self.jog.as_ref().map(|jog| jog.rates_deg_s);
             self.halt_quietly(now);
             self.tell(event);
         }
     }
+}
+
+/// Whether two holds turn the same axes the same way, at whatever rates.
+fn is_same_way(a: [f64; 2], b: [f64; 2]) -> bool {
+    let way = |rate: f64| if rate == 0.0 { 0.0 } else { rate.signum() };
+    a.map(way) == b.map(way)
 }
 
 /// A held key repeats the very same numbers.

@@ -37,6 +37,7 @@ impl Session {
         self.watch_jog(now);
         self.watch_step();
         self.watch_halt(now);
+        self.watch_rest();
         self.forget_old_stop(now);
         self.start_waiting(now);
         match self.intent {
@@ -55,7 +56,12 @@ impl Session {
             self.intent == Intent::Track && self.waiting.is_none() && self.halting.is_none();
         let effect = self.pending.filter(|_| by_timer).map(|since| since + TRACK_EFFECT);
         let look = self.follow_due();
-        jog.into_iter().chain(effect).chain(look).chain(self.halt_due()).min()
+        jog.into_iter()
+            .chain(effect)
+            .chain(look)
+            .chain(self.halt_due())
+            .chain(self.beat_due())
+            .min()
     }
 
     fn take(&mut self, happening: Happening, now: Moment) {

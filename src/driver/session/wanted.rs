@@ -31,7 +31,7 @@ impl Session {
             self.forget_old_stop(now);
             self.publish(now);
             let due = self.halt_due();
-            let word = next_word(&mut self.wires.commands, &self.wires.stop);
+            let word = next_word(&self.wires);
             let turn = match due {
                 None => word.await,
                 Some(due) => tokio::select! {

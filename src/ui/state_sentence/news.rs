@@ -71,6 +71,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             format::pointing(*at, can),
             format::pointing(*aim, can)
         )),
+        Event::Safety(matter) => caution.plain(words::safety(matter, name)),
         Event::JogLeaseOver => {
             caution.plain("The jog was stopped: the window did not hold it in time.")
         }

@@ -47,9 +47,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} tracks by its own program, not by this console.")
         }
         AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
-        AlarmKind::SessionBroke => format!(
-            "The connection to {antenna} broke down inside Azel and was started again with STOP."
-        ),
+        AlarmKind::Safety(matter) => super::safety(matter, antenna),
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
         }

@@ -59,6 +59,9 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
+        Refusal::Unguarded => "Not sent: nothing would stop the antenna if Azel ended. Hold \
+                               \u{201c}Move without dead-man\u{201d} to allow it for a minute."
+            .to_owned(),
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
     }
 }

@@ -13,7 +13,7 @@ use azel::{
     astro::AzEl,
     controller::{
         AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, Happening, JogSpeeds, Make,
-        Measured, Moment, Motion, Moves, Question, TrackTarget, WireLine, aimed,
+        Measured, Moment, Motion, Moves, Question, Standstill, TrackTarget, WireLine, aimed,
         panel::Act,
         satrak,
         settings::{Change, Group},
@@ -81,6 +81,7 @@ static MAKE: Make = Make {
         steps: false,
         ends_jogs: false,
         waits_for_word: false,
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5 },
         stop_note: None,
     },
     groups: &[],
@@ -174,10 +175,16 @@ impl Device for Lever {
         now.steady
     }
 
+    fn stop_bytes(&self) -> Vec<u8> {
+        b"STOP\n".to_vec()
+    }
+
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         self.orders.clear();
         b"S\n".to_vec()
     }
+
+    fn look(&mut self, _: Moment) {}
 
     fn prepare(&mut self, _: TrackTarget) {}
 

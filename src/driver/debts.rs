@@ -1,0 +1,217 @@
+//! STOPs that are owed. A debt belongs to a unit, not to a row of the settings: it
+//! outlives the session, the name and the address of its antenna, and as a mark
+//! on disk this program.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+use tokio::sync::Notify;
+
+use crate::{station::Antenna, whole_file};
+
+/// A unit, by what does not change with the operator's words for it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Unit {
+    /// Key of its make, as in the station file.
+    pub make: String,
+    /// Where it answers.
+    pub address: String,
+}
+
+impl Unit {
+    /// The unit of `antenna`.
+    pub fn of(antenna: &Antenna) -> Self {
+        Self {
+            make: antenna.connection.make().key.to_owned(),
+            address: antenna.connection.address.trim().to_owned(),
+        }
+    }
+
+    /// Name of its mark: readable, and no two units share one.
+    fn file_name(&self) -> String {
+        let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+        let readable: String = self.address.chars().map(plain).take(40).collect();
+        let hash = Sha256::digest(format!("{}\n{}", self.make, self.address));
+        let [a, b, c, d, ..] = *hash.first_chunk::<4>().unwrap_or(&[0; 4]);
+        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}.toml", self.make)
+    }
+}
+
+/// What a mark on disk says.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Mark {
+    #[serde(flatten)]
+    unit: Unit,
+    /// When the spell of motion by hand began.
+    since: Timestamp,
+}
+
+/// All debts of this program. Clones share them.
+#[derive(Debug, Clone, Default)]
+pub struct Debts {
+    /// Where the marks are; `None` for none.
+    folder: Option<Arc<Path>>,
+    ledger: Arc<Mutex<Ledger>>,
+}
+
+/// Who is there, and what is owed.
+#[derive(Debug, Default)]
+struct Ledger {
+    /// The number of the newest session.
+    newest: u64,
+    /// The newest session of each unit, and its STOP.
+    sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
+    owed: BTreeSet<Unit>,
+}
+
+impl Debts {
+    /// Debts with marks in `folder`.
+    pub fn marked_in(folder: Option<PathBuf>) -> Self {
+        Self { folder: folder.map(Arc::from), ledger: Arc::default() }
+    }
+
+    fn ledger(&self) -> MutexGuard<'_, Ledger> {
+        // No code panics while it holds the lock.
+        self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A session of `unit` begins; it is stopped by `stop`, at once if a STOP is
+    /// owed. Returns its number.
+    pub(super) fn begin(&self, unit: &Unit, stop: Arc<Notify>) -> u64 {
+        let mut ledger = self.ledger();
+        ledger.newest += 1;
+        let number = ledger.newest;
+        if ledger.owed.contains(unit) {
+            stop.notify_one();
+        }
+        ledger.sessions.insert(unit.clone(), (number, stop));
+        number
+    }
+
+    /// A STOP is owed to `unit`.
+    pub(super) fn owe(&self, unit: &Unit) {
+        self.ledger().owed.insert(unit.clone());
+    }
+
+    /// The unit stands, or the operator has seen that it does.
+    pub(super) fn settle(&self, unit: &Unit) {
+        self.ledger().owed.remove(unit);
+    }
+
+    /// Hands the debt of `session` to a newer session of the same unit, if there
+    /// is one.
+    pub(super) fn hand_over(&self, unit: &Unit, session: u64) -> bool {
+        let ledger = self.ledger();
+        let newer = ledger.sessions.get(unit).filter(|(number, _)| *number > session);
+        if let Some((_, stop)) = newer {
+            stop.notify_one();
+        }
+        newer.is_some()
+    }
+
+    /// Whether a STOP is owed to `unit`.
+    pub fn owes(&self, unit: &Unit) -> bool {
+        self.ledger().owed.contains(unit)
+    }
+
+    /// The units to which a STOP is owed.
+    pub fn units(&self) -> Vec<Unit> {
+        self.ledger().owed.iter().cloned().collect()
+    }
+
+    /// Whether there is a place for marks.
+    pub(super) fn has_marks(&self) -> bool {
+        self.folder.is_some()
+    }
+
+    /// Marks on disk that `unit` is moved by hand. Blocks until it is on the disk.
+    pub(super) fn mark(&self, unit: &Unit, since: Timestamp) -> std::io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let text =
+            toml::to_string(&Mark { unit: unit.clone(), since }).map_err(std::io::Error::other)?;
+        whole_file::replace(&folder.join(unit.file_name()), text.as_bytes())
+    }
+
+    /// Takes the mark of `unit` away.
+    pub(super) fn unmark(&self, unit: &Unit) {
+        let Some(folder) = &self.folder else { return };
+        // Where there is none, nothing has to go; one that stays costs a STOP.
+        fs::remove_file(folder.join(unit.file_name())).ok();
+    }
+
+    /// Since when the mark of an earlier run says that `unit` may move. A mark
+    /// that cannot be read says so since the beginning of time.
+    pub(super) fn marked(&self, unit: &Unit) -> Option<Timestamp> {
+        let path = self.folder.as_ref()?.join(unit.file_name());
+        match fs::read_to_string(path) {
+            Ok(text) => {
+                let mark = toml::from_str::<Mark>(&text);
+                Some(mark.map_or(Timestamp::UNIX_EPOCH, |mark| mark.since))
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
+            Err(_) => Some(Timestamp::UNIX_EPOCH),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(address: &str) -> Unit {
+        Unit { make: "satrak".to_owned(), address: address.to_owned() }
+    }
+
+    #[test]
+    fn a_mark_outlives_the_program_until_it_is_taken_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let since: Timestamp = "2026-08-12T01:02:03Z".parse().unwrap();
+        let (one, other) = (unit("10.0.0.5:4001"), unit("10.0.0.5_4001"));
+        let debts = || Debts::marked_in(Some(folder.path().join("marks")));
+        debts().mark(&one, since).unwrap();
+        assert_eq!(debts().marked(&one), Some(since));
+        assert_eq!(debts().marked(&other), None, "another address");
+        debts().unmark(&one);
+        assert_eq!(debts().marked(&one), None);
+        debts().unmark(&one);
+    }
+
+    #[test]
+    fn a_mark_that_cannot_be_read_still_warns() {
+        let folder = tempfile::tempdir().unwrap();
+        let debts = Debts::marked_in(Some(folder.path().to_owned()));
+        fs::write(folder.path().join(unit("a:1").file_name()), "since = ").unwrap();
+        assert_eq!(debts.marked(&unit("a:1")), Some(Timestamp::UNIX_EPOCH));
+    }
+
+    #[test]
+    fn a_debt_goes_to_the_newest_session_of_its_unit() {
+        let (debts, unit) = (Debts::default(), unit("a:1"));
+        let (old, new) = (Arc::new(Notify::new()), Arc::new(Notify::new()));
+        let first = debts.begin(&unit, old);
+        debts.owe(&unit);
+        assert!(!debts.hand_over(&unit, first), "nobody else is there");
+        let second = debts.begin(&unit, Arc::clone(&new));
+        assert!(second > first && debts.hand_over(&unit, first));
+        assert!(is_notified(&new), "STOP is its first word");
+        debts.settle(&unit);
+        assert_eq!(debts.units(), []);
+    }
+
+    /// Whether a permit waits.
+    fn is_notified(notify: &Notify) -> bool {
+        use std::{
+            future::Future as _,
+            task::{Context, Waker},
+        };
+        let mut notified = Box::pin(notify.notified());
+        notified.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready()
+    }
+}

@@ -1,0 +1,36 @@
+//! What the driver has seen or done for safety, beyond what was asked of it.
+
+use jiff::Timestamp;
+
+/// A matter of safety, for the event line and the alarm list.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Safety {
+    /// The dead-man has stopped the unit, because this program was late.
+    DeadManFired,
+    /// Azel ended in the middle of a motion by hand, or while a STOP was owed.
+    LeftMoving {
+        /// When that motion or STOP began.
+        since: Timestamp,
+        /// STOP was not sent by itself: the operator is to decide.
+        asks: bool,
+    },
+    /// The mark of a motion by hand could not be written to disk, so another start
+    /// would not know of it.
+    NoMark,
+    /// The session broke down and was started again with STOP.
+    SessionBroke,
+    /// STOP is proved by what the unit says alone: this axis tells no angle.
+    StoppedByFlags {
+        /// Name of the axis.
+        axis: &'static str,
+    },
+    /// Angles change although the unit says that it stands.
+    FlagsContradict {
+        /// Name of the axis.
+        axis: &'static str,
+        /// By how much it has turned, degrees.
+        turned_deg: f64,
+    },
+    /// A held jog does not turn the axis.
+    JogWithoutEffect,
+}

@@ -1,0 +1,139 @@
+//! What stands between a motion by hand and a process that dies: the dead-man.
+
+use std::{
+    io,
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+use super::{Event, Session};
+use crate::{
+    controller::Moment,
+    driver::{
+        Refusal, Safety, Stream,
+        dead_man::{BEAT, DeadMan},
+        link::Duplicate,
+    },
+};
+
+/// For how long the operator's word stands in for a dead-man.
+const ALLOWED: Duration = Duration::from_mins(1);
+
+/// The dead-man of one antenna.
+#[derive(Debug)]
+pub(super) struct Guard {
+    /// What is started as the child.
+    program: Option<PathBuf>,
+    line: Line,
+    armed: Option<DeadMan>,
+    /// No child could be had when one was needed last.
+    pub(super) is_missing: bool,
+    /// Until then the operator lets it move by hand without one.
+    allowed_until: Option<Instant>,
+}
+
+/// The open link, as far as a child can write to it.
+#[derive(Debug)]
+enum Line {
+    /// There is none.
+    Closed,
+    /// Its far end lives in this process and ends with it.
+    InProcess,
+    /// A handle for the child, and STOP as it leaves the last layer of the link.
+    Open { link: Duplicate, stop: Vec<u8> },
+    /// No handle can be had.
+    Unavailable,
+}
+
+impl Guard {
+    pub(super) fn new(program: Option<PathBuf>) -> Self {
+        let (line, armed) = (Line::Closed, None);
+        Self { program, line, armed, is_missing: false, allowed_until: None }
+    }
+
+    /// A link is open; `stop` is STOP as the controller writes it.
+    pub(super) fn link_up(&mut self, stream: &dyn Stream, stop: &[u8]) {
+        self.line = match stream.duplicate() {
+            Ok(None) => Line::InProcess,
+            Ok(Some(link)) => Line::Open { link, stop: stream.on_wire(stop) },
+            Err(_) => Line::Unavailable,
+        };
+    }
+
+    /// The link is let go of: the child first, since its handle would keep the
+    /// connection open.
+    pub(super) fn link_down(&mut self) {
+        self.disarm();
+        self.line = Line::Closed;
+    }
+
+    fn disarm(&mut self) {
+        if let Some(dead_man) = self.armed.take() {
+            dead_man.disarm();
+        }
+    }
+
+    fn arm(&mut self, now: Instant) -> io::Result<()> {
+        let (link, stop) = match &self.line {
+            Line::InProcess => return Ok(()),
+            Line::Open { link, stop } => (copy(link)?, stop),
+            Line::Closed | Line::Unavailable => return Err(io::ErrorKind::Unsupported.into()),
+        };
+        let program = self.program.as_deref().ok_or(io::ErrorKind::NotFound)?;
+        self.armed = Some(DeadMan::arm(program, link, stop, now)?);
+        Ok(())
+    }
+}
+
+#[cfg(unix)]
+fn copy(link: &Duplicate) -> io::Result<Duplicate> {
+    link.try_clone()
+}
+
+#[cfg(not(unix))]
+fn copy(link: &Duplicate) -> io::Result<Duplicate> {
+    match *link {}
+}
+
+impl Session {
+    /// Sees to a dead-man before metal moves that only a STOP would end.
+    pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
+        if self.make.capabilities.ends_jogs || self.guard.armed.is_some() {
+            return Ok(());
+        }
+        let armed = self.guard.arm(now.steady);
+        self.guard.is_missing = armed.is_err();
+        let Err(error) = armed else { return Ok(()) };
+        tracing::error!(antenna = self.name, %error, "no dead-man");
+        let is_allowed = self.guard.allowed_until.is_some_and(|until| now.steady < until);
+        if is_allowed { Ok(()) } else { Err(Refusal::Unguarded) }
+    }
+
+    /// The operator lets it move by hand without a dead-man, for a minute.
+    pub(super) fn allow_unguarded(&mut self, now: Moment) {
+        self.guard.allowed_until = Some(now.steady + ALLOWED);
+    }
+
+    /// Beats while the lease holds or a halt is under way, and ends the child
+    /// when nothing is out any more.
+    pub(super) fn beat(&mut self, now: Moment) {
+        let Some(dead_man) = &mut self.guard.armed else { return };
+        if self.jog.is_none() && self.halting.is_none() {
+            return self.guard.disarm();
+        }
+        let lease_holds = self.jog.as_ref().is_some_and(|jog| now.steady < jog.until);
+        if (lease_holds || self.halting.is_some()) && !dead_man.beat(now.steady) {
+            self.guard.armed = None;
+            self.halt(now);
+            self.tell(Event::Safety(Safety::DeadManFired));
+        }
+    }
+
+    /// When the next beat is due.
+    pub(super) fn beat_due(&self) -> Option<Instant> {
+        self.guard.armed.as_ref().map(DeadMan::due)
+    }
+}
+
+// A beat may be late by what a turn of the loop takes.
+const _: () = assert!(BEAT.as_millis() * 3 < 400);

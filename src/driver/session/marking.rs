@@ -1,0 +1,146 @@
+//! The mark on disk that an antenna is moved by hand: should this program end
+//! before it is proved to stand, the next start sends STOP first.
+
+use std::{
+    io,
+    time::{Duration, Instant},
+};
+
+use tokio::task::{JoinHandle, spawn_blocking};
+
+use super::{Event, Session};
+use crate::{astro::time::seconds_between, controller::Moment, driver::Safety};
+
+/// A disk that takes longer must not keep the operator from moving the antenna.
+const MOST: Duration = Duration::from_millis(300);
+/// How often it is looked whether the mark is on the disk.
+const LOOK: Duration = Duration::from_millis(2);
+/// A mark that is older asks: much may have been done at the antenna since.
+const OLD_S: f64 = 600.0;
+
+/// The mark of one antenna.
+#[derive(Debug)]
+pub(super) enum Marking {
+    /// None is needed.
+    None,
+    /// It is on its way to the disk.
+    Writing { since: Instant, writing: JoinHandle<io::Result<()>> },
+    /// It is on the disk.
+    Marked,
+    /// It could not be written; that was told.
+    Failed,
+    /// It is on its way off the disk.
+    Removing(JoinHandle<()>),
+}
+
+impl Session {
+    /// Whether the mark is on the disk, or cannot be had; begins to write it.
+    pub(super) fn is_marked(&mut self, now: Moment) -> bool {
+        if self.make.capabilities.ends_jogs || !self.debts.has_marks() {
+            return true;
+        }
+        match &mut self.marking {
+            Marking::Marked | Marking::Failed => true,
+            Marking::Writing { since, writing } => {
+                let is_late = now.steady.saturating_duration_since(*since) >= MOST;
+                if !writing.is_finished() && !is_late {
+                    return false;
+                }
+                // Finished or given up: no wait either way.
+                let written = if writing.is_finished() { take_now(writing) } else { None };
+                if written.is_some_and(|written| written.is_ok()) {
+                    self.marking = Marking::Marked;
+                } else {
+                    self.marking = Marking::Failed;
+                    self.tell(Event::Safety(Safety::NoMark));
+                }
+                true
+            }
+            Marking::None | Marking::Removing(_) => {
+                let before = match std::mem::replace(&mut self.marking, Marking::None) {
+                    Marking::Removing(before) => Some(before),
+                    _ => None,
+                };
+                let (debts, unit) = (self.debts.clone(), self.unit.clone());
+                let writing = tokio::spawn(async move {
+                    // One after the other, or the older removal takes the newer mark.
+                    if let Some(before) = before {
+                        before.await.ok();
+                    }
+                    let marked = spawn_blocking(move || debts.mark(&unit, now.utc)).await;
+                    marked.unwrap_or_else(|error| Err(io::Error::other(error)))
+                });
+                self.marking = Marking::Writing { since: now.steady, writing };
+                false
+            }
+        }
+    }
+
+    /// When it is looked again whether the mark is on the disk.
+    pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
+        matches!(self.marking, Marking::Writing { .. }).then_some(now + LOOK)
+    }
+
+    /// Standstill is proved: nothing is owed to the unit any more.
+    pub(super) fn settle_debt(&mut self) {
+        self.debts.settle(&self.unit);
+        let before = match std::mem::replace(&mut self.marking, Marking::None) {
+            Marking::None => return,
+            removing @ Marking::Removing(_) => {
+                self.marking = removing;
+                return;
+            }
+            Marking::Writing { writing, .. } => Some(writing),
+            Marking::Marked | Marking::Failed => None,
+        };
+        let (debts, unit) = (self.debts.clone(), self.unit.clone());
+        self.marking = Marking::Removing(tokio::spawn(async move {
+            if let Some(before) = before {
+                before.await.ok();
+            }
+            spawn_blocking(move || debts.unmark(&unit)).await.ok();
+        }));
+    }
+
+    /// Looks whether an earlier run has left the unit moving. STOP is then the
+    /// first word to it, unless that is for the operator to decide.
+    pub(super) async fn look_for_mark(&mut self) {
+        if !self.debts.has_marks() {
+            return;
+        }
+        let (debts, unit) = (self.debts.clone(), self.unit.clone());
+        let Ok(Some(since)) = spawn_blocking(move || debts.marked(&unit)).await else { return };
+        let now = self.now();
+        let asks =
+            self.make.capabilities.waits_for_word || seconds_between(since, now.utc).abs() > OLD_S;
+        self.marking = Marking::Marked;
+        if !asks {
+            self.halt(now);
+        }
+        self.tell(Event::Safety(Safety::LeftMoving { since, asks }));
+    }
+
+    /// Marks on disk that a stop is owed, for a program that ends before it is paid.
+    pub(super) async fn mark_debt(&mut self) {
+        let (debts, unit, since) = (self.debts.clone(), self.unit.clone(), self.now().utc);
+        if !debts.has_marks() {
+            return;
+        }
+        if matches!(spawn_blocking(move || debts.mark(&unit, since)).await, Ok(Ok(()))) {
+            self.marking = Marking::Marked;
+        }
+    }
+}
+
+/// The outcome of a task that is known to have ended.
+fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
+    use std::{
+        future::Future as _,
+        pin::Pin,
+        task::{Context, Poll, Waker},
+    };
+    match Pin::new(ended).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(outcome) => outcome.ok(),
+        Poll::Pending => None,
+    }
+}

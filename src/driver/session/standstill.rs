@@ -1,0 +1,241 @@
+//! Standstill is proved by angles, not by what a unit says of its drives.
+
+use std::time::{Duration, Instant};
+
+use crate::controller::{Capabilities, Measured};
+
+/// How two looks at a standing antenna compare.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Figures {
+    /// Angles of a standing axis differ by no more, degrees.
+    tolerance_deg: f64,
+    /// The slowest motion of the unit shows within this time.
+    gap: Duration,
+    /// How many axes belong to the antenna.
+    axes: usize,
+}
+
+impl Figures {
+    /// `sway_deg` is how far the antenna may sway while it stands.
+    pub(super) fn of(can: Capabilities, sway_deg: f64) -> Self {
+        let tolerance_deg = can.standstill.resolution_deg / 2.0 + sway_deg;
+        let gap_s = (can.standstill.resolution_deg + sway_deg) / can.standstill.slowest_deg_s;
+        let gap = Duration::try_from_secs_f64(gap_s).unwrap_or(Duration::from_secs(1));
+        Self { tolerance_deg, gap, axes: if can.has_elevation { 2 } else { 1 } }
+    }
+
+    /// The time between two looks that prove standstill.
+    pub(super) fn gap(self) -> Duration {
+        self.gap
+    }
+
+    /// By how much angles of a standing axis may differ, degrees.
+    pub(super) fn tolerance_deg(self) -> f64 {
+        self.tolerance_deg
+    }
+
+    /// The axis that has turned most between two looks, and by how much, degrees,
+    /// where it is more than a standing one may.
+    pub(super) fn turned(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {
+        let pairs = before.axes.iter().zip(&after.axes).take(self.axes).enumerate();
+        pairs
+            .filter_map(|(axis, (before, after))| {
+                let turned_deg = wrapped_deg(after.angle_deg? - before.angle_deg?);
+                (turned_deg.abs() > self.tolerance_deg).then_some((axis, turned_deg))
+            })
+            .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))
+    }
+
+    /// The first axis that tells no angle in either look.
+    fn blind_axis(self, before: &Measured, after: &Measured) -> Option<usize> {
+        let pairs = before.axes.iter().zip(&after.axes).take(self.axes);
+        pairs.into_iter().position(|(a, b)| a.angle_deg.is_none() || b.angle_deg.is_none())
+    }
+}
+
+/// The short way round: an axis that stands at north may read 0 or 360.
+fn wrapped_deg(angle_deg: f64) -> f64 {
+    (angle_deg + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// What standstill was proved by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Proof {
+    /// Two looks agree.
+    Angles,
+    /// This axis tells no angle; its flags say that it stands.
+    Flags { axis: usize },
+}
+
+/// Compares the looks since a halt.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Looks {
+    first: Option<Measured>,
+    /// The first look for which the next one was asked for already.
+    asked_after: Option<Instant>,
+}
+
+impl Looks {
+    /// When a look that agrees with the first one proves standstill.
+    pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
+        self.first.map(|first| first.asked + figures.gap)
+    }
+
+    /// Whether the next look was not asked for yet.
+    pub(super) fn awaits_look(&self) -> bool {
+        self.first.map(|first| first.asked) != self.asked_after
+    }
+
+    /// Whether the next look is to be asked for now; says so once.
+    pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
+        let is_due = self.awaits_look() && self.next(figures).is_some_and(|at| now >= at);
+        if is_due {
+            self.asked_after = self.first.map(|first| first.asked);
+        }
+        is_due
+    }
+
+    /// Takes a look that was asked for after the halt. `is_at_rest` is what the
+    /// flags of the unit say of all that it moves.
+    pub(super) fn take(
+        &mut self,
+        look: Measured,
+        is_at_rest: bool,
+        link_since: Option<Instant>,
+        figures: Figures,
+    ) -> Option<Proof> {
+        let first = self
+            .first
+            .filter(|first| link_since.is_some_and(|since| first.asked >= since))
+            .filter(|first| figures.turned(first, &look).is_none());
+        if !is_at_rest {
+            self.first = None;
+            return None;
+        }
+        let first = *self.first.insert(first.unwrap_or(look));
+        if look.asked.saturating_duration_since(first.asked) < figures.gap {
+            return None;
+        }
+        Some(match figures.blind_axis(&first, &look) {
+            None => Proof::Angles,
+            Some(axis) => Proof::Flags { axis },
+        })
+    }
+}
+
+/// Watches an antenna whose flags say that it stands.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Rest {
+    /// Since when the flags say so, and the first look that counts.
+    since: Option<(Instant, Option<Measured>)>,
+    told: bool,
+}
+
+impl Rest {
+    /// Axes run out for so long after their flags have come to rest.
+    const RUN_OUT: Duration = Duration::from_secs(3);
+
+    /// Takes a look. The axis that turns although the flags say that it stands,
+    /// and by how much, degrees; once for each rest.
+    pub(super) fn take(
+        &mut self,
+        look: Measured,
+        is_at_rest: bool,
+        figures: Figures,
+    ) -> Option<(usize, f64)> {
+        if !is_at_rest {
+            *self = Self::default();
+            return None;
+        }
+        let (since, anchor) = self.since.get_or_insert((look.asked, None));
+        if look.asked.saturating_duration_since(*since) < Self::RUN_OUT {
+            return None;
+        }
+        let anchor = anchor.get_or_insert(look);
+        let turned = figures.turned(anchor, &look)?;
+        (!std::mem::replace(&mut self.told, true)).then_some(turned)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::Timestamp;
+
+    use super::*;
+    use crate::{
+        astro::AzEl,
+        controller::{Axis, AxisMotion, satrak},
+    };
+
+    fn look(start: Instant, at_s: f64, angles_deg: [Option<f64>; 2]) -> Measured {
+        let at = start + Duration::try_from_secs_f64(at_s).unwrap();
+        let axis = |angle_deg| Axis {
+            angle_deg,
+            motion: AxisMotion::Still,
+            plus_limit: false,
+            minus_limit: false,
+        };
+        Measured {
+            at: Timestamp::UNIX_EPOCH,
+            asked: at,
+            received: at,
+            pointing: AzEl::from_degrees(0.0, 0.0).into(),
+            axes: angles_deg.map(axis),
+        }
+    }
+
+    fn figures() -> Figures {
+        Figures::of(satrak::MAKE.capabilities, 0.1)
+    }
+
+    fn proof(angles_deg: impl Fn(f64) -> [Option<f64>; 2]) -> Option<(f64, Proof)> {
+        let start = Instant::now();
+        let mut looks = Looks::default();
+        (0..50).find_map(|step| {
+            let at_s = f64::from(step) * 0.1;
+            let look = look(start, at_s, angles_deg(at_s));
+            Some((at_s, looks.take(look, true, Some(start), figures())?))
+        })
+    }
+
+    #[test]
+    fn two_looks_that_agree_prove_standstill() {
+        let (at_s, by) = proof(|_| [Some(10.0), Some(20.0)]).unwrap();
+        assert_eq!(by, Proof::Angles);
+        assert!(at_s >= figures().gap().as_secs_f64(), "{at_s}");
+    }
+
+    #[test]
+    fn an_axis_that_turns_is_never_proved_still() {
+        assert_eq!(proof(|at_s| [Some(10.0 + 0.5 * at_s), Some(20.0)]), None);
+        assert_eq!(proof(|at_s| [Some(10.0), Some(20.0 - 0.3 * at_s)]), None);
+    }
+
+    #[test]
+    fn an_axis_without_an_angle_stands_by_its_flags() {
+        let (_, by) = proof(|_| [Some(10.0), None]).unwrap();
+        assert_eq!(by, Proof::Flags { axis: 1 });
+    }
+
+    #[test]
+    fn an_axis_at_north_may_read_either_end_of_the_turn() {
+        let is_even = |at_s: f64| (at_s * 10.0).round() % 2.0 == 0.0;
+        let by = proof(|at_s| [Some(if is_even(at_s) { 0.0 } else { 360.0 }), Some(0.0)]);
+        assert!(by.is_some());
+    }
+
+    #[test]
+    fn what_turns_at_rest_is_told_once() {
+        let start = Instant::now();
+        let mut rest = Rest::default();
+        let told: Vec<_> = (0..200)
+            .filter_map(|step| {
+                let at_s = f64::from(step) * 0.1;
+                let look = look(start, at_s, [Some(10.0 + 0.05 * at_s), Some(20.0)]);
+                rest.take(look, true, figures()).map(|turned| (at_s, turned))
+            })
+            .collect();
+        let [(at_s, (0, _))] = told[..] else { panic!("{told:?}") };
+        assert!((3.0..8.0).contains(&at_s), "{at_s}");
+    }
+}
