@@ -9,7 +9,7 @@ use crate::{
     },
     driver::{Event, FollowProblem, Found, LinkLoss},
     protocol::satrak::FaultKind,
-    station::Note,
+    station::{Note, NoteReason},
 };
 
 /// Older ones are forgotten, seen ones first.
@@ -111,6 +111,9 @@ impl Alarm {
             | AlarmKind::DecimalCommas
             | AlarmKind::JogPositionOld
             | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
+            AlarmKind::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => {
+                Priority::Warning
+            }
             AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
         }

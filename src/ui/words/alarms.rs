@@ -73,6 +73,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
                 format!("Setting {} is not used: {why}.", note.place)
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
+            NoteReason::DoesNotHold { name, why } => {
+                format!("{name} does not hold: {why}. It is {} in the settings.", note.place)
+            }
         },
         AlarmKind::Settings(text) | AlarmKind::Elements(text) => super::capitalised(text),
     }
