@@ -47,6 +47,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} tracks by its own program, not by this console.")
         }
         AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
+        AlarmKind::DriverStands(stood) => format!(
+            "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \
+             Use their local panels.",
+            format::age(stood.as_secs_f64())
+        ),
         AlarmKind::SessionBroke => format!(
             "The connection to {antenna} broke down inside Azel and was started again with STOP."
         ),
