@@ -9,9 +9,11 @@ mod site;
 pub mod sun_moon;
 pub mod time;
 pub mod xy_mount;
+mod zone;
 
 pub use angle::Angle;
 pub use azel::AzEl;
 pub use horizon_mask::{HorizonMask, MOST_MASK_POINTS, MaskError, MaskTextError};
 pub use refraction::Air;
 pub use site::{Site, SiteError};
+pub use zone::{FEWEST_CORNERS, MOST_CORNERS, Zone, ZoneError};

@@ -1,5 +1,6 @@
 //! The command line.
 
+pub mod log;
 mod passes;
 mod simulate;
 mod window;
@@ -46,6 +47,15 @@ enum Command {
 }
 
 impl Cli {
+    /// What the log holds unless `AZEL_LOG` says otherwise: warnings and errors;
+    /// a simulator also tells its address and every frame.
+    pub fn log_filter(&self) -> &'static str {
+        match self.command {
+            Some(Command::Simulate { .. }) => "warn,azel::sim=info",
+            _ => "warn",
+        }
+    }
+
     /// Does what the command line says, and how well, as an exit code.
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {

@@ -9,6 +9,7 @@ pub mod files;
 mod gate;
 mod intent;
 mod link;
+mod pulse;
 mod safety;
 mod session;
 mod snapshot;
@@ -41,6 +42,7 @@ pub use snapshot::{
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
+use self::pulse::Pulse;
 use crate::station::{Antenna, Link};
 
 /// How many commands may wait. The window sends at most a few a frame.
@@ -133,6 +135,8 @@ pub struct Driver {
     wake: Wake,
     dead_man: Option<PathBuf>,
     debts: Debts,
+    pulse: Pulse,
+    _watchdog: std::sync::mpsc::SyncSender<()>,
 }
 
 impl Driver {
@@ -144,6 +148,9 @@ impl Driver {
         let running = sessions.clone();
         let (end, told_to_end) = tokio::sync::oneshot::channel();
         let (tell_ended, ended) = std::sync::mpsc::sync_channel(1);
+        let pulse = Pulse::default();
+        runtime.spawn(pulse.clone().beat());
+        let watchdog = pulse.watch(Arc::clone(&wake))?;
         thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
             runtime.block_on(async {
                 // An error means that the near end is gone, which says the same.
@@ -163,6 +170,8 @@ impl Driver {
             wake,
             dead_man: None,
             debts: Debts::default(),
+            pulse,
+            _watchdog: watchdog,
         })
     }
 
@@ -180,6 +189,13 @@ impl Driver {
     pub fn marking_in(mut self, folder: Option<PathBuf>) -> Self {
         self.debts = Debts::marked_in(folder);
         self
+    }
+
+    /// For how long the thread has not responded, from half a second on: what is
+    /// sent meanwhile, STOP too, is not carried out. `wake` is called when it
+    /// stands, each second while it does, and when it runs again.
+    pub fn stood_for(&self) -> Option<Duration> {
+        self.pulse.stood_for()
     }
 
     /// Where other work on the driver's thread is spawned.
@@ -251,5 +267,34 @@ impl Drop for Driver {
         if self.ended.recv_timeout(FAREWELL + Duration::from_millis(500)).is_err() {
             tracing::error!("the driver did not end in time");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wait_for(what: &str, is_so: impl Fn() -> bool) {
+        let until = std::time::Instant::now() + Duration::from_secs(20);
+        while !is_so() {
+            assert!(std::time::Instant::now() < until, "{what}");
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    #[test]
+    fn a_thread_that_is_held_up_is_told_and_wakes_the_window() {
+        let (woken, wakes) = std::sync::mpsc::sync_channel(100);
+        let wake: Wake = Arc::new(move || {
+            let _ = woken.try_send(());
+        });
+        let driver = Driver::start(Clock::system(), wake).unwrap();
+        let (go_on, held_up) = std::sync::mpsc::sync_channel::<()>(1);
+        driver.runtime().spawn(async move { held_up.recv() });
+        wait_for("it stands", || driver.stood_for().is_some());
+        wakes.recv_timeout(Duration::from_secs(20)).unwrap();
+        drop(go_on);
+        wait_for("it runs", || driver.stood_for().is_none());
+        wakes.recv_timeout(Duration::from_secs(20)).unwrap();
     }
 }

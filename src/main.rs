@@ -3,24 +3,26 @@
 
 use std::process::ExitCode;
 
-use azel::cli::Cli;
+use azel::cli::{Cli, log::Log};
 use clap::Parser as _;
-use tracing_subscriber::EnvFilter;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let filter =
-        EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new("warn,azel=info"));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
-    match cli.run() {
-        Ok(code) => code,
+    let log = match Log::start(cli.log_filter()) {
+        Ok(log) => log,
         Err(error) => {
-            // The one place that speaks to the terminal of whoever started it.
+            // There is nothing better to say it with.
             #[allow(clippy::print_stderr)]
             {
-                eprintln!("{error:#}");
+                eprintln!("The log could not be started: {error}");
             }
-            ExitCode::FAILURE
+            return ExitCode::FAILURE;
         }
-    }
+    };
+    let code = cli.run().unwrap_or_else(|error| {
+        log.say(&format!("{error:#}"));
+        ExitCode::FAILURE
+    });
+    log.finish();
+    code
 }

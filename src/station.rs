@@ -6,11 +6,13 @@ mod calibration;
 mod connection;
 mod file;
 mod following;
+mod keep_out;
 mod kind;
 mod mount;
 pub mod ranges;
 mod read;
 mod setting;
+mod watch;
 
 pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
 pub use calibration::{CalibrationError, CountLine, CountPoint};
@@ -18,10 +20,12 @@ pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub use following::{AfterPass, Following};
+pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use kind::{Kind, Link, Usual};
 pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
 pub use setting::{Choice, Holds, Setting, Table, Value};
+pub use watch::{Monitor, OnClose, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
 
 use serde::{Serialize, Serializer};
 
@@ -42,6 +46,16 @@ pub struct Station {
     pub elevation_floor_deg: f64,
     /// Catalogue numbers of the satellites in the pass list.
     pub favourites: Vec<u32>,
+    /// What becomes of the antennas when the program ends; `None` where the
+    /// operator is asked.
+    #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
+    pub on_close: Option<OnClose>,
+    /// Where antennas must not point.
+    #[serde(rename = "keep_out", skip_serializing_if = "Vec::is_empty")]
+    pub keep_outs: Vec<KeepOut>,
+    /// How far antennas stay away from the Sun; `None` where they need not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sun_avoidance: Option<SunAvoidance>,
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
@@ -86,6 +100,9 @@ impl Default for Station {
                 27424, // Aqua
                 44334, // Eutelsat 7C
             ],
+            on_close: None,
+            keep_outs: Vec::new(),
+            sun_avoidance: None,
             antennas: Vec::new(),
         }
     }

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
 
-use azel::orbit::{Elements, read_element_bytes, read_elements};
+use azel::{
+    astro::Site,
+    orbit::{Elements, PassSearch, Propagator, passes, read_element_bytes, read_elements},
+};
 use proptest::prelude::*;
 
 const LINES: [&str; 3] = [
@@ -149,4 +152,45 @@ proptest! {
         prop_assert_eq!(&report.elements[0], &expected);
         prop_assert_eq!(report.elements.last().unwrap(), &expected);
     }
+}
+
+/// Numbers of an orbit, and numbers that are none.
+fn number(usual: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
+    let odd = [0.0, -0.0, 1e-300, 1e12, 1e17, 1e21, -1e21, 1e300, 359.999_999, 360.0, 180.0];
+    prop_oneof![8 => usual, 1 => prop::sample::select(odd.to_vec()), 1 => any::<f64>()]
+}
+
+proptest! {
+    /// Passes come once or twice a revolution, and a revolution takes over an hour.
+    #[test]
+    fn what_a_reader_takes_has_a_day_of_passes(
+        motion in number(0.1..17.0),
+        eccentricity in number(0.0..1.0),
+        inclination in number(0.0..180.0),
+        angles in prop::array::uniform3(number(-360.0..360.0)),
+        bstar in number(-10.0..10.0),
+        days in -20_000..11_000_i64,
+        latitude in -90.0..=90.0,
+    ) {
+        let epoch = start() + jiff::SignedDuration::from_hours(24 * days);
+        let values = [
+            "ANY", "1998-067A", &epoch.strftime("%FT%T").to_string(), &motion.to_string(),
+            &eccentricity.to_string(), &inclination.to_string(), &angles[0].to_string(),
+            &angles[1].to_string(), &angles[2].to_string(), "5", &bstar.to_string(), "1",
+        ];
+        let header = FIELDS.map(|(key, _)| key).join(",");
+        let site = Site::new(latitude, 29.0, 100.0).unwrap();
+        for elements in read_elements(&format!("{header}\n{}\n", values.join(","))).elements {
+            let propagator = Propagator::new(&elements).unwrap();
+            for from in [start(), elements.epoch()] {
+                let to = from + jiff::SignedDuration::from_hours(24);
+                let found = passes(&propagator, &PassSearch::new(site, from, to), &|| false);
+                prop_assert!(found.len() < 40, "{} passes", found.len());
+            }
+        }
+    }
+}
+
+fn start() -> jiff::Timestamp {
+    "2026-08-12T00:00:00Z".parse().unwrap()
 }

@@ -158,3 +158,37 @@ fn whoever_reads_may_stop_early() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
 }
+
+#[test]
+fn numbers_that_no_orbit_has_are_refused_by_name_before_anything_is_computed() {
+    let object = |field: &str, value: &str| {
+        let mut object = serde_json::json!({
+            "OBJECT_NAME": "DAMAGED", "NORAD_CAT_ID": 7, "EPOCH": "2026-08-12T00:00:00",
+            "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.0002, "INCLINATION": 51.6,
+            "RA_OF_ASC_NODE": 225.4, "ARG_OF_PERICENTER": 44.9, "MEAN_ANOMALY": 5.1,
+            "BSTAR": 0.0001
+        });
+        object[field] = value.into();
+        object
+    };
+    let good = object("NORAD_CAT_ID", "5");
+    for (field, value, reason) in [
+        ("MEAN_ANOMALY", "999999999999999999995.1", "mean anomaly 1e21 is not from -360 to 360"),
+        ("MEAN_ANOMALY", "1e12", "mean anomaly 1000000000000.0 is not from -360 to 360"),
+        ("MEAN_ANOMALY", "-361", "mean anomaly -361.0 is not from -360 to 360"),
+        ("INCLINATION", "1e21", "inclination 1e21 is not from 0 to 180"),
+        ("INCLINATION", "-1", "inclination -1.0 is not from 0 to 180"),
+        ("RA_OF_ASC_NODE", "1e21", "right ascension of the node 1e21 is not from -360 to 360"),
+        ("ARG_OF_PERICENTER", "1e21", "argument of perigee 1e21 is not from -360 to 360"),
+        ("BSTAR", "15", "B* 15.0 is not from -10 to 10"),
+        ("EPOCH", "1956-12-31T00:00:00", "epoch 1956-12-31T00:00:00 is not from 1957 to 2056"),
+        ("EPOCH", "2057-01-01T00:00:00", "epoch 2057-01-01T00:00:00 is not from 1957 to 2056"),
+    ] {
+        let text_of_both = serde_json::json!([object(field, value), good]).to_string();
+        let output = passes(&text_of_both, &["--format", "csv"]);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(3), "{field} {value}: {said}");
+        assert!(said.contains(&format!("DAMAGED: {reason}")), "{said}");
+        assert!(text(&output.stdout).lines().count() > 1, "the other object has passes");
+    }
+}

@@ -1,5 +1,7 @@
 //! What the operator must not miss.
 
+use std::time::Duration;
+
 use jiff::Timestamp;
 
 use crate::{
@@ -9,7 +11,7 @@ use crate::{
     },
     driver::{Event, FollowProblem, Found, LinkLoss, Safety},
     protocol::satrak::FaultKind,
-    station::Note,
+    station::{Note, NoteReason},
 };
 
 /// Older ones are forgotten, seen ones first.
@@ -59,6 +61,9 @@ pub enum AlarmKind {
     MovesByItself,
     /// A matter of safety.
     Safety(Safety),
+    /// The part of the program that talks to the antennas has not responded for
+    /// this long.
+    DriverStands(Duration),
     /// The part of the program that talks to the antenna is too busy to take
     /// what was asked for.
     NotTaken,
@@ -105,11 +110,15 @@ impl Alarm {
             | AlarmKind::StopNotConfirmed
             | AlarmKind::StopRefused(_)
             | AlarmKind::Safety(_)
+            | AlarmKind::DriverStands(_)
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
             | AlarmKind::JogPositionOld
             | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
+            AlarmKind::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => {
+                Priority::Warning
+            }
             AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -134,6 +143,14 @@ impl Alarms {
     /// Adds one, unless the same is standing already or one that explains it. It
     /// takes the place of what it makes obsolete.
     pub fn raise(&mut self, antenna: Option<usize>, kind: AlarmKind, time: Timestamp) {
+        if let AlarmKind::DriverStands(_) = kind {
+            let same = |alarm: &&mut Alarm| !alarm.cleared && same_matter(&alarm.kind, &kind);
+            // How long it stands grows while the alarm does.
+            if let Some(standing) = self.list.iter_mut().find(same) {
+                standing.kind = kind;
+                return;
+            }
+        }
         let standing = self.list.iter().any(|alarm| {
             !alarm.cleared
                 && alarm.antenna == antenna
@@ -195,6 +212,7 @@ impl AlarmKind {
             self,
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
+                | Self::DriverStands(_)
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
@@ -211,7 +229,8 @@ impl AlarmKind {
 fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
-        | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_)) => true,
+        | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
+        | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_)) => true,
         _ => a == b,
     }
 }
@@ -286,6 +305,16 @@ mod tests {
         alarms.clear(Some(0), |kind| matches!(kind, AlarmKind::ClockOff(_)));
         alarms.raise(Some(0), AlarmKind::ClockOff(2.0), time());
         assert_eq!(alarms.list().len(), 3);
+    }
+
+    #[test]
+    fn a_driver_that_goes_on_standing_is_one_alarm_whose_figure_grows() {
+        let mut alarms = Alarms::default();
+        for seconds in 1..4 {
+            alarms.raise(None, AlarmKind::DriverStands(Duration::from_secs(seconds)), time());
+        }
+        let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
+        assert_eq!(kinds, [&AlarmKind::DriverStands(Duration::from_secs(3))]);
     }
 
     #[test]

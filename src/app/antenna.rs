@@ -1,7 +1,7 @@
 //! One antenna as the window sees it: the newest snapshot, what we predict for
 //! it, and how far the two are apart.
 
-use std::{collections::VecDeque, sync::Arc};
+use std::{collections::VecDeque, sync::Arc, time::Instant};
 
 use jiff::Timestamp;
 
@@ -9,7 +9,7 @@ use super::forecast::Followed;
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
-    driver::{AntennaHandle, Event, Intent, Snapshot},
+    driver::{AntennaHandle, Event, Intent, Snapshot, StopState},
     plan::{FollowPhase, Sample},
     station::Antenna,
 };
@@ -59,6 +59,8 @@ pub struct AntennaModel {
     pub rates_deg_s: Option<(f64, f64)>,
     /// The last event that the operator should read, and when it came.
     pub news: Option<(Event, Timestamp)>,
+    /// When STOP was pressed that no snapshot tells of yet.
+    pub stop_pressed: Option<Instant>,
     recent: VecDeque<Measured>,
 }
 
@@ -73,8 +75,15 @@ impl AntennaModel {
             errors: VecDeque::new(),
             rates_deg_s: None,
             news: None,
+            stop_pressed: None,
             recent: VecDeque::new(),
         }
+    }
+
+    /// Stops the antenna, and shows STOP as pressed from this frame on.
+    pub fn press_stop(&mut self) {
+        self.handle.stop();
+        self.stop_pressed = Some(Instant::now());
     }
 
     /// Kind of its controller, as the station file names it.
@@ -95,6 +104,12 @@ impl AntennaModel {
     /// Takes the newest snapshot. `followed` finds a satellite by its number.
     pub fn refresh<'a>(&mut self, site: Site, followed: impl Fn(u32) -> Option<&'a Arc<Followed>>) {
         self.snapshot = self.handle.snapshot();
+        let is_told = |pressed: &Instant| match self.snapshot.stop {
+            StopState::Ready => false,
+            StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
+            StopState::Stopped { at } => at >= *pressed,
+        };
+        self.stop_pressed = self.stop_pressed.filter(|pressed| !is_told(pressed));
         let Some(measured) = self.snapshot.state.measured else { return };
         if self.recent.back().is_some_and(|last| last.received == measured.received) {
             return;

@@ -13,9 +13,9 @@ use crate::{controller::TrackTarget, driver, station, ui::theme};
 
 impl App {
     /// Past every queue, to every antenna.
-    pub(super) fn stop_all(&self) {
-        for antenna in &self.model.antennas {
-            antenna.handle.stop();
+    pub(super) fn stop_all(&mut self) {
+        for antenna in &mut self.model.antennas {
+            antenna.press_stop();
         }
     }
 
@@ -94,12 +94,12 @@ impl App {
     }
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
-        let Some(antenna) = self.model.antennas.get(index) else { return };
+        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
         let Err(command) = antenna.handle.send(command) else { return };
         tracing::error!(?command, "the session is too busy to take a command");
         // What ends a motion must not get lost: stop instead.
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
-            antenna.handle.stop();
+            antenna.press_stop();
         }
         self.model.alarms.raise(Some(index), AlarmKind::NotTaken, self.model.now);
     }

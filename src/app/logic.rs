@@ -27,6 +27,7 @@ impl App {
         self.model.steady = Instant::now();
         let time_sync = self.clock_watch.poll(self.model.steady, &self.wake);
         self.model.time_sync = time_sync.unwrap_or(self.model.time_sync);
+        self.watch_driver();
         self.take_catalog();
         self.take_copies();
         self.take_log_file();
@@ -50,6 +51,17 @@ impl App {
         self.source_tests.poll(&mut self.model.source_tests);
         self.model.refresh_sky();
         self.remember();
+    }
+
+    fn watch_driver(&mut self) {
+        match self.driver.stood_for() {
+            Some(stood) => {
+                self.model.alarms.raise(None, AlarmKind::DriverStands(stood), self.model.now);
+            }
+            None => {
+                self.model.alarms.clear(None, |kind| matches!(kind, AlarmKind::DriverStands(_)));
+            }
+        }
     }
 
     /// Keeps what the operator has changed for the next start.
@@ -123,6 +135,10 @@ impl App {
             self.model.alarms.raise(antenna, kind, now);
         }
         if let Some(antenna) = self.model.antennas.get_mut(index) {
+            if event == Event::Stopped {
+                // The snapshots between press and standstill may all have been missed.
+                antenna.stop_pressed = None;
+            }
             antenna.news = Some((event, now));
         }
     }

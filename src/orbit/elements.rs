@@ -1,6 +1,6 @@
 //! The elements of one orbit.
 
-use jiff::Timestamp;
+use jiff::{Timestamp, civil, tz::TimeZone};
 use sgp4::chrono::{DateTime, TimeDelta};
 use smol_str::SmolStr;
 
@@ -14,8 +14,9 @@ const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 ///
 /// Values of this type can be handed to the propagator: all numbers are
 /// finite, the eccentricity lies in `0.0..1.0`, the mean motion is positive,
-/// the epoch lies within [`EPOCH_YEARS`], and SGP4 finds the object above the
-/// ground at its epoch. A value takes 152 bytes and, while its texts have 23
+/// the inclination lies from 0 to 180 degrees, other angles within one turn
+/// either way, B* within 10 either way, the epoch within [`EPOCH_YEARS`], and
+/// SGP4 finds the object above the ground at its epoch. A value takes 152 bytes and, while its texts have 23
 /// bytes at most, nothing on the heap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elements {
@@ -56,9 +57,9 @@ pub(super) enum Classification {
     Secret,
 }
 
-/// The calendar years an epoch may lie in: from the first satellite to what two
-/// digits and every known file need.
-pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2156;
+/// The calendar years an epoch may lie in: from the first satellite on, those
+/// that two digits can tell.
+pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
 /// Nine digits.
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
@@ -81,9 +82,22 @@ pub enum ElementsError {
     /// No revolution.
     #[error("mean motion {0} is not positive")]
     MeanMotion(f64),
+    /// An angle or B* that no orbit has. Beyond one turn the fraction of a degree
+    /// is soon rounding noise, and so are the passes.
+    #[error("{name} {value:?} is not from {least} to {most}")]
+    OutOfRange {
+        /// Of the number.
+        name: &'static str,
+        /// Degrees, or B* per Earth radius.
+        value: f64,
+        /// Its least value.
+        least: f64,
+        /// Its greatest value.
+        most: f64,
+    },
     /// Outside [`EPOCH_YEARS`].
-    #[error("the epoch is out of range")]
-    Epoch,
+    #[error("epoch {0} is not from {first} to {last}", first = EPOCH_YEARS.start(), last = EPOCH_YEARS.end())]
+    Epoch(civil::DateTime),
     /// Below the ground at the epoch, or SGP4 cannot start at all.
     #[error("the object is not above the ground at its epoch")]
     Decayed,
@@ -144,15 +158,28 @@ impl Elements {
         if self.mean_motion_rev_day <= 0.0 {
             return Err(ElementsError::MeanMotion(self.mean_motion_rev_day));
         }
+        for (name, value, least, most) in [
+            ("inclination", self.inclination_deg, 0.0, 180.0),
+            ("right ascension of the node", self.node_deg, -360.0, 360.0),
+            ("argument of perigee", self.perigee_deg, -360.0, 360.0),
+            ("mean anomaly", self.mean_anomaly_deg, -360.0, 360.0),
+            // Real sets of manoeuvring objects come to 3.6.
+            ("B*", self.bstar, -10.0, 10.0),
+        ] {
+            if !(least..=most).contains(&value) {
+                return Err(ElementsError::OutOfRange { name, value, least, most });
+            }
+        }
         // A TLE's fraction of a day leaves noise below what an OMM writes.
         // Without it both forms of one set have the same epoch.
+        let as_written = self.epoch.to_zoned(TimeZone::UTC).datetime();
         self.epoch = self
             .epoch
             .round(jiff::Unit::Microsecond)
             .ok()
             // The library computes with unsigned years, so years before 1 would end it.
-            .filter(|epoch| EPOCH_YEARS.contains(&epoch.to_zoned(jiff::tz::TimeZone::UTC).year()))
-            .ok_or(ElementsError::Epoch)?;
+            .filter(|epoch| EPOCH_YEARS.contains(&epoch.to_zoned(TimeZone::UTC).year()))
+            .ok_or(ElementsError::Epoch(as_written))?;
         Propagator::new(&self)
             .and_then(|propagator| propagator.state_at(self.epoch))
             .map_err(|_| ElementsError::Decayed)?;
@@ -306,8 +333,8 @@ mod tests {
         fn whatever_is_accepted_can_be_propagated_without_harm(
             motion in prop_oneof![any::<f64>(), 0.5..17.0],
             eccentricity in prop_oneof![any::<f64>(), 0.0..1.0],
-            angles in any::<[f64; 4]>(),
-            bstar in any::<f64>(),
+            angles in prop::array::uniform4(prop_oneof![any::<f64>(), -360.0..=360.0]),
+            bstar in prop_oneof![any::<f64>(), -10.0..=10.0],
             since_s in -1e8..1e8_f64,
         ) {
             let [inclination, node, perigee, anomaly] = angles;

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{Connection, Following, Mount};
+use super::{Connection, Following, Monitor, Mount, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
 use crate::{
     astro::{Angle, AzEl},
     device::Moves,
@@ -29,6 +29,33 @@ pub struct Antenna {
     pub poll: PollRates,
     /// How this program follows a target with it.
     pub follow: Following,
+    /// What the monitor does when somebody else drives the antenna into what is
+    /// forbidden.
+    #[serde(skip_serializing_if = "is_default")]
+    pub monitor: Monitor,
+    /// How far the antenna may sway between two looks while it stands, degrees,
+    /// 0 to 2.
+    #[serde(skip_serializing_if = "is_usual_sway")]
+    pub sway_deg: f64,
+    /// What becomes of an intent when the link is back after an outage.
+    #[serde(skip_serializing_if = "is_default")]
+    pub resume: Resume,
+    /// After a longer outage the operator is asked in any case, seconds, 0 to 600.
+    #[serde(skip_serializing_if = "is_usual_outage")]
+    pub resume_after_s: f64,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+// The signatures are serde's.
+fn is_usual_sway(sway_deg: &f64) -> bool {
+    sway_deg.total_cmp(&USUAL_SWAY_DEG).is_eq()
+}
+
+fn is_usual_outage(resume_after_s: &f64) -> bool {
+    resume_after_s.total_cmp(&USUAL_RESUME_AFTER_S).is_eq()
 }
 
 /// A direction in a file.

@@ -4,7 +4,8 @@
 use std::fmt;
 
 use super::{
-    Antenna, Connection, Direction, Following, MotionLimits, Mount, PollRates, Setting,
+    Antenna, Connection, Direction, Following, Monitor, MotionLimits, Mount, PollRates, Resume,
+    Setting, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
     connection::{check_address, check_line},
 };
 use crate::device::{Make, Moves};
@@ -81,6 +82,10 @@ impl Kind {
             limits,
             poll,
             follow,
+            monitor: Monitor::default(),
+            sway_deg: USUAL_SWAY_DEG,
+            resume: Resume::default(),
+            resume_after_s: USUAL_RESUME_AFTER_S,
         }
     }
 

@@ -24,6 +24,19 @@ pub const DEAD_BAND_DEG: RangeInclusive<f64> = 0.0..=90.0;
 /// From a command until the metal moves, seconds.
 pub const LATENCY_S: RangeInclusive<f64> = 0.0..=60.0;
 
+/// What the operator adds to a keep-out, degrees.
+pub const MARGIN_DEG: RangeInclusive<f64> = 0.0..=30.0;
+/// Elevation of a corner of a keep-out, degrees.
+pub const CORNER_ELEVATION_DEG: RangeInclusive<f64> = -90.0..=90.0;
+/// Between the Sun and the direction of an antenna, degrees.
+pub const SUN_RADIUS_DEG: RangeInclusive<f64> = 0.1..=60.0;
+/// For how long ahead the way of the Sun is kept free, minutes.
+pub const SUN_AHEAD_MIN: RangeInclusive<f64> = 0.0..=120.0;
+/// How far a standing antenna may sway between two looks, degrees.
+pub const SWAY_DEG: RangeInclusive<f64> = 0.0..=2.0;
+/// The longest outage after which an antenna goes on, seconds.
+pub const RESUME_AFTER_S: RangeInclusive<f64> = 0.0..=600.0;
+
 /// Azimuth of the lower of two crossed axes, degrees.
 pub const LOWER_AXIS_AZIMUTH_DEG: RangeInclusive<f64> = 0.0..=180.0;
 /// Lower end of the travel of crossed axes, degrees.

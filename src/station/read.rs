@@ -2,12 +2,13 @@
 //! invalid gets its default with a note, what is unknown is named in a note.
 
 mod antenna;
+mod keep_out;
 
 use std::ops::RangeInclusive;
 
 use toml::{Table, Value};
 
-use super::{Antenna, Kind, Station, ranges};
+use super::{Antenna, Kind, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -26,6 +27,14 @@ pub enum NoteReason {
     Invalid(String),
     /// No such setting; a typing error perhaps.
     Unknown,
+    /// What is to keep antennas away from something cannot be used, so that it
+    /// does not.
+    DoesNotHold {
+        /// What the operator calls it.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
 }
 
 /// The station of a parsed settings file whose controllers are of these kinds,
@@ -35,7 +44,7 @@ pub fn from_toml(mut table: Table, kinds: &[&'static Kind]) -> (Station, Vec<Not
     let default = Station::default();
     // Read by `file`, which refuses what a newer program wrote.
     fields.table.remove("version");
-    let station = Station {
+    let mut station = Station {
         name: fields.text("name", &default.name),
         site: fields.site(),
         horizon_mask: fields.horizon_mask(),
@@ -45,8 +54,13 @@ pub fn from_toml(mut table: Table, kinds: &[&'static Kind]) -> (Station, Vec<Not
             10.0,
         ),
         favourites: fields.favourites(default.favourites),
+        on_close: fields.on_close(),
+        keep_outs: Vec::new(),
+        sun_avoidance: fields.sun_avoidance(),
         antennas: fields.antennas(kinds),
     };
+    // They name antennas.
+    station.keep_outs = fields.keep_outs(&station.antennas);
     fields.name_the_unknown();
     (station, fields.notes)
 }
@@ -109,6 +123,15 @@ impl Fields<'_> {
             _ => Err("must be a text with an azimuth and an elevation a line".to_owned()),
         };
         read.map_err(|why| self.invalid("horizon_mask", why)).ok()
+    }
+
+    fn on_close(&mut self) -> Option<OnClose> {
+        let known = [
+            ("hold", Some(OnClose::Hold)),
+            ("park", Some(OnClose::Park)),
+            ("leave", Some(OnClose::Leave)),
+        ];
+        self.one_of("close", &known, None)
     }
 
     fn favourites(&mut self, default: Vec<u32>) -> Vec<u32> {

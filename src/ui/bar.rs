@@ -206,7 +206,8 @@ fn stop_look<'a>(model: &Model, unproved: Option<&'a str>) -> StopLook<'a> {
     let any = |wanted: fn(&StopState) -> bool| {
         model.antennas.iter().any(|antenna| wanted(&antenna.snapshot.stop))
     };
-    if any(|stop| matches!(stop, StopState::Stopping { .. })) {
+    let is_pressed = model.antennas.iter().any(|antenna| antenna.stop_pressed.is_some());
+    if is_pressed || any(|stop| matches!(stop, StopState::Stopping { .. })) {
         StopLook::Stopping
     } else if any(|stop| matches!(stop, StopState::Stopped { .. }))
         && !model.antennas.iter().any(is_under_way)

@@ -71,7 +71,13 @@ pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
 fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let name = &antenna.config.name;
     match antenna.snapshot.stop {
-        StopState::Ready | StopState::Stopped { .. } => None,
+        StopState::Ready | StopState::Stopped { .. } => antenna.stop_pressed.map(|pressed| {
+            let age = model.steady.saturating_duration_since(pressed).as_secs_f64();
+            Spoken::new(SentenceKind::Caution).plain(format!(
+                "Stopping {name}: STOP was pressed {} ago and is about to be sent.",
+                format::age(age)
+            ))
+        }),
         StopState::Stopping { since } => {
             let age = model.steady.saturating_duration_since(since).as_secs_f64();
             Some(Spoken::new(SentenceKind::Caution).plain(format!(

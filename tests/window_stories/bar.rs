@@ -51,6 +51,10 @@ fn alarms_are_told_in_words_with_their_antenna() {
             AlarmKind::LinkLost(LinkLoss::Unreadable),
             "Satrak answers, but what it says cannot be read.",
         ),
+        (
+            AlarmKind::DriverStands(std::time::Duration::from_millis(600)),
+            "The driver has not responded for 0.6 s: nothing reaches the antennas, not even STOP.",
+        ),
         (AlarmKind::ClockOff(-2.0), "The clock of Satrak is 2.0 s behind."),
         (note(NoteReason::Unknown), "Setting antenna.park is not known."),
         (AlarmKind::Elements("the file is empty".to_owned()), "The file is empty"),

@@ -163,6 +163,11 @@ pub(crate) fn ago(model: &Model, seconds: u64) -> Instant {
     model.steady.checked_sub(Duration::from_secs(seconds)).unwrap()
 }
 
+/// A moment an hour after the frame of `model`.
+pub(crate) fn soon(model: &Model) -> Instant {
+    model.steady + Duration::from_hours(1)
+}
+
 /// The whole window on `model`.
 pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
     let story = Story { model, views: Views::default(), commands: Vec::new() };

@@ -89,6 +89,23 @@ fn esc_stops_a_jog_that_is_held_on_and_it_stays_stopped() {
     assert_eq!(place(&window), at);
 }
 
+#[test]
+fn esc_shows_stop_as_pressed_in_its_own_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    window.get_by_role_and_label(Role::Button, "STOP");
+    window.event(Event::Key {
+        key: Key::Escape,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    });
+    window.step();
+    window.get_by_role_and_label(Role::Button, "STOP, stopping");
+    step_until(&mut window, "it is stopped", is_stopped);
+}
+
 fn go_to(window: &mut RealWindow, azimuth: &str, elevation: &str) {
     for (field, words) in [("azimuth", azimuth), ("elevation", elevation)] {
         let field = format!("Go to {field}, degrees");

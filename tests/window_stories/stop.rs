@@ -132,3 +132,44 @@ fn what_else_stop_stops_is_told_at_the_button_on_every_view() {
         }
     }
 }
+
+#[test]
+fn stop_shows_as_pressed_while_the_session_says_nothing() {
+    for size in SIZES {
+        for snapshot in [
+            states::moving(),
+            Snapshot {
+                stop: StopState::Stopped { at: states::holding().state.measured.unwrap().received },
+                ..states::holding()
+            },
+        ] {
+            let mut model = rig::model(snapshot);
+            let site = model.station.site;
+            model.antennas[0].press_stop();
+            for _ in 0..2 {
+                model.antennas[0].refresh(site, |_| None);
+            }
+            assert!(states::sentence(&model).contains("STOP was pressed"));
+            let mut window = rig::window(size, model);
+            stop_stops(&mut window, "STOP, stopping");
+        }
+    }
+}
+
+#[test]
+fn stop_shows_as_pressed_until_the_session_tells_of_it() {
+    let mut model = rig::model(states::moving());
+    let site = model.station.site;
+    let later = rig::soon(&model);
+    for told in [
+        StopState::Stopping { since: later },
+        StopState::Stopped { at: later },
+        StopState::NotConfirmed { since: later },
+    ] {
+        let snapshot = Snapshot { stop: told, ..states::moving() };
+        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
+        model.antennas[0].press_stop();
+        model.antennas[0].refresh(site, |_| None);
+        assert_eq!(model.antennas[0].stop_pressed, None, "{told:?}");
+    }
+}

@@ -106,6 +106,7 @@ pub(crate) fn open(path: &Path, clock: Clock) -> RealWindow {
     let settings = Settings {
         path: Some(path.to_owned()),
         library: Some(path.with_file_name("elements")),
+        dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
         ..Settings::default()
     };
     Harness::builder()

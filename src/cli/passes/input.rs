@@ -3,13 +3,20 @@
 
 use std::{
     borrow::Borrow,
-    io::{self, Read as _, Write as _},
+    fs::File,
+    io::{self, Write as _},
     path::{Path, PathBuf},
 };
 
 use anyhow::{Context as _, bail};
 
-use crate::orbit::{Catalog, Elements, Propagator, read_element_bytes};
+use crate::{
+    library::disk::read_limited,
+    orbit::{Catalog, Elements, Propagator, read_element_bytes},
+};
+
+/// Of one file; the whole catalogue as XML has 30 MB.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// Elements, ready to be computed with.
 pub(super) struct Satellite {
@@ -78,11 +85,9 @@ pub(super) fn read(files: &[PathBuf], numbers: &[u32]) -> anyhow::Result<Input> 
 
 fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
     if file == Path::new("-") {
-        let mut bytes = Vec::new();
-        io::stdin().lock().read_to_end(&mut bytes)?;
-        Ok(bytes)
+        read_limited(io::stdin().lock(), MOST_BYTES)
     } else {
-        std::fs::read(file)
+        read_limited(File::open(file)?, MOST_BYTES)
     }
 }
 

@@ -80,9 +80,9 @@ impl Session {
         // A hold is renewed many times a second; not worth a line each. Settings
         // are logged where they are made, without their values, and a target by its
         // name.
-        if !matches!(command, Command::Jog { .. } | Command::Settle(_) | Command::Follow(_)) {
-            tracing::info!(antenna = self.name, ?command, "command");
-        }
+        let quiet =
+            matches!(command, Command::Jog { .. } | Command::Settle(_) | Command::Follow(_));
+        let line = (!quiet && tracing::enabled!(tracing::Level::INFO)).then(|| command.clone());
         match command {
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
@@ -116,6 +116,10 @@ impl Session {
             Command::Connect => self.wanted = Wanted::Yes,
             // The loop's.
             Command::Disconnect => {}
+        }
+        // The act comes first: nothing of it waits for its line.
+        if let Some(command) = line {
+            tracing::info!(antenna = self.name, ?command, "command");
         }
     }
 

@@ -10,7 +10,7 @@
 
 use super::{arcs::Arcs, track::Track};
 use crate::{
-    astro::frames::EARTH_RATE_RAD_S,
+    astro::{frames::EARTH_RATE_RAD_S, time},
     orbit::propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
 };
 
@@ -94,8 +94,12 @@ impl<'a> Circular<'a> {
             let (there, rate_there) = beta_at(guess_s);
             guess_s + (beta - there) / rate_there
         };
+        // Two arcs of at most four pieces each in every turn of the Earth, and no
+        // fewer seconds to a turn than to three quarters of a day.
+        let turns = (end_s + self.half_pass_s) / (0.75 * time::DAY_S) + 3.0;
         self.arcs
             .from(first)
+            .take(8 * turns as usize)
             .map(move |(start, end)| {
                 (time_of(start).max(-self.half_pass_s), time_of(end).min(end_s))
             })

@@ -29,6 +29,10 @@ const MOST_STEPS: usize = 4;
 /// Touching pieces both look this share of a revolution beyond, and what both
 /// find is taken once.
 const OVERLAP: f64 = 0.02;
+/// More revolutions than in the longest piece, a quarter of a day, of the lowest
+/// orbit: what counts more is no orbit, and must not decide how much memory is
+/// taken.
+const MOST_IN_PIECE: u32 = 8;
 /// Satellites come again after more than this share of a revolution.
 const LEAST_GAP: f64 = 0.3;
 
@@ -93,7 +97,7 @@ fn guess<'a>(ends: &[Occasion<'a>], in_plane: &InPlane, guesses: &mut Vec<Occasi
         let first = from - site_from;
         let turn = (first / TAU).ceil();
         let count = ((first + growth) / TAU).floor() - turn + 1.0;
-        guesses.extend((0..count as u32).map(|index| {
+        guesses.extend((0..(count as u32).min(MOST_IN_PIECE)).map(|index| {
             let share = (TAU * (turn + f64::from(index)) - first) / growth;
             Occasion { at_s: start.at_s + share * (end.at_s - start.at_s), ..*start }
         }));

@@ -18,6 +18,9 @@ use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::lanes::Vector};
 
 /// Step in units of sqrt(r³/mu), the time a circular orbit needs for a radian.
 const STEP: f64 = 1.1;
+/// No orbit above the ground needs a shorter step, in seconds: without a least one
+/// a state near the centre of the Earth would be followed for ever.
+const LEAST_STEP_S: f64 = 60.0;
 /// Looks per step.
 const LOOKS: u32 = 6;
 /// Heights of the polynomial are nearer to the truth than this.
@@ -231,7 +234,7 @@ fn step_s(series: &LocalSeries) -> f64 {
     let parameter_km = r.cross(v).length_squared() / GRAVITY_KM3_S2;
     let eccentricity = (1.0 - parameter_km * inverse_axis).max(0.0).sqrt();
     let perigee_km = parameter_km / (1.0 + eccentricity);
-    level.min(at_radius(lower_km.max(perigee_km))).min(STEP / EARTH_RATE_RAD_S)
+    level.min(at_radius(lower_km.max(perigee_km))).min(STEP / EARTH_RATE_RAD_S).max(LEAST_STEP_S)
 }
 
 /// Polynomials of fifth degree between two states.

@@ -223,7 +223,7 @@ impl<'a> Message<'a> {
         let text = text.trim_end_matches(['Z', 'z']);
         let civil: Option<civil::DateTime> = text.parse().ok().or_else(|| by_day_of_year(text));
         let civil = civil.ok_or(RefusalReason::Field("EPOCH"))?;
-        let zoned = civil.to_zoned(TimeZone::UTC).map_err(|_| ElementsError::Epoch)?;
+        let zoned = civil.to_zoned(TimeZone::UTC).map_err(|_| ElementsError::Epoch(civil))?;
         Ok(zoned.timestamp())
     }
 }

@@ -6,8 +6,8 @@ use toml::Value;
 
 use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, Connection, Direction, Following, Kind, MotionLimits, Mount, PollRates,
-    Setting, ranges,
+    AfterPass, Antenna, Connection, Direction, Following, Kind, Monitor, MotionLimits, Mount,
+    PollRates, Resume, Setting, ranges,
 };
 
 impl Fields<'_> {
@@ -27,6 +27,18 @@ impl Fields<'_> {
             limits: self.inner("limits", |limits| limits.limits(default.limits)),
             poll: self.inner("poll", |poll| poll.poll(default.poll)),
             follow: self.inner("follow", |follow| follow.following(default.follow)),
+            monitor: self.one_of(
+                "monitor",
+                &[("stop", Monitor::Stop), ("alarm", Monitor::Alarm)],
+                default.monitor,
+            ),
+            sway_deg: self.number("sway_deg", &ranges::SWAY_DEG, default.sway_deg),
+            resume: self.resume(default.resume),
+            resume_after_s: self.number(
+                "resume_after_s",
+                &ranges::RESUME_AFTER_S,
+                default.resume_after_s,
+            ),
             connection: default.connection,
         })
     }
@@ -112,7 +124,19 @@ impl Fields<'_> {
         }
     }
 
-    fn one_of<T: Copy>(&mut self, key: &str, known: &[(&str, T)], default: T) -> T {
+    fn resume(&mut self, default: Resume) -> Resume {
+        match self.table.remove("resume") {
+            None => default,
+            Some(Value::Boolean(true)) => Resume::Continue,
+            Some(Value::Boolean(false)) => Resume::Ask,
+            Some(_) => {
+                self.invalid("resume", "must be true or false");
+                default
+            }
+        }
+    }
+
+    pub(super) fn one_of<T: Copy>(&mut self, key: &str, known: &[(&str, T)], default: T) -> T {
         let Some(value) = self.table.remove(key) else { return default };
         let found = known.iter().find(|(name, _)| value.as_str() == Some(name));
         found.map_or_else(

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     astro::{HorizonMask, MaskTextError, Site},
-    station::{Antenna, Station, ranges},
+    station::{Antenna, KeepOut, OnClose, Station, SunAvoidance, ranges},
 };
 
 /// A station without its antennas, with a site that need not be one.
@@ -19,6 +19,9 @@ pub(super) struct Ground {
     elevation_floor_deg: f64,
     favourites: Vec<u32>,
     horizon_mask: Option<HorizonMask>,
+    on_close: Option<OnClose>,
+    keep_outs: Vec<KeepOut>,
+    sun_avoidance: Option<SunAvoidance>,
 }
 
 impl Ground {
@@ -32,6 +35,9 @@ impl Ground {
             elevation_floor_deg: station.elevation_floor_deg,
             favourites: station.favourites.clone(),
             horizon_mask: station.horizon_mask.clone(),
+            on_close: station.on_close,
+            keep_outs: station.keep_outs.clone(),
+            sun_avoidance: station.sun_avoidance,
         }
     }
 
@@ -43,6 +49,9 @@ impl Ground {
             horizon_mask: self.horizon_mask,
             elevation_floor_deg: self.elevation_floor_deg,
             favourites: self.favourites,
+            on_close: self.on_close,
+            keep_outs: self.keep_outs,
+            sun_avoidance: self.sun_avoidance,
             antennas,
         })
     }

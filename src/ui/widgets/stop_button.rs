@@ -40,6 +40,9 @@ pub enum StopState<'a> {
 /// `about` says what it stops to whoever points at it or has it read aloud.
 pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>, about: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
+    // In the frame of the click the model does not know of it yet.
+    let is_told = matches!(state, StopState::NotConfirmed { .. });
+    let state = if response.clicked() && !is_told { StopState::Stopping } else { state };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
     let t = theme::tokens(ui);

@@ -48,6 +48,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         }
         AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
         AlarmKind::Safety(matter) => super::safety(matter, antenna),
+        AlarmKind::DriverStands(stood) => format!(
+            "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \
+             Use their local panels.",
+            format::age(stood.as_secs_f64())
+        ),
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
         }
@@ -71,6 +76,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
                 format!("Setting {} is not used: {why}.", note.place)
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
+            NoteReason::DoesNotHold { name, why } => {
+                format!("{name} does not hold: {why}. It is {} in the settings.", note.place)
+            }
         },
         AlarmKind::Settings(text) | AlarmKind::Elements(text) => super::capitalised(text),
     }

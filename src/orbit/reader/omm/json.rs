@@ -210,10 +210,15 @@ mod tests {
     #[test]
     fn what_is_no_orbit_is_refused_by_its_field() {
         use RefusalReason as Why;
+        let year = |year| jiff::civil::date(year, 1, 1).at(0, 0, 0, 0);
         for (key, value, reason) in [
             ("EPOCH", json!("soon"), Why::Field("EPOCH")),
-            ("EPOCH", json!("-009999-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
-            ("EPOCH", json!("0000-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch)),
+            (
+                "EPOCH",
+                json!("-009999-01-01T00:00:00"),
+                Why::Orbit(ElementsError::Epoch(year(-9999))),
+            ),
+            ("EPOCH", json!("0000-01-01T00:00:00"), Why::Orbit(ElementsError::Epoch(year(0)))),
             ("MEAN_MOTION", Json::Null, Why::MissingField("MEAN_MOTION")),
             ("MEAN_MOTION", json!(-1.0), Why::Orbit(ElementsError::MeanMotion(-1.0))),
             ("ECCENTRICITY", json!(1.0), Why::Orbit(ElementsError::Eccentricity(1.0))),

@@ -1,0 +1,181 @@
+//! A region of the sky of a site, bounded by edges between corners.
+
+mod crossing;
+mod edge;
+
+use glam::DVec3;
+
+use self::edge::Edge;
+use super::{Angle, AzEl};
+
+/// Corners of one zone, at least.
+pub const FEWEST_CORNERS: usize = 3;
+/// Corners of one zone, at most.
+pub const MOST_CORNERS: usize = 100;
+
+/// Two directions closer than this are one, radians.
+const SAME: f64 = 1e-9;
+
+/// A polygon on the sphere of directions. An edge between corners of equal
+/// elevation is an arc of that elevation, from one azimuth to the other as they
+/// are counted; any other edge is the shorter great circle. Inside is the side
+/// without the nadir.
+///
+/// Azimuths go on through north: from 350 to 370 degrees an edge is 20 degrees
+/// long, from 350 to 10 degrees it goes back by 340. A last corner that is the
+/// first one counted a turn on closes the polygon: 0, 120, 240, 360 degrees at one
+/// elevation make a cap around the zenith.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Zone {
+    corners: Vec<AzEl>,
+    edges: Vec<Edge>,
+}
+
+/// Why corners are no zone. Corners and edges are counted from 1; edge 1 leads
+/// from corner 1 to corner 2, the last edge back to corner 1.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ZoneError {
+    /// Fewer than [`FEWEST_CORNERS`].
+    #[error("a zone needs at least {FEWEST_CORNERS} corners")]
+    TooFewCorners,
+    /// More than [`MOST_CORNERS`].
+    #[error("a zone has at most {MOST_CORNERS} corners")]
+    TooManyCorners,
+    /// Infinite or not a number.
+    #[error("the azimuth of corner {corner} is not a number")]
+    Azimuth {
+        /// Its number.
+        corner: usize,
+    },
+    /// Beyond the zenith or the nadir, or not a number.
+    #[error("the elevation of corner {corner} is not between -90 and 90 degrees")]
+    Elevation {
+        /// Its number.
+        corner: usize,
+    },
+    /// Both ends of an edge are one direction.
+    #[error("edge {edge} has no length: its two corners are the same direction")]
+    NoLength {
+        /// Its number.
+        edge: usize,
+    },
+    /// An arc of constant elevation of more than 360 degrees.
+    #[error("edge {edge} turns by more than 360 degrees")]
+    MoreThanATurn {
+        /// Its number.
+        edge: usize,
+    },
+    /// Many great circles join opposite directions.
+    #[error("edge {edge} joins opposite directions: a corner between them is needed")]
+    Opposite {
+        /// Its number.
+        edge: usize,
+    },
+    /// The side of the zone cannot be told.
+    #[error("edge {edge} passes through the nadir")]
+    Nadir {
+        /// Its number.
+        edge: usize,
+    },
+    /// Two edges have a point in common that is no corner of both.
+    #[error("edges {first} and {second} cross or touch each other")]
+    Crossing {
+        /// The number of one.
+        first: usize,
+        /// The number of the other.
+        second: usize,
+    },
+    /// All corners lie on one line.
+    #[error("the corners lie on one line: the zone has no area")]
+    NoArea,
+}
+
+impl Zone {
+    /// A zone of 3 to 100 corners, elevation -90 to 90 degrees, in the order of its
+    /// edges. The edge from the last corner to the first closes it.
+    pub fn new(corners: Vec<AzEl>) -> Result<Self, ZoneError> {
+        if corners.len() < FEWEST_CORNERS {
+            return Err(ZoneError::TooFewCorners);
+        }
+        if corners.len() > MOST_CORNERS {
+            return Err(ZoneError::TooManyCorners);
+        }
+        for (corner, at) in (1..).zip(&corners) {
+            if !at.azimuth.is_finite() {
+                return Err(ZoneError::Azimuth { corner });
+            }
+            // Written so that NaN falls out as well.
+            if !(-90.0..=90.0).contains(&at.elevation_deg()) {
+                return Err(ZoneError::Elevation { corner });
+            }
+        }
+        let ends = corners.iter().zip(corners.iter().cycle().skip(1)).enumerate();
+        let mut edges = Vec::with_capacity(corners.len());
+        for (index, (from, to)) in ends {
+            let closes = index + 1 == corners.len() && is_a_turn_on(*to, *from);
+            if !closes {
+                edges.push(Edge::new(*from, *to, index + 1)?);
+            }
+        }
+        crossing::check(&edges)?;
+        Ok(Self { corners, edges })
+    }
+
+    /// The corners as they were given.
+    pub fn corners(&self) -> &[AzEl] {
+        &self.corners
+    }
+
+    /// The angle from `direction` to the nearest edge: positive outside, negative
+    /// inside. Two directions differ in it by no more than the angle between them.
+    pub fn clearance(&self, direction: AzEl) -> Angle {
+        let at = direction.to_enu();
+        let elevation = at.z.atan2(at.x.hypot(at.y));
+        let azimuth = at.x.atan2(at.y);
+        let mut nearest = f64::INFINITY;
+        let mut crossed = 0_i64;
+        for edge in &self.edges {
+            nearest = nearest.min(edge.chord_squared(at, azimuth, elevation));
+            crossed += edge.crossings_below(at, azimuth, elevation);
+        }
+        // The chord keeps its digits near zero, where the cosine loses them.
+        let distance = 2.0 * (nearest.sqrt() / 2.0).min(1.0).asin();
+        let is_inside = crossed % 2 != 0;
+        Angle::from_radians(if is_inside { -distance } else { distance })
+    }
+
+    /// Points along the edges, each corner and between them no more than `step`
+    /// apart (0.01 degrees at least), from the first corner once around to the
+    /// first again. Azimuths are from 0 to 360 degrees.
+    pub fn edges_sampled(&self, step: Angle) -> impl Iterator<Item = AzEl> + '_ {
+        let step = step.radians().max(0.01_f64.to_radians());
+        let first = self.corners.first().map(|first| AzEl::from_enu(first.to_enu()));
+        self.edges.iter().flat_map(move |edge| edge.points(step)).chain(first)
+    }
+
+    /// The middle of the edge from corner `index` (from 0) to the next one; `None`
+    /// where there is no such edge. Its azimuth is counted on from the corner's.
+    pub fn middle_of_edge(&self, index: usize) -> Option<AzEl> {
+        let (edge, from) = (self.edges.get(index)?, self.corners.get(index)?);
+        let middle = AzEl::from_enu(edge.at(0.5));
+        let turned = (middle.azimuth - from.azimuth).wrapped_180();
+        let azimuth = match edge.turn() {
+            Some(turn) => from.azimuth + Angle::from_radians(turn / 2.0),
+            None => from.azimuth + turned,
+        };
+        Some(AzEl { azimuth, elevation: middle.elevation })
+    }
+}
+
+/// Whether `b` is the direction of `a`, counted one turn or more on or back.
+fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
+    let is_counted_on = (a.azimuth - b.azimuth).abs().degrees() > 180.0;
+    is_counted_on && is_same(a.to_enu(), b.to_enu())
+}
+
+fn is_same(a: DVec3, b: DVec3) -> bool {
+    a.distance_squared(b) < SAME * SAME
+}
+
+#[cfg(test)]
+mod tests;

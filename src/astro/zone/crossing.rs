@@ -1,0 +1,130 @@
+//! Whether the edges of a zone cross each other.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::{
+    SAME, ZoneError,
+    edge::{Edge, Shape},
+    is_same,
+};
+
+/// Refuses edges that have more in common than the corners between them.
+pub(super) fn check(edges: &[Edge]) -> Result<(), ZoneError> {
+    let numbered = || (1_usize..).zip(edges);
+    for (first, one) in numbered() {
+        for (second, other) in numbered().skip(first) {
+            let is_next = second == first + 1 || (first == 1 && second == edges.len());
+            let is_shared = |point: DVec3| {
+                is_next
+                    && [one.from, one.to].iter().any(|end| {
+                        is_near(*end, point)
+                            && (is_same(*end, other.from) || is_same(*end, other.to))
+                    })
+            };
+            if common_points(one, other).into_iter().flatten().any(|point| !is_shared(point)) {
+                let all = edges.iter().all(|edge| is_on_line_of(one, edge));
+                return Err(if all {
+                    ZoneError::NoArea
+                } else {
+                    ZoneError::Crossing { first, second }
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where edges meet at a small angle, the point is less certain than a corner.
+fn is_near(a: DVec3, b: DVec3) -> bool {
+    a.distance_squared(b) < (1e3 * SAME).powi(2)
+}
+
+/// Points that both edges have; of a common stretch its ends and its middle.
+fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
+    use Shape::{Arc, GreatCircle};
+    match (one.shape, other.shape) {
+        (GreatCircle { normal: a }, GreatCircle { normal: b }) => {
+            let line = a.cross(b);
+            if line.length() < SAME {
+                return common_stretch(one, other);
+            }
+            let line = line.normalize();
+            let on_both = |point: &DVec3| is_on(one, *point) && is_on(other, *point);
+            [Some(line).filter(on_both), Some(-line).filter(on_both), None, None]
+        }
+        (GreatCircle { normal }, Arc { elevation }) => at_elevation(one, normal, other, elevation),
+        (Arc { elevation }, GreatCircle { normal }) => at_elevation(other, normal, one, elevation),
+        (Arc { elevation: a }, Arc { elevation: b }) if (a - b).abs() < SAME => {
+            common_stretch(one, other)
+        }
+        (Arc { .. }, Arc { .. }) => [None; 4],
+    }
+}
+
+/// Of edges on one circle: every end that lies within the other edge, and the
+/// middle of an edge whose ends are both ends of the other.
+fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
+    let within = |edge: &Edge, point: DVec3| {
+        Some(point).filter(|point| {
+            is_on(edge, *point) && !is_same(*point, edge.from) && !is_same(*point, edge.to)
+        })
+    };
+    let ends = [
+        within(other, one.from),
+        within(other, one.to),
+        within(one, other.from),
+        within(one, other.to),
+    ];
+    if ends.iter().any(Option::is_some) {
+        return ends;
+    }
+    // Without an end of one inside the other they are the same stretch, touch at
+    // corners, or are apart.
+    let touching = [one.from, one.to]
+        .map(|end| Some(end).filter(|end| is_same(*end, other.from) || is_same(*end, other.to)));
+    [within(other, one.at(0.5)), within(one, other.at(0.5)), touching[0], touching[1]]
+}
+
+/// The points of a great circle at an elevation that lie on both edges.
+fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Option<DVec3>; 4] {
+    let level = DVec3::Z.cross(normal);
+    let sin = if level.length() > SAME {
+        elevation.sin() / normal.cross(level.normalize()).z
+    } else {
+        f64::NAN
+    };
+    // Where the circle only just reaches the elevation, rounding must not lose it.
+    if sin.is_nan() || sin.abs() > 1.0 + SAME * SAME {
+        return [None; 4];
+    }
+    let sin = sin.clamp(-1.0, 1.0);
+    let level = level.normalize();
+    let cos = (1.0 - sin * sin).sqrt();
+    let at = |cos: f64| {
+        let point = level * cos + normal.cross(level) * sin;
+        Some(point).filter(|point| is_on(circle, *point) && is_on(arc, *point))
+    };
+    [at(cos), at(-cos), None, None]
+}
+
+/// Whether a point of the circle of `edge` lies between its ends, both included.
+fn is_on(edge: &Edge, point: DVec3) -> bool {
+    is_same(point, edge.from)
+        || is_same(point, edge.to)
+        || match edge.shape {
+            Shape::GreatCircle { normal } => edge.spans(point, normal),
+            Shape::Arc { .. } => edge.turns_past(point.x.atan2(point.y)),
+        }
+}
+
+/// Whether all of `edge` lies on the circle of `line`.
+fn is_on_line_of(line: &Edge, edge: &Edge) -> bool {
+    let plane = |point: DVec3| match line.shape {
+        Shape::GreatCircle { normal } => normal.dot(point),
+        Shape::Arc { elevation } => point.z - elevation.sin(),
+    };
+    let is_full = line.turn().is_some_and(|turn| turn.abs() > TAU - SAME);
+    !is_full && [0.0, 0.3, 0.6, 1.0].iter().all(|share| plane(edge.at(*share)).abs() < SAME)
+}

@@ -1,0 +1,159 @@
+//! One edge of a zone.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+
+use super::{SAME, ZoneError, is_same};
+use crate::astro::{Angle, AzEl};
+
+/// From corner to corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Edge {
+    pub(super) from: DVec3,
+    pub(super) to: DVec3,
+    from_azimuth: f64,
+    to_azimuth: f64,
+    /// By how much the azimuth turns on the way, radians, signed.
+    turn: f64,
+    pub(super) shape: Shape,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Shape {
+    /// The shorter great circle; `normal` is of length 1.
+    GreatCircle { normal: DVec3 },
+    /// Of constant elevation, radians.
+    Arc { elevation: f64 },
+}
+
+impl Edge {
+    pub(super) fn new(from: AzEl, to: AzEl, edge: usize) -> Result<Self, ZoneError> {
+        let (a, b) = (from.to_enu(), to.to_enu());
+        let is_level = (from.elevation - to.elevation).abs().radians() < SAME;
+        let counted = (to.azimuth - from.azimuth).radians();
+        let is_full_turn = is_level && counted.abs() > PI;
+        if is_same(a, b) && !is_full_turn {
+            return Err(ZoneError::NoLength { edge });
+        }
+        let made = |turn, shape| Self {
+            from: a,
+            to: b,
+            from_azimuth: from.azimuth.radians(),
+            to_azimuth: to.azimuth.radians(),
+            turn,
+            shape,
+        };
+        if is_level {
+            if counted.abs() > TAU + SAME {
+                return Err(ZoneError::MoreThanATurn { edge });
+            }
+            if from.elevation.radians() < SAME - FRAC_PI_2 {
+                return Err(ZoneError::Nadir { edge });
+            }
+            let elevation = from.elevation.radians();
+            return Ok(made(counted, Shape::Arc { elevation }));
+        }
+        let across = a.cross(b);
+        if is_same(a, -b) {
+            return Err(ZoneError::Opposite { edge });
+        }
+        let turn = Angle::from_radians(counted).wrapped_180().radians();
+        let circle = made(turn, Shape::GreatCircle { normal: across.normalize() });
+        if circle.chord_squared(DVec3::NEG_Z, 0.0, -FRAC_PI_2) < SAME * SAME {
+            return Err(ZoneError::Nadir { edge });
+        }
+        Ok(circle)
+    }
+
+    /// By how much the azimuth turns on an arc of constant elevation, radians.
+    pub(super) fn turn(&self) -> Option<f64> {
+        matches!(self.shape, Shape::Arc { .. }).then_some(self.turn)
+    }
+
+    /// The square of the straight distance from the direction `at` to the nearest
+    /// point of the edge.
+    pub(super) fn chord_squared(&self, at: DVec3, azimuth: f64, elevation: f64) -> f64 {
+        let beside = match self.shape {
+            Shape::GreatCircle { normal } if self.spans(at, normal) => {
+                let off_squared = normal.dot(at).powi(2).min(1.0);
+                // The chord of the angle whose sine is known.
+                2.0 * off_squared / (1.0 + (1.0 - off_squared).sqrt())
+            }
+            Shape::Arc { elevation: level } if self.turns_past(azimuth) => {
+                (2.0 * ((elevation - level) / 2.0).sin()).powi(2)
+            }
+            Shape::GreatCircle { .. } | Shape::Arc { .. } => f64::INFINITY,
+        };
+        beside.min(at.distance_squared(self.from)).min(at.distance_squared(self.to))
+    }
+
+    /// Whether the point of the great circle that is nearest to `at` lies between
+    /// the ends.
+    pub(super) fn spans(&self, at: DVec3, normal: DVec3) -> bool {
+        normal.cross(self.from).dot(at) >= 0.0 && self.to.cross(normal).dot(at) >= 0.0
+    }
+
+    /// Whether the azimuth lies between the ends of an arc of constant elevation.
+    pub(super) fn turns_past(&self, azimuth: f64) -> bool {
+        let start = if self.turn < 0.0 { self.to_azimuth } else { self.from_azimuth };
+        (azimuth - start).rem_euclid(TAU) <= self.turn.abs()
+    }
+
+    /// How often the edge crosses the vertical line from the direction `at` down to
+    /// the nadir; backwards counts negative.
+    pub(super) fn crossings_below(&self, at: DVec3, azimuth: f64, elevation: f64) -> i64 {
+        // The place of a corner beside the line is computed in the same way for both
+        // of its edges, so that a line through a corner is crossed once or not at all.
+        let beside = |corner: f64| (corner - azimuth).rem_euclid(TAU);
+        let (from, to) = (beside(self.from_azimuth), beside(self.to_azimuth));
+        let crossings = ((from + self.turn - to) / TAU).round() as i64;
+        if crossings == 0 {
+            return 0;
+        }
+        let is_below = match self.shape {
+            Shape::Arc { elevation: level } => level < elevation,
+            Shape::GreatCircle { .. } => {
+                let (sin, cos) = azimuth.sin_cos();
+                let side = DVec3::new(cos, -sin, 0.0);
+                let (from, to) = (side.dot(self.from).abs(), side.dot(self.to).abs());
+                let crossing =
+                    if from + to > 0.0 { self.from * to + self.to * from } else { self.from };
+                let outward = crossing.x * sin + crossing.y * cos;
+                outward > 0.0 && crossing.z * at.x.hypot(at.y) < at.z * outward
+            }
+        };
+        if is_below { crossings } else { 0 }
+    }
+
+    /// The point at `share` (0 to 1) of the way.
+    pub(super) fn at(&self, share: f64) -> DVec3 {
+        match self.shape {
+            Shape::GreatCircle { normal } => {
+                let (sin, cos) = (self.length() * share).sin_cos();
+                self.from * cos + normal.cross(self.from) * sin
+            }
+            Shape::Arc { elevation } => AzEl {
+                azimuth: Angle::from_radians(self.from_azimuth + self.turn * share),
+                elevation: Angle::from_radians(elevation),
+            }
+            .to_enu(),
+        }
+    }
+
+    /// Along the edge, radians.
+    pub(super) fn length(&self) -> f64 {
+        match self.shape {
+            Shape::GreatCircle { .. } => {
+                self.from.cross(self.to).length().atan2(self.from.dot(self.to))
+            }
+            Shape::Arc { elevation } => self.turn.abs() * elevation.cos(),
+        }
+    }
+
+    /// Points from the start on, no more than `step` apart, without the end.
+    pub(super) fn points(self, step: f64) -> impl Iterator<Item = AzEl> {
+        let count = (self.length() / step).ceil().max(1.0) as u32;
+        (0..count).map(move |index| AzEl::from_enu(self.at(f64::from(index) / f64::from(count))))
+    }
+}

@@ -1,0 +1,258 @@
+//! The log on standard error, which never waits for its reader.
+//!
+//! Lines go into a queue of limited size that a thread of its own writes. While
+//! nobody reads (a stopped pager, a terminal after Ctrl S), further lines are
+//! dropped and counted, and the count is the next line that is written.
+//!
+//! Invariant: while the window is open, nothing else of Azel writes to standard
+//! error, whose lock the standard library would hand to one thread at a time.
+
+use std::{
+    env,
+    io::{self, IsTerminal as _, Write},
+    mem,
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    thread,
+    time::Duration,
+};
+
+use jiff::Timestamp;
+use tracing_subscriber::{EnvFilter, fmt::MakeWriter};
+
+/// How much may wait, in bytes: some thousand lines.
+const MOST_BYTES: usize = 1 << 20;
+/// How long the end of the program waits for a reader.
+const FAREWELL: Duration = Duration::from_secs(1);
+
+/// The near end of the log.
+#[derive(Clone)]
+pub struct Log {
+    queue: Arc<Queue>,
+}
+
+#[derive(Default)]
+struct Queue {
+    waiting: Mutex<Waiting>,
+    filled: Condvar,
+    written: Condvar,
+}
+
+#[derive(Default)]
+struct Waiting {
+    /// Whole lines.
+    text: Vec<u8>,
+    /// Lines that found no room behind `text`.
+    dropped: u64,
+    /// Lines out of the queue are still being written.
+    is_writing: bool,
+}
+
+impl Log {
+    /// Starts the log of this process. `AZEL_LOG` chooses what is in it, or
+    /// `filter` where that is missing or wrong.
+    pub fn start(filter: &str) -> io::Result<Self> {
+        let log = Self::on(standard_error()?)?;
+        let filter = EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new(filter));
+        let wants_plain = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        tracing_subscriber::fmt()
+            .with_env_filter(filter)
+            .with_ansi(io::stderr().is_terminal() && !wants_plain)
+            .with_writer(log.clone())
+            .init();
+        Ok(log)
+    }
+
+    fn on(mut sink: impl Write + Send + 'static) -> io::Result<Self> {
+        let queue = Arc::<Queue>::default();
+        let far = Arc::clone(&queue);
+        thread::Builder::new().name("azel-log".to_owned()).spawn(move || {
+            loop {
+                let (text, dropped) = far.take();
+                write(&mut sink, &text, dropped);
+                far.wrote();
+            }
+        })?;
+        Ok(Self { queue })
+    }
+
+    /// Adds a line, whatever the filter is.
+    pub fn say(&self, line: &str) {
+        self.queue.push(format!("{line}\n").as_bytes());
+    }
+
+    /// Waits until everything is written, a second at most.
+    pub fn finish(&self) {
+        self.finish_within(FAREWELL);
+    }
+
+    fn finish_within(&self, most: Duration) {
+        let is_pending = |waiting: &mut Waiting| waiting.is_writing || !waiting.text.is_empty();
+        drop(self.queue.written.wait_timeout_while(self.queue.lock(), most, is_pending));
+    }
+}
+
+impl Queue {
+    fn lock(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn push(&self, line: &[u8]) {
+        let mut waiting = self.lock();
+        // What is dropped then stands behind all that waits, and before all that
+        // comes after the next look of the thread.
+        if waiting.dropped > 0 || waiting.text.len() + line.len() > MOST_BYTES {
+            waiting.dropped += 1;
+        } else {
+            waiting.text.extend_from_slice(line);
+        }
+        self.filled.notify_one();
+    }
+
+    /// Waits for lines, and for how many were dropped behind them.
+    fn take(&self) -> (Vec<u8>, u64) {
+        let is_empty = |waiting: &mut Waiting| waiting.text.is_empty() && waiting.dropped == 0;
+        let waiting = self.filled.wait_while(self.lock(), is_empty);
+        let mut waiting = waiting.unwrap_or_else(PoisonError::into_inner);
+        waiting.is_writing = true;
+        (mem::take(&mut waiting.text), mem::take(&mut waiting.dropped))
+    }
+
+    fn wrote(&self) {
+        self.lock().is_writing = false;
+        self.written.notify_all();
+    }
+}
+
+/// Writes `text` and how many lines were `dropped` behind it.
+fn write(sink: &mut impl Write, text: &[u8], dropped: u64) {
+    // Nobody is left to be told that standard error is closed.
+    let _ = sink.write_all(text);
+    if dropped > 0 {
+        let now = Timestamp::now();
+        let _ = writeln!(
+            sink,
+            "{now:.6}  WARN azel::cli::log: {dropped} lines of the log were dropped: \
+             standard error was not read"
+        );
+    }
+    let _ = sink.flush();
+}
+
+/// Standard error past the standard library's lock: a thread that waits in it
+/// would hold up every other one that writes there.
+#[cfg(unix)]
+fn standard_error() -> io::Result<std::fs::File> {
+    use std::os::fd::AsFd as _;
+
+    Ok(io::stderr().as_fd().try_clone_to_owned()?.into())
+}
+
+/// A console of Windows takes text by way of the standard library alone.
+#[cfg(not(unix))]
+fn standard_error() -> io::Result<io::Stderr> {
+    Ok(io::stderr())
+}
+
+/// One line, as the subscriber writes it: whole.
+pub struct Line<'a>(&'a Queue);
+
+impl Write for Line<'_> {
+    fn write(&mut self, line: &[u8]) -> io::Result<usize> {
+        self.0.push(line);
+        Ok(line.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl<'a> MakeWriter<'a> for Log {
+    type Writer = Line<'a>;
+
+    fn make_writer(&'a self) -> Line<'a> {
+        Line(&self.queue)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        sync::mpsc::{Receiver, SyncSender, sync_channel},
+        time::Instant,
+    };
+
+    use super::*;
+
+    /// A sink that takes nothing until it is told to, and then everything.
+    struct Sink {
+        opened: Receiver<()>,
+        is_open: bool,
+        text: Arc<Mutex<String>>,
+    }
+
+    impl Write for Sink {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if !self.is_open {
+                self.is_open = self.opened.recv().is_ok();
+            }
+            self.text.lock().unwrap().push_str(std::str::from_utf8(bytes).unwrap());
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn blocked() -> (Log, SyncSender<()>, Arc<Mutex<String>>) {
+        let (open, opened) = sync_channel(1);
+        let text = Arc::default();
+        let sink = Sink { opened, is_open: false, text: Arc::clone(&text) };
+        (Log::on(sink).unwrap(), open, text)
+    }
+
+    #[test]
+    fn a_sink_that_takes_nothing_holds_up_nobody() {
+        let (log, _open, text) = blocked();
+        let start = Instant::now();
+        for _ in 0..100 {
+            log.say(&"x".repeat(MOST_BYTES / 10));
+        }
+        log.say(&"x".repeat(10 * MOST_BYTES));
+        log.finish_within(Duration::from_millis(50));
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+        assert!(log.queue.lock().text.len() <= MOST_BYTES);
+        assert_eq!(*text.lock().unwrap(), "");
+    }
+
+    #[test]
+    fn the_number_of_dropped_lines_stands_where_they_would_have_stood() {
+        let (log, open, text) = blocked();
+        for number in 0..20 {
+            log.say(&format!("{number} {}", "x".repeat(MOST_BYTES / 10)));
+        }
+        open.send(()).unwrap();
+        log.finish_within(Duration::from_secs(20));
+        log.say("after");
+        log.finish_within(Duration::from_secs(20));
+        let text = text.lock().unwrap();
+        let starts: Vec<&str> =
+            text.lines().map(|line| line.split(" x").next().unwrap_or(line)).collect();
+        let [kept @ .., notice, last] = &starts[..] else { panic!("{starts:?}") };
+        let dropped = 20 - kept.len();
+        assert!(dropped > 0);
+        assert_eq!(*kept, (0..kept.len()).map(|number| number.to_string()).collect::<Vec<_>>());
+        assert!(notice.contains(&format!("WARN azel::cli::log: {dropped} lines")), "{notice}");
+        assert_eq!(*last, "after");
+    }
+
+    #[test]
+    fn what_is_said_last_is_written_before_the_end() {
+        let (log, open, text) = blocked();
+        open.send(()).unwrap();
+        log.say("The window could not be opened.");
+        log.finish_within(Duration::from_secs(20));
+        assert_eq!(*text.lock().unwrap(), "The window could not be opened.\n");
+    }
+}

@@ -1,0 +1,150 @@
+//! Whether the driver's thread runs, told by a thread that does not depend on it.
+
+use std::{
+    io,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+        mpsc,
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use super::Wake;
+
+/// How often the driver tells that it runs, and the watchdog looks.
+pub(super) const PERIOD: Duration = Duration::from_millis(100);
+/// A driver without a beat for this long stands.
+const STANDS_AFTER: Duration = Duration::from_millis(500);
+/// A watchdog that looks later than this was held up itself: by a suspended or
+/// overloaded computer, which holds up the driver as well.
+const LATE: Duration = Duration::from_millis(400);
+/// How often the window is told of a driver that goes on standing.
+const REMIND: Duration = Duration::from_secs(1);
+
+/// The beats of the driver's thread, and what the watchdog makes of them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pulse(Arc<Shared>);
+
+#[derive(Debug, Default)]
+struct Shared {
+    beats: AtomicU64,
+    /// Milliseconds, 0 while it runs.
+    stood_ms: AtomicU64,
+}
+
+impl Pulse {
+    /// Beats for ever; a task of the driver's thread.
+    pub(super) async fn beat(self) {
+        let mut period = tokio::time::interval(PERIOD);
+        loop {
+            period.tick().await;
+            self.0.beats.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// For how long the driver has not run, from half a second on.
+    pub(super) fn stood_for(&self) -> Option<Duration> {
+        let ms = self.0.stood_ms.load(Ordering::Relaxed);
+        (ms > 0).then(|| Duration::from_millis(ms))
+    }
+
+    /// Starts the thread that looks after the beats. It ends when what is
+    /// returned is dropped; `wake` is called when the driver stands, and when it
+    /// runs again.
+    pub(super) fn watch(&self, wake: Wake) -> io::Result<mpsc::SyncSender<()>> {
+        let (near_end, end) = mpsc::sync_channel(1);
+        let pulse = self.clone();
+        thread::Builder::new().name("azel-watchdog".to_owned()).spawn(move || {
+            let mut watchdog = Watchdog::new(Instant::now());
+            let mut told: Option<Instant> = None;
+            while end.recv_timeout(PERIOD) == Err(mpsc::RecvTimeoutError::Timeout) {
+                let now = Instant::now();
+                let stood = watchdog.look(pulse.0.beats.load(Ordering::Relaxed), now);
+                let ms = stood.map_or(0, |stood| stood.as_millis() as u64);
+                pulse.0.stood_ms.store(ms, Ordering::Relaxed);
+                if stood.is_some() != told.is_some() {
+                    match stood {
+                        Some(stood) => tracing::error!(?stood, "the driver does not respond"),
+                        None => tracing::warn!("the driver responds again"),
+                    }
+                }
+                let due = told.is_none_or(|told| now.duration_since(told) >= REMIND);
+                match stood {
+                    Some(_) if due => {
+                        told = Some(now);
+                        wake();
+                    }
+                    None if told.take().is_some() => wake(),
+                    _ => {}
+                }
+            }
+        })?;
+        Ok(near_end)
+    }
+}
+
+/// Tells a driver that stands from one that runs.
+#[derive(Debug)]
+struct Watchdog {
+    beats: u64,
+    /// When they were seen to change last.
+    since: Instant,
+    looked: Instant,
+}
+
+impl Watchdog {
+    fn new(now: Instant) -> Self {
+        Self { beats: 0, since: now, looked: now }
+    }
+
+    /// For how long the driver has stood at `now`, with so many `beats` till then.
+    fn look(&mut self, beats: u64, now: Instant) -> Option<Duration> {
+        let was_held_up = now.saturating_duration_since(self.looked) >= LATE;
+        self.looked = now;
+        if beats != self.beats || was_held_up {
+            (self.beats, self.since) = (beats, now);
+        }
+        let stood = now.saturating_duration_since(self.since);
+        (stood >= STANDS_AFTER).then_some(stood)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Looks every tenth of a second, with one more beat for each look in `beats`.
+    fn looks(beats: impl IntoIterator<Item = bool>) -> Vec<Option<u64>> {
+        let mut now = Instant::now();
+        let mut watchdog = Watchdog::new(now);
+        let mut count = 0;
+        let look = |beats: bool| {
+            now += PERIOD;
+            count += u64::from(beats);
+            watchdog.look(count, now).map(|stood| stood.as_millis() as u64)
+        };
+        beats.into_iter().map(look).collect()
+    }
+
+    #[test]
+    fn a_driver_stands_after_half_a_second_without_a_beat_until_the_next() {
+        assert_eq!(looks([true; 50]), [None; 50]);
+        let stands = looks([true, false, false, false, false, false, false, true, false]);
+        let expected = [None, None, None, None, None, Some(500), Some(600), None, None];
+        assert_eq!(stands, expected);
+    }
+
+    #[test]
+    fn a_watchdog_that_was_held_up_itself_blames_nobody() {
+        let start = Instant::now();
+        let mut watchdog = Watchdog::new(start);
+        let thawed = start + Duration::from_hours(1);
+        assert_eq!(watchdog.look(0, thawed), None);
+        assert_eq!(watchdog.look(1, thawed + PERIOD), None);
+        let stands = |tenths: u32| thawed + tenths * PERIOD;
+        let seen: Vec<_> = (2..8).map(|tenths| watchdog.look(1, stands(tenths))).collect();
+        assert_eq!(seen[4], Some(STANDS_AFTER));
+    }
+}
