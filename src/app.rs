@@ -39,6 +39,7 @@ pub use command::UiCommand;
 pub use model::{Model, View};
 
 use self::{
+    alarms::AlarmKind,
     antenna::AntennaModel,
     clock_watch::ClockWatch,
     copies::CopyWork,
@@ -50,8 +51,9 @@ use self::{
     sources::{Outcome, Places, SourceWork, Sources, Task},
 };
 use crate::{
-    driver::{self, Clock, Driver, Wake},
+    driver::{self, Clock, Command, Driver, Unit, Wake},
     makes::{self, DemoAddresses},
+    plan::Bounds,
     station::{self, LoadError, Station},
     ui,
 };
@@ -200,14 +202,33 @@ impl App {
     /// Takes a station into use. Antennas that stay as they are keep their session.
     fn use_station(&mut self, station: Station) {
         let mut before = std::mem::take(&mut self.model.antennas);
+        // The antenna may be the same one at a new address: then STOP is owed to both.
+        let debts = self.driver.debts().clone();
+        let owed: Vec<String> = (before.iter())
+            .filter(|antenna| debts.owes(&Unit::of(&antenna.config)))
+            .map(|antenna| antenna.config.name.clone())
+            .collect();
         // A unit has one place for a client: the old session leaves first.
         before.retain(|antenna| station.antennas.contains(&antenna.config));
         for config in &station.antennas {
-            let kept = before.iter().position(|antenna| antenna.config == *config);
-            let antenna = kept.map_or_else(
-                || self.open_antenna(config.clone()),
-                |index| before.swap_remove(index),
-            );
+            let bounds = Bounds::of(&station, config);
+            let antenna = match before.iter().position(|antenna| antenna.config == *config) {
+                Some(kept) => {
+                    let antenna = before.swap_remove(kept);
+                    // Not taken only where the session is too busy to take anything.
+                    if antenna.handle.send(Command::Within(Box::new(bounds))).is_err() {
+                        self.model.alarms.raise(None, AlarmKind::NotTaken, self.model.now);
+                    }
+                    antenna
+                }
+                None => {
+                    let antenna = self.open_antenna(config.clone(), bounds);
+                    if owed.contains(&config.name) {
+                        antenna.handle.stop();
+                    }
+                    antenna
+                }
+            };
             self.model.antennas.push(antenna);
         }
         let last = self.keeper.memory.antenna.as_deref();
@@ -218,8 +239,8 @@ impl App {
         self.model.station = station;
     }
 
-    fn open_antenna(&self, config: station::Antenna) -> AntennaModel {
-        let handle = self.driver.open(&config);
+    fn open_antenna(&self, config: station::Antenna, bounds: Bounds) -> AntennaModel {
+        let handle = self.driver.open(&config, bounds);
         AntennaModel::new(config, handle)
     }
 }

@@ -253,6 +253,12 @@ pub trait Moves: Device {
         None
     }
 
+    /// Where an action leads the axes, degrees as the mount counts, as far as it is
+    /// known.
+    fn axes_of(&self, _act: &Act) -> [Option<f64>; 2] {
+        [None; 2]
+    }
+
     /// Queues a motion other than an action. It is sent once, and not at all
     /// when a halt comes first.
     fn start(&mut self, motion: Motion);

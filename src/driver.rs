@@ -34,7 +34,7 @@ pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
-pub use safety::Safety;
+pub use safety::{Mover, Response, Safety};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, Snapshot, StopState,
@@ -43,7 +43,10 @@ pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use self::pulse::Pulse;
-use crate::station::{Antenna, Link};
+use crate::{
+    plan::Bounds,
+    station::{Antenna, Link},
+};
 
 /// How many commands may wait. The window sends at most a few a frame.
 const COMMANDS: usize = 64;
@@ -204,14 +207,22 @@ impl Driver {
     }
 
     /// Starts the session of one antenna.
-    pub fn open(&self, antenna: &Antenna) -> AntennaHandle {
+    pub fn open(&self, antenna: &Antenna, bounds: Bounds) -> AntennaHandle {
         let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake));
         let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
         let open = move || {
             let (controller, dial) = (antenna.controller(), dial(&antenna));
             let (wires, debts) = (ends.clone(), debts.clone());
-            let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts);
+            let session = Session::over(
+                controller,
+                &antenna,
+                dial,
+                clock.clone(),
+                wires,
+                debts,
+                bounds.clone(),
+            );
             match &dead_man {
                 Some(program) => session.guarded_by(program.clone()),
                 None => session,

@@ -3,10 +3,12 @@
 
 mod az_el;
 mod azimuth_route;
+pub mod bounds;
 pub mod follow;
 pub mod pass_export;
 mod trackability;
 mod within_rate;
 
+pub use bounds::{Barrier, Bounds, Clearance, Sweep};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use trackability::{Loss, Reach, Sample, Trackability, trackability};

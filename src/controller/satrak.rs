@@ -53,7 +53,7 @@ pub const MAKE: Make = Make {
         waits_for_word: false,
         // Hundredths of a degree; below a quarter of a degree a second nothing but
         // tracking moves, which is switched off with STOP.
-        standstill: Standstill { resolution_deg: 0.01, slowest_deg_s: 0.25 },
+        standstill: Standstill { resolution_deg: 0.01, slowest_deg_s: 0.25, run_out_s: 0.4 },
         stop_note: None,
     },
     groups: GROUPS,

@@ -43,6 +43,9 @@ pub struct Standstill {
     pub resolution_deg: f64,
     /// Slowest rate at which a motion of its own runs on, degrees a second.
     pub slowest_deg_s: f64,
+    /// For how long an axis usually runs on at its rate after a STOP, seconds: half
+    /// of the time in which it slows down.
+    pub run_out_s: f64,
 }
 
 /// How fast a controller jogs.

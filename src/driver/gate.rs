@@ -5,15 +5,17 @@
 //! keep-out, is one more entry of [`RULES`].
 
 mod rules;
+mod way;
 
 use std::time::Duration;
 
 use super::intent::Intent;
 use crate::{
-    astro::Angle,
+    astro::{Angle, AzEl},
     controller::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
     },
+    plan::{Barrier, Bounds, Sweep},
     station::{MotionLimits, Mount},
 };
 use rules::RULES;
@@ -22,7 +24,7 @@ use rules::RULES;
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
 /// Why a motion was not sent.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
@@ -98,6 +100,14 @@ pub enum Refusal {
         /// Upper end of its travel.
         to_deg: f64,
     },
+    /// The way leads into what is forbidden.
+    #[error("{barrier:?} is in the way")]
+    Forbidden {
+        /// What it is.
+        barrier: Barrier,
+        /// A direction in it on the way.
+        at: AzEl,
+    },
     /// What is special to this controller speaks against it.
     #[error("{0}")]
     Controller(&'static str),
@@ -120,6 +130,9 @@ struct Situation<'a> {
     stopping: bool,
     limits: MotionLimits,
     mount: Mount,
+    bounds: &'a Bounds,
+    /// How far ahead of the last position a jog is judged, seconds.
+    ahead_s: f64,
     now: Moment,
 }
 
@@ -128,11 +141,42 @@ pub(super) struct Gate {
     controller: Box<dyn Moves>,
     limits: MotionLimits,
     mount: Mount,
+    bounds: Bounds,
+    /// For how long the axes run on at their rate after a STOP, seconds.
+    run_out_s: f64,
+    /// Where the last motion to a position ends, degrees as the mount counts; `None`
+    /// after any other motion.
+    to_deg: Option<[f64; 2]>,
 }
 
 impl Gate {
-    pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, mount: Mount) -> Self {
-        Self { controller, limits, mount }
+    pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, bounds: Bounds) -> Self {
+        let run_out_s = controller.capabilities().standstill.run_out_s;
+        Self { controller, limits, mount: bounds.mount(), bounds, run_out_s, to_deg: None }
+    }
+
+    /// What the antenna must keep within.
+    pub(super) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Other keep-outs hold from now on.
+    pub(super) fn keep_within(&mut self, bounds: Bounds) {
+        self.bounds = bounds;
+    }
+
+    /// The axes were measured to run on for this long after a STOP, seconds.
+    pub(super) fn set_run_out(&mut self, run_out_s: f64) {
+        self.run_out_s = run_out_s;
+    }
+
+    /// How far ahead of the last position a motion is judged, seconds: the age of
+    /// the position, the time to the next one and its way here, and the run-out.
+    pub(super) fn ahead_s(&self, now: Moment) -> f64 {
+        let Some(measured) = self.state().measured else { return self.run_out_s };
+        let age = now.steady.saturating_duration_since(measured.asked);
+        let reply = measured.received.saturating_duration_since(measured.asked);
+        (age + reply + self.controller.poll_period()).as_secs_f64() + self.run_out_s
     }
 
     /// The harmless side of the controller.
@@ -159,6 +203,7 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         self.examine(motion, intent, stopping, now)?;
+        self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
         self.controller.start(motion);
         Ok(())
     }
@@ -170,17 +215,25 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        let situation = Situation {
+        let situation = self.situation(intent, stopping, now);
+        let told = self.controller.as_told(motion);
+        RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
+        way::is_clear(&told, &situation)?;
+        self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
+    }
+
+    fn situation(&self, intent: Intent, stopping: bool, now: Moment) -> Situation<'_> {
+        Situation {
             state: self.controller.state(),
             can: self.controller.capabilities(),
             intent,
             stopping,
             limits: self.limits,
             mount: self.mount,
+            bounds: &self.bounds,
+            ahead_s: self.ahead_s(now),
             now,
-        };
-        RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
-        self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
+        }
     }
 
     /// Does what only this make can do, or says why not.
@@ -194,6 +247,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
+            self.check_axes(self.controller.axes_of(&act), now)?;
         }
         self.controller.act(act);
         Ok(())

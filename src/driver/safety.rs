@@ -2,6 +2,8 @@
 
 use jiff::Timestamp;
 
+use crate::plan::Barrier;
+
 /// A matter of safety, for the event line and the alarm list.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Safety {
@@ -33,4 +35,33 @@ pub enum Safety {
     },
     /// A held jog does not turn the axis.
     JogWithoutEffect,
+    /// The antenna was about to enter, or is inside, what is forbidden.
+    Forbidden {
+        /// What it is.
+        barrier: Barrier,
+        /// Who drove.
+        driver: Mover,
+        /// What was done about it.
+        response: Response,
+    },
+}
+
+/// Who moves an antenna.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mover {
+    /// This program, by hand or position by position.
+    Azel,
+    /// The unit's own program.
+    Program,
+    /// Nobody that is known here: the panel, another client, a run-out.
+    Somebody,
+}
+
+/// What was done about an antenna that enters what is forbidden.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Response {
+    /// STOP was sent.
+    Stopped,
+    /// The operator was told; STOP is not wanted there, or would keep it inside.
+    Told,
 }

@@ -11,6 +11,7 @@ mod halting;
 mod jog;
 mod liveness;
 mod marking;
+mod monitor;
 mod standstill;
 mod step;
 mod supervise;
@@ -34,21 +35,20 @@ use super::{
 };
 use crate::{
     controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
-    station::Antenna,
+    plan::Bounds,
+    station::{Antenna, Monitor},
 };
-use command::Waiting;
+use command::{Leg, Waiting};
 use follow::{Following, Manner};
 use guard::Guard;
 use halting::Halting;
 use jog::Jog;
 use marking::Marking;
+use monitor::{RunOut, Watch};
 use standstill::{Figures, Rest};
 use step::Stepping;
 use supervise::Doubt;
 use wanted::Wanted;
-
-/// How far an antenna sways while it stands, degrees.
-const SWAY_DEG: f64 = 0.1;
 
 /// The far ends of the channels to the window. They outlive a session that
 /// breaks down: the next one takes them over.
@@ -124,6 +124,10 @@ pub struct Session {
     number: u64,
     marking: Marking,
     figures: Figures,
+    /// What is done when somebody else drives it into what is forbidden.
+    monitor: Monitor,
+    watch: Watch,
+    run_out: RunOut,
     rest: Rest,
     /// When the look came in that the rest was watched by last.
     looked: Option<Instant>,
@@ -140,6 +144,8 @@ pub struct Session {
     /// The intent is not yet proved by the device.
     pending: Option<Instant>,
     aim: Option<Pointing>,
+    /// The leg of a go-to that is under way, before the last one.
+    leg: Option<Leg>,
     target: Option<TrackTarget>,
     /// What this program follows, position by position.
     following: Option<Following>,
@@ -170,7 +176,8 @@ impl Session {
         wake: Wake,
     ) -> (Self, AntennaHandle) {
         let (wires, handle) = Wires::new(antenna, wake);
-        (Self::over(controller, antenna, dial, clock, wires, Debts::default()), handle)
+        let bounds = Bounds::of_antenna(antenna);
+        (Self::over(controller, antenna, dial, clock, wires, Debts::default(), bounds), handle)
     }
 
     /// A session of `antenna` that reads and writes `wires`, and owes in `debts`.
@@ -181,8 +188,9 @@ impl Session {
         clock: Clock,
         wires: Wires,
         debts: Debts,
+        bounds: Bounds,
     ) -> Self {
-        let gate = Gate::new(controller, antenna.limits, antenna.mount);
+        let gate = Gate::new(controller, antenna.limits, bounds);
         let make = antenna.connection.make();
         let (wanted, link) = first_link(antenna);
         let unit = Unit::of(antenna);
@@ -201,7 +209,10 @@ impl Session {
             debts,
             number,
             marking: Marking::None,
-            figures: Figures::of(make.capabilities, SWAY_DEG),
+            figures: Figures::of(make.capabilities, antenna.sway_deg),
+            monitor: antenna.monitor,
+            watch: Watch::default(),
+            run_out: RunOut::default(),
             rest: Rest::default(),
             looked: None,
             link,
@@ -212,6 +223,7 @@ impl Session {
             intent: Intent::Standby,
             pending: None,
             aim: None,
+            leg: None,
             target: None,
             following: None,
             jog: None,

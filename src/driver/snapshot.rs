@@ -290,7 +290,7 @@ pub enum Event {
 }
 
 /// Why a target cannot be followed, or no further.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FollowProblem {
     /// It does not rise any more in the time that was looked at.
     #[error("there is no pass to come")]

@@ -3,7 +3,7 @@
 use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
-    astro::Angle,
+    astro::{Angle, AzEl},
     controller::{Capabilities, Pointing},
 };
 
@@ -59,6 +59,12 @@ pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let decimals = decimals(can).min(1);
     let known = angles.into_iter().flatten().map(|deg| degrees(deg, decimals));
     known.collect::<Vec<_>>().join(", ")
+}
+
+/// A direction of the sky.
+pub fn pointing_at(direction: AzEl) -> String {
+    let (azimuth, elevation) = (direction.azimuth_deg(), direction.elevation_deg());
+    format!("{}, {}", degrees(azimuth, 1), degrees(elevation, 1))
 }
 
 /// Decimals of a degree that mean something to a controller that can do so much,

@@ -9,7 +9,7 @@ mod safety;
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
-pub use safety::safety;
+pub use safety::{forbidden, safety};
 
 use crate::{controller::Motion, driver::Intent, makes};
 

@@ -37,8 +37,8 @@ async fn a_held_key_turns_one_rotator_and_its_release_stops() {
 #[tokio::test(start_paused = true)]
 async fn each_way_of_each_rotator_has_its_command() {
     let mut rig = in_manual().await;
-    for rates in [[-4.0, 0.0], [0.0, 3.0], [0.0, -0.1]] {
-        rig.hold(rates, 1.0).await;
+    for (rates, seconds) in [([-4.0, 0.0], 1.0), ([0.0, 3.0], 4.0), ([0.0, -0.1], 0.5)] {
+        rig.hold(rates, seconds).await;
         rig.send(Command::EndJog);
         rig.until_still(3).await;
         // Its reading has to stay for a while before the next one may begin.

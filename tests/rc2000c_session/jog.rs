@@ -5,6 +5,7 @@ use std::time::Duration;
 use azel::{
     controller::{Motion, rc2000c::BAUD},
     driver::{Command, Event, LinkState, Refusal},
+    plan::Barrier,
     sim::rc2000c::{Fault, Options, Quirk},
 };
 
@@ -194,10 +195,14 @@ async fn a_limit_blocks_its_own_direction_only() {
     let quirks = [Quirk::RefuseAtLimit].into_iter().collect();
     let mut rig = Rig::connected(&Options { quirks, ..Options::default() }, &antenna()).await;
     rig.send(Command::Manual);
-    // Calibrated, the travel of the mount ends it before the limit does.
+    // Calibrated, the minimum elevation ends it before the limit does.
     rig.hold([0.0, -FAST], 30.0).await;
     let events = rig.events();
-    assert!(matches!(events[0], Event::NotSent(Refusal::Travel { axis: "El", .. })), "{events:?}");
+    let barrier = Barrier::MinimumElevation;
+    assert!(
+        matches!(&events[0], Event::NotSent(Refusal::Forbidden { barrier: hit, .. }) if *hit == barrier),
+        "{events:?}"
+    );
 
     let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
     rig.send(Command::Manual);

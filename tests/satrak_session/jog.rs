@@ -9,10 +9,12 @@ use azel::{
     driver::{Command, Event, Intent, LinkState, Refusal, StopState},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
+    station::Mount,
 };
 
 use super::{
     rig::Rig,
+    rig::{antenna, options},
     script::{STILL, Scripted, plain},
 };
 
@@ -93,7 +95,15 @@ async fn in_standby_a_jog_is_refused_once_with_the_reason() {
 
 #[tokio::test(start_paused = true)]
 async fn a_limit_switch_blocks_its_own_direction_only() {
-    let mut rig = in_manual().await;
+    // The switch of the unit comes before the end that the station knows of.
+    let mut wide = antenna();
+    wide.limits.minimum_elevation_deg = 0.0;
+    let travel = (0.0, 190.0);
+    if let Mount::Xy { travel_from_deg, travel_to_deg, .. } = &mut wide.mount {
+        (*travel_from_deg, *travel_to_deg) = travel;
+    }
+    let mut rig = Rig::connected(&options(), &wide).await;
+    rig.send(Command::Manual);
     rig.hold([3.0, 0.0], 32.0).await;
     rig.send(Command::EndJog);
     rig.until("at the limit", 3, |shown| shown.state.measured.unwrap().axes[0].plus_limit).await;

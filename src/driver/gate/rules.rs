@@ -12,8 +12,6 @@ use crate::{
 
 /// A jog or step needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
-/// A jog is looked at again after this long at the latest, seconds.
-const JOG_HORIZON_S: f64 = 0.3;
 /// Anything else needs a position younger than this.
 const RECENT: Duration = Duration::from_secs(5);
 
@@ -171,7 +169,9 @@ fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
 fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let ahead_deg = match *motion {
         // As far as it gets before the next position is looked at.
-        Motion::Jog { x_deg_s, y_deg_s } => [x_deg_s * JOG_HORIZON_S, y_deg_s * JOG_HORIZON_S],
+        Motion::Jog { x_deg_s, y_deg_s } => {
+            situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
+        }
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
             return Ok(());

@@ -135,7 +135,8 @@ impl Case {
         let started = Arc::new(Mutex::new(Vec::new()));
         let can = self.antenna.connection.make().capabilities;
         let metal = Metal { can, state: self.state.clone(), started: Arc::clone(&started) };
-        let mut gate = Gate::new(Box::new(metal), self.antenna.limits, self.antenna.mount);
+        let mut gate =
+            Gate::new(Box::new(metal), self.antenna.limits, Bounds::of_antenna(&self.antenna));
         let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
         let now = Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH };
         let answer = gate.start(motion, self.intent, self.stopping, now);
@@ -351,7 +352,11 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
         state: case.state.clone(),
         started: Arc::default(),
     };
-    let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
+    let gate = Gate::new(
+        Box::new(metal),
+        case.antenna.limits,
+        Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
+    );
     // The axis stands at 90.
     for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {
         assert_eq!(gate.nearest(position(asked_deg, 45.0)), Ok(position(meant_deg, 45.0)));

@@ -3,9 +3,9 @@
 use super::{Event, Session, wanted::Wanted};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},
+    controller::{Moment, Motion, Pointing, Question, TrackTarget, panel::Act, settings::Change},
     driver::{Intent, Refusal},
-    plan::Follow,
+    plan::{Bounds, Follow},
 };
 
 /// What the operator can ask of an antenna. STOP is no command: it goes past
@@ -44,6 +44,8 @@ pub enum Command {
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
+    /// Keep within these bounds from now on.
+    Within(Box<Bounds>),
     /// The operator has seen that the antenna stands: no STOP is owed any more.
     SeenStanding,
     /// To the park position.
@@ -75,19 +77,31 @@ pub(super) enum Waiting {
     Prepare(TrackTarget),
 }
 
+/// The first of two motions to a position, one axis after the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Leg {
+    /// Where it ends.
+    pub(super) aim: Pointing,
+    /// What follows.
+    pub(super) then: Motion,
+}
+
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
         // A hold is renewed many times a second; not worth a line each. Settings
         // are logged where they are made, without their values, and a target by its
         // name.
-        let quiet =
-            matches!(command, Command::Jog { .. } | Command::Settle(_) | Command::Follow(_));
+        let quiet = matches!(
+            command,
+            Command::Jog { .. } | Command::Settle(_) | Command::Follow(_) | Command::Within(_)
+        );
         let line = (!quiet && tracing::enabled!(tracing::Level::INFO)).then(|| command.clone());
         match command {
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
+            Command::Within(bounds) => self.gate.keep_within(*bounds),
             Command::Standby => self.leave_for(Intent::Standby, now),
             Command::Manual => self.leave_for(Intent::Manual, now),
             Command::Hold => self.leave_for(Intent::Position, now),
@@ -164,22 +178,24 @@ impl Session {
     /// Checked before anything that runs is ended for it.
     fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
         let checked = self.gate.nearest(motion).and_then(|motion| {
-            self.gate.check(motion, intent, now)?;
-            Ok(motion)
+            let route = self.gate.route(motion, intent, now)?;
+            Ok((motion, route))
         });
-        let motion = match checked {
-            Ok(motion) => motion,
+        let (motion, route) = match checked {
+            Ok(checked) => checked,
             Err(refusal) => return self.tell(Event::NotSent(refusal)),
         };
         let aim = self.gate.aim(&motion);
+        let first_aim = self.gate.aim(&route.first);
         if self.may_move() {
             self.halt_quietly(now);
         }
         self.intent = intent;
         self.following = None;
         self.aim = aim;
+        self.leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
         self.pending = Some(now.steady);
-        self.waiting = Some(Waiting::Motion(motion));
+        self.waiting = Some(Waiting::Motion(route.first));
     }
 
     fn track(&mut self, target: TrackTarget, now: Moment) {
@@ -244,6 +260,7 @@ impl Session {
             }
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
+            Command::Within(bounds) => self.gate.keep_within(*bounds),
             Command::Standby => {
                 self.intent = Intent::Standby;
                 self.following = None;

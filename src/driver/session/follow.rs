@@ -60,7 +60,7 @@ impl Session {
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
         let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
         if let Some(next) = planner.look(now.utc, axes)? {
-            self.gate.check(motion(next), Intent::Track, now)?;
+            self.gate.route(motion(next), Intent::Track, now)?;
         }
         Ok(planner)
     }
@@ -151,17 +151,33 @@ impl Session {
 
     fn send_next(&mut self, next: Next, now: Moment) {
         let motion = motion(next);
-        match self.gate.start(motion, Intent::Track, self.halting.is_some(), now) {
-            Ok(()) => {
-                let aim = self.gate.aim(&motion);
+        let routed = self.gate.route(motion, Intent::Track, now);
+        let started = routed.and_then(|route| {
+            self.gate.start(route.first, Intent::Track, self.halting.is_some(), now)?;
+            Ok(route)
+        });
+        match started {
+            Ok(route) => {
+                let aim = self.gate.aim(&route.first);
                 self.stopped_at = None;
                 let Some(following) = &mut self.following else { return };
-                following.planner.sent(next);
+                // A leg round a corner is looked at again, until the way is free.
+                if route.then.is_none() {
+                    following.planner.sent(next);
+                }
                 following.sent = Some(now.steady);
                 following.stats.commands += 1;
                 following.commanded = aim;
+                following.told_barrier = false;
                 // What is up is compared with itself, not with the last step.
                 self.aim = aim.filter(|_| following.phase != FollowPhase::Following);
+            }
+            // It waits at the edge, and goes on where the way is free again.
+            Err(Refusal::Forbidden { barrier, at }) => {
+                let Some(following) = &mut self.following else { return };
+                if !std::mem::replace(&mut following.told_barrier, true) {
+                    self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
+                }
             }
             // What is not known yet will be.
             Err(

@@ -62,6 +62,9 @@ impl Session {
     }
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
+        if self.halting.is_none() {
+            self.begin_run_out(now);
+        }
         if pressed && let Some(jog) = &self.jog {
             self.ended_hold = Some(jog.rates_deg_s);
         }
@@ -70,6 +73,7 @@ impl Session {
         self.waiting = None;
         self.pending = None;
         self.aim = None;
+        self.leg = None;
         self.target = None;
         self.following = None;
         self.doubt = None;
@@ -125,6 +129,7 @@ impl Session {
     fn end_halt(&mut self, proof: Proof, now: Moment) {
         let is_pressed = self.halting.take().is_some_and(|halting| halting.pressed);
         self.settle_debt();
+        self.end_run_out();
         if is_pressed {
             self.stopped_at = Some(now.steady);
             self.tell(Event::Stopped);

@@ -38,6 +38,7 @@ impl Session {
         self.watch_step();
         self.watch_halt(now);
         self.watch_rest();
+        self.watch_bounds(now);
         self.forget_old_stop(now);
         self.start_waiting(now);
         match self.intent {
@@ -184,7 +185,8 @@ impl Session {
         if self.waiting.is_some() {
             return;
         }
-        let (Some(aim), Some(measured)) = (self.aim, self.gate.state().measured) else { return };
+        let aim = self.leg.map(|leg| leg.aim).or(self.aim);
+        let (Some(aim), Some(measured)) = (aim, self.gate.state().measured) else { return };
         let within_deg = self.make.capabilities.arrives_within_deg;
         let off = measured.pointing.separation(aim);
         let near = off.is_some_and(|off| off.degrees() <= within_deg);
@@ -197,11 +199,15 @@ impl Session {
             }
             return;
         }
-        if near {
+        if near && let Some(leg) = self.leg.take() {
+            self.pending = Some(now.steady);
+            self.waiting = Some(Waiting::Motion(leg.then));
+        } else if near {
             self.pending = None;
             self.tell(Event::Arrived(aim));
         } else if now.steady.saturating_duration_since(since) >= EFFECT {
             self.pending = None;
+            self.leg = None;
             self.tell(Event::EndedShort { aim, at: measured.pointing });
         }
     }

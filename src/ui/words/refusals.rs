@@ -55,6 +55,11 @@ pub fn refusal(refusal: &Refusal) -> String {
             format!("Not sent: the angle of {axis} is not known, nobody would see it turn.")
         }
         Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
+        Refusal::Forbidden { barrier, at } => format!(
+            "Not sent: the way leads {}, at {}.",
+            super::forbidden(barrier),
+            format::pointing_at(*at)
+        ),
         Refusal::Controller(why) => format!("Not sent: {why}."),
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()

@@ -1,6 +1,19 @@
 //! Matters of safety.
 
-use crate::{driver::Safety, ui::format};
+use crate::{
+    driver::{Mover, Response, Safety},
+    plan::Barrier,
+    ui::format,
+};
+
+/// Where an antenna is that is inside a barrier.
+pub fn forbidden(barrier: &Barrier) -> String {
+    match barrier {
+        Barrier::MinimumElevation => "below its minimum elevation".to_owned(),
+        Barrier::KeepOut(name) => format!("into the keep-out \u{201c}{name}\u{201d}"),
+        Barrier::Sun => "too close to the Sun".to_owned(),
+    }
+}
 
 /// A matter of safety in words; `antenna` is its name.
 pub fn safety(matter: &Safety, antenna: &str) -> String {
@@ -30,6 +43,20 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
         ),
         Safety::JogWithoutEffect => {
             format!("{antenna} took the jog, but its angle does not change.")
+        }
+        Safety::Forbidden { barrier, driver, response } => {
+            let driver = match driver {
+                Mover::Azel => "driven by Azel",
+                Mover::Program => "driven by its own program",
+                Mover::Somebody => "and not driven by Azel",
+            };
+            let into = forbidden(barrier);
+            match response {
+                Response::Stopped => {
+                    format!("{antenna} was stopped before it went {into}, {driver}.")
+                }
+                Response::Told => format!("{antenna} is {into}, {driver}."),
+            }
         }
         Safety::SessionBroke => format!(
             "The connection to {antenna} broke down inside Azel and was started again with STOP."

@@ -91,7 +91,11 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
             state: case.state.clone(),
             started: Arc::default(),
         };
-        let gate = Gate::new(Box::new(metal), case.antenna.limits, mount);
+        let gate = Gate::new(
+            Box::new(metal),
+            case.antenna.limits,
+            Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
+        );
         let Ok(Motion::Position { azimuth: Some(axis), .. }) =
             gate.nearest(position(asked_deg, 30.0))
         else {
@@ -129,7 +133,7 @@ fn tipped(intent: Intent) -> (Case, Gate) {
         state: case.state.clone(),
         started: Arc::default(),
     };
-    let gate = Gate::new(Box::new(metal), case.antenna.limits, case.antenna.mount);
+    let gate = Gate::new(Box::new(metal), case.antenna.limits, Bounds::of_antenna(&case.antenna));
     (case, gate)
 }
 

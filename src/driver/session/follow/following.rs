@@ -47,6 +47,8 @@ pub(in crate::driver::session) struct Following {
     /// When the position came in that was compared last.
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
+    /// That a barrier is in the way was told.
+    pub(super) told_barrier: bool,
     /// Where the last position leads.
     pub(super) commanded: Option<Pointing>,
 }
@@ -64,6 +66,7 @@ impl Following {
             lost: 0,
             compared: None,
             predicted: None,
+            told_barrier: false,
             commanded: None,
         }
     }

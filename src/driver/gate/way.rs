@@ -1,0 +1,217 @@
+//! The way that a motion takes, held against what the antenna must keep within.
+
+use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
+use crate::{
+    astro::{AzEl, xy_mount},
+    controller::aimed,
+};
+
+/// Out of what is forbidden an antenna goes by hand alone, with this share of the
+/// fastest rate at most.
+const OUT_SHARE: f64 = 0.25;
+/// A way out has to gain at least this much over what it is judged ahead, degrees.
+const OUT_GAIN_DEG: f64 = 1e-6;
+
+/// How a motion to a position gets there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::driver) struct Route {
+    /// What is sent first.
+    pub(in crate::driver) first: Motion,
+    /// What is sent once that has arrived, where the way goes round a corner.
+    pub(in crate::driver) then: Option<Motion>,
+}
+
+/// Refuses what may lead into a barrier.
+pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let Some(axes_deg) = axes(situation) else { return Ok(()) };
+    match *motion {
+        Motion::Jog { x_deg_s, y_deg_s } => {
+            let rates = situation.turning([x_deg_s, y_deg_s]);
+            let ahead_deg = rates.map(|rate| rate * situation.ahead_s);
+            by_hand(axes_deg, ahead_deg, Some(rates), situation)
+        }
+        Motion::Step { x_deg, y_deg } => by_hand(axes_deg, [x_deg, y_deg], None, situation),
+        Motion::Position { azimuth, elevation } => {
+            let Some(to_deg) = target(azimuth, elevation, axes_deg, situation) else {
+                return Ok(());
+            };
+            let sweep = sweep_between(axes_deg, to_deg, situation);
+            blocked(sweep, axes_deg, situation.bounds, situation.now)
+        }
+        // The way of the unit's own program is judged by itself.
+        Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => Ok(()),
+    }
+}
+
+impl Situation<'_> {
+    /// The rates at which the axes really turn in a jog: a controller that jogs at
+    /// named speeds has no others.
+    pub(super) fn turning(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
+        let fastest_deg_s = self.limits.maximum_rate_deg_s;
+        asked_deg_s.map(|rate| {
+            let named = self.can.jog.nearest(rate, fastest_deg_s);
+            let named_deg_s = named.map_or(0.0, |speed| speed.share * fastest_deg_s);
+            if rate == 0.0 { 0.0 } else { rate.abs().max(named_deg_s).copysign(rate) }
+        })
+    }
+}
+
+fn by_hand(
+    axes_deg: [f64; 2],
+    ahead_deg: [f64; 2],
+    rates_deg_s: Option<[f64; 2]>,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
+    let (bounds, utc) = (situation.bounds, situation.now.utc);
+    let to_deg = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
+    let (here, there) = (bounds.direction(axes_deg), bounds.direction(to_deg));
+    let (before, after) = (bounds.clearances(here, utc), bounds.clearances(there, utc));
+    let is_inside = before.iter().any(|clearance| {
+        !clearance.warns_only
+            && clearance.barrier != crate::plan::Barrier::MinimumElevation
+            && clearance.angle < Angle::ZERO
+    });
+    if !is_inside {
+        let sweep = sweep_between(axes_deg, to_deg, situation);
+        return blocked(sweep, axes_deg, bounds, situation.now);
+    }
+    for (before, after) in before.iter().zip(&after).filter(|(it, _)| !it.warns_only) {
+        let leads_out = after.angle.degrees() > before.angle.degrees() + OUT_GAIN_DEG;
+        let stays_out = before.angle >= Angle::ZERO && after.angle >= Angle::ZERO;
+        if !leads_out && !stays_out {
+            let barrier = after.barrier.clone();
+            return Err(Refusal::Forbidden { barrier, at: there });
+        }
+    }
+    let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+    let allowed_deg_s = situation.limits.maximum_rate_deg_s * OUT_SHARE;
+    if fastest > allowed_deg_s {
+        return Err(Refusal::TooFast { asked_deg_s: fastest, allowed_deg_s });
+    }
+    Ok(())
+}
+
+/// Where the axes stand, as the mount counts. Without an elevation axis the second
+/// one may point anywhere; `None` where an axis that counts tells no angle.
+fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
+    let [first, second] = situation.state.measured?.axes.map(|axis| axis.angle_deg);
+    let second = if situation.can.has_elevation { second? } else { 0.0 };
+    Some([first?, second])
+}
+
+fn sweep_between(from_deg: [f64; 2], to_deg: [f64; 2], situation: &Situation<'_>) -> Sweep {
+    let Sweep([first, second]) = Sweep::between(from_deg, to_deg);
+    let second = if situation.can.has_elevation { second } else { (0.0, 90.0) };
+    Sweep([first, second])
+}
+
+fn blocked(sweep: Sweep, from_deg: [f64; 2], bounds: &Bounds, now: Moment) -> Result<(), Refusal> {
+    let blocked = bounds.blocks(sweep, bounds.direction(from_deg), now.utc);
+    blocked.map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
+}
+
+/// The axes at the end of a motion to a position, degrees as the mount counts.
+fn target(
+    azimuth: Option<Angle>,
+    elevation: Option<Angle>,
+    axes_deg: [f64; 2],
+    situation: &Situation<'_>,
+) -> Option<[f64; 2]> {
+    let degrees = |angle: Option<Angle>, stays: f64| angle.map_or(stays, Angle::degrees);
+    match situation.mount {
+        Mount::AzEl { .. } => {
+            Some([degrees(azimuth, axes_deg[0]), degrees(elevation, axes_deg[1])])
+        }
+        Mount::Xy { lower_axis_azimuth_deg, .. } => {
+            let measured = situation.state.measured.map(|measured| measured.pointing);
+            let direction = aimed(azimuth, elevation, measured).direction()?;
+            Some(crossed(direction, lower_axis_azimuth_deg))
+        }
+    }
+}
+
+/// The controller counts 90 at the zenith.
+fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
+    let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+    let axes = xy_mount::axes_from_azel(direction, lower_axis);
+    [axes.lower, axes.upper].map(|angle| angle.degrees() + 90.0)
+}
+
+impl Gate {
+    /// How `motion` gets to its position: at once, or with one axis after the other
+    /// where both together may sweep through what is forbidden.
+    pub(in crate::driver) fn route(
+        &self,
+        motion: Motion,
+        intent: Intent,
+        now: Moment,
+    ) -> Result<Route, Refusal> {
+        let refusal = match self.check(motion, intent, now) {
+            Ok(()) => return Ok(Route { first: motion, then: None }),
+            Err(refusal @ Refusal::Forbidden { .. }) => refusal,
+            Err(other) => return Err(other),
+        };
+        let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal) };
+        let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
+        for corner_deg in corners_deg {
+            let first = self.to_axes(corner_deg);
+            let second = Sweep::between(corner_deg, to_deg);
+            let start = self.bounds.direction(corner_deg);
+            let is_free = self.bounds.blocks(second, start, now.utc).is_none()
+                && self.check(first, intent, now).is_ok();
+            if is_free {
+                return Ok(Route { first, then: Some(motion) });
+            }
+        }
+        Err(refusal)
+    }
+
+    /// Where axes will stand that would turn by `ahead_deg`: an axis on its way to a
+    /// position ends there.
+    pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
+        let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
+        let Some(to_deg) = self.to_deg else { return reached };
+        for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(to_deg) {
+            let passes =
+                (from_deg..=*reached).contains(&to_deg) || (*reached..=from_deg).contains(&to_deg);
+            if passes {
+                *reached = to_deg;
+            }
+        }
+        reached
+    }
+
+    /// The axes before and after a motion to a position.
+    pub(super) fn ends(&self, motion: Motion, now: Moment) -> Option<([f64; 2], [f64; 2])> {
+        let Motion::Position { azimuth, elevation } = self.controller.as_told(motion) else {
+            return None;
+        };
+        let situation = self.situation(Intent::Position, false, now);
+        let from_deg = axes(&situation).filter(|_| situation.can.has_elevation)?;
+        Some((from_deg, target(azimuth, elevation, from_deg, &situation)?))
+    }
+
+    /// The motion that brings the axes there.
+    fn to_axes(&self, axes_deg: [f64; 2]) -> Motion {
+        let [azimuth, elevation] = match self.mount {
+            Mount::AzEl { .. } => axes_deg.map(Angle::from_degrees),
+            Mount::Xy { .. } => {
+                let AzEl { azimuth, elevation } = self.bounds.direction(axes_deg);
+                [azimuth, elevation]
+            }
+        };
+        Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) }
+    }
+
+    /// Refuses an action that brings the axes through what is forbidden; an axis
+    /// whose end is not known stays as it is.
+    pub(super) fn check_axes(&self, to_deg: [Option<f64>; 2], now: Moment) -> Result<(), Refusal> {
+        let situation = self.situation(Intent::Position, false, now);
+        let Some(from_deg) = axes(&situation) else { return Ok(()) };
+        if to_deg == [None, None] {
+            return Ok(());
+        }
+        let to_deg = [to_deg[0].unwrap_or(from_deg[0]), to_deg[1].unwrap_or(from_deg[1])];
+        blocked(sweep_between(from_deg, to_deg, &situation), from_deg, &self.bounds, now)
+    }
+}

@@ -1,0 +1,189 @@
+//! Holds what is measured against what the antenna must keep within, whoever
+//! drives it.
+
+use std::{
+    collections::VecDeque,
+    time::{Duration, Instant},
+};
+
+use super::{Event, Intent, Session};
+use crate::{
+    astro::Angle,
+    controller::{Measured, Moment},
+    driver::{
+        Safety,
+        safety::{Mover, Response},
+    },
+    plan::{Barrier, Clearance},
+    station::Monitor,
+};
+
+/// Rates are taken between looks that are no further apart.
+const SPAN: Duration = Duration::from_secs(5);
+/// An antenna that dips below its minimum elevation by no more is left alone: a
+/// program ends there, and readings are rounded.
+const DIP_DEG: f64 = 0.5;
+/// Rates below are those of a standing antenna, degrees a second.
+const SLOWEST_DEG_S: f64 = 0.02;
+/// A way out that is shorter than the noise of the readings is none, degrees.
+const NOISE_DEG: f64 = 0.02;
+
+/// What was seen last, and what was told about it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Watch {
+    last: Option<Measured>,
+    /// The barriers that were told and not left since.
+    told: Vec<Barrier>,
+}
+
+impl Session {
+    /// Looks whether the antenna enters, or is inside, what is forbidden.
+    pub(super) fn watch_bounds(&mut self, now: Moment) {
+        let Some(look) = self.gate.state().measured else { return };
+        let before = self.watch.last.replace(look);
+        if before.is_some_and(|before| before.received == look.received) || self.unread {
+            return;
+        }
+        let [Some(first), second] = look.axes.map(|axis| axis.angle_deg) else { return };
+        let has_elevation = self.make.capabilities.has_elevation;
+        let Some(second) = second.or((!has_elevation).then_some(0.0)) else { return };
+        let rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
+        let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
+        let ahead_s = self.gate.ahead_s(now);
+        let bounds = self.gate.bounds();
+        let ahead_deg = self.gate.ahead_of([first, second], rates.map(|rate| rate * ahead_s));
+        let ahead = bounds.direction(ahead_deg);
+        let here = bounds.clearances(bounds.direction([first, second]), now.utc);
+        let there = bounds.clearances(ahead, now.utc);
+        for (here, there) in here.into_iter().zip(there) {
+            self.judge(here, &there, is_moving, now);
+        }
+    }
+
+    fn judge(&mut self, here: Clearance, there: &Clearance, is_moving: bool, now: Moment) {
+        let dip_deg = if here.barrier == Barrier::MinimumElevation { DIP_DEG } else { 0.0 };
+        let (here_deg, there_deg) =
+            (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
+        let driver = self.mover();
+        let is_inside = here_deg < 0.0;
+        // A program slows down where its pass begins; the readings tell whether it
+        // does.
+        let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
+        let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
+        let goes_deeper = is_moving && is_inside && there_deg < here_deg - NOISE_DEG;
+        let is_told = self.watch.told.contains(&here.barrier);
+        if !is_inside && !enters {
+            self.watch.told.retain(|barrier| *barrier != here.barrier);
+            return;
+        }
+        // Its own motions are stopped in any case: the gate has let them through.
+        let stops = (enters || goes_deeper)
+            && !here.warns_only
+            && (driver == Mover::Azel || self.monitor == Monitor::Stop);
+        if stops && self.halting.is_none() {
+            self.halt(now);
+            self.gate.device().disable_auto();
+        } else if is_told {
+            return;
+        }
+        if !is_told {
+            self.watch.told.push(here.barrier.clone());
+        }
+        let response = if stops { Response::Stopped } else { Response::Told };
+        self.tell(Event::Safety(Safety::Forbidden { barrier: here.barrier, driver, response }));
+    }
+
+    fn mover(&self) -> Mover {
+        let state = self.gate.state();
+        let by_azel = self.jog.is_some()
+            || self.stepping.is_some()
+            || self.follows()
+            || matches!(self.intent, Intent::Position | Intent::Park) && self.pending.is_some();
+        if by_azel {
+            Mover::Azel
+        } else if state.program.is_some_and(|program| program.enabled) {
+            Mover::Program
+        } else {
+            Mover::Somebody
+        }
+    }
+}
+
+/// How fast the axes turn, degrees a second; zero between looks that cannot be
+/// compared.
+fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
+    let span = after.asked.saturating_duration_since(before.asked);
+    if span.is_zero() || span > SPAN {
+        return [0.0; 2];
+    }
+    let angles = before.axes.iter().zip(&after.axes);
+    let mut rates = [0.0; 2];
+    for (rate, (before, after)) in rates.iter_mut().zip(angles) {
+        let turned = before.angle_deg.zip(after.angle_deg).map_or(0.0, |(a, b)| b - a);
+        *rate = Angle::from_degrees(turned).wrapped_180().degrees() / span.as_secs_f64();
+    }
+    rates
+}
+
+/// How long the axes run on at their rate after a STOP, as it was measured.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct RunOut {
+    /// The look before the STOP, the rate then, and when STOP went out.
+    before: Option<(Measured, [f64; 2], Instant)>,
+    /// The last ones, seconds.
+    seen_s: VecDeque<f64>,
+}
+
+/// So many STOPs have to be seen before they replace the usual figure.
+const ENOUGH: usize = 3;
+/// The slowest rate from which a run-out can be told, degrees a second.
+const TELLING_DEG_S: f64 = 0.3;
+
+impl RunOut {
+    /// A STOP goes out.
+    pub(super) fn begin(&mut self, before: Option<(Measured, [f64; 2])>, now: Instant) {
+        self.before = before.map(|(look, rates)| (look, rates, now));
+    }
+
+    /// The axes stand: how long they ran on at most in the last STOPs, seconds,
+    /// once enough were seen.
+    pub(super) fn end(&mut self, rest: &Measured) -> Option<f64> {
+        let (before, rates, stop) = self.before.take()?;
+        let to_stop_s = stop.saturating_duration_since(before.asked).as_secs_f64();
+        let axes = before.axes.iter().zip(&rest.axes).zip(rates);
+        let run_out_s = axes
+            .filter(|(_, rate)| rate.abs() >= TELLING_DEG_S)
+            .filter_map(|((before, rest), rate)| {
+                let turned_deg = rest.angle_deg? - before.angle_deg?;
+                Some(turned_deg / rate - to_stop_s)
+            })
+            .max_by(f64::total_cmp)?;
+        if self.seen_s.len() >= ENOUGH {
+            self.seen_s.pop_front();
+        }
+        self.seen_s.push_back(run_out_s.clamp(0.0, 10.0));
+        let worst_s = self.seen_s.iter().copied().fold(0.0, f64::max);
+        (self.seen_s.len() >= ENOUGH).then_some(worst_s)
+    }
+}
+
+impl Session {
+    /// Remembers how fast the axes turn when a STOP goes out.
+    pub(super) fn begin_run_out(&mut self, now: Moment) {
+        let look = self.gate.state().measured;
+        let rates = self.rates_now();
+        self.run_out.begin(look.zip(rates), now.steady);
+    }
+
+    fn rates_now(&self) -> Option<[f64; 2]> {
+        self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s)
+    }
+
+    /// Learns how long the axes ran on.
+    pub(super) fn end_run_out(&mut self) {
+        let Some(rest) = self.gate.state().measured else { return };
+        if let Some(run_out_s) = self.run_out.end(&rest) {
+            self.gate.set_run_out(run_out_s);
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! What an antenna must keep within: its minimum elevation, the keep-outs that hold
+//! for it, and the Sun.
+//!
+//! Each barrier tells the *clearance* of a direction: how far it is outside, or how
+//! deep inside as a negative angle. A clearance changes by no more than the
+//! direction does, so one look at the middle of a range of axis angles judges all
+//! of it, or says which halves to look at.
+
+use jiff::{SignedDuration, Timestamp};
+use smol_str::SmolStr;
+
+use crate::{
+    astro::{Angle, AzEl, Site, sun_moon, xy_mount},
+    station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
+};
+
+/// A way may touch an edge and go beyond it by this much, degrees; the margins of
+/// keep-outs and of the Sun are wider by as much.
+const FINEST_DEG: f64 = 0.05;
+/// The Sun is looked at again after this long, seconds: it moves a tenth of a
+/// degree.
+const SUN_STEP_S: i64 = 24;
+
+/// What an antenna must not point into.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Barrier {
+    /// Below its minimum elevation.
+    MinimumElevation,
+    /// A keep-out, by its name.
+    KeepOut(SmolStr),
+    /// The surroundings of the Sun.
+    Sun,
+}
+
+/// A barrier and the clearance of a direction from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clearance {
+    /// What is nearest.
+    pub barrier: Barrier,
+    /// Negative inside.
+    pub angle: Angle,
+    /// An antenna that comes in is told about and neither refused nor stopped.
+    pub warns_only: bool,
+}
+
+/// Ranges of both axes, degrees as the mount counts, each from the lower to the
+/// upper end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweep(pub [(f64, f64); 2]);
+
+impl Sweep {
+    /// All that two axes can sweep on the way between two places.
+    pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
+        let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
+        Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
+    }
+
+    fn middle(self) -> [f64; 2] {
+        self.0.map(|(from, to)| f64::midpoint(from, to))
+    }
+
+    /// No direction of it is further from that of the middle, degrees.
+    fn radius_deg(self) -> f64 {
+        self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
+    }
+
+    /// Both halves along its longer side.
+    fn halves(self) -> [Self; 2] {
+        let [(a, b), (c, d)] = self.0;
+        if b - a >= d - c {
+            let middle = f64::midpoint(a, b);
+            [Self([(a, middle), (c, d)]), Self([(middle, b), (c, d)])]
+        } else {
+            let middle = f64::midpoint(c, d);
+            [Self([(a, b), (c, middle)]), Self([(a, b), (middle, d)])]
+        }
+    }
+}
+
+/// What one antenna must keep within.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    site: Site,
+    mount: Mount,
+    /// `None` where it has no elevation axis.
+    minimum_elevation: Option<Angle>,
+    /// The keep-outs that hold for it, with the whole margin of each.
+    keep_outs: Vec<(KeepOut, Angle)>,
+    sun: Option<SunAvoidance>,
+}
+
+impl Bounds {
+    /// The bounds of `antenna` at `station`.
+    pub fn of(station: &Station, antenna: &Antenna) -> Self {
+        let finest = Angle::from_degrees(FINEST_DEG);
+        let half_beam = antenna.beam_width() * 0.5;
+        let holds = station.keep_outs.iter().filter(|zone| zone.holds_for(&antenna.name));
+        let has_elevation = antenna.connection.make().capabilities.has_elevation;
+        let minimum = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
+        Self {
+            site: station.site,
+            mount: antenna.mount,
+            minimum_elevation: has_elevation.then_some(minimum),
+            keep_outs: holds
+                .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))
+                .collect(),
+            sun: station.sun_avoidance,
+        }
+    }
+
+    /// The bounds of an antenna that knows of no station: its minimum elevation
+    /// alone.
+    pub fn of_antenna(antenna: &Antenna) -> Self {
+        Self::of(&Station::default(), antenna)
+    }
+
+    /// The mount whose axes are judged.
+    pub fn mount(&self) -> Mount {
+        self.mount
+    }
+
+    /// Where the axes point that stand at `axes_deg`, as the mount counts.
+    pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
+        let [first, second] = axes_deg.map(Angle::from_degrees);
+        match self.mount {
+            Mount::AzEl { .. } => AzEl::of_axes(first, second),
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                let zenith = Angle::from_degrees(90.0);
+                let axes = xy_mount::AxisAngles { lower: first - zenith, upper: second - zenith };
+                xy_mount::azel_from_axes(axes, Angle::from_degrees(lower_axis_azimuth_deg))
+            }
+        }
+    }
+
+    /// The clearance of a direction from every barrier, at a time.
+    pub fn clearances(&self, direction: AzEl, at: Timestamp) -> Vec<Clearance> {
+        let sun = self.suns(at);
+        self.each(direction, &sun)
+            .map(|(barrier, angle, warns_only)| Clearance {
+                barrier: barrier.clone_of(),
+                angle,
+                warns_only,
+            })
+            .collect()
+    }
+
+    /// The least clearance from what is refused, at a time; `None` without any
+    /// barrier.
+    pub fn nearest(&self, direction: AzEl, at: Timestamp) -> Option<Clearance> {
+        let clearances = self.clearances(direction, at).into_iter();
+        clearances
+            .filter(|clearance| !clearance.warns_only)
+            .min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()))
+    }
+
+    /// The first barrier that the axes may come into within `sweep`, and a
+    /// direction in it. From a `start` below the minimum elevation nothing may lead
+    /// lower than that.
+    pub fn blocks(&self, sweep: Sweep, start: AzEl, at: Timestamp) -> Option<(Barrier, AzEl)> {
+        if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
+            let lowest = Some(start.elevation);
+            return Self { minimum_elevation: lowest, ..self.clone() }.blocks_from(sweep, at);
+        }
+        self.blocks_from(sweep, at)
+    }
+
+    fn blocks_from(&self, sweep: Sweep, at: Timestamp) -> Option<(Barrier, AzEl)> {
+        let suns = self.suns(at);
+        let mut open = vec![sweep];
+        while let Some(sweep) = open.pop() {
+            let direction = self.direction(sweep.middle());
+            let radius_deg = sweep.radius_deg();
+            let nearest = self
+                .each(direction, &suns)
+                .filter(|(_, _, warns_only)| !warns_only)
+                .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()));
+            let Some((barrier, angle, _)) = nearest else { return None };
+            // What lies on the edge is free, also where it is a whole side of the sweep.
+            let clear_deg = angle.degrees() + FINEST_DEG;
+            if clear_deg >= radius_deg {
+                continue;
+            }
+            if clear_deg < 0.0 || radius_deg < FINEST_DEG / 100.0 {
+                return Some((barrier.clone_of(), direction));
+            }
+            open.extend(sweep.halves());
+        }
+        None
+    }
+
+    /// Where the Sun stands from `at` until the end of the time ahead.
+    fn suns(&self, at: Timestamp) -> Vec<AzEl> {
+        let Some(sun) = self.sun else { return Vec::new() };
+        let steps = (sun.ahead_min * 60.0) as i64 / SUN_STEP_S;
+        (0..=steps)
+            .filter_map(|step| at.checked_add(SignedDuration::from_secs(step * SUN_STEP_S)).ok())
+            .map(|at| sun_moon::sun(self.site, at))
+            .collect()
+    }
+
+    fn each<'a>(
+        &'a self,
+        direction: AzEl,
+        suns: &'a [AzEl],
+    ) -> impl Iterator<Item = (Named<'a>, Angle, bool)> + 'a {
+        let floor = self
+            .minimum_elevation
+            .map(|minimum| (Named::MinimumElevation, direction.elevation - minimum, false));
+        let zones = self.keep_outs.iter().map(move |(zone, margin)| {
+            let angle = zone.zone.clearance(direction) - *margin;
+            (Named::KeepOut(&zone.name), angle, zone.entered == Entered::Warn)
+        });
+        let radius = Angle::from_degrees(self.sun.map_or(0.0, |sun| sun.radius_deg + FINEST_DEG));
+        let sun = suns
+            .iter()
+            .map(move |sun| direction.separation(*sun) - radius)
+            .min_by(|a, b| a.degrees().total_cmp(&b.degrees()))
+            .map(|angle| (Named::Sun, angle, false));
+        floor.into_iter().chain(zones).chain(sun)
+    }
+}
+
+/// A barrier that was not given a name of its own yet.
+#[derive(Debug, Clone, Copy)]
+enum Named<'a> {
+    MinimumElevation,
+    KeepOut(&'a str),
+    Sun,
+}
+
+impl Named<'_> {
+    fn clone_of(self) -> Barrier {
+        match self {
+            Self::MinimumElevation => Barrier::MinimumElevation,
+            Self::KeepOut(name) => Barrier::KeepOut(name.into()),
+            Self::Sun => Barrier::Sun,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::astro::Zone;
+
+    fn keep_out(corners_deg: &[(f64, f64)]) -> KeepOut {
+        KeepOut {
+            name: "mast".to_owned(),
+            entered: Entered::Hard,
+            antenna: None,
+            margin_deg: 1.0,
+            zone: KeepOut::zone_of(corners_deg).unwrap(),
+        }
+    }
+
+    fn bounds(keep_outs: Vec<KeepOut>) -> Bounds {
+        let antenna = Antenna::genius("Yagi", "memory:1");
+        let station = Station { keep_outs, ..Station::default() };
+        Bounds::of(&station, &antenna)
+    }
+
+    fn noon() -> Timestamp {
+        "2026-08-12T10:00:00Z".parse().unwrap()
+    }
+
+    fn high() -> AzEl {
+        AzEl::from_degrees(0.0, 89.0)
+    }
+
+    #[test]
+    fn from_below_the_minimum_elevation_nothing_leads_lower() {
+        let bounds = bounds(Vec::new());
+        let start = bounds.direction([10.0, -3.0]);
+        let way = |to| bounds.blocks(Sweep::between([10.0, -3.0], to), start, noon());
+        assert_eq!(way([90.0, 30.0]), None);
+        assert_eq!(way([90.0, -4.0]).map(|(barrier, _)| barrier), Some(Barrier::MinimumElevation));
+    }
+
+    fn mast() -> KeepOut {
+        keep_out(&[(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)])
+    }
+
+    #[test]
+    fn a_way_round_a_corner_is_free_and_the_box_of_both_axes_is_not() {
+        let bounds = bounds(vec![mast()]);
+        let free = |from, to| bounds.blocks(Sweep::between(from, to), high(), noon()).is_none();
+        let (from, to) = ([60.0, 20.0], [160.0, 70.0]);
+        assert!(!free(from, to), "both axes at once may sweep through");
+        assert!(free(from, [60.0, 70.0]) && free([60.0, 70.0], to), "elevation first");
+        assert!(!free(from, [160.0, 20.0]), "azimuth first");
+    }
+
+    #[test]
+    fn a_keep_out_of_one_antenna_holds_for_no_other() {
+        let other = KeepOut { antenna: Some("Dish".to_owned()), ..mast() };
+        let inside = Sweep([(110.0, 110.0), (20.0, 20.0)]);
+        assert_eq!(bounds(vec![other]).blocks(inside, high(), noon()), None);
+        let (barrier, _) = bounds(vec![mast()]).blocks(inside, high(), noon()).unwrap();
+        assert_eq!(barrier, Barrier::KeepOut("mast".into()));
+        let warns = KeepOut { entered: Entered::Warn, ..mast() };
+        assert_eq!(bounds(vec![warns]).blocks(inside, high(), noon()), None, "told, not refused");
+    }
+
+    #[test]
+    fn the_sun_is_avoided_where_it_will_be_too() {
+        let mut station = Station::default();
+        station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 60.0 });
+        let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
+        let later = noon() + SignedDuration::from_mins(50);
+        let ahead = sun_moon::sun(station.site, later);
+        let place_deg = [ahead.azimuth_deg(), ahead.elevation_deg()];
+        let there = Sweep::between(place_deg, place_deg);
+        assert_eq!(
+            bounds.blocks(there, high(), noon()).map(|(barrier, _)| barrier),
+            Some(Barrier::Sun)
+        );
+        station.sun_avoidance = None;
+        let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
+        assert_eq!(bounds.blocks(there, high(), noon()), None);
+    }
+
+    proptest! {
+        /// What is called free has no blocked direction in it.
+        #[test]
+        fn a_free_sweep_is_free_everywhere(
+            az in 0.0..360.0, el in 5.0..90.0, daz in 0.0..90.0, del in 0.0..40.0,
+            corner_az in 0.0..330.0, corner_el in 0.0..50.0, width in 3.0..60.0,
+            height in 3.0..30.0, part in proptest::collection::vec((0.0..1.0, 0.0..1.0), 20),
+        ) {
+            let zone = Zone::new(vec![
+                AzEl::from_degrees(corner_az, corner_el),
+                AzEl::from_degrees(corner_az + width, corner_el),
+                AzEl::from_degrees(corner_az + width, corner_el + height),
+                AzEl::from_degrees(corner_az, corner_el + height),
+            ]);
+            prop_assume!(zone.is_ok());
+            let zone = KeepOut { zone: zone.unwrap(), ..mast() };
+            let bounds = bounds(vec![zone]);
+            let to: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
+            let blocked = bounds.blocks(Sweep::between([az, el], to), high(), noon());
+            if let Some((_, direction)) = &blocked {
+                let nearest = bounds.nearest(*direction, noon()).unwrap();
+                prop_assert!(nearest.angle.degrees() < 0.0, "{nearest:?}");
+            } else {
+                for (a, b) in part {
+                    let axes = [az + a * daz, el + b * (to[1] - el)];
+                    let nearest = bounds.nearest(bounds.direction(axes), noon()).unwrap();
+                    prop_assert!(nearest.angle.degrees() > -FINEST_DEG - 1e-6, "{axes:?} {nearest:?}");
+                }
+            }
+        }
+    }
+}
