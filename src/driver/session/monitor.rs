@@ -20,8 +20,9 @@ use crate::{
 
 /// Rates are taken between looks that are no further apart.
 const SPAN: Duration = Duration::from_secs(5);
-/// An antenna that dips below its minimum elevation by no more is left alone: a
-/// program ends there, and readings are rounded.
+/// An antenna that dips below its minimum elevation by no more, beside what it may
+/// miss a position by, is left alone: a program ends there, and readings are
+/// rounded.
 const DIP_DEG: f64 = 0.5;
 /// Rates below are those of a standing antenna, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.02;
@@ -61,7 +62,9 @@ impl Session {
     }
 
     fn judge(&mut self, here: Clearance, there: &Clearance, is_moving: bool, now: Moment) {
-        let dip_deg = if here.barrier == Barrier::MinimumElevation { DIP_DEG } else { 0.0 };
+        let arrives_within_deg = self.make.capabilities.arrives_within_deg;
+        let is_floor = here.barrier == Barrier::MinimumElevation;
+        let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
         let (here_deg, there_deg) =
             (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
         let driver = self.mover();
@@ -112,7 +115,9 @@ impl Session {
 /// How fast the axes turn, degrees a second; zero between looks that cannot be
 /// compared.
 fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
-    let span = after.asked.saturating_duration_since(before.asked);
+    // A question that was repeated may have been measured at any time since.
+    let asked = after.asked.saturating_duration_since(before.asked);
+    let span = asked.max(after.received.saturating_duration_since(before.received));
     if span.is_zero() || span > SPAN {
         return [0.0; 2];
     }
