@@ -87,6 +87,8 @@ pub struct App {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    /// The last reading of the elements broke off.
+    elements_broke_off: bool,
     copy_work: CopyWork,
     log_work: LogWork,
     uploads: uploads::Desk,
@@ -150,6 +152,7 @@ impl App {
             settings_path,
             places,
             elements_job: Some(elements_job),
+            elements_broke_off: false,
             copy_work,
             log_work,
             uploads,

@@ -9,6 +9,7 @@ pub(crate) mod disk;
 mod fetch;
 mod index;
 mod list;
+mod unfinished;
 
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,7 @@ pub use self::{
 use self::{
     fetch::{Answer, fetch, host},
     index::{Index, Record},
+    unfinished::Unfinished,
 };
 use crate::{
     orbit::{
@@ -73,19 +75,28 @@ impl Library {
     }
 
     /// The same, into a catalog that holds elements already.
+    ///
+    /// A source whose reading ended the program is set aside: it is not read, and
+    /// its report says so, until [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
-        sources.iter().map(|source| self.load_one(source, catalog)).collect()
+        let mut unfinished = Unfinished::load(&self.folder);
+        let of = |source: &Source| {
+            if unfinished.holds(source) {
+                return SourceReport { is_set_aside: true, ..no_report(source) };
+            }
+            unfinished.during(source, || self.load_one(source, catalog))
+        };
+        sources.iter().map(of).collect()
+    }
+
+    /// Sets the sources with these `names` aside no longer, nor those that are
+    /// not in `sources` any more.
+    pub fn read_again(&self, sources: &[Source], names: &[String]) {
+        Unfinished::load(&self.folder).keep(sources, names);
     }
 
     fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
-        let mut report = SourceReport {
-            source: source.name.clone(),
-            files: Vec::new(),
-            as_of: None,
-            newest_epoch: None,
-            fetch_problem: None,
-            next_fetch: None,
-        };
+        let mut report = no_report(source);
         let paths = match &source.place {
             Place::File(path) => vec![path.clone()],
             Place::Folder(path) => match disk::files(path, &ENDINGS) {
@@ -204,6 +215,18 @@ impl Library {
 
 fn newest_epoch(bytes: &[u8]) -> Option<Timestamp> {
     read_element_bytes(bytes).elements.iter().map(Elements::epoch).max()
+}
+
+fn no_report(source: &Source) -> SourceReport {
+    SourceReport {
+        source: source.name.clone(),
+        files: Vec::new(),
+        as_of: None,
+        newest_epoch: None,
+        fetch_problem: None,
+        next_fetch: None,
+        is_set_aside: false,
+    }
 }
 
 fn unread(path: &Path, error: &std::io::Error) -> FileReport {

@@ -64,6 +64,11 @@ pub enum AlarmKind {
     /// The part of the program that talks to the antennas has not responded for
     /// this long.
     DriverStands(Duration),
+    /// Work of the program itself broke off.
+    BrokeOff(Work),
+    /// A source of elements, by its name, is not read: the last reading of it
+    /// ended the program.
+    SourceSetAside(String),
     /// The part of the program that talks to the antenna is too busy to take
     /// what was asked for.
     NotTaken,
@@ -83,6 +88,15 @@ pub enum AlarmKind {
     Settings(String),
     /// The elements could not be read; in words.
     Elements(String),
+}
+
+/// Work that can break off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Work {
+    /// The reading of the sources of elements.
+    Elements,
+    /// The search for passes.
+    Passes,
 }
 
 /// One entry of the list.
@@ -213,6 +227,8 @@ impl AlarmKind {
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
                 | Self::DriverStands(_)
+                | Self::BrokeOff(_)
+                | Self::SourceSetAside(_)
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)

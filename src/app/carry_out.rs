@@ -122,7 +122,7 @@ impl App {
     }
 
     /// One at a time: two would write the same files.
-    fn begin_elements(&mut self, task: Task) {
+    pub(super) fn begin_elements(&mut self, task: Task) {
         if self.elements_job.is_some() || self.model.sources.is_locked {
             return;
         }

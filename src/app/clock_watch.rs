@@ -18,10 +18,7 @@ pub(super) struct ClockWatch {
 impl ClockWatch {
     /// The newest answer, once it has come.
     pub(super) fn poll(&mut self, now: Instant, wake: &Wake) -> Option<TimeSync> {
-        let answer = self.job.as_ref().and_then(Job::poll);
-        if answer.is_some() {
-            self.job = None;
-        }
+        let answer = Job::take(&mut self.job).map(|end| end.unwrap_or(TimeSync::NotKnown));
         let due = self.asked.is_none_or(|asked| now.saturating_duration_since(asked) >= PERIOD);
         if due && self.job.is_none() {
             self.asked = Some(now);

@@ -8,7 +8,10 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{antenna::AntennaModel, job::Job};
+use super::{
+    antenna::AntennaModel,
+    job::{BrokeOff, Job},
+};
 use crate::{
     controller::settings::{Change, CopyHead, Group, Held, SettingsCopy},
     driver::Wake,
@@ -75,6 +78,8 @@ pub(super) struct Waiting {
 pub(super) struct CopyWork {
     folder: Option<PathBuf>,
     job: Option<Job<Outcome>>,
+    /// What comes of the job if it breaks off.
+    if_broken: Option<Outcome>,
     queue: Vec<Task>,
     pub(super) waiting: Option<Waiting>,
 }
@@ -120,18 +125,17 @@ impl CopyWork {
 
     /// The result that has come in, and the next piece of work begun.
     pub(super) fn turn(&mut self, wake: &Wake) -> Option<Outcome> {
-        let outcome = self.job.as_ref().and_then(Job::poll);
-        if outcome.is_some() {
+        if let Some(end) = Job::take(&mut self.job) {
             // The next piece begins with the next turn, which the wake brings.
-            self.job = None;
             wake();
-            return outcome;
+            return end.ok().or(self.if_broken.take());
         }
         if self.job.is_none() && !self.queue.is_empty() {
             let task = self.queue.remove(0);
             let folder = self.folder.clone();
             let of =
                 if let Task::Save { antenna, .. } = &task { Some(antenna.clone()) } else { None };
+            self.if_broken = Some(broken(&task));
             let work = move |_: &(dyn Fn() -> bool + Sync)| carry_out(task, folder.as_deref());
             match Job::start("azel-copies", Wake::clone(wake), work) {
                 Ok(job) => self.job = Some(job),
@@ -143,7 +147,17 @@ impl CopyWork {
                 }
             }
         }
-        outcome
+        None
+    }
+}
+
+/// What comes of a piece of work that broke off: what waits for it must hear.
+fn broken(task: &Task) -> Outcome {
+    let why = BrokeOff.to_string();
+    match task {
+        Task::Save { antenna, .. } => Outcome::Saved { antenna: antenna.clone(), result: Err(why) },
+        Task::List { .. } => Outcome::Listed(Vec::new()),
+        Task::Read { path, .. } => Outcome::Read(path.clone(), Err(why)),
     }
 }
 

@@ -1,4 +1,5 @@
-//! Work that is too long for a frame, on a named thread, with one result.
+//! Work that is too long for a frame, on a named thread, with one result, or the
+//! word that it broke off.
 
 use std::{
     io,
@@ -12,6 +13,11 @@ use std::{
 };
 
 use crate::driver::Wake;
+
+/// The work panicked; the log has the reason.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the work broke off inside Azel")]
+pub(super) struct BrokeOff;
 
 /// A piece of work under way. Dropping it cancels it.
 pub(super) struct Job<T> {
@@ -31,10 +37,13 @@ impl<T: Send + 'static> Job<T> {
         let cancelled = Arc::new(AtomicBool::new(false));
         let asked = Arc::clone(&cancelled);
         thread::Builder::new().name(name.to_owned()).spawn(move || {
+            // Dropped in the order result, wake, also where the work panics: whoever is
+            // woken finds the end of the work.
+            let _wake = WakeAtEnd(wake);
+            let send = send;
             let outcome = work(&|| asked.load(Ordering::Relaxed));
             // Nobody may be waiting any more.
             let _ = send.send(outcome);
-            wake();
         })?;
         Ok(Self { result, cancelled })
     }
@@ -44,14 +53,61 @@ impl<T: Send + 'static> Job<T> {
         self.result.recv_timeout(most).ok()
     }
 
-    /// The result, once.
-    pub(super) fn poll(&self) -> Option<T> {
-        self.result.try_recv().ok()
+    /// The end of the work, once, which leaves no job; `None` while it goes on.
+    pub(super) fn take(job: &mut Option<Self>) -> Option<Result<T, BrokeOff>> {
+        let end = match job.as_ref()?.result.try_recv() {
+            Ok(result) => Ok(result),
+            Err(mpsc::TryRecvError::Empty) => return None,
+            Err(mpsc::TryRecvError::Disconnected) => Err(BrokeOff),
+        };
+        *job = None;
+        Some(end)
+    }
+}
+
+struct WakeAtEnd(Wake);
+
+impl Drop for WakeAtEnd {
+    fn drop(&mut self) {
+        (self.0)();
     }
 }
 
 impl<T> Drop for Job<T> {
     fn drop(&mut self) {
         self.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn start<T: Send + 'static>(
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> (Option<Job<T>>, mpsc::Receiver<()>) {
+        let (woken, wakes) = mpsc::sync_channel(1);
+        let wake: Wake = Arc::new(move || woken.send(()).unwrap());
+        (Some(Job::start("job", wake, move |_| work()).unwrap()), wakes)
+    }
+
+    #[test]
+    fn work_goes_on_and_has_one_result() {
+        let (go_on, waits) = mpsc::sync_channel(1);
+        let (mut job, wakes) = start(move || waits.recv().unwrap());
+        assert_eq!(Job::take(&mut job), None);
+        go_on.send(7).unwrap();
+        wakes.recv().unwrap();
+        assert_eq!(Job::take(&mut job), Some(Ok(7)));
+        assert!(job.is_none());
+        assert_eq!(Job::take(&mut job), None);
+    }
+
+    #[test]
+    fn work_that_panics_is_told_and_wakes_the_window() {
+        let (mut job, wakes) = start(|| panic!("on purpose"));
+        wakes.recv().unwrap();
+        assert_eq!(Job::<()>::take(&mut job), Some(Err(BrokeOff)));
+        assert!(job.is_none());
     }
 }

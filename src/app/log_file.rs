@@ -47,9 +47,8 @@ impl App {
 
     /// Takes what the thread has done.
     pub(super) fn take_log_file(&mut self) {
-        if let Some(result) = self.log_work.job.as_ref().and_then(Job::poll) {
-            self.log_work.job = None;
-            self.views.log_saved(result);
+        if let Some(end) = Job::take(&mut self.log_work.job) {
+            self.views.log_saved(end.unwrap_or_else(|broke_off| Err(broke_off.to_string())));
         }
     }
 }

@@ -4,9 +4,10 @@ use std::{sync::Arc, time::Duration, time::Instant};
 
 use super::{
     App,
-    alarms::{AlarmKind, alarm_of, is_over},
+    alarms::{AlarmKind, Work, alarm_of, is_over},
     demo::Demo,
     model::CatalogState,
+    sources::{SourceWork, Task},
 };
 use crate::{
     astro::time::add_seconds,
@@ -40,6 +41,14 @@ impl App {
                 self.model.now,
                 &self.wake,
             );
+            let lists = &self.model.forecasts;
+            let alarms = &mut self.model.alarms;
+            let kind = AlarmKind::BrokeOff(Work::Passes);
+            if lists.favourites.broke_off() || lists.all.broke_off() {
+                alarms.raise(None, kind, self.model.now);
+            } else {
+                alarms.clear(None, |known| *known == kind);
+            }
             if renewed && self.model.selected_pass().is_none() {
                 self.model.selected = self.model.next_pass().map(super::forecast::Forecast::key);
             }
@@ -71,10 +80,31 @@ impl App {
     }
 
     fn take_catalog(&mut self) {
-        let Some(outcome) = self.elements_job.as_ref().and_then(super::Job::poll) else { return };
-        self.elements_job = None;
+        let Some(end) = super::Job::take(&mut self.elements_job) else { return };
         let (alarms, now) = (&mut self.model.alarms, self.model.now);
-        alarms.clear(None, |kind| matches!(kind, AlarmKind::Elements(_)));
+        let Ok(outcome) = end else {
+            alarms.raise(None, AlarmKind::BrokeOff(Work::Elements), now);
+            self.model.sources.work = SourceWork::Nothing;
+            // Once: the source that it broke off at is set aside now.
+            if !std::mem::replace(&mut self.elements_broke_off, true) {
+                self.begin_elements(Task::default());
+            } else if matches!(self.model.catalog, CatalogState::Loading) {
+                self.model.catalog = CatalogState::Failed;
+            }
+            return;
+        };
+        self.elements_broke_off = false;
+        alarms.clear(None, |kind| {
+            matches!(
+                kind,
+                AlarmKind::Elements(_)
+                    | AlarmKind::SourceSetAside(_)
+                    | AlarmKind::BrokeOff(Work::Elements)
+            )
+        });
+        for report in outcome.sources.reports.iter().filter(|report| report.is_set_aside) {
+            alarms.raise(None, AlarmKind::SourceSetAside(report.source.clone()), now);
+        }
         for text in outcome.bundled_problem.iter().chain(&outcome.sources.problem) {
             tracing::error!("{text}");
             alarms.raise(None, AlarmKind::Elements(text.clone()), now);

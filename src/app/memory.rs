@@ -151,7 +151,8 @@ impl Keeper {
 
     /// Writes what has changed, on a thread of its own and one change at a time.
     pub(super) fn keep(&mut self, wake: &Wake) {
-        self.job.take_if(|job| job.poll().is_some());
+        // What broke off is in the log, and is tried again with the next change.
+        let _ = Job::take(&mut self.job);
         let Some(path) = self.path.clone().filter(|_| self.job.is_none()) else { return };
         if self.memory == self.written {
             return;

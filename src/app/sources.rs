@@ -148,6 +148,7 @@ fn read(
     let asked: Vec<Source> =
         list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
     library.refresh(&asked, now, task.forced, cancelled).map_err(in_words)?;
+    library.read_again(list, &task.ask);
     Ok(library.load_into(list, catalog))
 }
 
@@ -226,6 +227,26 @@ mod tests {
         assert!(outcome.sources.reports[0].files[0].problem.is_some());
         assert_eq!(outcome.sources.reports[1].objects(), 1);
         assert_eq!(outcome.catalog.len(), 16_089);
+    }
+
+    #[test]
+    fn a_source_whose_reading_ended_the_program_is_read_when_it_is_asked_for() {
+        let desk = Desk::new();
+        let own = desk.newer_file();
+        desk.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
+        let marker = desk.folder.path().join("data/unfinished.toml");
+        assert!(!marker.exists(), "the reading came to its end");
+        // What a program that was ended at this point leaves.
+        fs::write(&marker, toml::to_string(&serde_json::json!({ "source": [own] })).unwrap())
+            .unwrap();
+        for _ in 0..2 {
+            let outcome = desk.run(&Task::default());
+            assert!(outcome.sources.reports[0].is_set_aside);
+            assert_eq!(outcome.catalog.source(ISS), Some(BUNDLED_SOURCE));
+        }
+        let outcome = desk.run(&Task { ask: vec!["own".to_owned()], ..Task::default() });
+        assert!(!outcome.sources.reports[0].is_set_aside && !marker.exists());
+        assert_eq!(outcome.catalog.source(ISS), Some("own"));
     }
 
     #[test]

@@ -65,9 +65,10 @@ impl Pulse {
                 let ms = stood.map_or(0, |stood| stood.as_millis() as u64);
                 pulse.0.stood_ms.store(ms, Ordering::Relaxed);
                 if stood.is_some() != told.is_some() {
-                    match stood {
-                        Some(stood) => tracing::error!(?stood, "the driver does not respond"),
-                        None => tracing::warn!("the driver responds again"),
+                    if let Some(stood) = stood {
+                        tracing::error!(?stood, "the driver does not respond");
+                    } else {
+                        tracing::warn!("the driver responds again");
                     }
                 }
                 let due = told.is_none_or(|told| now.duration_since(told) >= REMIND);

@@ -16,8 +16,13 @@ pub(super) struct File {
     pub(super) modified: Option<Timestamp>,
 }
 
-/// Reads the file at `path`, if it has `limit` bytes at most.
+/// Reads the file at `path`, if it has `limit` bytes at most. Folders, devices and
+/// pipes are refused.
 pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
+    // Looked at before it is opened: a pipe without a writer would be waited for.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
+    }
     let file = fs::File::open(path)?;
     let modified = file.metadata()?.modified().ok();
     let modified = modified.and_then(|modified| Timestamp::try_from(modified).ok());
@@ -49,4 +54,21 @@ pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>>
         entries?.into_iter().map(|entry| entry.path()).filter(is_wanted).collect();
     paths.sort();
     Ok(paths)
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pipe_a_device_and_a_folder_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe.tle");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        for path in [pipe.as_path(), Path::new("/dev/zero"), folder.path()] {
+            let error = read(path, 1000).err().unwrap();
+            assert_eq!(error.kind(), io::ErrorKind::InvalidInput, "{}", path.display());
+        }
+    }
 }

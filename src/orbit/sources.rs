@@ -97,6 +97,8 @@ pub struct SourceReport {
     pub fetch_problem: Option<FetchProblem>,
     /// When the server may be asked again without force, where one is asked.
     pub next_fetch: Option<Timestamp>,
+    /// It was not read, because the program ended while it was read the last time.
+    pub is_set_aside: bool,
 }
 
 /// What was read from one file.

@@ -3,7 +3,10 @@
 use std::time::Instant;
 
 use azel::{
-    app::{UiCommand, alarms::AlarmKind},
+    app::{
+        UiCommand,
+        alarms::{AlarmKind, Work},
+    },
     controller::Motion,
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     protocol::satrak::FaultKind,
@@ -54,6 +57,15 @@ fn alarms_are_told_in_words_with_their_antenna() {
         (
             AlarmKind::DriverStands(std::time::Duration::from_millis(600)),
             "The driver has not responded for 0.6 s: nothing reaches the antennas, not even STOP.",
+        ),
+        (
+            AlarmKind::BrokeOff(Work::Elements),
+            "The reading of the elements broke off inside Azel. What was held stays in use;",
+        ),
+        (AlarmKind::BrokeOff(Work::Passes), "The search for passes broke off inside Azel."),
+        (
+            AlarmKind::SourceSetAside("noaa".to_owned()),
+            "The source noaa is not read: Azel ended while it read it.",
         ),
         (AlarmKind::ClockOff(-2.0), "The clock of Satrak is 2.0 s behind."),
         (note(NoteReason::Unknown), "Setting antenna.park is not known."),

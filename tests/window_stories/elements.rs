@@ -40,6 +40,7 @@ fn report(source: &Source, objects: usize) -> SourceReport {
         newest_epoch: Some(add_seconds(rig::now(), -20.0 * HOUR_S)),
         fetch_problem: None,
         next_fetch: None,
+        is_set_aside: false,
     }
 }
 
@@ -123,6 +124,12 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
         let never = SourceReport { files: Vec::new(), ..report(&new, 0) };
         let window = view(size, vec![(new, never)]);
         assert!(says(&window, "Holds nothing yet."));
+        let own = file_source();
+        let aside = SourceReport { is_set_aside: true, files: Vec::new(), ..report(&own, 0) };
+        let mut window = view(size, vec![(own, aside)]);
+        assert!(says(&window, "Set aside: Azel ended while it read this source."));
+        click(&mut window, "Read own again");
+        assert_eq!(asked(&mut window), [refresh(&["own"], false)]);
     }
 }
 
@@ -354,7 +361,8 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     drop(window);
     let mut window = open(&settings, clock_from(rig::now()));
     step_until(&mut window, "the newer elements again", is_used);
-    assert!(!folder.path().join("elements").exists(), "no server was asked");
+    let kept = std::fs::read_dir(folder.path().join("elements")).unwrap();
+    assert_eq!(kept.count(), 0, "no server was asked, and the reading came to its end");
 }
 
 #[test]

@@ -258,6 +258,37 @@ fn no_text_ever_has_a_password() {
 }
 
 #[test]
+fn a_password_that_was_sent_or_dropped_does_not_come_back_by_undo() {
+    for size in SIZES {
+        for is_sent in [true, false] {
+            let mut window = desk(size, read());
+            window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
+            settle(&mut window);
+            write(&mut window, "Password", "swordfish");
+            // Typing rests for some seconds, after which it could be undone.
+            window.run_steps(300);
+            assert_eq!(state_of(&window, "Password"), "Edited");
+            if is_sent {
+                apply(&mut window);
+                let change = settles(asked(&mut window)).remove(0);
+                end(&mut window, &change, Ok(()));
+            } else {
+                press(&mut window, "Revert");
+            }
+            let before = state_of(&window, "Password");
+            assert_ne!(before, "Edited");
+            window.get_by_label("Password, new value").focus();
+            settle(&mut window);
+            for _ in 0..3 {
+                window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+                settle(&mut window);
+            }
+            assert_eq!(state_of(&window, "Password"), before);
+        }
+    }
+}
+
+#[test]
 fn a_section_of_the_list_is_brought_into_view() {
     for size in SIZES {
         let mut window = desk(size, read());

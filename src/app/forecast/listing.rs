@@ -37,13 +37,14 @@ pub struct Listing {
     made: Option<(Basis, Timestamp)>,
     search: Option<Search>,
     halted: Option<Basis>,
+    broke_off: bool,
 }
 
 struct Search {
     basis: Basis,
     at: Timestamp,
     progress: Arc<Progress>,
-    job: Job<Found>,
+    job: Option<Job<Found>>,
 }
 
 /// How far a search has come. Written by its threads.
@@ -85,6 +86,11 @@ impl Listing {
     /// When the search for this list began; `None` before the first list.
     pub fn made_at(&self) -> Option<Timestamp> {
         self.made.as_ref().map(|(_, at)| *at)
+    }
+
+    /// The last search broke off. The list before stays.
+    pub(in crate::app) fn broke_off(&self) -> bool {
+        self.broke_off
     }
 
     /// Ends the search under way. The next begins when the operator wants it
@@ -141,6 +147,7 @@ impl Listing {
         });
         match job {
             Ok(job) => {
+                let job = Some(job);
                 self.search = Some(Search { basis: basis.clone(), at: now, progress, job });
             }
             Err(error) => {
@@ -151,9 +158,16 @@ impl Listing {
     }
 
     fn take_finished(&mut self) -> bool {
-        let Some(found) = self.search.as_ref().and_then(|search| search.job.poll()) else {
+        let Some(end) = self.search.as_mut().and_then(|search| Job::take(&mut search.job)) else {
             return false;
         };
+        let Ok(found) = end else {
+            // The same elements would break the next search too: the operator begins it.
+            self.cancel();
+            self.broke_off = true;
+            return false;
+        };
+        self.broke_off = false;
         self.made = self.search.take().map(|search| (search.basis, search.at));
         self.satellites = found.satellites;
         self.passes = found.passes;

@@ -63,9 +63,8 @@ impl Desk {
 
     /// Takes what has come in.
     pub(in crate::app) fn poll(&mut self, shown: &mut SourceTests) {
-        if let Some(decided) = self.deciding.as_ref().and_then(Job::poll) {
-            self.deciding = None;
-            match decided {
+        if let Some(decided) = Job::take(&mut self.deciding) {
+            match decided.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {
                 Ok(()) => self.fetch(shown),
                 Err(text) => shown.stage = failed(text),
             }

@@ -102,8 +102,10 @@ impl Desk {
         steady: Instant,
         shown: &mut Uploads,
     ) -> Option<Selection> {
-        if let Some(kept) = take(&mut self.listing) {
-            shown.kept = kept;
+        match Job::take(&mut self.listing) {
+            Some(Ok(kept)) => shown.kept = kept,
+            Some(Err(broke_off)) => shown.kept.list = Some(Err(broke_off.to_string())),
+            None => {}
         }
         if let Some(Err(problem)) = take(&mut self.keeping) {
             shown.warnings.push(Warning::NotKept(problem));
@@ -206,10 +208,8 @@ impl Desk {
 }
 
 /// The result of `job`, once.
-fn take<T: Send + 'static>(job: &mut Option<Job<T>>) -> Option<T> {
-    let result = job.as_ref()?.poll()?;
-    *job = None;
-    Some(result)
+fn take(job: &mut Option<Job<Result<(), String>>>) -> Option<Result<(), String>> {
+    Job::take(job).map(|end| end.unwrap_or_else(|broke_off| Err(broke_off.to_string())))
 }
 
 fn logged<T>(started: io::Result<T>) -> Option<T> {

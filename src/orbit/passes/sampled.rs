@@ -225,7 +225,8 @@ impl Finder<'_> {
 fn step_s(series: &LocalSeries) -> f64 {
     let (r, v) = (series.state.position_km, series.state.velocity_km_s);
     let radius_km = r.length();
-    let at_radius = |radius_km: f64| STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt();
+    let at_radius =
+        |radius_km: f64| (STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt()).max(LEAST_STEP_S);
     let level = at_radius(radius_km);
     // On the way down the orbit gets faster within the step: its time is that
     // of the lower place half a step on.
@@ -234,7 +235,7 @@ fn step_s(series: &LocalSeries) -> f64 {
     let parameter_km = r.cross(v).length_squared() / GRAVITY_KM3_S2;
     let eccentricity = (1.0 - parameter_km * inverse_axis).max(0.0).sqrt();
     let perigee_km = parameter_km / (1.0 + eccentricity);
-    level.min(at_radius(lower_km.max(perigee_km))).min(STEP / EARTH_RATE_RAD_S).max(LEAST_STEP_S)
+    level.min(at_radius(lower_km.max(perigee_km))).min(STEP / EARTH_RATE_RAD_S)
 }
 
 /// Polynomials of fifth degree between two states.

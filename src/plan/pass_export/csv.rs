@@ -26,7 +26,7 @@ pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>]) -> io::Result<()
     let mut table = csv::Writer::from_writer(out);
     table.write_record(HEADER)?;
     for PassRow { elements, pass } in rows {
-        let mut fields = vec![elements.catalog_number().to_string(), elements.name().to_owned()];
+        let mut fields = vec![elements.catalog_number().to_string(), plain(elements.name())];
         for point in [pass.aos, pass.tca, pass.los] {
             fields.push(rfc3339(point.time));
             fields.push(degrees(point.direction.azimuth_deg()).to_string());
@@ -41,10 +41,31 @@ pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>]) -> io::Result<()
     table.flush()
 }
 
+/// Text that no spreadsheet takes for a formula: names come from files of others.
+///
+/// Source: OWASP, "CSV Injection".
+fn plain(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::testing::{example, written};
     use crate::plan::pass_export::PassFormat;
+
+    #[test]
+    fn a_name_is_no_formula() {
+        for name in ["=1+1", "+1", "-1", "@SUM(A1)"] {
+            assert_eq!(super::plain(name), format!("'{name}"));
+        }
+        for name in ["ISS (ZARYA)", "NOAA-20", ""] {
+            assert_eq!(super::plain(name), name);
+        }
+    }
 
     #[test]
     fn a_row_quotes_what_it_must() {

@@ -77,7 +77,9 @@ pub(super) fn pointed(value: f64) -> String {
 pub(super) fn parse_decimal(text: &str) -> Option<f64> {
     // Rust also reads `inf`, `nan` and exponents, which the protocol does not have.
     let known = |byte: u8| byte.is_ascii_digit() || b"+-.".contains(&byte);
-    text.bytes().all(known).then(|| text.parse().ok()).flatten()
+    let number: Option<f64> = text.bytes().all(known).then(|| text.parse().ok()).flatten();
+    // So many digits that they are beyond every number.
+    number.filter(|number| number.is_finite())
 }
 
 /// A whole number; a fraction of zeros is accepted.
@@ -109,7 +111,8 @@ mod tests {
     fn only_plain_numbers_are_read() {
         assert_eq!(parse_decimal("+2"), Some(2.0));
         assert_eq!(parse_decimal("-.5"), Some(-0.5));
-        for bad in ["", "nan", "inf", "1e3", "1,5", "-", "2 3", "NONE"] {
+        let endless = "9".repeat(330);
+        for bad in ["", "nan", "inf", "1e3", "1,5", "-", "2 3", "NONE", &endless] {
             assert_eq!(parse_decimal(bad), None, "{bad}");
         }
         assert_eq!(parse_integer("7.00"), Some(7));

@@ -45,6 +45,11 @@ pub(super) fn report(
     let Some(report) = report else {
         return vec![(Tone::Caution, "Not read.".to_owned())];
     };
+    if report.is_set_aside {
+        let words = "Set aside: Azel ended while it read this source. It is read again when you \
+                     ask for it.";
+        return vec![(Tone::Bad, words.to_owned())];
+    }
     let mut lines: Vec<(Tone, String)> = (report.files.iter())
         .filter_map(|file| {
             let (problem, place) = (file.problem.as_ref()?, file.path.display());

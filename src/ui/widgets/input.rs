@@ -1,7 +1,8 @@
 //! The fields into which a new value goes.
 
 use egui::{
-    Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
+    Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2,
+    text_edit::TextEditState, vec2,
 };
 
 use super::paint;
@@ -60,7 +61,11 @@ impl Input<'_> {
             .align(Align2::LEFT_CENTER)
             .min_size(self.rect.size())
             .desired_width(self.rect.width());
-        ui.place(self.rect, edit).accessible_name(self.name).changed()
+        let response = ui.place(self.rect, edit).accessible_name(self.name);
+        if is_password {
+            forget_typing(ui, response.id);
+        }
+        response.changed()
     }
 
     /// Shows one of a few; returns another one that was chosen.
@@ -97,5 +102,14 @@ impl Input<'_> {
         paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t2);
         let name = format!("{}: {words}", self.name);
         paint::name_text(ui, ("inert", self.name), self.rect, &name);
+    }
+}
+
+/// Leaves nothing to undo: what was typed as a password would come back by Ctrl Z
+/// after it was sent or dropped.
+fn forget_typing(ui: &Ui, id: egui::Id) {
+    if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
+        state.clear_undoer();
+        state.store(ui.ctx(), id);
     }
 }

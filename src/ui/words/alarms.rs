@@ -1,6 +1,11 @@
 //! The alarm list.
 
-use crate::{app::alarms::AlarmKind, driver::LinkLoss, station::NoteReason, ui::format};
+use crate::{
+    app::alarms::{AlarmKind, Work},
+    driver::LinkLoss,
+    station::NoteReason,
+    ui::format,
+};
 
 /// An alarm in words. `antenna` is its name, where it is about one.
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
@@ -52,6 +57,20 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \
              Use their local panels.",
             format::age(stood.as_secs_f64())
+        ),
+        AlarmKind::BrokeOff(Work::Elements) => {
+            "The reading of the elements broke off inside Azel. What was held stays in use; \
+             the view Elements reads them again."
+                .to_owned()
+        }
+        AlarmKind::BrokeOff(Work::Passes) => {
+            "The search for passes broke off inside Azel. The list before stays; Search begins \
+             it again."
+                .to_owned()
+        }
+        AlarmKind::SourceSetAside(name) => format!(
+            "The source {name} is not read: Azel ended while it read it. Look at what it holds; \
+             the view Elements reads it again."
         ),
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
