@@ -276,7 +276,9 @@ impl eframe::App for App {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
         }
         self.views.show(ui, &self.model, &mut commands);
-        if stop || commands.contains(&UiCommand::Stop) {
+        let stops =
+            |command: &UiCommand| matches!(command, UiCommand::Stop | UiCommand::StopAntenna(_));
+        if stop || commands.iter().any(stops) {
             self.uploads.stopped();
             commands.retain(|command| !command.may_move());
         }

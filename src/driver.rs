@@ -67,6 +67,11 @@ impl AntennaHandle {
         self.stop.notify_one();
     }
 
+    /// Whether a STOP of the whole station is for this antenna too.
+    pub fn wants_stop(&self) -> bool {
+        self.has_ended() || self.snapshots.borrow().wants_stop()
+    }
+
     /// Hands over a command. It comes back when the session is too busy to take
     /// it, which must be told to the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {

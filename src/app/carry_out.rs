@@ -12,9 +12,18 @@ use super::{
 use crate::{controller::TrackTarget, driver, station, ui::theme};
 
 impl App {
-    /// Past every queue, to every antenna.
+    /// Past every queue, to every antenna that it concerns.
     pub(super) fn stop_all(&self) {
         for antenna in &self.model.antennas {
+            if antenna.handle.wants_stop() {
+                antenna.handle.stop();
+            }
+        }
+    }
+
+    /// Past every queue, also to a unit that has to be connected for it.
+    fn stop_one(&self, index: usize) {
+        if let Some(antenna) = self.model.antennas.get(index) {
             antenna.handle.stop();
         }
     }
@@ -23,6 +32,7 @@ impl App {
         let model = &mut self.model;
         match command {
             UiCommand::Stop => self.stop_all(),
+            UiCommand::StopAntenna(index) => self.stop_one(index),
             UiCommand::Close => {
                 self.may_close.store(true, Ordering::Relaxed);
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);

@@ -17,8 +17,10 @@ use crate::{
 /// What a view asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UiCommand {
-    /// Stop every antenna.
+    /// Stop every antenna that is connected or was moved from here.
     Stop,
+    /// Stop the antenna with this index, also where that takes a connection.
+    StopAntenna(usize),
     /// Close the window, whatever is lost with it.
     Close,
     /// Show this pass.

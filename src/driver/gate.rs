@@ -6,7 +6,7 @@
 
 mod rules;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::intent::Intent;
 use crate::{
@@ -125,11 +125,23 @@ pub(super) struct Gate {
     controller: Box<dyn Moves>,
     limits: MotionLimits,
     mount: Mount,
+    /// When the last motion passed that is not known to be over.
+    unproved_since: Option<Instant>,
 }
 
 impl Gate {
     pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, mount: Mount) -> Self {
-        Self { controller, limits, mount }
+        Self { controller, limits, mount, unproved_since: None }
+    }
+
+    /// When the last motion passed after which standstill was not proved.
+    pub(super) fn unproved_since(&self) -> Option<Instant> {
+        self.unproved_since
+    }
+
+    /// Standstill is proved.
+    pub(super) fn proved_still(&mut self) {
+        self.unproved_since = None;
     }
 
     /// The harmless side of the controller.
@@ -156,6 +168,7 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         self.examine(motion, intent, stopping, now)?;
+        self.unproved_since = Some(now.steady);
         self.controller.start(motion);
         Ok(())
     }
@@ -191,6 +204,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
+            self.unproved_since = Some(now.steady);
         }
         self.controller.act(act);
         Ok(())

@@ -9,6 +9,7 @@ mod follow;
 mod halting;
 mod jog;
 mod liveness;
+mod standstill;
 mod step;
 mod supervise;
 mod wanted;
@@ -163,6 +164,7 @@ impl Session {
             aim: self.aim,
             target: self.target.clone(),
             following: self.following.as_ref().map(Following::view),
+            unproved: self.is_unproved(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
             step: self.stepping.map(|stepping| stepping.steps_deg),

@@ -32,6 +32,9 @@ pub struct Snapshot {
     pub target: Option<TrackTarget>,
     /// What this program follows with it, position by position.
     pub following: Option<FollowView>,
+    /// It was moved from here, or a stop is owed, and standstill is not proved
+    /// since.
+    pub unproved: bool,
     /// The stop button.
     pub stop: StopState,
     /// Signed rates of a jog that is held, degrees a second.
@@ -54,6 +57,7 @@ impl Snapshot {
             aim: None,
             target: None,
             following: None,
+            unproved: false,
             stop: StopState::Ready,
             jog: None,
             step: None,
@@ -64,6 +68,14 @@ impl Snapshot {
 }
 
 impl Snapshot {
+    /// Whether a STOP of the whole station is for this antenna too. A unit to which
+    /// nobody wants a link and that was not moved from here is left to whoever
+    /// stands in front of it.
+    pub fn wants_stop(&self) -> bool {
+        let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
+        self.link != LinkState::Off || self.unproved || owed
+    }
+
     /// Whether nothing but ages and counters differ. The window shows those
     /// with the next tick of its clock; a frame of their own is not worth it.
     pub fn shows_the_same(&self, newer: &Self) -> bool {

@@ -9,6 +9,7 @@ mod lower;
 mod more;
 mod others;
 mod readings;
+mod released;
 mod speed;
 mod steps;
 mod track;
@@ -21,7 +22,6 @@ use super::{
     widgets::{
         axes_table::{self, AxisRow, WantedColumn},
         beam_bar::{self, BeamModel},
-        button::{self, Button},
         go_to::Target,
         mode_selector::{self, Mode, ModeModel},
         paint,
@@ -122,6 +122,8 @@ pub enum CardAction {
     Connect,
     /// Close the link.
     Disconnect,
+    /// Stop this antenna, which takes a connection.
+    Stop,
     /// Wants another mode.
     SetMode(Mode),
     /// Holds a jog key. Comes in every frame in which it is held.
@@ -220,11 +222,7 @@ fn fill(
     let block = sentence::show(ui, at.at(), at.width(), &model.sentence);
     at.y = block.bottom() + if short { 6.0 } else { 10.0 };
     if model.header.control == Control::Released {
-        let key = at.take(button::HEIGHT);
-        if Button::primary("Connect").show(ui, "connect", key).clicked() {
-            actions.push(CardAction::Connect);
-        }
-        at.skip(8.0);
+        released::show(ui, &mut at, &model.header, actions);
     }
 
     let table = at.take(axes_table::height(model.axes.len()));

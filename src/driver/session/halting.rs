@@ -87,6 +87,7 @@ impl Session {
         if stands {
             let pressed = halting.pressed;
             self.halting = None;
+            self.prove_still();
             if pressed {
                 self.stopped_at = Some(now.steady);
                 self.tell(Event::Stopped);

@@ -37,6 +37,7 @@ impl Session {
         self.watch_jog(now);
         self.watch_step();
         self.watch_halt(now);
+        self.watch_standstill();
         self.forget_old_stop(now);
         self.start_waiting(now);
         match self.intent {

@@ -37,6 +37,8 @@ pub struct HeaderModel<'a> {
     pub link: LinkGlyph,
     /// Who controls it.
     pub control: Control<'a>,
+    /// A connection takes the panel from whoever stands in front of the unit.
+    pub takes_panel: bool,
 }
 
 pub(super) fn show(

@@ -43,6 +43,7 @@ const CHECKS: [Check; 2] = [
 fn model() -> CardModel<'static> {
     CardModel {
         header: HeaderModel {
+            takes_panel: false,
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",
             link: LinkGlyph::Live,

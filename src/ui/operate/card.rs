@@ -74,6 +74,7 @@ pub(super) fn show(
                 second_line: &second_line,
                 link: bar::glyph(antenna),
                 control: control(&snapshot.link),
+                takes_panel: can.waits_for_word,
             },
             sentence: *sentence,
             wanted,

@@ -27,6 +27,9 @@ impl Desk<'_> {
         let command = match action {
             CardAction::Connect => Command::Connect,
             CardAction::Disconnect => return self.disconnect(),
+            CardAction::Stop => {
+                return self.commands.push(UiCommand::StopAntenna(self.model.selected_antenna));
+            }
             CardAction::Act(act) => return self.act(act),
             CardAction::Select(index) => {
                 return self.commands.push(UiCommand::SelectAntenna(index));
