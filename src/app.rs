@@ -17,6 +17,7 @@ mod demo;
 pub mod forecast;
 pub mod host_keys;
 mod job;
+mod lock_outs;
 mod log_file;
 mod logic;
 mod memory;
@@ -52,7 +53,7 @@ use self::{
 use crate::{
     driver::{self, Clock, Driver, Wake},
     makes::{self, DemoAddresses},
-    station::{self, LoadError, Station},
+    station::{self, LoadError, LockOuts, Station},
     ui,
 };
 
@@ -86,6 +87,7 @@ pub struct App {
     uploads: uploads::Desk,
     source_tests: source_tests::Desk,
     keeper: Keeper,
+    lock_outs: LockOuts,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
     /// The operator or the operating system has said so: nothing is asked.
@@ -147,10 +149,12 @@ impl App {
             uploads,
             source_tests,
             keeper,
+            lock_outs: LockOuts::default(),
             settings_unread: false,
             may_close,
             drawn: false,
         };
+        app.load_lock_outs();
         app.load_station();
         Ok(app)
     }
@@ -213,7 +217,8 @@ impl App {
     }
 
     fn open_antenna(&self, config: station::Antenna) -> AntennaModel {
-        let handle = self.driver.open(&config);
+        let lock_out = self.lock_outs.of(&config.connection).cloned();
+        let handle = self.driver.open(&config, lock_out);
         AntennaModel::new(config, handle)
     }
 }

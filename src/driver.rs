@@ -27,7 +27,7 @@ pub use snapshot::{
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
-use crate::station::{Antenna, Link};
+use crate::station::{Antenna, Link, LockOut};
 
 /// How many commands may wait. The window sends at most a few a frame.
 const COMMANDS: usize = 64;
@@ -153,8 +153,8 @@ impl Driver {
         &self.runtime
     }
 
-    /// Starts the session of one antenna.
-    pub fn open(&self, antenna: &Antenna) -> AntennaHandle {
+    /// Starts the session of one antenna, whose unit may be locked out.
+    pub fn open(&self, antenna: &Antenna, lock_out: Option<LockOut>) -> AntennaHandle {
         let connection = &antenna.connection;
         let dial = match connection.kind().link {
             Link::Tcp => dial_tcp(connection.address.clone()),
@@ -162,7 +162,7 @@ impl Driver {
         };
         let (clock, wake) = (self.clock.clone(), Arc::clone(&self.wake));
         let (session, handle) = Session::new(antenna.controller(), antenna, dial, clock, wake);
-        self.sessions.spawn_on(session.run(), &self.runtime);
+        self.sessions.spawn_on(session.locked_out(lock_out).run(), &self.runtime);
         handle
     }
 }

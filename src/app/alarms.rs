@@ -41,6 +41,10 @@ pub enum AlarmKind {
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
+    /// Locked out, and it cannot be read back that the unit does not start by itself.
+    LockOutUnproved,
+    /// The list of units that are locked out could not be read or written; in words.
+    LockOuts(String),
     /// The unit refused, with this code.
     Refused(Motion, String),
     /// The unit did not answer.
@@ -105,6 +109,8 @@ impl Alarm {
             AlarmKind::LinkLost(_)
             | AlarmKind::StopNotConfirmed
             | AlarmKind::StopRefused(_)
+            | AlarmKind::LockOutUnproved
+            | AlarmKind::LockOuts(_)
             | AlarmKind::SessionBroke
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
@@ -196,6 +202,8 @@ impl AlarmKind {
             self,
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
+                | Self::LockOutUnproved
+                | Self::LockOuts(_)
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
@@ -245,6 +253,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::JogPositionOld => AlarmKind::JogPositionOld,
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
         Event::AutoStaysOn => AlarmKind::AutoStaysOn,
+        Event::LockOutUnproved => AlarmKind::LockOutUnproved,
         Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
         Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),

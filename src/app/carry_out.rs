@@ -50,6 +50,12 @@ impl App {
             UiCommand::Antenna(antenna, driver::Command::Settle(change)) => {
                 self.settle(antenna, change);
             }
+            UiCommand::Antenna(antenna, driver::Command::LockOut(lock_out)) => {
+                self.set_lock_out(antenna, Some(lock_out));
+            }
+            UiCommand::Antenna(antenna, driver::Command::Unlock) => {
+                self.set_lock_out(antenna, None);
+            }
             UiCommand::Antenna(antenna, command) => self.send(antenna, command),
             UiCommand::SaveSettings { antenna } => self.save_copy(antenna),
             UiCommand::CompareSettings { antenna } => self.open_copies(antenna),
@@ -180,7 +186,9 @@ impl App {
                 self.model.alarms.clear(None, |kind| {
                     matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
                 });
-                self.model.demo = false;
+                if std::mem::take(&mut self.model.demo) {
+                    self.load_lock_outs();
+                }
                 self.settings_unread = false;
                 self.use_station(station);
                 self.demo = None;

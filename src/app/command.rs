@@ -114,7 +114,9 @@ impl UiCommand {
     /// Whether it may move an antenna. A stop in the same frame voids it.
     pub fn may_move(&self) -> bool {
         match self {
-            Self::Antenna(_, command) => !matches!(command, driver::Command::ReadGroup(_)),
+            Self::Antenna(_, command) => {
+                !matches!(command, driver::Command::ReadGroup(_) | driver::Command::LockOut(_))
+            }
             Self::Track { .. } | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,
         }

@@ -105,6 +105,7 @@ impl App {
             self.take_event(index, event);
         }
         self.revive_session(index);
+        self.tell_lock_out(index);
         self.watch_state(index);
     }
 
@@ -113,7 +114,8 @@ impl App {
     fn revive_session(&mut self, index: usize) {
         let Some(antenna) = self.model.antennas.get_mut(index) else { return };
         if antenna.handle.has_ended() {
-            antenna.handle = self.driver.open(&antenna.config);
+            let lock_out = self.lock_outs.of(&antenna.config.connection).cloned();
+            antenna.handle = self.driver.open(&antenna.config, lock_out);
             antenna.handle.stop();
             self.model.alarms.raise(Some(index), AlarmKind::SessionBroke, self.model.now);
         }
@@ -148,6 +150,9 @@ impl App {
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
             alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        if !snapshot.locking {
+            alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {

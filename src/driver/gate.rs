@@ -14,7 +14,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
     },
-    station::{MotionLimits, Mount},
+    station::{LockOut, MotionLimits, Mount},
 };
 use rules::RULES;
 
@@ -22,8 +22,16 @@ use rules::RULES;
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
 /// Why a motion was not sent.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
+    /// The unit is locked out for maintenance.
+    #[error("locked out by {by}: {reason}")]
+    LockedOut {
+        /// By whom.
+        by: String,
+        /// Why.
+        reason: String,
+    },
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
     PositionUnknown,
@@ -109,6 +117,12 @@ pub enum Refusal {
     Stopping,
 }
 
+impl From<&LockOut> for Refusal {
+    fn from(LockOut { by, reason, .. }: &LockOut) -> Self {
+        Self::LockedOut { by: by.clone(), reason: reason.clone() }
+    }
+}
+
 /// What the rules look at beside the motion itself.
 struct Situation<'a> {
     state: &'a AntennaState,
@@ -117,6 +131,7 @@ struct Situation<'a> {
     stopping: bool,
     limits: MotionLimits,
     mount: Mount,
+    lock_out: Option<&'a LockOut>,
     now: Moment,
 }
 
@@ -125,13 +140,26 @@ pub(super) struct Gate {
     controller: Box<dyn Moves>,
     limits: MotionLimits,
     mount: Mount,
+    /// Nothing but questions and halts goes to the unit.
+    lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
     unproved_since: Option<Instant>,
 }
 
 impl Gate {
     pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, mount: Mount) -> Self {
-        Self { controller, limits, mount, unproved_since: None }
+        Self { controller, limits, mount, lock_out: None, unproved_since: None }
+    }
+
+    /// The lock-out of the unit.
+    pub(super) fn lock_out(&self) -> Option<&LockOut> {
+        self.lock_out.as_ref()
+    }
+
+    /// Locks the unit out, or no longer.
+    pub(super) fn set_lock_out(&mut self, lock_out: Option<LockOut>) {
+        self.controller.lock_changes(lock_out.is_some());
+        self.lock_out = lock_out;
     }
 
     /// When the last motion passed after which standstill was not proved.
@@ -187,6 +215,7 @@ impl Gate {
             stopping,
             limits: self.limits,
             mount: self.mount,
+            lock_out: self.lock_out.as_ref(),
             now,
         };
         RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
@@ -202,6 +231,10 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
+        // What moves nothing may still get in the way of hands.
+        if let Some(lock_out) = &self.lock_out {
+            return Err(lock_out.into());
+        }
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
             self.unproved_since = Some(now.steady);

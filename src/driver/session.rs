@@ -9,6 +9,7 @@ mod follow;
 mod halting;
 mod jog;
 mod liveness;
+mod lock_out;
 mod standstill;
 mod step;
 mod supervise;
@@ -35,6 +36,7 @@ use command::Waiting;
 use follow::{Following, Manner};
 use halting::Halting;
 use jog::Jog;
+use lock_out::Locking;
 use step::Stepping;
 use supervise::Doubt;
 use wanted::Wanted;
@@ -83,6 +85,8 @@ pub struct Session {
     /// Is done as soon as no halt is under way.
     waiting: Option<Waiting>,
     halting: Option<Halting>,
+    /// How far a lock-out is.
+    locking: Option<Locking>,
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
     stopped_at: Option<Instant>,
@@ -140,6 +144,7 @@ impl Session {
             stepping: None,
             waiting: None,
             halting: None,
+            locking: None,
             doubt: None,
             stopped_at: None,
             urgent: Vec::new(),
@@ -165,6 +170,8 @@ impl Session {
             target: self.target.clone(),
             following: self.following.as_ref().map(Following::view),
             unproved: self.is_unproved(),
+            lock_out: self.gate.lock_out().cloned(),
+            locking: self.is_being_locked_out(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
             step: self.stepping.map(|stepping| stepping.steps_deg),

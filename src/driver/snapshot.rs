@@ -15,6 +15,7 @@ use crate::{
     },
     orbit::PropagationError,
     plan::{FollowPhase, FollowStats, Sample},
+    station::LockOut,
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -35,6 +36,11 @@ pub struct Snapshot {
     /// It was moved from here, or a stop is owed, and standstill is not proved
     /// since.
     pub unproved: bool,
+    /// The unit is locked out for maintenance.
+    pub lock_out: Option<LockOut>,
+    /// It is being locked out: that it stands and does not start by itself is not
+    /// read back yet.
+    pub locking: bool,
     /// The stop button.
     pub stop: StopState,
     /// Signed rates of a jog that is held, degrees a second.
@@ -58,6 +64,8 @@ impl Snapshot {
             target: None,
             following: None,
             unproved: false,
+            lock_out: None,
+            locking: false,
             stop: StopState::Ready,
             jog: None,
             step: None,
@@ -294,10 +302,12 @@ pub enum Event {
     AutoTrackStillOn,
     /// The device did not switch its auto-track off.
     AutoStaysOn,
+    /// The unit is locked out, and that its auto-track is off cannot be read back.
+    LockOutUnproved,
 }
 
 /// Why a target cannot be followed, or no further.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FollowProblem {
     /// It does not rise any more in the time that was looked at.
     #[error("there is no pass to come")]

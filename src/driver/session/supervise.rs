@@ -38,6 +38,7 @@ impl Session {
         self.watch_step();
         self.watch_halt(now);
         self.watch_standstill();
+        self.watch_lock_out(now);
         self.forget_old_stop(now);
         self.start_waiting(now);
         match self.intent {

@@ -28,6 +28,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
+        AlarmKind::LockOutUnproved => format!(
+            "{antenna} is locked out, but that its auto-track is off cannot be read back: it may \
+             start by itself. Switch it off at the unit."
+        ),
+        AlarmKind::LockOuts(text) => super::capitalised(text),
         AlarmKind::Refused(motion, code) => {
             let answer = super::answer(code);
             format!("{}: {antenna} answered {answer}.", super::motion(*motion))
