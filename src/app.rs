@@ -10,6 +10,7 @@ pub mod antenna;
 mod carry_out;
 pub mod clearance;
 mod clock_watch;
+pub mod closing;
 pub mod command;
 pub mod copies;
 pub mod daylight;
@@ -25,6 +26,7 @@ pub mod model;
 mod settle;
 pub mod source_tests;
 pub mod sources;
+pub mod track_again;
 pub mod uploads;
 
 use std::{
@@ -92,6 +94,8 @@ pub struct App {
     settings_unread: bool,
     /// The operator or the operating system has said so: nothing is asked.
     may_close: Arc<AtomicBool>,
+    /// The operating system has said so: nobody can be asked.
+    told_to_end: Arc<AtomicBool>,
     drawn: bool,
 }
 
@@ -122,9 +126,11 @@ impl App {
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
+            closing: None,
         };
-        let may_close = Arc::default();
-        close_on_signals(&driver, Arc::clone(&may_close), ctx.clone());
+        let (may_close, told_to_end) = (Arc::default(), Arc::default());
+        let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
+        close_on_signals(&driver, flags, ctx.clone());
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
@@ -152,6 +158,7 @@ impl App {
             lock_outs: LockOuts::default(),
             settings_unread: false,
             may_close,
+            told_to_end,
             drawn: false,
         };
         app.load_lock_outs();
@@ -226,6 +233,9 @@ impl App {
 /// Every jog ends with a STOP on the wire before the window is gone.
 impl Drop for App {
     fn drop(&mut self) {
+        if self.told_to_end.load(Ordering::Relaxed) {
+            self.end_unasked();
+        }
         self.model.antennas.clear();
         self.remember();
         self.keeper.finish(&self.wake);
@@ -234,12 +244,14 @@ impl Drop for App {
 
 /// A log-out or Ctrl C in the terminal closes the window in order, so that a
 /// jog ends with STOP.
-fn close_on_signals(driver: &Driver, may_close: Arc<AtomicBool>, ctx: egui::Context) {
+fn close_on_signals(driver: &Driver, flags: [Arc<AtomicBool>; 2], ctx: egui::Context) {
     driver.runtime().spawn(async move {
         if let Err(error) = driver::told_to_end().await {
             return tracing::error!(%error, "signals are not heard");
         }
-        may_close.store(true, Ordering::Relaxed);
+        for flag in flags {
+            flag.store(true, Ordering::Relaxed);
+        }
         ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         ctx.request_repaint_after_for(std::time::Duration::from_millis(1), egui::ViewportId::ROOT);
     });
@@ -256,6 +268,9 @@ fn wake(ctx: egui::Context) -> Wake {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.think();
+        if self.closes_now() {
+            ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
+        }
         self.schedule_repaint(ctx);
     }
 

@@ -1,11 +1,15 @@
 //! One antenna as the window sees it: the newest snapshot, what we predict for
 //! it, and how far the two are apart.
 
+mod stake;
+
 use std::{collections::VecDeque, sync::Arc};
+
+pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::forecast::Followed;
+use super::{forecast::Followed, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
@@ -59,6 +63,10 @@ pub struct AntennaModel {
     pub rates_deg_s: Option<(f64, f64)>,
     /// The last event that the operator should read, and when it came.
     pub news: Option<(Event, Timestamp)>,
+    /// What it was asked to track last.
+    pub ordered_track: Option<TrackAgain>,
+    /// A track that STOP has ended, to be offered again.
+    pub track_again: Option<TrackAgain>,
     recent: VecDeque<Measured>,
 }
 
@@ -73,8 +81,17 @@ impl AntennaModel {
             errors: VecDeque::new(),
             rates_deg_s: None,
             news: None,
+            ordered_track: None,
+            track_again: None,
             recent: VecDeque::new(),
         }
+    }
+
+    /// Whether it can be sent to its park position now.
+    pub fn can_park(&self) -> bool {
+        let snapshot = &self.snapshot;
+        let can = self.make().capabilities;
+        can.takes_positions && snapshot.link.is_open() && snapshot.lock_out.is_none()
     }
 
     /// Kind of its controller, as the station file names it.

@@ -13,22 +13,26 @@ use crate::{controller::TrackTarget, driver, station, ui::theme};
 
 impl App {
     /// Past every queue, to every antenna that it concerns.
-    pub(super) fn stop_all(&self) {
-        for antenna in &self.model.antennas {
-            if antenna.handle.wants_stop() {
-                antenna.handle.stop();
+    pub(super) fn stop_all(&mut self) {
+        for index in 0..self.model.antennas.len() {
+            let antenna = self.model.antennas.get(index);
+            if antenna.is_some_and(|antenna| antenna.handle.wants_stop()) {
+                self.stop_one(index);
             }
         }
+        self.stay_open_after_stop();
     }
 
     /// Past every queue, also to a unit that has to be connected for it.
-    fn stop_one(&self, index: usize) {
+    pub(super) fn stop_one(&mut self, index: usize) {
+        self.note_stop(index);
         if let Some(antenna) = self.model.antennas.get(index) {
             antenna.handle.stop();
         }
     }
 
     pub(super) fn carry_out(&mut self, command: UiCommand, ctx: &egui::Context) {
+        self.note_track(&command);
         let model = &mut self.model;
         match command {
             UiCommand::Stop => self.stop_all(),
@@ -37,6 +41,8 @@ impl App {
                 self.may_close.store(true, Ordering::Relaxed);
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
+            UiCommand::CloseAfter(how) => self.close_after(how),
+            UiCommand::StayOpen => model.closing = None,
             UiCommand::SelectPass(key) => model.selected = Some(key),
             UiCommand::SelectSatellite(number) => {
                 model.selected =

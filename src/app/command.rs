@@ -3,6 +3,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
+    closing::CloseHow,
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
     source_tests, uploads,
@@ -23,6 +24,10 @@ pub enum UiCommand {
     StopAntenna(usize),
     /// Close the window, whatever is lost with it.
     Close,
+    /// Close the window once this is done with the antennas that move.
+    CloseAfter(CloseHow),
+    /// Do not close the window after all.
+    StayOpen,
     /// Show this pass.
     SelectPass(PassKey),
     /// Show the present or next pass of this satellite.

@@ -46,6 +46,8 @@ impl App {
         for index in 0..self.model.antennas.len() {
             self.take_antenna(index);
         }
+        self.forget_tracks();
+        self.watch_closing();
         self.poll_uploads();
         self.source_tests.poll(&mut self.model.source_tests);
         self.model.refresh_sky();
@@ -133,6 +135,7 @@ impl App {
             }
             _ => {}
         }
+        self.take_closing_event(index, &event);
         if let Some(kind) = alarm_of(&event) {
             self.model.alarms.raise(antenna, kind, now);
         }

@@ -40,6 +40,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             activity: activity(antenna),
             age,
             selected: index == model.selected_antenna,
+            maintenance: antenna.snapshot.lock_out.is_some(),
             foreign_control: false,
         })
         .collect();
@@ -183,6 +184,13 @@ pub fn age(model: &Model, antenna: &AntennaModel) -> String {
 /// What an antenna does, in one or two words.
 pub fn activity(antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
+    let stops = matches!(
+        antenna.snapshot.stop,
+        StopState::Stopping { .. } | StopState::NotConfirmed { .. }
+    );
+    if antenna.snapshot.lock_out.is_some() && !stops {
+        return if antenna.snapshot.locking { "Being locked out" } else { "In maintenance" };
+    }
     match antenna.snapshot.link {
         LinkState::Off => return "Not connected",
         LinkState::Connecting { .. } => return "Connecting",

@@ -13,6 +13,7 @@ use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
+    maintenance,
     rig::{self, SIZES, SMALL, Window, asked, says},
     states,
 };
@@ -78,7 +79,9 @@ fn the_longest_names_cut_nothing() {
 #[test]
 fn every_state_fits_both_windows() {
     for size in SIZES {
-        for snapshot in [rig::quiet(), states::holding(), states::moving(), states::manual()] {
+        let locked = maintenance::locked(states::holding());
+        let plain = [rig::quiet(), states::holding(), states::moving(), states::manual()];
+        for snapshot in plain.into_iter().chain([locked]) {
             let window = rig::window(size, rig::model(snapshot));
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);

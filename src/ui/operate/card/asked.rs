@@ -45,6 +45,10 @@ impl Desk<'_> {
             CardAction::SetMode(Mode::Track) | CardAction::TrackSelected => {
                 return self.commands.extend(UiCommand::track_selected(self.model));
             }
+            CardAction::TrackAgain => {
+                let again = self.antenna.track_again.as_ref();
+                return self.commands.extend(again.map(|again| again.command.clone()));
+            }
             CardAction::Jog { x, y, rate_deg_s } => {
                 Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
             }
@@ -58,7 +62,7 @@ impl Desk<'_> {
             },
             CardAction::SetAutoTrack(on) => Command::AutoTrack(on),
             // The plot reads the ghost from the fields themselves.
-            CardAction::PreviewGoTo(_) => return,
+            CardAction::PreviewGoTo(_) | CardAction::Maintenance => return,
         };
         self.commands.push(self.for_antenna(command));
     }
