@@ -143,7 +143,7 @@ async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move
     for action in MAKE.actions {
         rig.act(action.key, []);
         rig.seconds(1.0).await;
-        assert_eq!(rig.events(), [refused.clone()], "{}", action.key);
+        assert_eq!(rig.events(), std::slice::from_ref(&refused), "{}", action.key);
     }
     rig.hold([1.0, 0.0], 1.0).await;
     rig.send(Command::EndJog);

@@ -87,12 +87,11 @@ fn questions_and_dialogs_close_by_a_click_outside_and_by_a_key() {
         ] {
             for by_key in [false, true] {
                 let mut window = rig::window(size, rig::model(states::holding()));
-                match shortcut {
-                    Some(shortcut) => window.key_press(shortcut),
-                    None => {
-                        press(&mut window, "Link of Satrak");
-                        press(&mut window, key);
-                    }
+                if let Some(shortcut) = shortcut {
+                    window.key_press(shortcut);
+                } else {
+                    press(&mut window, "Link of Satrak");
+                    press(&mut window, key);
                 }
                 settle(&mut window);
                 assert!(is_open(&window, inside), "{inside}");

@@ -18,6 +18,7 @@ pub(super) const HEIGHT: f32 = button::SMALL_HEIGHT + 6.0;
 pub(super) fn show(ui: &Ui, block: Rect, name: &str, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let inside = block.shrink2(vec2(12.0, 6.0));
+    let inside = inside.with_min_x(block.left() + if block.width() < 300.0 { 13.0 } else { 15.0 });
     let row = inside.with_min_y(inside.bottom() - button::SMALL_HEIGHT);
     let button = Button::normal("Track again");
     let key = row.with_min_x(row.right() - button.width(ui));

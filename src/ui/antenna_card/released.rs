@@ -21,7 +21,7 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
 ) {
     let row = at.take(button::HEIGHT);
-    let (connect, stop) = row.split_left_right_at_fraction(0.5);
+    let (connect, stop) = row.split_left_right_at_fraction(0.4);
     if Button::primary("Connect")
         .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
         .clicked()

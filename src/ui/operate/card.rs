@@ -16,7 +16,7 @@ use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
     astro::Angle,
     controller::{Capabilities, Make, Pointing, satrak},
-    driver::{Intent, LinkState},
+    driver::{Intent, LinkState, Snapshot},
     protocol::satrak::Satellite,
     station::Mount,
     ui::{
@@ -74,7 +74,7 @@ pub(super) fn show(
                 name: &antenna.config.name,
                 second_line: &second_line,
                 link: bar::glyph(antenna),
-                control: control(&snapshot.link),
+                control: control(snapshot),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
             },
@@ -173,9 +173,10 @@ fn second_line(antenna: &AntennaModel) -> String {
     unit.map_or_else(|| make.name.to_owned(), |unit| format!("{}, {}", make.name, unit.text))
 }
 
-fn control(link: &LinkState) -> Control<'static> {
-    match link {
+fn control(snapshot: &Snapshot) -> Control<'static> {
+    match snapshot.link {
         LinkState::Off => Control::Released,
+        _ if snapshot.lock_out.is_some() => Control::Other("In maintenance"),
         LinkState::Up { .. } | LinkState::Stale { .. } => Control::You,
         LinkState::Connecting { .. } | LinkState::Lost { .. } => Control::Unknown,
     }

@@ -32,7 +32,6 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "{antenna} is locked out, but that its auto-track is off cannot be read back: it may \
              start by itself. Switch it off at the unit."
         ),
-        AlarmKind::LockOuts(text) => super::capitalised(text),
         AlarmKind::Refused(motion, code) => {
             let answer = super::answer(code);
             format!("{}: {antenna} answered {answer}.", super::motion(*motion))
@@ -79,6 +78,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
         },
-        AlarmKind::Settings(text) | AlarmKind::Elements(text) => super::capitalised(text),
+        AlarmKind::Settings(text) | AlarmKind::Elements(text) | AlarmKind::LockOuts(text) => {
+            super::capitalised(text)
+        }
     }
 }
