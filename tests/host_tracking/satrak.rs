@@ -231,7 +231,7 @@ async fn a_fault_ends_it_with_its_reason_and_forbids_it_from_the_start() {
     let told = rig.until_event(20.0, |event| matches!(event, Event::CannotFollow(..))).await;
     let refused = FollowProblem::Refused(Refusal::Fault);
     let name = scene.elements.name().to_owned();
-    assert_eq!(told, Event::CannotFollow(name.clone(), refused));
+    assert_eq!(told, Event::CannotFollow(name.clone(), refused.clone()));
     assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
     let sent = gotos(&control);
     rig.send(Command::Follow(Box::new(scene.follow())));
