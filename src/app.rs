@@ -10,6 +10,7 @@ pub mod antenna;
 mod carry_out;
 pub mod clearance;
 mod clock_watch;
+pub mod closing;
 pub mod command;
 pub mod copies;
 pub mod daylight;
@@ -17,6 +18,7 @@ mod demo;
 pub mod forecast;
 pub mod host_keys;
 mod job;
+mod lock_outs;
 mod log_file;
 mod logic;
 mod memory;
@@ -24,6 +26,7 @@ pub mod model;
 mod settle;
 pub mod source_tests;
 pub mod sources;
+pub mod track_again;
 pub mod uploads;
 
 use std::{
@@ -54,7 +57,7 @@ use crate::{
     driver::{self, Clock, Command, Driver, Unit, Wake},
     makes::{self, DemoAddresses},
     plan::Bounds,
-    station::{self, LoadError, Station},
+    station::{self, LoadError, LockOuts, Station},
     ui,
 };
 
@@ -94,10 +97,13 @@ pub struct App {
     uploads: uploads::Desk,
     source_tests: source_tests::Desk,
     keeper: Keeper,
+    lock_outs: LockOuts,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
     /// The operator or the operating system has said so: nothing is asked.
     may_close: Arc<AtomicBool>,
+    /// The operating system has said so: nobody can be asked.
+    told_to_end: Arc<AtomicBool>,
     drawn: bool,
 }
 
@@ -130,9 +136,11 @@ impl App {
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
+            closing: None,
         };
-        let may_close = Arc::default();
-        close_on_signals(&driver, Arc::clone(&may_close), ctx.clone());
+        let (may_close, told_to_end) = (Arc::default(), Arc::default());
+        let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
+        close_on_signals(&driver, flags, ctx.clone());
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
@@ -158,10 +166,13 @@ impl App {
             uploads,
             source_tests,
             keeper,
+            lock_outs: LockOuts::default(),
             settings_unread: false,
             may_close,
+            told_to_end,
             drawn: false,
         };
+        app.load_lock_outs();
         app.load_station();
         Ok(app)
     }
@@ -243,7 +254,8 @@ impl App {
     }
 
     fn open_antenna(&self, config: station::Antenna, bounds: Bounds) -> AntennaModel {
-        let handle = self.driver.open(&config, bounds);
+        let lock_out = self.lock_outs.of(&config.connection).cloned();
+        let handle = self.driver.open(&config, bounds, lock_out);
         AntennaModel::new(config, handle)
     }
 }
@@ -251,6 +263,9 @@ impl App {
 /// Every jog ends with a STOP on the wire before the window is gone.
 impl Drop for App {
     fn drop(&mut self) {
+        if self.told_to_end.load(Ordering::Relaxed) {
+            self.end_unasked();
+        }
         self.model.antennas.clear();
         self.remember();
         self.keeper.finish(&self.wake);
@@ -259,12 +274,14 @@ impl Drop for App {
 
 /// A log-out or Ctrl C in the terminal closes the window in order, so that a
 /// jog ends with STOP.
-fn close_on_signals(driver: &Driver, may_close: Arc<AtomicBool>, ctx: egui::Context) {
+fn close_on_signals(driver: &Driver, flags: [Arc<AtomicBool>; 2], ctx: egui::Context) {
     driver.runtime().spawn(async move {
         if let Err(error) = driver::told_to_end().await {
             return tracing::error!(%error, "signals are not heard");
         }
-        may_close.store(true, Ordering::Relaxed);
+        for flag in flags {
+            flag.store(true, Ordering::Relaxed);
+        }
         ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         ctx.request_repaint_after_for(std::time::Duration::from_millis(1), egui::ViewportId::ROOT);
     });
@@ -281,6 +298,9 @@ fn wake(ctx: egui::Context) -> Wake {
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
         self.think();
+        if self.closes_now() {
+            ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
+        }
         self.schedule_repaint(ctx);
     }
 
@@ -306,7 +326,9 @@ impl eframe::App for App {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
         }
         self.views.show(ui, &self.model, &mut commands);
-        if stop || commands.contains(&UiCommand::Stop) {
+        let stops =
+            |command: &UiCommand| matches!(command, UiCommand::Stop | UiCommand::StopAntenna(_));
+        if stop || commands.iter().any(stops) {
             self.uploads.stopped();
             commands.retain(|command| !command.may_move());
         }

@@ -217,6 +217,11 @@ pub trait Device: Send {
     /// is, and what came of it, stands in [`AntennaState::held`].
     fn settle(&mut self, change: Change, now: Moment);
 
+    /// While they are locked, changes of settings end with
+    /// [`LockedOut`](settings::SettleError::LockedOut) before anything is sent, also
+    /// those that wait.
+    fn lock_changes(&mut self, are_locked: bool);
+
     /// Asks this between its own questions. What is no question to this device
     /// is dropped.
     fn ask(&mut self, question: Question);

@@ -45,7 +45,7 @@ pub use wire_log::{MOST_LINES, Recorded, WireLog};
 use self::pulse::Pulse;
 use crate::{
     plan::Bounds,
-    station::{Antenna, Link},
+    station::{Antenna, Link, LockOut},
 };
 
 /// How many commands may wait. The window sends at most a few a frame.
@@ -87,6 +87,11 @@ impl AntennaHandle {
     /// Stops the antenna: past every queue, never refused.
     pub fn stop(&self) {
         self.stop.notify_one();
+    }
+
+    /// Whether a STOP of the whole station is for this antenna too.
+    pub fn wants_stop(&self) -> bool {
+        self.snapshots.borrow().wants_stop()
     }
 
     /// Hands over a command. It comes back when the session is too busy to take
@@ -206,8 +211,13 @@ impl Driver {
         &self.runtime
     }
 
-    /// Starts the session of one antenna.
-    pub fn open(&self, antenna: &Antenna, bounds: Bounds) -> AntennaHandle {
+    /// Starts the session of one antenna, whose unit may be locked out.
+    pub fn open(
+        &self,
+        antenna: &Antenna,
+        bounds: Bounds,
+        lock_out: Option<LockOut>,
+    ) -> AntennaHandle {
         let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake));
         let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
@@ -222,7 +232,8 @@ impl Driver {
                 wires,
                 debts,
                 bounds.clone(),
-            );
+            )
+            .locked_out(lock_out.clone());
             match &dead_man {
                 Some(program) => session.guarded_by(program.clone()),
                 None => session,

@@ -17,6 +17,7 @@ mod genius_session {
     mod connect;
     mod go_to;
     mod jog;
+    mod lock_out;
     mod oddities;
     mod pair;
     mod rescue;

@@ -20,6 +20,7 @@ mod satrak_session {
     mod idle;
     mod jog;
     mod let_go;
+    mod lock_out;
     mod oddities;
     mod overtaken;
     mod position;

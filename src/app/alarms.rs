@@ -43,6 +43,10 @@ pub enum AlarmKind {
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
+    /// Locked out, and it cannot be read back that the unit does not start by itself.
+    LockOutUnproved,
+    /// The list of units that are locked out could not be read or written; in words.
+    LockOuts(String),
     /// The unit refused, with this code.
     Refused(Motion, String),
     /// The unit did not answer.
@@ -125,6 +129,8 @@ impl Alarm {
             | AlarmKind::StopRefused(_)
             | AlarmKind::Safety(_)
             | AlarmKind::DriverStands(_)
+            | AlarmKind::LockOutUnproved
+            | AlarmKind::LockOuts(_)
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
@@ -229,6 +235,8 @@ impl AlarmKind {
                 | Self::DriverStands(_)
                 | Self::BrokeOff(_)
                 | Self::SourceSetAside(_)
+                | Self::LockOutUnproved
+                | Self::LockOuts(_)
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
@@ -282,6 +290,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::JogPositionOld => AlarmKind::JogPositionOld,
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
         Event::AutoStaysOn => AlarmKind::AutoStaysOn,
+        Event::LockOutUnproved => AlarmKind::LockOutUnproved,
         Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
         Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),

@@ -1,11 +1,15 @@
 //! One antenna as the window sees it: the newest snapshot, what we predict for
 //! it, and how far the two are apart.
 
+mod stake;
+
 use std::{collections::VecDeque, sync::Arc, time::Instant};
+
+pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::forecast::Followed;
+use super::{forecast::Followed, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
@@ -61,6 +65,10 @@ pub struct AntennaModel {
     pub news: Option<(Event, Timestamp)>,
     /// When STOP was pressed that no snapshot tells of yet.
     pub stop_pressed: Option<Instant>,
+    /// What it was asked to track last.
+    pub ordered_track: Option<TrackAgain>,
+    /// A track that STOP has ended, to be offered again.
+    pub track_again: Option<TrackAgain>,
     recent: VecDeque<Measured>,
 }
 
@@ -76,6 +84,8 @@ impl AntennaModel {
             rates_deg_s: None,
             news: None,
             stop_pressed: None,
+            ordered_track: None,
+            track_again: None,
             recent: VecDeque::new(),
         }
     }
@@ -84,6 +94,13 @@ impl AntennaModel {
     pub fn press_stop(&mut self) {
         self.handle.stop();
         self.stop_pressed = Some(Instant::now());
+    }
+
+    /// Whether it can be sent to its park position now.
+    pub fn can_park(&self) -> bool {
+        let snapshot = &self.snapshot;
+        let can = self.make().capabilities;
+        can.takes_positions && snapshot.link.is_open() && snapshot.lock_out.is_none()
     }
 
     /// Kind of its controller, as the station file names it.

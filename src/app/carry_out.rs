@@ -12,21 +12,37 @@ use super::{
 use crate::{controller::TrackTarget, driver, station, ui::theme};
 
 impl App {
-    /// Past every queue, to every antenna.
+    /// Past every queue, to every antenna that it concerns.
     pub(super) fn stop_all(&mut self) {
-        for antenna in &mut self.model.antennas {
+        for index in 0..self.model.antennas.len() {
+            let antenna = self.model.antennas.get(index);
+            if antenna.is_some_and(|antenna| antenna.handle.wants_stop()) {
+                self.stop_one(index);
+            }
+        }
+        self.stay_open_after_stop();
+    }
+
+    /// Past every queue, also to a unit that has to be connected for it.
+    pub(super) fn stop_one(&mut self, index: usize) {
+        self.note_stop(index);
+        if let Some(antenna) = self.model.antennas.get_mut(index) {
             antenna.press_stop();
         }
     }
 
     pub(super) fn carry_out(&mut self, command: UiCommand, ctx: &egui::Context) {
+        self.note_track(&command);
         let model = &mut self.model;
         match command {
             UiCommand::Stop => self.stop_all(),
+            UiCommand::StopAntenna(index) => self.stop_one(index),
             UiCommand::Close => {
                 self.may_close.store(true, Ordering::Relaxed);
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
+            UiCommand::CloseAfter(how) => self.close_after(how),
+            UiCommand::StayOpen => model.closing = None,
             UiCommand::SelectPass(key) => model.selected = Some(key),
             UiCommand::SelectSatellite(number) => {
                 model.selected =
@@ -39,6 +55,12 @@ impl App {
             }
             UiCommand::Antenna(antenna, driver::Command::Settle(change)) => {
                 self.settle(antenna, change);
+            }
+            UiCommand::Antenna(antenna, driver::Command::LockOut(lock_out)) => {
+                self.set_lock_out(antenna, Some(lock_out));
+            }
+            UiCommand::Antenna(antenna, driver::Command::Unlock) => {
+                self.set_lock_out(antenna, None);
             }
             UiCommand::Antenna(antenna, command) => self.send(antenna, command),
             UiCommand::SaveSettings { antenna } => self.save_copy(antenna),
@@ -170,7 +192,9 @@ impl App {
                 self.model.alarms.clear(None, |kind| {
                     matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
                 });
-                self.model.demo = false;
+                if std::mem::take(&mut self.model.demo) {
+                    self.load_lock_outs();
+                }
                 self.settings_unread = false;
                 self.use_station(station);
                 self.demo = None;

@@ -3,6 +3,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
+    closing::CloseHow,
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
     source_tests, uploads,
@@ -17,10 +18,16 @@ use crate::{
 /// What a view asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum UiCommand {
-    /// Stop every antenna.
+    /// Stop every antenna that is connected or was moved from here.
     Stop,
+    /// Stop the antenna with this index, also where that takes a connection.
+    StopAntenna(usize),
     /// Close the window, whatever is lost with it.
     Close,
+    /// Close the window once this is done with the antennas that move.
+    CloseAfter(CloseHow),
+    /// Do not close the window after all.
+    StayOpen,
     /// Show this pass.
     SelectPass(PassKey),
     /// Show the present or next pass of this satellite.
@@ -112,7 +119,9 @@ impl UiCommand {
     /// Whether it may move an antenna. A stop in the same frame voids it.
     pub fn may_move(&self) -> bool {
         match self {
-            Self::Antenna(_, command) => !matches!(command, driver::Command::ReadGroup(_)),
+            Self::Antenna(_, command) => {
+                !matches!(command, driver::Command::ReadGroup(_) | driver::Command::LockOut(_))
+            }
             Self::Track { .. } | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,
         }

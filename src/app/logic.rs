@@ -56,6 +56,8 @@ impl App {
         for index in 0..self.model.antennas.len() {
             self.take_antenna(index);
         }
+        self.forget_tracks();
+        self.watch_closing();
         self.poll_uploads();
         self.source_tests.poll(&mut self.model.source_tests);
         self.model.refresh_sky();
@@ -146,6 +148,7 @@ impl App {
         for event in events {
             self.take_event(index, event);
         }
+        self.tell_lock_out(index);
         self.watch_state(index);
     }
 
@@ -161,6 +164,7 @@ impl App {
             }
             _ => {}
         }
+        self.take_closing_event(index, &event);
         if let Some(kind) = alarm_of(&event) {
             self.model.alarms.raise(antenna, kind, now);
         }
@@ -182,6 +186,9 @@ impl App {
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
             alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        if !snapshot.locking {
+            alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {

@@ -9,6 +9,7 @@ use super::{
     alarms::Alarms,
     antenna::AntennaModel,
     clearance::Clearance,
+    closing::Closing,
     copies::Copies,
     daylight::{self, SunSpan},
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
@@ -92,6 +93,8 @@ pub struct Model {
     pub copies: Copies,
     /// Which view fills the window.
     pub view: View,
+    /// The window is about to close, and what it waits for.
+    pub closing: Option<Closing>,
 }
 
 /// The sky of the site.

@@ -120,6 +120,8 @@ pub struct Genius {
     settling: Option<Settling>,
     /// Changes that wait for it to be over.
     changes: VecDeque<Change>,
+    /// The unit is locked out: no setting goes to it.
+    are_changes_locked: bool,
     happenings: VecDeque<Happening>,
     wire: WireQueue,
 }
@@ -147,6 +149,7 @@ impl Genius {
             rescue_until: None,
             settling: None,
             changes: VecDeque::new(),
+            are_changes_locked: false,
             happenings: VecDeque::new(),
             wire: WireQueue::default(),
         }

@@ -86,6 +86,8 @@ pub struct Satrak {
     halts: VecDeque<(Halt, Instant)>,
     motions: VecDeque<Motion>,
     calm: VecDeque<Halt>,
+    /// The unit is locked out: no setting goes to it.
+    are_changes_locked: bool,
     preparation: Option<Preparation>,
     /// Questions that the operator wants answered.
     wanted: VecDeque<Query>,
@@ -118,6 +120,7 @@ impl Satrak {
             halts: VecDeque::new(),
             motions: VecDeque::new(),
             calm: VecDeque::new(),
+            are_changes_locked: false,
             preparation: None,
             wanted: VecDeque::new(),
             settling: None,

@@ -7,7 +7,7 @@
 mod rules;
 mod way;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::intent::Intent;
 use crate::{
@@ -16,7 +16,7 @@ use crate::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
     },
     plan::{Barrier, Bounds, Sweep},
-    station::{MotionLimits, Mount},
+    station::{LockOut, MotionLimits, Mount},
 };
 use rules::RULES;
 
@@ -26,6 +26,14 @@ const HALF_TURN: Angle = Angle::from_degrees(180.0);
 /// Why a motion was not sent.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Refusal {
+    /// The unit is locked out for maintenance.
+    #[error("locked out by {by}: {reason}")]
+    LockedOut {
+        /// By whom.
+        by: String,
+        /// Why.
+        reason: String,
+    },
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
     PositionUnknown,
@@ -122,6 +130,12 @@ pub enum Refusal {
     Unguarded,
 }
 
+impl From<&LockOut> for Refusal {
+    fn from(LockOut { by, reason, .. }: &LockOut) -> Self {
+        Self::LockedOut { by: by.clone(), reason: reason.clone() }
+    }
+}
+
 /// What the rules look at beside the motion itself.
 struct Situation<'a> {
     state: &'a AntennaState,
@@ -133,6 +147,7 @@ struct Situation<'a> {
     bounds: &'a Bounds,
     /// How far ahead of the last position a jog is judged, seconds.
     ahead_s: f64,
+    lock_out: Option<&'a LockOut>,
     now: Moment,
 }
 
@@ -147,12 +162,46 @@ pub(super) struct Gate {
     /// Where the last motion to a position ends, degrees as the mount counts; `None`
     /// after any other motion.
     to_deg: Option<[f64; 2]>,
+    /// Nothing but questions and halts goes to the unit.
+    lock_out: Option<LockOut>,
+    /// When the last motion passed that is not known to be over.
+    unproved_since: Option<Instant>,
 }
 
 impl Gate {
     pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, bounds: Bounds) -> Self {
         let run_out_s = controller.capabilities().standstill.run_out_s;
-        Self { controller, limits, mount: bounds.mount(), bounds, run_out_s, to_deg: None }
+        Self {
+            controller,
+            limits,
+            mount: bounds.mount(),
+            bounds,
+            run_out_s,
+            to_deg: None,
+            lock_out: None,
+            unproved_since: None,
+        }
+    }
+
+    /// The lock-out of the unit.
+    pub(super) fn lock_out(&self) -> Option<&LockOut> {
+        self.lock_out.as_ref()
+    }
+
+    /// Locks the unit out, or no longer.
+    pub(super) fn set_lock_out(&mut self, lock_out: Option<LockOut>) {
+        self.controller.lock_changes(lock_out.is_some());
+        self.lock_out = lock_out;
+    }
+
+    /// When the last motion passed after which standstill was not proved.
+    pub(super) fn unproved_since(&self) -> Option<Instant> {
+        self.unproved_since
+    }
+
+    /// Standstill is proved.
+    pub(super) fn proved_still(&mut self) {
+        self.unproved_since = None;
     }
 
     /// What the antenna must keep within.
@@ -204,6 +253,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         self.examine(motion, intent, stopping, now)?;
         self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
+        self.unproved_since = Some(now.steady);
         self.controller.start(motion);
         Ok(())
     }
@@ -232,6 +282,7 @@ impl Gate {
             mount: self.mount,
             bounds: &self.bounds,
             ahead_s: self.ahead_s(now),
+            lock_out: self.lock_out.as_ref(),
             now,
         }
     }
@@ -245,9 +296,14 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
+        // What moves nothing may still get in the way of hands.
+        if let Some(lock_out) = &self.lock_out {
+            return Err(lock_out.into());
+        }
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
             self.check_axes(self.controller.axes_of(&act), now)?;
+            self.unproved_since = Some(now.steady);
         }
         self.controller.act(act);
         Ok(())

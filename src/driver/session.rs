@@ -10,11 +10,13 @@ mod guard;
 mod halting;
 mod jog;
 mod liveness;
+mod lock_out;
 mod marking;
 mod monitor;
 mod standstill;
 mod step;
 mod supervise;
+mod unproved;
 mod wanted;
 
 use std::{
@@ -43,6 +45,7 @@ use follow::{Following, Manner};
 use guard::Guard;
 use halting::Halting;
 use jog::Jog;
+use lock_out::Locking;
 use marking::Marking;
 use monitor::{RunOut, Watch};
 use standstill::{Figures, Rest};
@@ -158,6 +161,8 @@ pub struct Session {
     /// Is done as soon as no halt is under way.
     waiting: Option<Waiting>,
     halting: Option<Halting>,
+    /// How far a lock-out is.
+    locking: Option<Locking>,
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
     stopped_at: Option<Instant>,
@@ -232,6 +237,7 @@ impl Session {
             stepping: None,
             waiting: None,
             halting: None,
+            locking: None,
             doubt: None,
             stopped_at: None,
             urgent: Vec::new(),
@@ -258,6 +264,9 @@ impl Session {
             aim: self.aim,
             target: self.target.clone(),
             following: self.following.as_ref().map(Following::view),
+            unproved: self.is_unproved(),
+            lock_out: self.gate.lock_out().cloned(),
+            locking: self.is_being_locked_out(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             unguarded: self.guard.is_missing,
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),

@@ -15,6 +15,7 @@ use crate::{
     },
     orbit::PropagationError,
     plan::{FollowPhase, FollowStats, Sample},
+    station::LockOut,
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -32,6 +33,14 @@ pub struct Snapshot {
     pub target: Option<TrackTarget>,
     /// What this program follows with it, position by position.
     pub following: Option<FollowView>,
+    /// It was moved from here, or a stop is owed, and standstill is not proved
+    /// since.
+    pub unproved: bool,
+    /// The unit is locked out for maintenance.
+    pub lock_out: Option<LockOut>,
+    /// It is being locked out: that it stands and does not start by itself is not
+    /// read back yet.
+    pub locking: bool,
     /// The stop button.
     pub stop: StopState,
     /// No dead-man could be had for the last motion by hand that needed one.
@@ -56,6 +65,9 @@ impl Snapshot {
             aim: None,
             target: None,
             following: None,
+            unproved: false,
+            lock_out: None,
+            locking: false,
             stop: StopState::Ready,
             unguarded: false,
             jog: None,
@@ -67,6 +79,14 @@ impl Snapshot {
 }
 
 impl Snapshot {
+    /// Whether a STOP of the whole station is for this antenna too. A unit to which
+    /// nobody wants a link and that was not moved from here is left to whoever
+    /// stands in front of it.
+    pub fn wants_stop(&self) -> bool {
+        let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
+        self.link != LinkState::Off || self.unproved || owed
+    }
+
     /// Whether nothing but ages and counters differ. The window shows those
     /// with the next tick of its clock; a frame of their own is not worth it.
     pub fn shows_the_same(&self, newer: &Self) -> bool {
@@ -287,6 +307,8 @@ pub enum Event {
     AutoTrackStillOn,
     /// The device did not switch its auto-track off.
     AutoStaysOn,
+    /// The unit is locked out, and that its auto-track is off cannot be read back.
+    LockOutUnproved,
 }
 
 /// Why a target cannot be followed, or no further.

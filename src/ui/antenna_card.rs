@@ -1,14 +1,17 @@
 //! The card of the selected antenna: what it does, where it is, and what it
 //! can be told.
 
+mod again;
 mod drive;
 mod faults;
 mod follow;
 mod header;
+mod lock_out;
 mod lower;
 mod more;
 mod others;
 mod readings;
+mod released;
 mod speed;
 mod steps;
 mod track;
@@ -16,12 +19,13 @@ mod track;
 use egui::{Align2, Pos2, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{
+    dialogs::MaintenanceDialog,
     icons::Icon,
     text, theme,
     widgets::{
         axes_table::{self, AxisRow, WantedColumn},
         beam_bar::{self, BeamModel},
-        button::{self, Button},
+        button,
         go_to::Target,
         mode_selector::{self, Mode, ModeModel},
         paint,
@@ -34,6 +38,7 @@ pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
 pub use header::{Control, HeaderModel};
+pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
 pub use others::OtherAntenna;
@@ -54,6 +59,8 @@ pub struct CardModel<'a> {
     pub header: HeaderModel<'a>,
     /// What the antenna does, why, and what comes next.
     pub sentence: Sentence<'a>,
+    /// What it tracked until STOP, to be tracked again in one step.
+    pub track_again: Option<&'a str>,
     /// What the second column of the axes table holds.
     pub wanted: WantedColumn,
     /// Of the angles that the unit is told and tells, at most two.
@@ -76,6 +83,8 @@ pub struct CardModel<'a> {
     pub faults: Option<FaultsModel<'a>>,
     /// What only this make can do.
     pub more: MoreModel<'a>,
+    /// The unit is locked out for maintenance.
+    pub lock_out: Option<LockOutModel<'a>>,
     /// The antennas that have no card now.
     pub others: &'a [OtherAntenna],
 }
@@ -96,6 +105,8 @@ pub struct CardState {
     pub readings_open: bool,
     /// The actions are unfolded.
     pub more_open: bool,
+    /// The dialog about a lock-out is open.
+    pub maintenance: Option<MaintenanceDialog>,
     more: MoreState,
 }
 
@@ -106,11 +117,13 @@ impl CardState {
         self.drive = DriveState::default();
         self.track = TrackState::default();
         self.more = MoreState::default();
+        self.maintenance = None;
     }
 
     /// To be called when the card is not shown any more: a jog key that was
     /// held is released.
     pub fn hide(&mut self) -> Option<CardAction> {
+        self.maintenance = None;
         self.drive.let_go().then_some(CardAction::JogReleased)
     }
 }
@@ -122,6 +135,10 @@ pub enum CardAction {
     Connect,
     /// Close the link.
     Disconnect,
+    /// Stop this antenna, which takes a connection.
+    Stop,
+    /// Lock the unit out for maintenance, or take that off.
+    Maintenance,
     /// Wants another mode.
     SetMode(Mode),
     /// Holds a jog key. Comes in every frame in which it is held.
@@ -150,6 +167,8 @@ pub enum CardAction {
     GoTo(Target),
     /// Track the selected satellite.
     TrackSelected,
+    /// Track what STOP has ended.
+    TrackAgain,
     /// Follow this position by position.
     Follow(FollowChoice),
     /// Let the unit start passes by itself, or not.
@@ -217,14 +236,18 @@ fn fill(
     header::show(ui, &mut at, &model.header, rect, short, actions);
 
     at.skip(if short { 10.0 } else { 12.0 });
-    let block = sentence::show(ui, at.at(), at.width(), &model.sentence);
+    let foot = if model.track_again.is_some() { again::HEIGHT } else { 0.0 };
+    let block = sentence::show(ui, at.at(), at.width(), foot, &model.sentence);
+    if let Some(name) = model.track_again {
+        again::show(ui, block, name, actions);
+    }
     at.y = block.bottom() + if short { 6.0 } else { 10.0 };
+    if let Some(lock_out) = &model.lock_out {
+        lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
+        at.skip(6.0);
+    }
     if model.header.control == Control::Released {
-        let key = at.take(button::HEIGHT);
-        if Button::primary("Connect").show(ui, "connect", key).clicked() {
-            actions.push(CardAction::Connect);
-        }
-        at.skip(8.0);
+        released::show(ui, &mut at, &model.header, actions);
     }
 
     let table = at.take(axes_table::height(model.axes.len()));

@@ -40,6 +40,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             activity: activity(antenna),
             age,
             selected: index == model.selected_antenna,
+            maintenance: antenna.snapshot.lock_out.is_some(),
             foreign_control: false,
         })
         .collect();
@@ -77,6 +78,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         .collect();
 
     let unproved = unproved_stop(model);
+    let left_out = left_out_of_stop(model);
     let bar = TopBarModel {
         station: &model.station.name,
         coordinates: &coordinates,
@@ -90,7 +92,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         chips: &chips,
         alarms: AlarmModel { rows: &rows, unopened: model.alarms.unopened },
         stop: stop_look(model, unproved.as_deref()),
-        stop_about: &stop_about(model),
+        stop_about: &stop_about(model, &left_out),
+        stop_left_out: &left_out,
     };
     for action in top_bar::show(ui, rect, &bar) {
         commands.push(match action {
@@ -105,12 +108,26 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
 }
 
 /// What STOP does, with what it does beyond that for some of the antennas.
-fn stop_about(model: &Model) -> String {
+fn stop_about(model: &Model, left_out: &str) -> String {
     let note = |antenna: &AntennaModel| {
         Some(format!(" {}: {}", antenna.config.name, antenna.make().capabilities.stop_note?))
     };
     let notes: String = model.antennas.iter().filter_map(note).collect();
-    format!("Stops every antenna.{notes}")
+    let space = if left_out.is_empty() { "" } else { " " };
+    format!("Stops every antenna.{notes}{space}{left_out}")
+}
+
+/// Names the antennas that a STOP from here leaves to others; empty if there are
+/// none.
+fn left_out_of_stop(model: &Model) -> String {
+    let left_out = model.antennas.iter().filter(|antenna| !antenna.snapshot.wants_stop());
+    let names: Vec<&str> = left_out.map(|antenna| antenna.config.name.as_str()).collect();
+    let verb = match *names {
+        [] => return String::new(),
+        [_] => "is",
+        _ => "are",
+    };
+    format!("{} {verb} not connected: not stopped from here.", format::list(&names))
 }
 
 fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
@@ -167,6 +184,13 @@ pub fn age(model: &Model, antenna: &AntennaModel) -> String {
 /// What an antenna does, in one or two words.
 pub fn activity(antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
+    let stops = matches!(
+        antenna.snapshot.stop,
+        StopState::Stopping { .. } | StopState::NotConfirmed { .. }
+    );
+    if antenna.snapshot.lock_out.is_some() && !stops {
+        return if antenna.snapshot.locking { "Being locked out" } else { "In maintenance" };
+    }
     match antenna.snapshot.link {
         LinkState::Off => return "Not connected",
         LinkState::Connecting { .. } => return "Connecting",

@@ -1,10 +1,13 @@
 //! Questions that stand before everything else until they are answered. Esc
 //! says no, and is STOP besides, as everywhere.
 
+pub mod closing;
+mod maintenance;
 mod password;
 
 use egui::{Id, Key, Label, Modal, RichText, Ui};
 
+pub use maintenance::MaintenanceDialog;
 pub use password::{PasswordDialog, SecretAnswer};
 
 use super::{

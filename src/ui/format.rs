@@ -150,6 +150,20 @@ pub fn date(at: Timestamp) -> String {
     at.to_zoned(TimeZone::UTC).strftime("%a %Y-%m-%d").to_string()
 }
 
+/// Names in a row, such as "Satrak, Genius and RC2000C".
+pub fn list(names: &[impl AsRef<str>]) -> String {
+    let mut text = String::new();
+    for (index, name) in names.iter().enumerate() {
+        text += match index {
+            0 => "",
+            _ if index + 1 == names.len() => " and ",
+            _ => ", ",
+        };
+        text += name.as_ref();
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -76,6 +76,8 @@ pub enum Verdict<'a> {
     },
     /// Nothing: a sentence such as "Not possible: stays below the travel".
     NotPossible(&'a str),
+    /// Nothing for now: the unit is worked on.
+    InMaintenance,
 }
 
 /// Where something is lost, such as "at keyhole N".
@@ -103,6 +105,7 @@ impl<'a> Verdict<'a> {
         match self {
             Self::Trackable => "Trackable".into(),
             Self::NotPossible(sentence) => sentence.into(),
+            Self::InMaintenance => "In maintenance".into(),
             Self::Loses { seconds, at } => {
                 format!("Loses {} {}", format::age(seconds.ceil()), place(at)).into()
             }

@@ -2,6 +2,7 @@
 
 mod follow;
 mod link;
+mod lock_out;
 mod news;
 
 use jiff::Timestamp;
@@ -57,7 +58,8 @@ impl Spoken {
 
 /// The sentence of `antenna`. The gravest matter comes first.
 pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
-    link::sentence(model, antenna)
+    lock_out::sentence(antenna)
+        .or_else(|| link::sentence(model, antenna))
         .or_else(|| stop(model, antenna))
         .or_else(|| news::sentence(model, antenna))
         .or_else(|| fault_or_limit(antenna))

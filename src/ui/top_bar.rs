@@ -46,6 +46,8 @@ pub struct TopBarModel<'a> {
     pub stop: StopState<'a>,
     /// What STOP does, in a sentence or more.
     pub stop_about: &'a str,
+    /// Which antennas STOP leaves alone, and why; empty if none.
+    pub stop_left_out: &'a str,
 }
 
 /// What the operator did.
@@ -113,6 +115,11 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let min = pos2(stop.left() - gap - alarm_width, rect.center().y - control / 2.0);
     let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
 
+    if !model.stop_left_out.is_empty() {
+        let beside = Rect::from_min_max(alarms.right_top(), stop.left_bottom());
+        mark_left_out(ui, beside, model.stop_left_out);
+    }
+
     let clock = clock::show(ui, rect.with_min_x(left), &model.clock, wide);
     let chips_left = chips::show(
         ui,
@@ -128,8 +135,16 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     if let StopState::NotConfirmed { text } = model.stop {
         clock::not_confirmed(ui, free.with_min_x(clock.utc.right() + 10.0), text);
     }
-    let has_date =
-        rect.width() >= DATE_FROM && !matches!(model.stop, StopState::NotConfirmed { .. });
+    let says_left_out = match model.stop {
+        StopState::Stopping | StopState::AllStopped => !model.stop_left_out.is_empty(),
+        StopState::Ready | StopState::NotConfirmed { .. } => false,
+    };
+    if says_left_out {
+        clock::left_out(ui, free.with_min_x(clock.utc.right() + 10.0), model.stop_left_out);
+    }
+    let has_date = rect.width() >= DATE_FROM
+        && !says_left_out
+        && !matches!(model.stop, StopState::NotConfirmed { .. });
     let date = free.with_min_x(clock.time + 10.0);
     let told = has_date && clock::date(ui, date, &model.clock);
     if !told && model.clock.health.mood == ClockMood::Bad {
@@ -139,6 +154,14 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let mut done = Vec::new();
     alarm_list::show(ui, alarms, &model.alarms, !wide, &mut done);
     actions.extend(done.into_iter().map(TopBarAction::Alarm));
+}
+
+/// A mark between the alarms and STOP: not every antenna is stopped from here.
+fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
+    let t = theme::tokens(ui);
+    let place = paint::square(rect.center(), rect.width().min(12.0));
+    icons::paint(ui.painter(), place, icons::Icon::OpenRing, t.warn);
+    paint::name_text(ui, "left out of stop", rect, words).on_hover_text(words);
 }
 
 /// STOP has a layer of its own above everything, so that it works while a

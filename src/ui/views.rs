@@ -8,7 +8,9 @@ use jiff::Timestamp;
 use super::{
     antennas, banner, bar,
     confirm::Question,
-    console, elements,
+    console,
+    dialogs::closing::{self, ClosingDialog},
+    elements,
     icons::Icon,
     keys::{self, Desk},
     operate, preferences, rail,
@@ -33,6 +35,7 @@ pub struct Views {
     preferences: preferences::PreferencesState,
     upload: UploadState,
     question: Option<Question>,
+    closing: Option<ClosingDialog>,
     keys_open: bool,
 }
 
@@ -136,6 +139,8 @@ impl Views {
         }
         let answered = commands.len();
         Question::show(&mut self.question, ui, commands);
+        ClosingDialog::show(&mut self.closing, ui, model, commands);
+        closing::waiting(ui, model, commands);
         let is_manual =
             |command: &UiCommand| matches!(command, UiCommand::Antenna(_, Command::Manual));
         if commands.iter().skip(answered).any(is_manual) {
@@ -159,6 +164,16 @@ impl Views {
         if model.uploads.stage.is_open() {
             lost.push("An upload is under way.".to_owned());
         }
+        if closing::stakes(model).is_empty() {
+            return self.ask_about_lost(&lost, commands);
+        }
+        self.operate.leave_card(commands);
+        self.question = None;
+        self.closing = Some(ClosingDialog { lost });
+        true
+    }
+
+    fn ask_about_lost(&mut self, lost: &[String], commands: &mut Vec<UiCommand>) -> bool {
         if lost.is_empty() {
             return false;
         }

@@ -7,6 +7,7 @@ pub mod axes_table;
 pub mod beam_bar;
 pub mod button;
 pub mod card;
+pub mod close_key;
 pub mod drop_down;
 pub mod fold;
 pub mod go_to;

@@ -11,7 +11,7 @@ pub use faults::{fault_about, fault_advice, fault_name};
 pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
 pub use safety::{forbidden, safety};
 
-use crate::{controller::Motion, driver::Intent, makes};
+use crate::{app::antenna::Stake, controller::Motion, driver::Intent, makes};
 
 /// The likely cause of numbers that cannot be read, and what to do.
 pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
@@ -47,6 +47,19 @@ pub fn way(axis: &str, plus: bool) -> String {
         ("El", false) => "Down".to_owned(),
         (axis, true) => format!("{axis}+"),
         (axis, false) => format!("{axis}−"),
+    }
+}
+
+/// What goes on with an antenna, in a sentence.
+pub fn stake(antenna: &str, stake: &Stake) -> String {
+    let short = super::state_sentence::short;
+    match stake {
+        Stake::OnBoard(Some(name)) => format!("{antenna} tracks {} by itself.", short(name)),
+        Stake::OnBoard(None) => format!("{antenna} tracks by itself."),
+        Stake::Followed(name) => format!("Azel tracks {} with {antenna}.", short(name)),
+        Stake::Moves => format!("{antenna} moves."),
+        Stake::OwesStop => format!("STOP of {antenna} is not proved."),
+        Stake::Unproved => format!("{antenna} was moved and is not known to stand."),
     }
 }
 

@@ -5,6 +5,7 @@ use azel::{
     driver::{Command, Event, Intent, Refusal},
     protocol::rc2000c::SatelliteName,
     sim::rc2000c::{Options, StoredSatellite},
+    station::LockOut,
 };
 
 use super::rig::{Rig, antenna, check, reading};
@@ -124,4 +125,29 @@ fn every_action_is_described_and_what_cannot_be_undone_is_asked() {
         let is_reset = action.key.starts_with("reset") || action.key == "restart_track";
         assert_eq!(action.question.is_some(), is_reset, "{}", action.key);
     }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move() {
+    let mut rig = Rig::in_manual().await;
+    let lock_out = LockOut {
+        by: "Ada".to_owned(),
+        reason: "feed off".to_owned(),
+        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+    };
+    rig.send(Command::LockOut(lock_out));
+    rig.until("locked out", 1, |shown| shown.lock_out.is_some() && !shown.locking).await;
+    let before = rig.orders();
+    let (by, reason) = ("Ada".to_owned(), "feed off".to_owned());
+    let refused = Event::NotSent(Refusal::LockedOut { by, reason });
+    for action in MAKE.actions {
+        rig.act(action.key, []);
+        rig.seconds(1.0).await;
+        assert_eq!(rig.events(), std::slice::from_ref(&refused), "{}", action.key);
+    }
+    rig.hold([1.0, 0.0], 1.0).await;
+    rig.send(Command::EndJog);
+    rig.seconds(1.0).await;
+    assert_eq!(rig.events(), [refused], "a key that is held is refused once");
+    assert_eq!(rig.orders(), before);
 }

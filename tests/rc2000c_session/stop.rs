@@ -141,3 +141,34 @@ async fn a_stop_is_proved_on_the_slowest_lines_too() {
         assert!(rig.times("3X").len() <= 2, "{baud}: {:?}", rig.orders());
     }
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_stood_when_it_was_let_go_wants_no_stop_and_one_that_moved_does() {
+    let mut rig = Rig::connected(&Options::default(), &antenna()).await;
+    assert!(rig.shown().wants_stop(), "it is connected");
+    rig.send(Command::Disconnect);
+    rig.until("off", 3, |shown| shown.link == LinkState::Off).await;
+    assert!(!rig.shown().wants_stop(), "it was never moved");
+
+    let mut rig = on_its_way(&Options::default()).await;
+    rig.send(Command::Disconnect);
+    rig.until("off", 3, |shown| shown.link == LinkState::Off).await;
+    assert!(rig.shown().unproved && rig.shown().wants_stop(), "it may still move");
+    rig.stop();
+    rig.until_event(8, |event| *event == Event::Stopped).await;
+    rig.until("let go", 3, |shown| shown.link == LinkState::Off).await;
+    rig.until("not shown any more", 12, |shown| shown.stop == StopState::Ready).await;
+    assert!(!rig.shown().wants_stop(), "it is proved to stand");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_motion_that_nobody_stopped_is_over_when_the_antenna_has_stood_for_a_while() {
+    let mut rig = Rig::connected(&Options::default(), &antenna()).await;
+    rig.send(Command::Hold);
+    let near = Command::Position { azimuth: Some(Angle::from_degrees(168.0)), elevation: None };
+    rig.send(near);
+    rig.until("it moves", 3, |shown| shown.state.measured.unwrap().moving()).await;
+    assert!(rig.shown().unproved);
+    rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
+    rig.until("proved", 10, |shown| !shown.unproved).await;
+}

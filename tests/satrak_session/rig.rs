@@ -12,7 +12,7 @@ use std::{
 use azel::{
     driver::{AntennaHandle, Command, Dial, Event, LinkState, Snapshot, Stream, WireLog},
     sim::satrak::{Control, Options},
-    station::Antenna,
+    station::{Antenna, LockOut},
 };
 use tokio::time::{Instant, sleep};
 
@@ -37,6 +37,15 @@ pub(super) struct Rig {
 impl Rig {
     /// A running session, not connected yet.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
+        Self::start_locked_out(options, antenna, None)
+    }
+
+    /// The same with a unit that may be locked out already.
+    pub(super) fn start_locked_out(
+        options: &Options,
+        antenna: &Antenna,
+        lock_out: Option<LockOut>,
+    ) -> Self {
         let control = Control::new(options);
         let is_off = Arc::new(AtomicBool::new(false));
         let dials = Arc::new(Mutex::new(Vec::new()));
@@ -59,7 +68,7 @@ impl Rig {
         Self {
             control,
             handle: Some(handle),
-            session: tokio::spawn(session.run()),
+            session: tokio::spawn(session.locked_out(lock_out).run()),
             events: Vec::new(),
             is_off,
             clock_readings,

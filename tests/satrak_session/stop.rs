@@ -173,3 +173,13 @@ async fn pressing_again_does_not_put_off_the_warning() {
     assert_eq!(rig.shown().stop, StopState::NotConfirmed { since: pressed.into_std() });
     assert!(rig.sent("STOP=").len() >= 8);
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_just_before_the_end_of_the_program_is_sent_and_waited_for() {
+    let mut rig = tracking().await;
+    rig.stop();
+    rig.drop_handle().await;
+    let last = rig.orders();
+    assert!(last.ends_with(&["STOP=".to_owned(), "TRACK=,0".to_owned()]), "{last:?}");
+    assert!(!rig.control.state().is_tracking);
+}

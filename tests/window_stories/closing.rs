@@ -1,12 +1,21 @@
 //! The window is closed while something typed is not where it belongs.
 
-use azel::{app::View, driver::Clock};
+use std::path::Path;
+
+use azel::{
+    app::{Model, UiCommand, View, closing::CloseHow},
+    driver::{Clock, Intent, LinkState, Snapshot, StopState},
+    station,
+};
 use egui::{Event, Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::{
+    makes,
+    rig::{self, NOAA_20, SIZES, Window},
     settings_desk::{press, says},
-    unit::{RealWindow, open},
+    states,
+    unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };
 
 /// The window manager asks; what the window answers.
@@ -65,4 +74,167 @@ fn a_window_with_unsaved_settings_asks_first() {
     window.step();
     assert_eq!(answers(&window), [ViewportCommand::Close]);
     assert_eq!(close(&mut window), [], "it was asked once");
+}
+
+/// What is asked when the window of `model` is to close.
+fn asked_about(size: [f32; 2], model: Model) -> Window {
+    let mut window = rig::window(size, model);
+    let story = window.state_mut();
+    assert!(story.views.ask_before_closing(&story.model, &mut story.commands));
+    rig::settle(&mut window);
+    window
+}
+
+const ANSWERS: [(&str, CloseHow); 3] = [
+    ("Close and hold", CloseHow::Hold),
+    ("Close and park", CloseHow::Park),
+    ("Close and let it finish", CloseHow::Leave),
+];
+
+#[test]
+fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
+    for size in SIZES {
+        let model = || {
+            let mut model = rig::model(states::tracking(0.1));
+            let moved = Snapshot { unproved: true, ..makes::rc2000c_off() };
+            model.antennas.push(rig::antenna(makes::rc2000c(), moved));
+            model
+        };
+        for (word, how) in ANSWERS {
+            let mut window = asked_about(size, model());
+            for told in [
+                "Satrak tracks NOAA 20 by itself.",
+                "RC2000C was moved and is not known to stand.",
+                "STOP goes to Satrak and RC2000C first.",
+                "Satrak to the park position; the window stays until then.",
+                "Satrak left to track; nobody here watches. STOP goes to the others first.",
+            ] {
+                assert!(rig::says(&window, told), "{told}");
+            }
+            press(&mut window, word);
+            assert_eq!(rig::asked(&mut window), [UiCommand::CloseAfter(how)]);
+            assert!(!rig::says(&window, "Close Azel?"));
+        }
+        let mut window = asked_about(size, model());
+        press(&mut window, "Stay");
+        assert_eq!(rig::asked(&mut window), []);
+        assert!(!rig::says(&window, "Close Azel?"));
+    }
+}
+
+#[test]
+fn an_answer_that_means_nothing_is_not_offered() {
+    for size in SIZES {
+        let window = asked_about(size, rig::model(states::moving()));
+        assert!(rig::says(&window, "Satrak moves."));
+        window.get_by_role_and_label(Role::Button, "Close and park");
+        assert!(window.query_by_label("Close and let it finish").is_none());
+
+        let mut owed = states::holding();
+        owed.stop = StopState::NotConfirmed { since: std::time::Instant::now() };
+        owed.link = LinkState::Connecting { since: std::time::Instant::now() };
+        let window = asked_about(size, rig::model(owed));
+        assert!(rig::says(&window, "STOP of Satrak is not proved."));
+        assert!(window.query_by_label("Close and park").is_none(), "there is no link");
+    }
+}
+
+/// A window whose unit tracks NOAA 20.
+fn tracking(unit: &Unit, path: &Path) -> RealWindow {
+    station::save(&unit.station(), path).unwrap();
+    let mut window = open(path, clock_from(UTC.parse().unwrap()));
+    step_until(&mut window, "it is measured", |model| {
+        model.antenna().is_some_and(|of| of.snapshot.state.motion_lock == Some(false))
+    });
+    step_until(&mut window, "the passes are there", |model| model.pass_of(NOAA_20).is_some());
+    window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
+    window.run_steps(2);
+    press(&mut window, "Track NOAA 20");
+    step_until(&mut window, "it tracks", |model| model.antenna().unwrap().tracks());
+    assert_eq!(close(&mut window), [ViewportCommand::CancelClose]);
+    window.run_steps(2);
+    assert!(says(&window, "Satrak tracks NOAA 20 by itself."));
+    window
+}
+
+const UTC: &str = "2026-08-12T11:14:30Z";
+
+/// Frames until the window wants to close.
+fn until_it_closes(window: &mut RealWindow) {
+    wait_until("it closes", || {
+        window.step();
+        answers(window) == [ViewportCommand::Close]
+    });
+}
+
+#[test]
+fn close_and_hold_waits_for_proved_standstill() {
+    let (unit, folder) = (Unit::start(UTC.parse().unwrap()), tempfile::tempdir().unwrap());
+    let mut window = tracking(&unit, &folder.path().join("station.toml"));
+    press(&mut window, "Stay");
+    window.run_steps(2);
+    assert_eq!(answers(&window), []);
+    assert!(unit.control.state().is_tracking, "it goes on");
+    assert_eq!(close(&mut window), [ViewportCommand::CancelClose]);
+    window.run_steps(2);
+    press(&mut window, "Close and hold");
+    until_it_closes(&mut window);
+    assert!(!unit.control.state().is_tracking);
+    assert_eq!(close(&mut window), [], "it was asked once");
+}
+
+#[test]
+fn close_and_park_stays_until_it_is_parked_and_stop_keeps_the_window() {
+    let (unit, folder) = (Unit::start(UTC.parse().unwrap()), tempfile::tempdir().unwrap());
+    let mut window = tracking(&unit, &folder.path().join("station.toml"));
+    press(&mut window, "Close and park");
+    step_until(&mut window, "it parks", |model| {
+        model.antenna().unwrap().snapshot.intent == Intent::Park
+    });
+    assert!(says(&window, "Satrak: once it is parked."));
+    assert_eq!(answers(&window), []);
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it is stopped", |model| {
+        matches!(model.antenna().unwrap().snapshot.stop, StopState::Stopped { .. })
+    });
+    window.run_steps(3);
+    assert_eq!(answers(&window), []);
+    assert!(!says(&window, "Azel closes"), "the operator is needed here");
+}
+
+#[test]
+fn close_and_let_it_finish_leaves_the_unit_alone() {
+    let (unit, folder) = (Unit::start(UTC.parse().unwrap()), tempfile::tempdir().unwrap());
+    let mut window = tracking(&unit, &folder.path().join("station.toml"));
+    window.get_by_role_and_label(Role::Button, "Close and let it finish").click_accesskit();
+    until_it_closes(&mut window);
+    drop(window);
+    assert!(unit.control.state().is_tracking);
+    let received = unit.control.received();
+    assert!(!received.iter().any(|(_, frame)| frame == "STOP="), "{received:?}");
+}
+
+#[test]
+fn a_track_that_stop_has_ended_is_offered_again_in_one_step() {
+    let (unit, folder) = (Unit::start(UTC.parse().unwrap()), tempfile::tempdir().unwrap());
+    let mut window = tracking(&unit, &folder.path().join("station.toml"));
+    press(&mut window, "Stay");
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it stands", |model| {
+        matches!(model.antenna().unwrap().snapshot.stop, StopState::Stopped { .. })
+    });
+    window.run_steps(2);
+    assert!(says(&window, "Was tracking NOAA 20."));
+    press(&mut window, "Track NOAA 20 again");
+    step_until(&mut window, "it tracks again", |model| model.antenna().unwrap().tracks());
+    assert!(!says(&window, "Was tracking NOAA 20."));
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it stands", |model| {
+        matches!(model.antenna().unwrap().snapshot.stop, StopState::Stopped { .. })
+    });
+    window.run_steps(2);
+    assert!(says(&window, "Was tracking NOAA 20."));
+    window.get_by_role_and_label(Role::RadioButton, "Manual").click();
+    window.run_steps(3);
+    assert!(!says(&window, "Was tracking NOAA 20."), "something else was chosen");
 }

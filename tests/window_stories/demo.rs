@@ -6,10 +6,10 @@ use azel::{
     app::Model,
     astro::{Angle, AzEl},
     controller::Measured,
-    driver::{Clock, Command, LinkState},
+    driver::{Clock, Command, LinkState, StopState},
     makes, station,
 };
-use egui::Role;
+use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::unit::{RealWindow, open, step_until, wait_until};
@@ -105,4 +105,27 @@ fn the_simulators_end_with_the_demonstration() {
     for address in addresses {
         wait_until("nobody listens", || TcpStream::connect(&address).is_err());
     }
+}
+
+#[test]
+fn esc_takes_no_panel_and_the_card_stops_the_unit_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    let is_off = |model: &Model| link(model, RC2000C) == LinkState::Off;
+    step_until(&mut window, "the Satrak is measured", |model| measured(model, SATRAK).is_some());
+    assert!(is_off(window.state().model()));
+    window.key_press(Key::Escape);
+    let others =
+        |model: &Model| matches!(model.antennas[SATRAK].snapshot.stop, StopState::Stopped { .. });
+    step_until(&mut window, "the others are stopped", others);
+    let said = &window.state().model().antennas[RC2000C].snapshot;
+    assert_eq!((&said.link, said.stop), (&LinkState::Off, StopState::Ready));
+
+    window.key_press(Key::F3);
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Connect and STOP RC2000C").click();
+    step_until(&mut window, "it is stopped", |model| {
+        matches!(model.antennas[RC2000C].snapshot.stop, StopState::Stopped { .. })
+    });
+    step_until(&mut window, "it is let go of", is_off);
 }

@@ -114,7 +114,7 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
         let _ = woke.try_send(());
     });
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
-    let handle: AntennaHandle = driver.open(&antenna, Bounds::of_antenna(&antenna));
+    let handle: AntennaHandle = driver.open(&antenna, Bounds::of_antenna(&antenna), None);
     let until = |is_so: &dyn Fn(&Snapshot) -> bool| {
         let since = Instant::now();
         while !is_so(&handle.snapshot()) {

@@ -66,7 +66,11 @@ fn nothing_is_asked_of_an_rc2000c_before_connect() {
         assert!(says(&window, "take its panel from somebody"));
         assert!(says(&window, "Locked: not connected."));
         window.get_by_label_contains("RC2000C: Not connected");
-        assert!(window.query_by_label("Link of RC2000C").is_none());
+        window.get_by_role_and_label(Role::Button, "Link of RC2000C").click_accesskit();
+        settle(&mut window);
+        assert!(window.query_by_label("Disconnect").is_none(), "there is no link to close");
+        window.get_by_role_and_label(Role::Button, "Link of RC2000C").click_accesskit();
+        settle(&mut window);
         window.drag_at(window.get_by_label("Jog clockwise").rect().center());
         assert_eq!(asked(&mut window), []);
         window.get_by_role_and_label(Role::Button, "Connect").focus();

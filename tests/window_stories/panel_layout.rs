@@ -10,7 +10,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
     extremes::nothing_overlaps,
-    makes,
+    maintenance, makes,
     rig::{self, SIZES, Window, settle},
 };
 
@@ -27,6 +27,8 @@ fn cases() -> Vec<(Antenna, Snapshot)> {
         (makes::rc2000c(), makes::rc2000c_at(manual)),
         (makes::rc2000c(), makes::rc2000c_alarmed(manual)),
         (makes::rc2000c(), makes::rc2000c_uncalibrated(manual)),
+        (makes::pair(), maintenance::locked(makes::pair_at(Intent::Standby))),
+        (makes::rc2000c(), maintenance::locked(makes::rc2000c_off())),
     ]
 }
 

@@ -149,6 +149,7 @@ pub(crate) fn model(snapshot: Snapshot) -> Model {
         alarms: Alarms::default(),
         copies: Copies::default(),
         view: View::Operate,
+        closing: None,
     };
     model.selected = model.pass_of(NOAA_20).map(Forecast::key);
     for antenna in &mut model.antennas {

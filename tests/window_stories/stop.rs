@@ -157,6 +157,29 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
 }
 
 #[test]
+fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
+    let left_out = "RC2000C is not connected: not stopped from here.";
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let off = Snapshot::before_anything(LinkState::Off);
+        model.antennas.push(rig::antenna(makes::rc2000c(), off));
+        model.selected_antenna = 1;
+        let mut window = rig::window(size, model);
+        let stop = window.get_by_role_and_label(Role::Button, "STOP");
+        let about = stop.accesskit_node().description().unwrap();
+        assert_eq!(about, format!("Stops every antenna. {left_out}"));
+        assert!(window.get_all_by_label(left_out).count() >= 1, "beside it");
+        stop_stops(&mut window, "STOP");
+
+        let own = window.get_by_role_and_label(Role::Button, "Connect and STOP RC2000C");
+        let about = own.accesskit_node().description().unwrap();
+        assert!(about.contains("takes the panel"), "{about}");
+        own.click();
+        assert_eq!(asked(&mut window), [UiCommand::StopAntenna(1)]);
+    }
+}
+
+#[test]
 fn stop_shows_as_pressed_until_the_session_tells_of_it() {
     let mut model = rig::model(states::moving());
     let site = model.station.site;
@@ -171,5 +194,22 @@ fn stop_shows_as_pressed_until_the_session_tells_of_it() {
         model.antennas[0].press_stop();
         model.antennas[0].refresh(site, |_| None);
         assert_eq!(model.antennas[0].stop_pressed, None, "{told:?}");
+    }
+}
+
+#[test]
+fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let at = model.steady;
+        let stopped = Snapshot { stop: StopState::Stopped { at }, ..states::holding() };
+        model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), stopped)];
+        let off = || Snapshot::before_anything(LinkState::Off);
+        model.antennas.push(rig::antenna(makes::rc2000c(), off()));
+        model.antennas.push(rig::antenna(makes::pair(), Snapshot { unproved: true, ..off() }));
+        let window = rig::window(size, model);
+        let said = "RC2000C is not connected: not stopped from here.";
+        assert_eq!(window.get_all_by_label(said).count(), 2, "the mark and the words");
+        window.get_by_role_and_label(Role::Button, "STOP, all stopped");
     }
 }

@@ -60,6 +60,11 @@ impl Flow {
         shown.is_roll_back = matches!(order.cargo, Cargo::Kept(_));
         shown.warnings.clear();
         *self = Self { order: Some(order), selections: self.selections, ..Self::default() };
+        if let Some(why) = &unit.locked_out {
+            let text = format!("nothing was sent, the unit is in maintenance, locked out by {why}");
+            fail(shown, text);
+            return None;
+        }
         if let Some(busy) = unit.busy {
             shown.stage = Stage::AsksAboutTracking(busy);
             return None;

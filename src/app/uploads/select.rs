@@ -46,6 +46,8 @@ pub(in crate::app) struct UnitNow {
     pub(super) at: Timestamp,
     /// Why the operator has to agree before it is told to use a file.
     pub(super) busy: Option<Busy>,
+    /// It is locked out for maintenance: by whom and why.
+    pub(super) locked_out: Option<String>,
     /// The catalogue number of the satellite that it holds.
     pub(super) held: Option<u32>,
     /// The last selection that is over.
@@ -76,7 +78,9 @@ impl UnitNow {
             })
         });
         let held = state.satrak.satellite.as_ref().map(|held| held.catalog_number);
-        Self { at, busy: Busy::of(antenna), held, answer }
+        let locked_out = antenna.snapshot.lock_out.as_ref();
+        let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
+        Self { at, busy: Busy::of(antenna), locked_out, held, answer }
     }
 }
 

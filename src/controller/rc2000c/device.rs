@@ -138,6 +138,8 @@ impl Device for Rc2000c {
 
     fn settle(&mut self, _: Change, _: Moment) {}
 
+    fn lock_changes(&mut self, _: bool) {}
+
     fn ask(&mut self, _: Question) {}
 
     fn disable_auto(&mut self) {}

@@ -43,6 +43,9 @@ impl Genius {
         loop {
             self.begin_change(now);
             match self.next_step(self.settling.as_ref()?) {
+                Next::Send(Request::Configure(_)) if self.are_changes_locked => {
+                    self.end_change(Err(SettleError::LockedOut), now);
+                }
                 Next::Send(request) => return Some((request, Purpose::Settle)),
                 Next::Over(result) => self.end_change(result, now),
             }

@@ -131,6 +131,10 @@ impl Device for Genius {
         self.changes.push_back(change);
     }
 
+    fn lock_changes(&mut self, are_locked: bool) {
+        self.are_changes_locked = are_locked;
+    }
+
     fn ask(&mut self, _: Question) {}
 
     fn disable_auto(&mut self) {}

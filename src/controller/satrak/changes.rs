@@ -42,6 +42,10 @@ impl Satrak {
             return None;
         }
         match self.settling.as_ref()?.next(self.doing(), now) {
+            Next::Send(Request::Setting(_)) if self.are_changes_locked => {
+                self.end_change(Err(SettleError::LockedOut), now);
+                None
+            }
             Next::Send(request) => Some(request),
             Next::At(_) => None,
             Next::Over(result) => {

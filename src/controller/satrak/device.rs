@@ -154,6 +154,10 @@ impl Device for Satrak {
         self.changes.push_back(change);
     }
 
+    fn lock_changes(&mut self, are_locked: bool) {
+        self.are_changes_locked = are_locked;
+    }
+
     fn ask(&mut self, question: Question) {
         let Question::Satrak(query) = question;
         self.want(query);

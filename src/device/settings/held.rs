@@ -97,6 +97,9 @@ pub enum SettleError {
     /// A service function that is not unlocked.
     #[error("service functions are locked")]
     Locked,
+    /// The unit is locked out for maintenance. Nothing was sent.
+    #[error("the unit is locked out for maintenance")]
+    LockedOut,
     /// Not while the antenna moves.
     #[error("the antenna moves")]
     Moving,

@@ -18,7 +18,8 @@ const RECENT: Duration = Duration::from_secs(5);
 type Rule = fn(&Motion, &Situation<'_>) -> Result<(), Refusal>;
 
 /// All rules, the plainest reason first.
-pub(super) const RULES: [Rule; 11] = [
+pub(super) const RULES: [Rule; 12] = [
+    unit_is_not_locked_out,
     something_is_asked_for,
     controller_offers_it,
     position_is_fresh,
@@ -31,6 +32,10 @@ pub(super) const RULES: [Rule; 11] = [
     within_travel,
     within_reach,
 ];
+
+fn unit_is_not_locked_out(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
+}
 
 fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refusal> {
     let sound = match *motion {

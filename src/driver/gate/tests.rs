@@ -38,6 +38,8 @@ impl Device for Metal {
     fn next_wire_line(&mut self) -> Option<WireLine> {
         None
     }
+    fn lock_changes(&mut self, _: bool) {}
+
     fn ask(&mut self, _: Question) {}
     fn poll(&mut self, _: Moment) -> Option<Vec<u8>> {
         None

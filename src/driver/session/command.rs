@@ -6,6 +6,7 @@ use crate::{
     controller::{Moment, Motion, Pointing, Question, TrackTarget, panel::Act, settings::Change},
     driver::{Intent, Refusal},
     plan::{Bounds, Follow},
+    station::LockOut,
 };
 
 /// What the operator can ask of an antenna. STOP is no command: it goes past
@@ -64,6 +65,11 @@ pub enum Command {
     /// Put new values of a group of settings on the device. The outcome stands
     /// in the snapshot.
     Settle(Change),
+    /// Lock the unit out for maintenance: from now on nothing but questions and STOP
+    /// goes to it. What moves is stopped first.
+    LockOut(LockOut),
+    /// The maintenance is over.
+    Unlock,
     /// Ask the device something; the answer is in the log of the link.
     Ask(Question),
 }
@@ -96,7 +102,12 @@ impl Session {
             Command::Jog { .. } | Command::Settle(_) | Command::Follow(_) | Command::Within(_)
         );
         let line = (!quiet && tracing::enabled!(tracing::Level::INFO)).then(|| command.clone());
+        if self.lock_out_forbids(&command) {
+            return;
+        }
         match command {
+            Command::LockOut(lock_out) => self.lock_out(lock_out, now),
+            Command::Unlock => self.unlock(),
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
             Command::AllowUnguarded => self.allow_unguarded(now),
@@ -243,12 +254,17 @@ impl Session {
 
     /// A command while there is no link.
     pub(super) fn turn_down(&mut self, command: Command, now: Moment) {
+        if self.lock_out_forbids(&command) {
+            return;
+        }
         match command {
             Command::Settle(change) => self.gate.device().settle(change, now),
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
             Command::ReadGroup(_) | Command::Ask(_) => {}
             Command::Connect => self.wanted = Wanted::Yes,
+            Command::LockOut(lock_out) => self.lock_out(lock_out, now),
+            Command::Unlock => self.unlock(),
             // Told by the link itself; the keys are locked anyway.
             Command::Jog { rates_deg_s } => {
                 self.jog = None;

@@ -129,6 +129,7 @@ impl Session {
     fn end_halt(&mut self, proof: Proof, now: Moment) {
         let is_pressed = self.halting.take().is_some_and(|halting| halting.pressed);
         self.settle_debt();
+        self.prove_still();
         self.end_run_out();
         if is_pressed {
             self.stopped_at = Some(now.steady);

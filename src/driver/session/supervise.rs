@@ -39,6 +39,8 @@ impl Session {
         self.watch_halt(now);
         self.watch_rest();
         self.watch_bounds(now);
+        self.watch_standstill();
+        self.watch_lock_out(now);
         self.forget_old_stop(now);
         self.start_waiting(now);
         match self.intent {

@@ -12,7 +12,7 @@ use crate::{
         tokens::Tokens,
         widgets::{
             button::{Button, SMALL_HEIGHT},
-            paint,
+            close_key, paint,
         },
     },
 };
@@ -128,7 +128,10 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, card: Rect, model: &FaultsModel<'_>
         .width(LIST_WIDTH)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Checks")
-        .show(|ui| list(ui, model));
+        .show(|ui| {
+            list(ui, model);
+            close_key::show(ui);
+        });
 }
 
 fn list(ui: &mut Ui, model: &FaultsModel<'_>) {

@@ -37,6 +37,10 @@ pub struct HeaderModel<'a> {
     pub link: LinkGlyph,
     /// Who controls it.
     pub control: Control<'a>,
+    /// A connection takes the panel from whoever stands in front of the unit.
+    pub takes_panel: bool,
+    /// It is locked out for maintenance.
+    pub in_maintenance: bool,
 }
 
 pub(super) fn show(
@@ -56,9 +60,9 @@ pub(super) fn show(
     icons::paint(ui.painter(), glyph, icon, colour);
 
     let mut end = row;
-    if model.control != Control::Released {
+    if model.control != Control::Released || !model.in_maintenance {
         let key = paint::square(pos2(row.right() - MENU / 2.0 + 4.0, y), MENU);
-        link_menu(ui, key, model.name, actions);
+        link_menu(ui, key, model, actions);
         end = row.with_max_x(key.left() - 2.0);
     }
     let tag_left = control_tag(ui, end, model.control);
@@ -77,9 +81,9 @@ pub(super) fn show(
 }
 
 /// A key with the menu of the link.
-fn link_menu(ui: &Ui, rect: Rect, antenna: &str, actions: &mut Vec<CardAction>) {
+fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
-    let name = format!("Link of {antenna}");
+    let name = format!("Link of {}", model.name);
     let response = paint::control(ui, "link menu", rect, Role::Button, true, &name);
     if response.hovered() {
         ui.painter().rect_filled(rect, 4.0, t.bg3);
@@ -88,8 +92,14 @@ fn link_menu(ui: &Ui, rect: Rect, antenna: &str, actions: &mut Vec<CardAction>) 
     paint::focus_ring(ui, &response, 4);
     Popup::menu(&response).accessible_name(name).show(|ui| {
         let about = "Closes the link, so that another program may have the unit.";
-        if ui.button("Disconnect").on_hover_text(about).clicked() {
+        if model.control != Control::Released
+            && ui.button("Disconnect").on_hover_text(about).clicked()
+        {
             actions.push(CardAction::Disconnect);
+        }
+        let about = "For work at the antenna: nothing but questions and STOP goes to the unit.";
+        if !model.in_maintenance && ui.button("Lock out…").on_hover_text(about).clicked() {
+            actions.push(CardAction::Maintenance);
         }
     });
 }

@@ -43,6 +43,8 @@ const CHECKS: [Check; 2] = [
 fn model() -> CardModel<'static> {
     CardModel {
         header: HeaderModel {
+            takes_panel: false,
+            in_maintenance: false,
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",
             link: LinkGlyph::Live,
@@ -100,6 +102,8 @@ fn model() -> CardModel<'static> {
         readings: &[],
         faults: Some(FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" }),
         more: MoreModel::default(),
+        lock_out: None,
+        track_again: None,
         others: &[],
     }
 }

@@ -69,6 +69,9 @@ pub(super) fn sentence(
         SettleError::Locked => {
             format!("{subject}: not sent, the service functions are locked. Unlock Service.")
         }
+        SettleError::LockedOut => {
+            format!("{subject}: not sent, the unit is in maintenance. The edit stays.")
+        }
         SettleError::Moving => {
             format!("{subject}: not sent, the antenna moves. Apply when it stands.")
         }

@@ -9,19 +9,20 @@ use egui::{Align2, Rect, Ui};
 
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
-    self, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    MoreModel, OtherAntenna, TrackModel,
+    self, CardAction, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel,
+    HeaderModel, LockOutModel, MoreModel, OtherAntenna, TrackModel,
 };
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
     astro::Angle,
     controller::{Capabilities, Make, Pointing, satrak},
-    driver::{Intent, LinkState},
+    driver::{Intent, LinkState, Snapshot},
     protocol::satrak::Satellite,
     station::Mount,
     ui::{
         bar,
         confirm::Question,
+        dialogs::MaintenanceDialog,
         format,
         state_sentence::{short, state_sentence},
         text, theme,
@@ -73,9 +74,12 @@ pub(super) fn show(
                 name: &antenna.config.name,
                 second_line: &second_line,
                 link: bar::glyph(antenna),
-                control: control(&snapshot.link),
+                control: control(snapshot),
+                takes_panel: can.waits_for_word,
+                in_maintenance: snapshot.lock_out.is_some(),
             },
             sentence: *sentence,
+            track_again: antenna.track_again.as_ref().map(|again| short(&again.name)),
             wanted,
             decimals,
             axes: &table,
@@ -117,13 +121,22 @@ pub(super) fn show(
                 locked: locks.link,
                 moves_locked: locks.action,
             },
+            lock_out: snapshot
+                .lock_out
+                .as_ref()
+                .map(|lock_out| LockOutModel { by: &lock_out.by, locking: snapshot.locking }),
             others: &others,
         };
         let mut desk = Desk { model, antenna, question, commands };
         for action in antenna_card::show(ui, rect, &card, state) {
-            desk.take(action);
+            if action == CardAction::Maintenance {
+                state.maintenance = Some(MaintenanceDialog::default());
+            } else {
+                desk.take(action);
+            }
         }
     });
+    MaintenanceDialog::show(&mut state.maintenance, ui, model, question, commands);
 }
 
 /// The place of the card while there is no antenna.
@@ -160,9 +173,10 @@ fn second_line(antenna: &AntennaModel) -> String {
     unit.map_or_else(|| make.name.to_owned(), |unit| format!("{}, {}", make.name, unit.text))
 }
 
-fn control(link: &LinkState) -> Control<'static> {
-    match link {
+fn control(snapshot: &Snapshot) -> Control<'static> {
+    match snapshot.link {
         LinkState::Off => Control::Released,
+        _ if snapshot.lock_out.is_some() => Control::Other("In maintenance"),
         LinkState::Up { .. } | LinkState::Stale { .. } => Control::You,
         LinkState::Connecting { .. } | LinkState::Lost { .. } => Control::Unknown,
     }
@@ -216,12 +230,17 @@ fn others(model: &Model) -> Vec<OtherAntenna> {
         let at = measured
             .map(|measured| format::pointing(measured.pointing, antenna.make().capabilities))
             .unwrap_or_default();
+        let in_maintenance = antenna.snapshot.lock_out.is_some();
         let is_old = !at.is_empty() && !antenna.snapshot.link.is_open();
         OtherAntenna {
             index,
             name: antenna.config.name.clone(),
             link: bar::glyph(antenna),
-            pointing: if is_old { format!("last {at}") } else { at },
+            pointing: match (in_maintenance, is_old) {
+                (true, _) => "in maintenance".to_owned(),
+                (false, true) => format!("last {at}"),
+                (false, false) => at,
+            },
             sentence: state_sentence(model, antenna).text(),
         }
     };

@@ -37,11 +37,13 @@ pub(super) fn list(
     let passes = model.listed();
     let listing = model.forecasts.of(model.list.scope);
     let found = found.places(model, state.filter.text());
+    let in_maintenance = model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some());
     let row = |index: usize| {
         let forecast = passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
         let pass = &forecast.pass;
         let trackability = forecast.trackability(model.selected_antenna);
         let verdict = trackability.map(|trackability| match trackability {
+            _ if in_maintenance => Verdict::InMaintenance,
             Trackability::Whole => Verdict::Trackable,
             Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
             Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),

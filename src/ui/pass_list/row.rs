@@ -135,6 +135,7 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
         Verdict::Loses { .. } => (Icon::Warning, t.warn, t.warn),
         Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
+        Verdict::InMaintenance => (Icon::Lock, t.warn, t.warn),
     };
     let glyph = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
     icons::paint(ui.painter(), glyph, icon, mark);

@@ -7,7 +7,7 @@ use crate::ui::{
     icons::{self, Icon},
     text,
     tokens::Tokens,
-    widgets::paint,
+    widgets::{close_key, paint},
 };
 
 /// Below this height of the plot the legend is a button, points.
@@ -35,6 +35,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
             ] {
                 ui.checkbox(on, name);
             }
+            close_key::show(ui);
         });
 
     let beside = button.left_center() - vec2(8.0, 0.0);
@@ -70,6 +71,7 @@ pub(super) fn lower_left(ui: &Ui, rect: Rect, dome: Dome, scene: &SkyScene<'_>, 
             let size = vec2(legend::WIDTH, legend::height(scene));
             let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
             legend::paint(ui.painter(), place.min, scene, t);
+            close_key::show(ui);
         });
 }
 

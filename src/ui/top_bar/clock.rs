@@ -1,6 +1,6 @@
 //! UTC first; the date and the local time beside it or in a tool-tip.
 
-use egui::{Align2, Rect, Ui, accesskit::Live, pos2, vec2};
+use egui::{Align2, Color32, Rect, Ui, accesskit::Live, pos2, vec2};
 
 use crate::ui::{
     icons::{self, Icon},
@@ -126,13 +126,24 @@ fn name_health(ui: &Ui, place: Rect, health: &ClockHealth<'_>) {
 /// Says in `rect` what STOP did not prove.
 pub(super) fn not_confirmed(ui: &Ui, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4.0, t.badbg);
+    about_stop(ui, rect, sentence, (t.badbg, t.bad), Live::Assertive);
+}
+
+/// Says in `rect` which antennas STOP has left alone.
+pub(super) fn left_out(ui: &Ui, rect: Rect, sentence: &str) {
+    let t = theme::tokens(ui);
+    about_stop(ui, rect, sentence, (t.warnbg, t.warn), Live::Polite);
+}
+
+fn about_stop(ui: &Ui, rect: Rect, sentence: &str, colours: (Color32, Color32), live: Live) {
+    let (ground, colour) = colours;
+    ui.painter().rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4.0, ground);
     let size = if rect.width() < TWO_LINES { 11.0 } else { 12.0 };
     let font = text::sized(size, Weight::SemiBold);
     let room = rect.shrink2(vec2(6.0, 0.0));
-    let galley = ui.painter().layout(sentence.to_owned(), font, t.bad, room.width());
+    let galley = ui.painter().layout(sentence.to_owned(), font, colour, room.width());
     let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), room);
-    ui.painter().galley(place.min, galley, t.bad);
-    let node = paint::name_text(ui, "not confirmed", rect, sentence);
-    ui.ctx().accesskit_node_builder(node.id, |node| node.set_live(Live::Assertive));
+    ui.painter().galley(place.min, galley, colour);
+    let node = paint::name_text(ui, "about stop", rect, sentence);
+    ui.ctx().accesskit_node_builder(node.id, |node| node.set_live(live));
 }

@@ -59,6 +59,7 @@ fn show_bar(ui: &mut Ui, stop: StopState<'_>) -> Vec<TopBarAction> {
         alarms: AlarmModel { rows: &[ALARM], unopened: false },
         stop,
         stop_about: "Stops every antenna.",
+        stop_left_out: "",
     };
     show(ui, rect, &model)
 }

@@ -9,7 +9,7 @@ use egui::{
 
 use super::{
     button::{Button, SMALL_HEIGHT},
-    paint,
+    close_key, paint,
 };
 use crate::ui::{
     icons::{self, Icon},
@@ -122,7 +122,10 @@ pub fn show(
         .width(LIST_WIDTH)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Alarms")
-        .show(|ui| list(ui, model, actions));
+        .show(|ui| {
+            list(ui, model, actions);
+            close_key::show(ui);
+        });
 }
 
 fn button(ui: &Ui, rect: Rect, model: &AlarmModel<'_>, one_line: bool) -> Response {

@@ -76,11 +76,13 @@ pub struct ChipModel<'a> {
     pub selected: bool,
     /// Somebody else controls it.
     pub foreign_control: bool,
+    /// It is locked out for maintenance.
+    pub maintenance: bool,
 }
 
 impl ChipModel<'_> {
     fn second_line(&self) -> String {
-        if self.age.is_empty() {
+        if self.maintenance || self.age.is_empty() {
             self.activity.to_owned()
         } else {
             format!("{}, {}", self.activity, self.age)
@@ -94,9 +96,12 @@ impl ChipModel<'_> {
             ChipForm::TwoLines => TWO_LINES_WIDTH,
             ChipForm::OneLine => {
                 let age = paint::text_width(ui, self.age, text::small());
+                let age = if self.maintenance { age.max(12.0) } else { age };
                 (26.0 + name + 6.0 + age + 10.0).ceil()
             }
-            ChipForm::Name => (26.0 + name + 10.0).ceil(),
+            ChipForm::Name => {
+                (26.0 + name + 10.0 + if self.maintenance { 18.0 } else { 0.0 }).ceil()
+            }
         }
     }
 }
@@ -113,7 +118,11 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
     });
     ui.painter().rect_filled(rect, RADIUS, if response.hovered() { t.bg3 } else { t.bg2 });
-    let border = if model.selected { t.sat } else { t.line };
+    let border = match (model.selected, model.maintenance) {
+        (true, _) => t.sat,
+        (false, true) => t.warn,
+        (false, false) => t.line,
+    };
     if model.foreign_control {
         let border = if model.selected { t.sat } else { t.edge };
         paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, border));
@@ -123,11 +132,20 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     let (icon, colour) = model.link.look(t);
     let strong = text::sized(13.0, Weight::SemiBold);
     let centre = rect.center().y;
+    if model.maintenance {
+        let lock = if form == ChipForm::TwoLines {
+            pos2(rect.right() - 12.0, centre - 7.0)
+        } else {
+            pos2(rect.right() - 13.0, centre)
+        };
+        icons::paint(ui.painter(), paint::square(lock, 12.0), Icon::Lock, t.warn);
+    }
     if form == ChipForm::TwoLines {
         let glyph = paint::square(pos2(rect.left() + 18.0, centre), 14.0);
         icons::paint(ui.painter(), glyph, icon, colour);
         let room = rect.with_min_x(rect.left() + 34.0).with_max_x(rect.right() - 6.0);
-        let first = room.translate(vec2(0.0, -7.0));
+        let lock = if model.maintenance { 14.0 } else { 0.0 };
+        let first = room.translate(vec2(0.0, -7.0)).with_max_x(room.right() - lock);
         paint::text_in(ui, first, Align2::LEFT_CENTER, model.name, strong, t.t1);
         let below = room.translate(vec2(0.0, 8.5));
         paint::text_in(ui, below, Align2::LEFT_CENTER, &second, text::small(), t.t2);
@@ -136,7 +154,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         icons::paint(ui.painter(), glyph, icon, colour);
         let room = rect.with_min_x(rect.left() + 26.0).with_max_x(rect.right() - 6.0);
         let name = paint::text_in(ui, room, Align2::LEFT_CENTER, model.name, strong, t.t1);
-        if form == ChipForm::OneLine {
+        if form == ChipForm::OneLine && !model.maintenance {
             let room = room.with_min_x(name.right() + 6.0);
             paint::text_in(ui, room, Align2::LEFT_CENTER, model.age, text::small(), t.t3);
         }

@@ -86,9 +86,10 @@ impl Sentence<'_> {
     }
 }
 
-/// Shows the sentence from `at` on with `width`, wrapped. Returns the rectangle
-/// of the block. Screen readers read it again whenever it changes.
-pub fn show(ui: &Ui, at: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
+/// Shows the sentence from `at` on with `width`, wrapped, with `foot` points of
+/// room below it. Returns the rectangle of the block. Screen readers read it
+/// again whenever it changes.
+pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
     let t = theme::tokens(ui);
     let padding = if width < 300.0 { vec2(13.0, 6.0) } else { vec2(15.0, 10.0) };
     let mut job = LayoutJob::default();
@@ -100,7 +101,7 @@ pub fn show(ui: &Ui, at: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
         job.append(span.text, 0.0, format);
     }
     let galley = ui.painter().layout_job(job);
-    let height = galley.size().y.max(LEAST_LINES * LINE);
+    let height = (galley.size().y + foot).max(LEAST_LINES * LINE);
     let rect = Rect::from_min_size(at, vec2(width, height + 2.0 * padding.y));
     ui.painter().rect_filled(rect, RADIUS, t.bg2);
     let bar = Rect::from_min_max(rect.min, pos2(rect.left() + BAR, rect.bottom()));
@@ -128,7 +129,7 @@ mod tests {
                 let sentence =
                     Sentence { kind: SentenceKind::Holding, spans: &[Span::plain(words)] };
                 ui.push_id(words, |ui| {
-                    *height = show(ui, pos2(10.0, 10.0), 312.0, &sentence).height();
+                    *height = show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence).height();
                 });
             }
         });
@@ -142,7 +143,7 @@ mod tests {
             let spans =
                 [Span::plain("Waiting at 205° for "), Span::bold("SUOMI NPP"), Span::plain(".")];
             let sentence = Sentence { kind: SentenceKind::Commanded, spans: &spans };
-            show(ui, pos2(10.0, 10.0), 312.0, &sentence);
+            show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence);
         });
         let node = window.get_by_label("Waiting at 205° for SUOMI NPP.");
         assert_eq!(node.accesskit_node().live(), Live::Polite);

@@ -33,6 +33,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
+        AlarmKind::LockOutUnproved => format!(
+            "{antenna} is locked out, but that its auto-track is off cannot be read back: it may \
+             start by itself. Switch it off at the unit."
+        ),
         AlarmKind::Refused(motion, code) => {
             let answer = super::answer(code);
             format!("{}: {antenna} answered {answer}.", super::motion(*motion))
@@ -99,6 +103,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
                 format!("{name} does not hold: {why}. It is {} in the settings.", note.place)
             }
         },
-        AlarmKind::Settings(text) | AlarmKind::Elements(text) => super::capitalised(text),
+        AlarmKind::Settings(text) | AlarmKind::Elements(text) | AlarmKind::LockOuts(text) => {
+            super::capitalised(text)
+        }
     }
 }

@@ -9,6 +9,9 @@ use crate::{
 /// Why a motion was not sent.
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
+        Refusal::LockedOut { by, reason } => {
+            format!("Not sent: in maintenance, locked out by {by}: {reason}.")
+        }
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
         }

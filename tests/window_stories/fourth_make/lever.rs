@@ -196,6 +196,8 @@ impl Device for Lever {
 
     fn settle(&mut self, _: Change, _: Moment) {}
 
+    fn lock_changes(&mut self, _: bool) {}
+
     fn ask(&mut self, _: Question) {}
 
     fn disable_auto(&mut self) {}

@@ -27,6 +27,9 @@ impl Desk<'_> {
         let command = match action {
             CardAction::Connect => Command::Connect,
             CardAction::Disconnect => return self.disconnect(),
+            CardAction::Stop => {
+                return self.commands.push(UiCommand::StopAntenna(self.model.selected_antenna));
+            }
             CardAction::Act(act) => return self.act(act),
             CardAction::Select(index) => {
                 return self.commands.push(UiCommand::SelectAntenna(index));
@@ -42,6 +45,10 @@ impl Desk<'_> {
             CardAction::SetMode(Mode::Track) | CardAction::TrackSelected => {
                 return self.commands.extend(UiCommand::track_selected(self.model));
             }
+            CardAction::TrackAgain => {
+                let again = self.antenna.track_again.as_ref();
+                return self.commands.extend(again.map(|again| again.command.clone()));
+            }
             CardAction::Jog { x, y, rate_deg_s } => {
                 Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
             }
@@ -55,7 +62,7 @@ impl Desk<'_> {
             },
             CardAction::SetAutoTrack(on) => Command::AutoTrack(on),
             // The plot reads the ghost from the fields themselves.
-            CardAction::PreviewGoTo(_) => return,
+            CardAction::PreviewGoTo(_) | CardAction::Maintenance => return,
         };
         self.commands.push(self.for_antenna(command));
     }

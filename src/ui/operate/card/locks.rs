@@ -34,6 +34,9 @@ impl Locks {
         } else {
             "Locked by the unit. Look at what it tells."
         });
+        let maintenance =
+            snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");
+        let link = maintenance.or(link);
         let common = link.or(fault);
         let jog = match intent {
             _ if program => Some("Locked while tracking. Choose Manual or Position."),

@@ -1,0 +1,172 @@
+//! A unit that is worked on: nothing but questions and STOP goes to it, whoever
+//! asks. Before that it is stopped, and kept from starting by itself.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use super::{Command, Event, Intent, Session, wanted::Wanted};
+use crate::{controller::Moment, driver::Refusal, station::LockOut};
+
+/// So long it may take until auto-track is read back as off.
+const READ_BACK: Duration = Duration::from_secs(10);
+
+/// How far a lock-out is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Locking {
+    since: Instant,
+    /// Auto-track was switched off on this link.
+    is_asked: bool,
+    /// The device was read as one that does not start by itself.
+    is_proved: bool,
+    /// It was so once: whoever works on it may switch it on since.
+    was_proved: bool,
+    /// It was told that this cannot be read back.
+    is_told: bool,
+}
+
+impl Session {
+    /// The same session, of a unit that may be locked out from the beginning.
+    #[must_use]
+    pub fn locked_out(mut self, lock_out: Option<LockOut>) -> Self {
+        if let Some(lock_out) = lock_out {
+            let now = self.now();
+            self.put_lock_out(lock_out, now);
+            let (lock_out, locking) = (self.gate.lock_out().cloned(), self.is_being_locked_out());
+            self.wires.snapshots.send_modify(|held| {
+                let held = Arc::make_mut(held);
+                (held.lock_out, held.locking) = (lock_out, locking);
+            });
+        }
+        self
+    }
+
+    /// Locks the unit out. What moves is stopped first.
+    pub(super) fn lock_out(&mut self, lock_out: LockOut, now: Moment) {
+        if self.gate.lock_out().is_some() {
+            self.gate.set_lock_out(Some(lock_out));
+            return;
+        }
+        let may_move = self.may_move() || self.active() || self.is_unproved();
+        let is_left_to_others = self.wanted == Wanted::No && !self.is_unproved();
+        if may_move && !is_left_to_others {
+            self.halt(now);
+            if self.wanted == Wanted::No {
+                self.wanted = Wanted::ForStop;
+            }
+        }
+        self.intent = Intent::Standby;
+        self.following = None;
+        self.target = None;
+        self.aim = None;
+        self.pending = None;
+        self.put_lock_out(lock_out, now);
+        if self.make.capabilities.has_program && !self.link.is_open() {
+            self.tell_unproved();
+        }
+    }
+
+    fn put_lock_out(&mut self, lock_out: LockOut, now: Moment) {
+        self.gate.set_lock_out(Some(lock_out));
+        self.locking = Some(Locking {
+            since: now.steady,
+            is_asked: false,
+            was_proved: false,
+            is_proved: !self.make.capabilities.has_program,
+            is_told: false,
+        });
+    }
+
+    pub(super) fn unlock(&mut self) {
+        self.gate.set_lock_out(None);
+        self.locking = None;
+    }
+
+    pub(super) fn is_being_locked_out(&self) -> bool {
+        self.locking.is_some_and(|locking| !locking.is_proved) || self.locking_stops()
+    }
+
+    fn locking_stops(&self) -> bool {
+        self.locking.is_some() && self.halting.is_some()
+    }
+
+    /// Whether the command ends here, because the unit is locked out. A jog and what
+    /// only this make can do are refused by the gate, settings by the controller,
+    /// each where its refusal is shown.
+    pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
+        let Some(lock_out) = self.gate.lock_out() else { return false };
+        let is_refused = match command {
+            Command::Manual
+            | Command::Hold
+            | Command::Step { .. }
+            | Command::Position { .. }
+            | Command::Track(_)
+            | Command::Follow(_)
+            | Command::Park
+            | Command::AutoTrack(_) => true,
+            Command::Standby
+            | Command::Jog { .. }
+            | Command::EndJog
+            | Command::AllowUnguarded
+            | Command::SeenStanding
+            | Command::Within(_)
+            | Command::Act(_)
+            | Command::Settle(_)
+            | Command::Connect
+            | Command::Disconnect
+            | Command::ReadGroup(_)
+            | Command::Ask(_)
+            | Command::LockOut(_)
+            | Command::Unlock => false,
+        };
+        if is_refused {
+            let refusal = Refusal::from(lock_out);
+            self.tell(Event::NotSent(refusal));
+        }
+        is_refused
+    }
+
+    /// Keeps the device from starting by itself, and looks whether it is so. It is
+    /// asked once on each link, and not again after it was seen.
+    pub(super) fn watch_lock_out(&mut self, now: Moment) {
+        let Some(locking) = &mut self.locking else { return };
+        if !self.make.capabilities.has_program {
+            return;
+        }
+        if self.unread {
+            locking.is_asked = false;
+            return;
+        }
+        let state = self.gate.state();
+        let is_new = state.measured.is_some_and(|measured| measured.asked > locking.since);
+        if !is_new {
+            return;
+        }
+        match state.program.and_then(|program| program.auto) {
+            Some(false) => {
+                (locking.is_proved, locking.was_proved, locking.is_told) = (true, true, false);
+            }
+            Some(true) if locking.is_proved => {
+                locking.is_proved = false;
+                self.tell_unproved();
+            }
+            _ if !locking.is_asked && !locking.was_proved => {
+                locking.is_asked = true;
+                locking.since = now.steady;
+                self.gate.device().disable_auto();
+            }
+            _ if now.steady.saturating_duration_since(locking.since) >= READ_BACK => {
+                self.tell_unproved();
+            }
+            _ => {}
+        }
+    }
+
+    fn tell_unproved(&mut self) {
+        let Some(locking) = &mut self.locking else { return };
+        if !std::mem::replace(&mut locking.is_told, true) {
+            self.tell(Event::LockOutUnproved);
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Units that are locked out for maintenance, in a file of their own beside the
+//! station file.
+//!
+//! Invariant: what cannot be read locks everything, never nothing.
+
+use std::{collections::BTreeMap, fs, io, path::Path};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{Connection, SaveError};
+use crate::whole_file;
+
+/// The name of the file, beside the station file.
+pub const LOCK_OUTS_FILE: &str = "lock-outs.toml";
+/// The version that this program writes.
+const VERSION: i64 = 1;
+
+/// A unit is worked on: nothing but questions and STOP may go to it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LockOut {
+    /// Who has locked it out.
+    pub by: String,
+    /// Why.
+    pub reason: String,
+    /// Since when.
+    pub since: Timestamp,
+}
+
+/// The unit at an address, whatever its antenna is called.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Unit {
+    make: String,
+    address: String,
+}
+
+impl Unit {
+    fn of(connection: &Connection) -> Self {
+        let address = connection.address.trim().to_lowercase();
+        Self { make: connection.kind().key.to_owned(), address }
+    }
+}
+
+/// All units that are locked out.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct LockOuts {
+    units: BTreeMap<Unit, LockOut>,
+    /// The file could not be read: of every unit that is not named.
+    others: Option<LockOut>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    version: i64,
+    #[serde(default, rename = "lock_out")]
+    lock_outs: Vec<Line>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    make: String,
+    address: String,
+    by: String,
+    reason: String,
+    since: Timestamp,
+}
+
+impl LockOuts {
+    /// Reads the file at `path`. Where there is none, nothing is locked out. One
+    /// that cannot be read locks out every unit; the second value says why.
+    pub fn load(path: &Path, now: Timestamp) -> (Self, Option<String>) {
+        let read = match fs::read_to_string(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
+            Err(error) => Err(error.to_string()),
+            Ok(text) => Self::parse(&text),
+        };
+        match read {
+            Ok(units) => (Self { units, others: None }, None),
+            Err(why) => {
+                let others = LockOut {
+                    by: "Azel".to_owned(),
+                    reason: format!("{LOCK_OUTS_FILE} cannot be read"),
+                    since: now,
+                };
+                let lock_outs = Self { units: BTreeMap::new(), others: Some(others) };
+                (lock_outs, Some(format!("{}: {}", why.trim(), path.display())))
+            }
+        }
+    }
+
+    fn parse(text: &str) -> Result<BTreeMap<Unit, LockOut>, String> {
+        let file: File = toml::from_str(text).map_err(|error| error.message().to_owned())?;
+        if file.version != VERSION {
+            return Err(format!("it has version {}, this program knows {VERSION}", file.version));
+        }
+        let unit = |line: Line| {
+            let Line { make, address, by, reason, since } = line;
+            (Unit { make, address }, LockOut { by, reason, since })
+        };
+        Ok(file.lock_outs.into_iter().map(unit).collect())
+    }
+
+    /// The lock-out of the unit at `connection`.
+    pub fn of(&self, connection: &Connection) -> Option<&LockOut> {
+        self.units.get(&Unit::of(connection)).or(self.others.as_ref())
+    }
+
+    /// Locks out the unit at `connection`, or locks it out no longer. Where the file
+    /// could not be read, the other units of `station` stay locked out by name.
+    pub fn set<'a>(
+        &mut self,
+        connection: &Connection,
+        lock_out: Option<LockOut>,
+        station: impl Iterator<Item = &'a Connection>,
+    ) {
+        if let Some(others) = self.others.take() {
+            for connection in station {
+                self.units.entry(Unit::of(connection)).or_insert_with(|| others.clone());
+            }
+        }
+        let unit = Unit::of(connection);
+        match lock_out {
+            Some(lock_out) => drop(self.units.insert(unit, lock_out)),
+            None => drop(self.units.remove(&unit)),
+        }
+    }
+
+    /// Replaces the file at `path` as a whole; the one before is kept.
+    pub fn save(&self, path: &Path) -> Result<(), SaveError> {
+        let line = |(unit, lock_out): (&Unit, &LockOut)| {
+            let (Unit { make, address }, LockOut { by, reason, since }) =
+                (unit.clone(), lock_out.clone());
+            Line { make, address, by, reason, since }
+        };
+        let lock_outs = self.units.iter().map(line).collect();
+        let text = toml::to_string_pretty(&File { version: VERSION, lock_outs })?;
+        whole_file::replace_and_keep_old(path, text.as_bytes())
+            .map_err(|source| SaveError::Write { source, path: path.to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::station::Antenna;
+
+    fn lock_out(reason: &str) -> LockOut {
+        LockOut {
+            by: "Ada".to_owned(),
+            reason: reason.to_owned(),
+            since: "2026-11-22T10:00:00Z".parse().unwrap(),
+        }
+    }
+
+    fn now() -> Timestamp {
+        "2026-11-22T11:00:00Z".parse().unwrap()
+    }
+
+    #[test]
+    fn a_lock_out_is_of_the_unit_and_not_of_the_name_of_its_antenna() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK_OUTS_FILE);
+        let dish = Antenna::satrak("Dish", "Unit.local:4001").connection;
+        let renamed = Antenna::satrak("North dish", "unit.local:4001").connection;
+        let other = Antenna::satrak("Dish", "unit.local:4002").connection;
+        let make = Antenna::genius("Dish", "unit.local:4001").connection;
+        assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None), "no file");
+        let mut lock_outs = LockOuts::default();
+        lock_outs.set(&dish, Some(lock_out("gear")), std::iter::empty());
+        lock_outs.save(&path).unwrap();
+
+        let (mut again, problem) = LockOuts::load(&path, now());
+        assert_eq!((&again, problem), (&lock_outs, None));
+        assert_eq!(again.of(&renamed), Some(&lock_out("gear")));
+        assert_eq!((again.of(&other), again.of(&make)), (None, None));
+        again.set(&renamed, None, std::iter::empty());
+        again.save(&path).unwrap();
+        assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None));
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_locks_everything_until_the_operator_says() {
+        let dish = Antenna::satrak("Dish", "10.0.0.1:4001").connection;
+        let mast = Antenna::genius("Mast", "10.0.0.2:9006").connection;
+        let good = "version = 1\n[[lock_out]]\nmake = \"satrak\"\naddress = \"a:1\"\n\
+                    by = \"Ada\"\nreason = \"gear\"\nsince = \"2026-11-22T10:00:00Z\"\n";
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK_OUTS_FILE);
+        fs::write(&path, good).unwrap();
+        assert_eq!(LockOuts::load(&path, now()).1, None);
+        for bad in [
+            &good.replace("version = 1", "version = 2"),
+            &good.replace("version = 1\n", ""),
+            &good.replace("make", "mark"),
+            &good.replace("by = \"Ada\"\n", ""),
+            &good.replace("2026-11-22T10:00:00Z", "yesterday"),
+            &format!("{good}colour = 3\n"),
+            &good[..good.len() - 6],
+            "",
+        ] {
+            fs::write(&path, bad).unwrap();
+            let (mut lock_outs, problem) = LockOuts::load(&path, now());
+            assert!(problem.is_some(), "{bad}");
+            for unit in [&dish, &mast] {
+                let lock_out = lock_outs.of(unit).expect("locked out");
+                assert_eq!((lock_out.by.as_str(), lock_out.since), ("Azel", now()));
+            }
+            lock_outs.set(&dish, None, [&dish, &mast].into_iter());
+            lock_outs.save(&path).unwrap();
+            let (again, problem) = LockOuts::load(&path, now());
+            assert_eq!(problem, None);
+            assert_eq!(again.of(&dish), None);
+            assert!(again.of(&mast).is_some(), "nobody has said so of this one");
+        }
+        // What a folder is cannot be read either.
+        let (lock_outs, problem) = LockOuts::load(folder.path(), now());
+        assert!(problem.is_some() && lock_outs.of(&dish).is_some());
+    }
+}

@@ -1,0 +1,64 @@
+//! What a unit that nobody is connected to can be told.
+
+use egui::{Align2, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::{CardAction, Cursor, HeaderModel};
+use crate::ui::{
+    icons::{self, Icon},
+    text::{self, Weight},
+    theme,
+    widgets::{
+        button::{self, Button},
+        paint,
+    },
+};
+
+/// Connect, and a STOP of its own: the one of the bar leaves this unit alone.
+pub(super) fn show(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: &HeaderModel<'_>,
+    actions: &mut Vec<CardAction>,
+) {
+    let row = at.take(button::HEIGHT);
+    let (connect, stop) = row.split_left_right_at_fraction(0.4);
+    if Button::primary("Connect")
+        .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
+        .clicked()
+    {
+        actions.push(CardAction::Connect);
+    }
+    let panel = if model.takes_panel {
+        " and takes the panel from whoever stands in front of the unit"
+    } else {
+        ""
+    };
+    let about = format!("STOP connects{panel}; it lets go when the antenna stands.");
+    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model.name, &about) {
+        actions.push(CardAction::Stop);
+    }
+    let t = theme::tokens(ui);
+    at.skip(2.0);
+    let words = paint::paragraph(ui, at.at(), at.width(), &about, text::small(), t.t2);
+    paint::name_text(ui, "about stop of a released unit", words, &about);
+    at.y = words.bottom() + 6.0;
+}
+
+fn stop_key(ui: &Ui, rect: egui::Rect, antenna: &str, about: &str) -> bool {
+    let t = theme::tokens(ui);
+    let name = format!("Connect and STOP {antenna}");
+    let response = paint::control(ui, "stop a released unit", rect, Role::Button, true, &name);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+    let border = Stroke::new(1.0, t.stop);
+    ui.painter().rect(rect, button::RADIUS, t.stop, border, StrokeKind::Inside);
+    let words = "Connect and STOP";
+    let font = text::sized(13.0, Weight::SemiBold);
+    let width = paint::text_width(ui, words, font.clone()) + 22.0;
+    let left = rect.center().x - width / 2.0;
+    let glyph = paint::square(pos2(left + 8.0, rect.center().y), 16.0);
+    icons::paint(ui.painter(), glyph, Icon::Octagon, t.onstop);
+    let room = rect.with_min_x(left + 22.0).shrink2(vec2(0.0, 2.0));
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, t.onstop);
+    paint::focus_ring(ui, &response, button::RADIUS);
+    response.on_hover_text(about).clicked()
+}

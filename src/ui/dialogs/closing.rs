@@ -1,0 +1,135 @@
+//! Asks what becomes of antennas that move when the window closes.
+
+use egui::{Button, Id, Modal, RichText, Ui, vec2};
+
+use crate::{
+    app::{
+        Model, UiCommand,
+        antenna::{AntennaModel, Stake},
+        closing::{CloseHow, Wanted},
+    },
+    ui::{
+        format, text, theme,
+        widgets::told::{Tone, line},
+        words,
+    },
+};
+
+const WIDTH: f32 = 440.0;
+
+/// The question, with what else is lost.
+#[derive(Debug, Clone, Default)]
+pub struct ClosingDialog {
+    /// In sentences.
+    pub lost: Vec<String>,
+}
+
+/// What goes on with the antennas, each in a sentence.
+pub fn stakes(model: &Model) -> Vec<String> {
+    let told = |antenna: &AntennaModel| {
+        antenna.stake().map(|stake| words::stake(&antenna.config.name, &stake))
+    };
+    model.antennas.iter().filter_map(told).collect()
+}
+
+impl ClosingDialog {
+    /// Shows the question until it is answered. Esc, or a click outside, stays.
+    pub fn show(dialog: &mut Option<Self>, ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+        let Some(open) = dialog else { return };
+        let modal = Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH);
+            ui.label(RichText::new("Close Azel?").font(text::value()));
+            for words in stakes(model) {
+                line(ui, Tone::Caution, &words);
+            }
+            for words in &open.lost {
+                line(ui, Tone::Plain, words);
+            }
+            ui.add_space(4.0);
+            let mut answer = None;
+            for (word, about, how) in answers(model) {
+                if answer_key(ui, word, &about) {
+                    answer = Some(Some(how));
+                }
+            }
+            if answer_key(ui, "Stay", "Nothing is sent, the window stays.") {
+                answer = Some(None);
+            }
+            answer
+        });
+        match modal.inner {
+            Some(answer) => commands.extend(answer.map(UiCommand::CloseAfter)),
+            None if modal.should_close() => {}
+            None => return,
+        }
+        *dialog = None;
+    }
+}
+
+/// What may be answered, and what each answer does.
+fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
+    let staked = || model.antennas.iter().filter_map(|of| Some((of, of.stake()?)));
+    let names = |of: Vec<&str>| format::list(&of);
+    let all = names(staked().map(|(of, _)| of.config.name.as_str()).collect());
+    let mut answers =
+        vec![("Close and hold", format!("STOP goes to {all} first."), CloseHow::Hold)];
+    let parked: Vec<&str> =
+        staked().filter(|(of, _)| of.can_park()).map(|(of, _)| of.config.name.as_str()).collect();
+    if !parked.is_empty() {
+        let about = format!("{} to the park position; the window stays until then.", names(parked));
+        answers.push(("Close and park", about, CloseHow::Park));
+    }
+    let on_board = |stake: &Stake| matches!(stake, Stake::OnBoard(_));
+    let left: Vec<&str> = staked()
+        .filter(|(_, stake)| on_board(stake))
+        .map(|(of, _)| of.config.name.as_str())
+        .collect();
+    if !left.is_empty() {
+        let others = staked().any(|(_, stake)| !on_board(&stake));
+        let others = if others { " STOP goes to the others first." } else { "" };
+        let about = format!("{} left to track; nobody here watches.{others}", names(left));
+        answers.push(("Close and let it finish", about, CloseHow::Leave));
+    }
+    answers
+}
+
+fn answer_key(ui: &mut Ui, word: &str, about: &str) -> bool {
+    let t = theme::tokens(ui);
+    ui.horizontal(|ui| {
+        let button = Button::new(word).min_size(vec2(168.0, 28.0));
+        let response = ui.add(button);
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+        let words = RichText::new(about).font(text::small()).color(t.t2);
+        ui.add(egui::Label::new(words).wrap());
+        response.clicked()
+    })
+    .inner
+}
+
+/// Says what the end of the window waits for.
+pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+    let Some(closing) = &model.closing else { return };
+    let names = |wanted: Wanted| -> Vec<&str> {
+        let waits = closing.waits_for.iter().filter(|(_, of)| *of == wanted);
+        waits
+            .filter_map(|(index, _)| Some(model.antennas.get(*index)?.config.name.as_str()))
+            .collect()
+    };
+    let modal = Modal::new(Id::unique("closing waits")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH);
+        ui.label(RichText::new("Azel closes").font(text::value()));
+        for (wanted, words) in
+            [(Wanted::Still, "once it is proved to stand"), (Wanted::Parked, "once it is parked")]
+        {
+            let names = names(wanted);
+            if !names.is_empty() {
+                line(ui, Tone::Now, &format!("{}: {words}.", format::list(&names)));
+            }
+        }
+        ui.add_space(4.0);
+        ui.button("Stay").clicked()
+    });
+    if modal.inner || modal.should_close() {
+        commands.push(UiCommand::StayOpen);
+    }
+}

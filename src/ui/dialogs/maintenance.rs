@@ -1,0 +1,166 @@
+//! Locks a unit out for maintenance, and takes the lock-out off.
+
+use egui::{Frame, Id, Modal, RichText, Sense, TextEdit, Ui, vec2};
+
+use crate::{
+    app::{Model, UiCommand, antenna::AntennaModel},
+    driver::Command,
+    station::LockOut,
+    ui::{
+        confirm::Question,
+        format, text, theme,
+        widgets::{
+            button::{Button, HEIGHT},
+            hold_button::{self, HoldState},
+            told::{Tone, line},
+        },
+        words,
+    },
+};
+
+const WIDTH: f32 = 380.0;
+const LOCK: &str = "Hold 1 s to lock out";
+const TAKE_OFF: &str = "Hold 1 s to take off the lock-out";
+
+/// What was typed into the dialog.
+#[derive(Debug, Clone, Default)]
+pub struct MaintenanceDialog {
+    by: String,
+    reason: String,
+    is_shown: bool,
+    hold: HoldState,
+}
+
+/// What the operator said.
+enum Answer {
+    Open,
+    Closed,
+    Held,
+}
+
+impl MaintenanceDialog {
+    /// Shows the dialog, if it is open, in the middle of the window.
+    pub fn show(
+        dialog: &mut Option<Self>,
+        ui: &Ui,
+        model: &Model,
+        question: &mut Option<Question>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let (Some(open), Some(antenna)) = (dialog.as_mut(), model.antenna()) else { return };
+        let for_antenna = |command| UiCommand::Antenna(model.selected_antenna, command);
+        let lock_out = antenna.snapshot.lock_out.clone();
+        let frame = Frame::popup(ui.style()).inner_margin(16);
+        let modal = Modal::new(Id::unique("maintenance")).frame(frame);
+        let shown = modal.show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH);
+            match &lock_out {
+                Some(lock_out) => open.take_off(ui, antenna, lock_out),
+                None => open.lock_out(ui, antenna),
+            }
+        });
+        let is_left = shown.should_close();
+        match (shown.inner, lock_out) {
+            (Answer::Open, _) if !is_left => return,
+            (Answer::Held, Some(_)) => commands.push(for_antenna(Command::Unlock)),
+            (Answer::Held, None) => {
+                let command = for_antenna(Command::LockOut(open.typed(model)));
+                // What runs is ended only after it was named once more.
+                match what_ends(antenna) {
+                    None => commands.push(command),
+                    Some(what_ends) => {
+                        let name = &antenna.config.name;
+                        let text = format!("{what_ends} Lock out {name} all the same?");
+                        *question = Some(Question { text, yes: "Lock out", command });
+                    }
+                }
+            }
+            _ => {}
+        }
+        *dialog = None;
+    }
+
+    fn lock_out(&mut self, ui: &mut Ui, antenna: &AntennaModel) -> Answer {
+        let t = theme::tokens(ui);
+        let name = &antenna.config.name;
+        ui.label(RichText::new(format!("Lock out {name}")).font(text::value()));
+        let words = "For work at the antenna. Until the lock-out is taken off nothing but \
+                     questions and STOP goes to the unit, also after a restart.";
+        ui.label(RichText::new(words).font(text::body()).color(t.t2));
+        for (label, typed) in [("Your name", &mut self.by), ("Reason", &mut self.reason)] {
+            let label = ui.label(RichText::new(label).font(text::small()).color(t.t3)).id;
+            let edit = TextEdit::singleline(typed).desired_width(WIDTH - 16.0).char_limit(80);
+            let edit = ui.add(edit).labelled_by(label);
+            if !std::mem::replace(&mut self.is_shown, true) {
+                edit.request_focus();
+            }
+        }
+        ui.add_space(4.0);
+        if let Some(what_ends) = what_ends(antenna) {
+            line(ui, Tone::Caution, &what_ends);
+        }
+        let is_told = !self.by.trim().is_empty() && !self.reason.trim().is_empty();
+        if !is_told {
+            line(ui, Tone::Plain, "Both are needed: whoever comes next has to know.");
+        }
+        self.keys(ui, LOCK, is_told)
+    }
+
+    fn take_off(&mut self, ui: &mut Ui, antenna: &AntennaModel, lock_out: &LockOut) -> Answer {
+        let t = theme::tokens(ui);
+        let LockOut { by, reason, since } = lock_out;
+        let title = format!("Take off the lock-out of {}", antenna.config.name);
+        ui.label(RichText::new(title).font(text::value()));
+        for (label, told) in [
+            ("Locked out by", by.clone()),
+            ("Reason", reason.clone()),
+            ("Since", format!("{} {}", format::date(*since), format::time_z(*since))),
+        ] {
+            ui.label(RichText::new(label).font(text::small()).color(t.t3));
+            ui.label(RichText::new(told).font(text::body_medium()).color(t.t1));
+        }
+        ui.add_space(4.0);
+        let words = "Make sure that nobody is at the antenna any more. It may move again from \
+                     then on.";
+        line(ui, Tone::Caution, words);
+        self.keys(ui, TAKE_OFF, true)
+    }
+
+    fn keys(&mut self, ui: &mut Ui, words: &str, is_possible: bool) -> Answer {
+        let (row, _) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT), Sense::hover());
+        let cancel = Button::normal("Cancel");
+        let (hold, cancelling) = row.split_left_right_at_x(row.right() - cancel.width(ui));
+        let hold = hold.with_max_x(hold.right() - 8.0);
+        if cancel.show(ui, "cancel maintenance", cancelling).clicked() {
+            return Answer::Closed;
+        }
+        if !is_possible {
+            self.hold = HoldState::Released;
+            Button::normal(words).locked(true).show(ui, "maintenance locked", hold);
+        } else if hold_button::show(ui, hold, words, &mut self.hold) {
+            return Answer::Held;
+        }
+        Answer::Open
+    }
+
+    fn typed(&self, model: &Model) -> LockOut {
+        LockOut {
+            by: self.by.trim().to_owned(),
+            reason: self.reason.trim().to_owned(),
+            since: model.now,
+        }
+    }
+}
+
+/// What a lock-out ends; `None` where nothing goes on.
+fn what_ends(antenna: &AntennaModel) -> Option<String> {
+    let name = &antenna.config.name;
+    let program = antenna.snapshot.state.program;
+    let stake = antenna
+        .stake()
+        .map(|stake| format!("{} STOP is sent first and ends that.", words::stake(name, &stake)));
+    let auto = program.is_some_and(|program| program.auto == Some(true));
+    let auto = auto.then(|| format!("Auto-track of {name} is switched off."));
+    let told: Vec<String> = stake.into_iter().chain(auto).collect();
+    (!told.is_empty()).then(|| told.join(" "))
+}

@@ -1,0 +1,38 @@
+//! Sentences while the unit is worked on.
+
+use super::Spoken;
+use crate::{
+    app::antenna::AntennaModel,
+    driver::{LinkState, StopState},
+    ui::{format, widgets::sentence::SentenceKind},
+};
+
+pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
+    let snapshot = &antenna.snapshot;
+    let lock_out = snapshot.lock_out.as_ref()?;
+    // A stop that is not proved is the graver matter.
+    if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
+        return None;
+    }
+    let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
+    let after = match snapshot.link {
+        LinkState::Off => " It is not connected.",
+        LinkState::Connecting { .. } | LinkState::Lost { .. } => " It does not answer.",
+        _ if moves => " It moves, and not by this console.",
+        _ if snapshot.locking => " That auto-track is off is not read back yet.",
+        _ => "",
+    };
+    let lead =
+        if snapshot.locking { "Being locked out by " } else { "In maintenance, locked out by " };
+    Some(Spoken::new(SentenceKind::Caution).plain(lead).bold(&lock_out.by).plain(format!(
+        " since {}: {}. Nothing but questions and STOP goes to it.{after}",
+        since(antenna),
+        lock_out.reason.trim_end_matches('.'),
+    )))
+}
+
+/// When the lock-out began, with the day.
+fn since(antenna: &AntennaModel) -> String {
+    let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.since);
+    since.map_or_else(String::new, |at| format!("{} {}", format::date(at), format::time_z(at)))
+}

@@ -1,0 +1,16 @@
+//! The key that closes a popup: Esc is STOP besides, and must not be the only way.
+
+use egui::{Align, Layout, Ui, vec2};
+
+use super::button::SMALL_HEIGHT;
+
+/// Shows the key below what stands in a popup, which gets no wider by it.
+pub fn show(ui: &mut Ui) {
+    ui.add_space(4.0);
+    let size = vec2(ui.min_rect().width(), SMALL_HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        if ui.button("Close").clicked() {
+            ui.close();
+        }
+    });
+}

@@ -1,0 +1,41 @@
+//! A unit that is worked on: neither rotator is moved or configured.
+
+use azel::{
+    controller::settings::{Change, SettleError, Value},
+    driver::{Command, Event, Intent, Refusal},
+    station::LockOut,
+};
+
+use super::rig::{Rig, to};
+
+#[tokio::test(start_paused = true)]
+async fn nothing_is_moved_or_configured_and_nothing_has_to_be_read_back() {
+    let mut rig = Rig::pair().await;
+    let lock_out = LockOut {
+        by: "Ada".to_owned(),
+        reason: "new cable".to_owned(),
+        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+    };
+    rig.send(Command::Hold);
+    rig.send(to(Some(90.0), None));
+    rig.until("it moves", 3, |shown| shown.state.measured.unwrap().moving()).await;
+    rig.send(Command::LockOut(lock_out));
+    rig.until("locked out", 10, |shown| shown.lock_out.is_some() && !shown.locking).await;
+    assert!(!rig.shown().state.measured.unwrap().moving(), "it was stopped first");
+    assert_eq!(rig.shown().intent, Intent::Standby);
+    rig.events();
+    let before = rig.orders();
+
+    rig.send(to(Some(120.0), None));
+    let (by, reason) = ("Ada".to_owned(), "new cable".to_owned());
+    let refused = Event::NotSent(Refusal::LockedOut { by, reason });
+    assert_eq!(rig.until_event(1, |_| true).await, refused);
+    let group = *rig.shown().state.held.keys().next().unwrap();
+    let values = [("stop_offset_deg", Value::Integer(3))].into();
+    let change = Change { ticket: 1, group, values, seen: None, is_unlocked: true };
+    rig.send(Command::Settle(change));
+    rig.until("refused", 5, |shown| shown.state.held[group].settled.is_some()).await;
+    let settled = rig.shown().state.held[group].settled.clone().unwrap();
+    assert_eq!(settled.result, Err(SettleError::LockedOut));
+    assert_eq!(rig.orders(), before);
+}
