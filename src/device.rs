@@ -24,7 +24,7 @@ pub use wire::{Direction, Finding, WireLine};
 
 use crate::{astro::Angle, protocol::satrak::Query};
 use panel::Act;
-use settings::{Change, Group};
+use settings::{Change, Group, SettleError};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -153,7 +153,8 @@ pub enum PrepareError {
     Stopped,
 }
 
-/// A controller as everyone may use it: nothing here starts a motion.
+/// A controller as everyone may use it: nothing here starts a motion, or decides
+/// where one leads.
 pub trait Device: Send {
     /// What it can do.
     fn capabilities(&self) -> Capabilities;
@@ -195,10 +196,6 @@ pub trait Device: Send {
         Duration::from_secs(1)
     }
 
-    /// Puts a target on the device without moving it. The outcome comes as a
-    /// [`Happening`].
-    fn prepare(&mut self, target: TrackTarget);
-
     /// What the device remembers and can be told: the same for its whole life.
     fn groups(&self) -> &'static [&'static Group];
 
@@ -206,9 +203,8 @@ pub trait Device: Send {
     /// [`AntennaState::held`].
     fn read_group(&mut self, group: &str);
 
-    /// Puts new values of a group on the device and reads them back. How far it
-    /// is, and what came of it, stands in [`AntennaState::held`].
-    fn settle(&mut self, change: Change, now: Moment);
+    /// A change that is not sent: the reason stands in [`AntennaState::held`].
+    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment);
 
     /// Asks this between its own questions. What is no question to this device
     /// is dropped.
@@ -238,13 +234,21 @@ pub trait Device: Send {
     fn poll_period(&self) -> Duration;
 }
 
-/// The side of a controller that moves metal. Only the gate holds it.
+/// The side of a controller that moves metal or decides where it goes. Only the gate holds it.
 pub trait Moves: Device {
     /// Why `motion` must not be started or go on, where that is special to this
     /// device. The gate asks it after its own rules, and again while a jog runs.
     fn objection(&self, _motion: &Motion, _now: Moment) -> Option<&'static str> {
         None
     }
+
+    /// Puts a target on the device without moving it. The outcome comes as a
+    /// [`Happening`].
+    fn prepare(&mut self, target: TrackTarget);
+
+    /// Puts new values of a group on the device and reads them back. How far it
+    /// is, and what came of it, stands in [`AntennaState::held`].
+    fn settle(&mut self, change: Change, now: Moment);
 
     /// Queues a motion other than an action. It is sent once, and not at all
     /// when a halt comes first.

@@ -26,6 +26,7 @@ mod satrak_session {
     mod reconnect;
     mod secrets;
     mod settings;
+    mod settings_moving;
     mod settings_refused;
     mod stop;
     mod track;

@@ -5,6 +5,7 @@
 //! keep-out, is one more entry of [`RULES`].
 
 mod rules;
+mod settings;
 
 use std::time::Duration;
 
@@ -13,6 +14,7 @@ use crate::{
     astro::Angle,
     controller::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
+        settings::Hindrance,
     },
     station::{MotionLimits, Mount},
 };
@@ -107,6 +109,14 @@ pub enum Refusal {
     /// A stop is under way.
     #[error("a stop is under way")]
     Stopping,
+    /// A setting that decides where the antenna points, at a bad time.
+    #[error("{field} is not set: {why}")]
+    Setting {
+        /// Its label.
+        field: &'static str,
+        /// Why not now.
+        why: Hindrance,
+    },
 }
 
 /// What the rules look at beside the motion itself.

@@ -9,6 +9,7 @@ mod follow;
 mod halting;
 mod jog;
 mod liveness;
+mod settle;
 mod step;
 mod supervise;
 mod wanted;

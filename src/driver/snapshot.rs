@@ -10,8 +10,8 @@ use jiff::Timestamp;
 use super::{Intent, Refusal};
 use crate::{
     controller::{
-        AntennaState, Motion, Pointing, PrepareError, TrackTarget,
-        settings::{GroupState, Held},
+        AntennaState, Capabilities, Motion, Pointing, PrepareError, TrackTarget,
+        settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
     plan::{FollowPhase, FollowStats, Sample},
@@ -64,6 +64,20 @@ impl Snapshot {
 }
 
 impl Snapshot {
+    /// Why the gate would refuse a setting that decides where the antenna points,
+    /// at `now`.
+    pub fn hindrance(&self, can: Capabilities, now: Instant) -> Option<Hindrance> {
+        if matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
+            return Some(Hindrance::Stopping);
+        }
+        let told = self.pending
+            || self.intent == Intent::Track
+            || self.following.is_some()
+            || self.jog.is_some()
+            || self.step.is_some();
+        Hindrance::of(&self.state, can, now).or(told.then_some(Hindrance::Moves))
+    }
+
     /// Whether nothing but ages and counters differ. The window shows those
     /// with the next tick of its clock; a frame of their own is not worth it.
     pub fn shows_the_same(&self, newer: &Self) -> bool {

@@ -7,7 +7,7 @@ mod refusals;
 
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
-pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
+pub use refusals::{answer, follow_problem, hindrance, link_loss, prepare_error, refusal};
 
 use crate::{controller::Motion, driver::Intent, makes};
 

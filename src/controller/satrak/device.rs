@@ -119,14 +119,6 @@ impl Device for Satrak {
         halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
 
-    fn prepare(&mut self, target: TrackTarget) {
-        // An answer to a step of the former preparation must not move this one.
-        if let Some(outstanding) = &mut self.outstanding {
-            outstanding.disown();
-        }
-        self.preparation = Some(Preparation::new(target));
-    }
-
     fn groups(&self) -> &'static [&'static Group] {
         GROUPS
     }
@@ -137,12 +129,8 @@ impl Device for Satrak {
         }
     }
 
-    fn settle(&mut self, change: Change, now: Moment) {
-        if self.schedule.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
-        }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
+    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
+        self.settled(change, Err(why), now);
     }
 
     fn ask(&mut self, question: Question) {
@@ -177,6 +165,22 @@ impl Device for Satrak {
 }
 
 impl Moves for Satrak {
+    fn prepare(&mut self, target: TrackTarget) {
+        // An answer to a step of the former preparation must not move this one.
+        if let Some(outstanding) = &mut self.outstanding {
+            outstanding.disown();
+        }
+        self.preparation = Some(Preparation::new(target));
+    }
+
+    fn settle(&mut self, change: Change, now: Moment) {
+        if self.schedule.is_none() {
+            return self.settled(change, Err(SettleError::NoLink), now);
+        }
+        self.state.group(change.group).step = Some(SettleStep::Waiting);
+        self.changes.push_back(change);
+    }
+
     fn start(&mut self, motion: Motion) {
         // A newer wish replaces one that has not gone out yet.
         self.motions.clear();

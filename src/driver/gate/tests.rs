@@ -15,7 +15,7 @@ use crate::{
     controller::{
         Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
         WireLine,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError},
     },
     station::Antenna,
 };
@@ -48,7 +48,6 @@ impl Device for Metal {
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         Vec::new()
     }
-    fn prepare(&mut self, _: TrackTarget) {}
     fn motion_under_way(&self) -> bool {
         false
     }
@@ -58,7 +57,7 @@ impl Device for Metal {
 
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
 
     fn disable_auto(&mut self) {}
     fn state(&self) -> &AntennaState {
@@ -76,6 +75,10 @@ impl Device for Metal {
 }
 
 impl Moves for Metal {
+    fn prepare(&mut self, _: TrackTarget) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn act(&mut self, _: Act) {}
 
     fn start(&mut self, motion: Motion) {

@@ -3,7 +3,11 @@
 use super::{Event, Session, wanted::Wanted};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, Question, TrackTarget, panel::Act, settings::Change},
+    controller::{
+        Moment, Motion, Question, TrackTarget,
+        panel::Act,
+        settings::{Change, SettleError},
+    },
     driver::{Intent, Refusal},
     plan::Follow,
 };
@@ -104,7 +108,7 @@ impl Session {
             }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
-            Command::Settle(change) => self.gate.device().settle(change, now),
+            Command::Settle(change) => self.settle(change, now),
             Command::Ask(question) => self.gate.device().ask(question),
             Command::Act(act) => self.act(act, now),
             Command::Connect => self.wanted = Wanted::Yes,
@@ -193,7 +197,11 @@ impl Session {
         }
         match self.waiting.take() {
             None => {}
-            Some(Waiting::Prepare(target)) => self.gate.device().prepare(target),
+            Some(Waiting::Prepare(target)) => {
+                if let Err(refusal) = self.gate.prepare(target, self.intent, now) {
+                    self.give_up(Event::NotSent(refusal), now);
+                }
+            }
             Some(Waiting::Motion(motion)) => {
                 match self.gate.start(motion, self.intent, false, now) {
                     Ok(()) => {
@@ -217,7 +225,9 @@ impl Session {
     /// A command while there is no link.
     pub(super) fn turn_down(&mut self, command: Command, now: Moment) {
         match command {
-            Command::Settle(change) => self.gate.device().settle(change, now),
+            Command::Settle(change) => {
+                self.gate.device().refuse_change(change, SettleError::NoLink, now);
+            }
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
             Command::ReadGroup(_) | Command::Ask(_) => {}

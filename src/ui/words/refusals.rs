@@ -1,7 +1,7 @@
 //! Why something was not sent or not done.
 
 use crate::{
-    controller::PrepareError,
+    controller::{PrepareError, settings::Hindrance},
     driver::{FollowProblem, LinkLoss, Refusal},
     ui::format,
 };
@@ -60,7 +60,13 @@ pub fn refusal(refusal: &Refusal) -> String {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
+        Refusal::Setting { field, why } => format!("{field} was not sent. {}", hindrance(*why)),
     }
+}
+
+/// Why a setting that decides where the antenna points has to wait, and what to do.
+pub fn hindrance(hindrance: Hindrance) -> String {
+    super::sentence(&hindrance.to_string())
 }
 
 /// Why a target is not followed, or no further.

@@ -16,7 +16,7 @@ use azel::{
         Measured, Moment, Motion, Moves, Question, TrackTarget, WireLine, aimed,
         panel::Act,
         satrak,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError},
     },
     station::{Choice, Connection, Holds, Kind, Link, Setting, Table, Usual, Value},
 };
@@ -179,15 +179,13 @@ impl Device for Lever {
         b"S\n".to_vec()
     }
 
-    fn prepare(&mut self, _: TrackTarget) {}
-
     fn groups(&self) -> &'static [&'static Group] {
         MAKE.groups
     }
 
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
 
     fn ask(&mut self, _: Question) {}
 
@@ -215,6 +213,10 @@ impl Device for Lever {
 }
 
 impl Moves for Lever {
+    fn prepare(&mut self, _: TrackTarget) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn start(&mut self, motion: Motion) {
         let Motion::Position { azimuth, elevation } = motion else { return };
         let measured = self.state.measured.map(|measured| measured.pointing);
