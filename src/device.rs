@@ -6,6 +6,7 @@
 
 mod capabilities;
 mod make;
+mod on_board;
 pub mod panel;
 mod satrak;
 pub mod settings;
@@ -18,6 +19,7 @@ use jiff::Timestamp;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds};
 pub use make::Make;
+pub use on_board::{HeldSatellite, Offsets, OnBoard, Place};
 pub use satrak::{SatrakState, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
 pub use wire::{Direction, Finding, WireLine};

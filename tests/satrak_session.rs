@@ -21,6 +21,7 @@ mod satrak_session {
     mod jog;
     mod let_go;
     mod oddities;
+    mod on_board;
     mod overtaken;
     mod position;
     mod reconnect;

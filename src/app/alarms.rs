@@ -3,11 +3,13 @@
 use jiff::Timestamp;
 
 use crate::{
+    astro::Angle,
     controller::{
         Motion, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
     driver::{Event, FollowProblem, Found, LinkLoss},
+    plan::on_board::Ranked,
     protocol::satrak::FaultKind,
     station::Note,
 };
@@ -49,6 +51,15 @@ pub enum AlarmKind {
     CannotTrack(TrackTarget, PrepareError),
     /// A target cannot be followed position by position, or no further.
     CannotFollow(String, FollowProblem),
+    /// The unit tracks by itself, and not where the satellite is.
+    OffTarget {
+        /// So far it was off when it was noticed.
+        off: Angle,
+        /// The likeliest cause.
+        cause: Option<Ranked>,
+    },
+    /// By what the unit tells of itself it would miss a pass; the likeliest cause.
+    UnitDiffers(Ranked),
     /// Tracking ended before LOS.
     TrackingEnded,
     /// A motion ended somewhere else.
@@ -110,6 +121,7 @@ impl Alarm {
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
             | AlarmKind::JogPositionOld
+            | AlarmKind::OffTarget { .. }
             | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
@@ -199,6 +211,8 @@ impl AlarmKind {
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
+                | Self::OffTarget { .. }
+                | Self::UnitDiffers(_)
                 | Self::ClockNotSet
                 | Self::DecimalCommas
                 | Self::Setting(_)
@@ -212,7 +226,11 @@ impl AlarmKind {
 fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
+        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. })
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_)) => true,
+        (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
+            std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)
+        }
         _ => a == b,
     }
 }
@@ -257,6 +275,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::Connected(Found::Still)
         | Event::Back { .. }
         | Event::NotSent(_)
+        | Event::WouldMiss { .. }
         | Event::Tracking(_)
         | Event::Awaits { .. }
         | Event::Follows(_)

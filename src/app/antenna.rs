@@ -5,7 +5,7 @@ use std::{collections::VecDeque, sync::Arc};
 
 use jiff::Timestamp;
 
-use super::forecast::Followed;
+use super::{forecast::Followed, on_board::Judged};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
@@ -57,6 +57,8 @@ pub struct AntennaModel {
     pub errors: VecDeque<ErrorSample>,
     /// Measured rates of azimuth and elevation, degrees a second.
     pub rates_deg_s: Option<(f64, f64)>,
+    /// How its unit would track the selected pass by itself.
+    pub judged: Option<Judged>,
     /// The last event that the operator should read, and when it came.
     pub news: Option<(Event, Timestamp)>,
     recent: VecDeque<Measured>,
@@ -72,6 +74,7 @@ impl AntennaModel {
             prediction: None,
             errors: VecDeque::new(),
             rates_deg_s: None,
+            judged: None,
             news: None,
             recent: VecDeque::new(),
         }

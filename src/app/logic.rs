@@ -9,7 +9,6 @@ use super::{
     model::CatalogState,
 };
 use crate::{
-    astro::time::add_seconds,
     controller::{AxisMotion, panel::CheckState},
     driver::{Event, LinkState, StopState},
     station::Station,
@@ -105,7 +104,9 @@ impl App {
             self.take_event(index, event);
         }
         self.revive_session(index);
+        self.judge_unit(index);
         self.watch_state(index);
+        self.watch_on_board(index);
     }
 
     /// A session never ends while its antenna is in use. If one did, the
@@ -205,10 +206,5 @@ impl App {
         // ask for a frame at once, again and again.
         let wait = wait.max(Duration::from_millis(5));
         ctx.request_repaint_after_for(wait, egui::ViewportId::ROOT);
-    }
-
-    /// When a pass under way began, for the unit: it may not lie in the past.
-    pub(super) fn track_from(&self, aos: jiff::Timestamp) -> jiff::Timestamp {
-        aos.max(add_seconds(self.model.now, -1.0))
     }
 }

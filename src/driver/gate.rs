@@ -4,10 +4,11 @@
 //! [`Device`] side, so no other code can start a motion. A new rule, such as a
 //! keep-out, is one more entry of [`RULES`].
 
+mod program;
 mod rules;
 mod settings;
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use super::intent::Intent;
 use crate::{
@@ -16,6 +17,7 @@ use crate::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
         settings::Hindrance,
     },
+    plan::on_board::{Judge, Trespass},
     station::{MotionLimits, Mount},
 };
 use rules::RULES;
@@ -109,6 +111,22 @@ pub enum Refusal {
     /// A stop is under way.
     #[error("a stop is under way")]
     Stopping,
+    /// The pass that the unit is to track by itself is not known.
+    #[error("the pass is not known")]
+    PassUnknown,
+    /// The pass does not get up to where the antenna may point.
+    #[error(
+        "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
+    )]
+    TooLow {
+        /// Its greatest elevation.
+        highest_deg: f64,
+        /// The lowest elevation of the antenna.
+        lowest_deg: f64,
+    },
+    /// The unit's own program would lead where the antenna must not point.
+    #[error("the program of the unit leads to {0:?}")]
+    Path(Trespass),
     /// A setting that decides where the antenna points, at a bad time.
     #[error("{field} is not set: {why}")]
     Setting {
@@ -135,11 +153,13 @@ pub(super) struct Gate {
     controller: Box<dyn Moves>,
     limits: MotionLimits,
     mount: Mount,
+    /// The pass that the device's own program is started on.
+    program: Option<Arc<Judge>>,
 }
 
 impl Gate {
     pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, mount: Mount) -> Self {
-        Self { controller, limits, mount }
+        Self { controller, limits, mount, program: None }
     }
 
     /// The harmless side of the controller.
@@ -187,6 +207,9 @@ impl Gate {
             now,
         };
         RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
+        if motion == Motion::StartProgram {
+            self.program_is_clear()?;
+        }
         self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
     }
 

@@ -9,6 +9,7 @@ mod follow;
 mod halting;
 mod jog;
 mod liveness;
+mod on_board;
 mod settle;
 mod step;
 mod supervise;
@@ -29,6 +30,7 @@ use super::{
 };
 use crate::{
     controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
+    plan::on_board::Bounds,
     station::Antenna,
 };
 use command::Waiting;
@@ -56,6 +58,8 @@ pub struct Session {
     park: Pointing,
     /// How it follows.
     manner: Manner,
+    /// What it must keep to while the unit tracks by itself.
+    bounds: Bounds,
     wanted: Wanted,
     dial: Dial,
     clock: Clock,
@@ -75,6 +79,8 @@ pub struct Session {
     pending: Option<Instant>,
     aim: Option<Pointing>,
     target: Option<TrackTarget>,
+    /// The watch over what the unit tracks by itself.
+    on_board: Option<on_board::Watch>,
     /// What this program follows, position by position.
     following: Option<Following>,
     jog: Option<Jog>,
@@ -121,6 +127,7 @@ impl Session {
             make,
             park: antenna.park_direction().into(),
             manner: Manner::of(antenna, make.capabilities),
+            bounds: Bounds::of(antenna),
             wanted,
             dial,
             clock,
@@ -135,6 +142,7 @@ impl Session {
             pending: None,
             aim: None,
             target: None,
+            on_board: None,
             following: None,
             jog: None,
             stepping: None,
@@ -163,6 +171,7 @@ impl Session {
             pending: self.pending.is_some(),
             aim: self.aim,
             target: self.target.clone(),
+            on_board: self.on_board.as_ref().map(on_board::Watch::view),
             following: self.following.as_ref().map(Following::view),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),

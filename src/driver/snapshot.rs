@@ -9,12 +9,13 @@ use jiff::Timestamp;
 
 use super::{Intent, Refusal};
 use crate::{
+    astro::Angle,
     controller::{
         AntennaState, Capabilities, Motion, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
-    plan::{FollowPhase, FollowStats, Sample},
+    plan::{FollowPhase, FollowStats, Sample, Supervision},
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
@@ -30,6 +31,8 @@ pub struct Snapshot {
     pub aim: Option<Pointing>,
     /// What is to be tracked.
     pub target: Option<TrackTarget>,
+    /// How the unit tracks it by itself.
+    pub on_board: Option<OnBoardView>,
     /// What this program follows with it, position by position.
     pub following: Option<FollowView>,
     /// The stop button.
@@ -53,6 +56,7 @@ impl Snapshot {
             pending: false,
             aim: None,
             target: None,
+            on_board: None,
             following: None,
             stop: StopState::Ready,
             jog: None,
@@ -101,6 +105,7 @@ impl Snapshot {
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.satrak.clock = self.state.satrak.clock;
         newer.state.satrak.gps = self.state.satrak.gps;
+        newer.state.on_board.clock_ahead_s = self.state.on_board.clock_ahead_s;
         if let (Some(old), Some(new)) = (&self.following, &mut newer.following) {
             new.next_look = old.next_look;
             new.stats = old.stats;
@@ -121,6 +126,16 @@ fn same_settings(old: &Held, new: &Held) -> bool {
         (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
+}
+
+/// What the unit tracks by itself, and how well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnBoardView {
+    /// How it will follow by what it tells of itself.
+    pub found: Arc<Supervision>,
+    /// How far it is off the satellite, where that has lasted longer than turning to
+    /// it explains.
+    pub missing: Option<Angle>,
 }
 
 /// What is followed position by position, and how well.
@@ -248,6 +263,13 @@ pub enum Event {
     Unanswered(Motion),
     /// A satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
+    /// By what the device tells of itself it would miss the satellite of this name.
+    WouldMiss {
+        /// Name of the satellite.
+        name: String,
+        /// By how much and why.
+        found: Arc<Supervision>,
+    },
     /// The device tracks.
     Tracking(TrackTarget),
     /// The device has ended tracking by itself.

@@ -150,6 +150,8 @@ pub enum CardAction {
     GoTo(Target),
     /// Track the selected satellite.
     TrackSelected,
+    /// Track the selected satellite although the unit would miss it.
+    TrackAnyway,
     /// Follow this position by position.
     Follow(FollowChoice),
     /// Let the unit start passes by itself, or not.

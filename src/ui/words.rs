@@ -3,10 +3,12 @@
 
 mod alarms;
 mod faults;
+mod on_board;
 mod refusals;
 
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
+pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{answer, follow_problem, hindrance, link_loss, prepare_error, refusal};
 
 use crate::{controller::Motion, driver::Intent, makes};

@@ -6,7 +6,7 @@ use azel::{
 };
 
 use super::{
-    rig::{Rig, iss},
+    rig::{Rig, iss, track},
     settings::{change, settle, text},
 };
 
@@ -20,7 +20,7 @@ fn hindered(field: &'static str, hindrance: Hindrance) -> Result<(), SettleError
 
 async fn tracking() -> Rig {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     rig.seconds(150.0).await;
     rig.events();
@@ -115,7 +115,7 @@ async fn what_waits_in_the_queue_is_not_sent_once_the_unit_is_to_track() {
         let wish = change("general", [("azimuth_offset_deg", azimuth)]);
         rig.send(Command::Settle(Change { ticket, ..wish }));
     }
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(20, |event| matches!(event, Event::Tracking(_))).await;
     rig.seconds(5.0).await;
     let orders = rig.orders();

@@ -28,6 +28,11 @@ impl Device for Satrak {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        // What the unit goes by may be another since the last link.
+        let unit = &mut self.state.satrak;
+        (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
+        (unit.settings, unit.satellite, unit.window) = (None, None, None);
+        self.state.on_board = unit.on_board();
         self.schedule = Some(Schedule::new(now.steady));
     }
 

@@ -9,7 +9,7 @@ use crate::{
         settings::{Change, SettleError},
     },
     driver::{Intent, Refusal},
-    plan::Follow,
+    plan::{Follow, OnBoardPass},
 };
 
 /// What the operator can ask of an antenna. STOP is no command: it goes past
@@ -41,8 +41,8 @@ pub enum Command {
         /// `None` leaves it as it is.
         elevation: Option<Angle>,
     },
-    /// Follow a satellite.
-    Track(TrackTarget),
+    /// Let the device track a pass by itself.
+    Track(Box<OnBoardPass>),
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
@@ -80,7 +80,10 @@ impl Session {
         // A hold is renewed many times a second; not worth a line each. Settings
         // are logged where they are made, without their values, and a target by its
         // name.
-        if !matches!(command, Command::Jog { .. } | Command::Settle(_) | Command::Follow(_)) {
+        if !matches!(
+            command,
+            Command::Jog { .. } | Command::Settle(_) | Command::Follow(_) | Command::Track(_)
+        ) {
             tracing::info!(antenna = self.name, ?command, "command");
         }
         match command {
@@ -101,7 +104,7 @@ impl Session {
                 };
                 self.go_to(motion, Intent::Park, now);
             }
-            Command::Track(target) => self.track(target, now),
+            Command::Track(pass) => self.track(*pass, now),
             Command::Follow(follow) => self.follow(*follow, now),
             Command::AutoTrack(true) => {
                 self.start(Motion::EnableAuto, now);
@@ -175,10 +178,13 @@ impl Session {
         self.waiting = Some(Waiting::Motion(motion));
     }
 
-    fn track(&mut self, target: TrackTarget, now: Moment) {
-        if let Err(refusal) = self.gate.check(Motion::StartProgram, Intent::Track, now) {
-            return self.tell(Event::NotSent(refusal));
-        }
+    fn track(&mut self, pass: OnBoardPass, now: Moment) {
+        let target = pass.target.clone();
+        tracing::info!(antenna = self.name, ?target, is_agreed = pass.is_agreed, "track");
+        let watch = match self.examine_pass(pass, now) {
+            Ok(watch) => watch,
+            Err(event) => return self.tell(event),
+        };
         if self.may_move() {
             self.halt_quietly(now);
         }
@@ -187,6 +193,7 @@ impl Session {
         self.aim = None;
         self.pending = Some(now.steady);
         self.target = Some(target.clone());
+        self.on_board = Some(watch);
         self.waiting = Some(Waiting::Prepare(target));
     }
 

@@ -60,6 +60,14 @@ pub fn refusal(refusal: &Refusal) -> String {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
+        Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
+        Refusal::TooLow { highest_deg, lowest_deg } => format!(
+            "Not sent: what is left of the pass is not above the {} of this antenna; the pass \
+             reaches {}.",
+            format::degrees(*lowest_deg, 1),
+            format::degrees(*highest_deg, 1)
+        ),
+        Refusal::Path(trespass) => super::trespass(trespass),
         Refusal::Setting { field, why } => format!("{field} was not sent. {}", hindrance(*why)),
     }
 }
