@@ -22,6 +22,7 @@ mod fourth_make;
 mod keys;
 mod makes;
 mod mask;
+mod on_board;
 mod panel;
 mod panel_layout;
 mod panel_more;

@@ -125,10 +125,10 @@ pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
 }
 
 /// The path of `unit` while its clock runs through `window`.
-pub(super) fn samples<'a>(
-    unit: Unit<'a>,
+pub(super) fn samples(
+    unit: Unit<'_>,
     (start, stop): (Timestamp, Timestamp),
-) -> impl Iterator<Item = Sample> + 'a {
+) -> impl Iterator<Item = Sample> + '_ {
     let ours = |own: Timestamp| add_seconds(own, -unit.ahead_s);
     let (from, to) = (ours(start), ours(stop));
     let span_s = seconds_between(from, to).max(0.0);

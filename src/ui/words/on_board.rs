@@ -15,7 +15,7 @@ pub fn cause(ranked: &Ranked) -> String {
     match &ranked.cause {
         Cause::Place { place, away_km } => format!(
             "the unit stands {} km from this station: its place is {}",
-            format::number(*away_km, if *away_km < 100.0 { 1 } else { 0 }),
+            format::number(*away_km, usize::from(*away_km < 100.0)),
             place_words(*place)
         ),
         Cause::Clock { ahead_s } => {
