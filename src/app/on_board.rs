@@ -30,8 +30,8 @@ const EDGE_S: f64 = 0.002;
 /// What was found of a unit, and by what.
 #[derive(Debug, Clone)]
 pub struct Judged {
-    /// How it would follow.
-    pub found: Arc<Supervision>,
+    /// How it would follow; `None` where the pass is none for its antenna.
+    pub found: Option<Arc<Supervision>>,
     of: (PassKey, OnBoard),
 }
 
@@ -108,26 +108,30 @@ impl App {
     /// Judges how the unit of an antenna would follow the pass that is selected, or
     /// comes next.
     pub(super) fn judge_unit(&mut self, index: usize) {
-        let forecast = self.model.selected_pass().or_else(|| self.model.next_pass()).cloned();
-        let (site, now) = (self.model.station.site, self.model.now);
-        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        let judged = self.model.antennas.get(index).and_then(|antenna| self.judged(antenna));
+        if let Some(antenna) = self.model.antennas.get_mut(index) {
+            antenna.judged = judged;
+        }
+    }
+
+    /// What is found of the unit of `antenna`: as before where nothing has changed.
+    fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
         let unit = &antenna.snapshot.state.on_board;
         let is_told =
             unit.place.is_some() || unit.clock_ahead_s.is_some() || unit.offsets.is_some();
         let can = antenna.make().capabilities.has_program && antenna.snapshot.link.is_open();
-        let Some(forecast) = forecast.filter(|_| can && is_told) else {
-            antenna.judged = None;
-            return;
-        };
-        let unit = rounded(unit);
-        let of = (forecast.key(), unit);
-        if antenna.judged.as_ref().is_some_and(|judged| judged.of == of) {
-            return;
+        if !can || !is_told {
+            return None;
         }
-        antenna.judged = pass_for(&forecast, &antenna.config, site, now)
-            .ok()
-            .and_then(|pass| Judge::new(pass, Bounds::of(&antenna.config)).ok())
-            .map(|judge| Judged { found: Arc::new(judge.supervise(&of.1, false)), of });
+        let forecast = self.model.selected_pass().or_else(|| self.model.next_pass())?;
+        let of = (forecast.key(), rounded(unit));
+        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.of == of) {
+            return Some(before.clone());
+        }
+        let pass = pass_for(forecast, &antenna.config, self.model.station.site, self.model.now);
+        let judge = pass.ok().and_then(|pass| Judge::new(pass, Bounds::of(&antenna.config)).ok());
+        let found = judge.map(|judge| Arc::new(judge.supervise(&of.1, false)));
+        Some(Judged { found, of })
     }
 }
 
@@ -157,7 +161,7 @@ impl AntennaModel {
     /// How its unit would follow by what it tells of itself, or does.
     pub fn supervision(&self) -> Option<&Supervision> {
         let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);
-        running.or(self.judged.as_ref().map(|judged| &*judged.found))
+        running.or(self.judged.as_ref().and_then(|judged| judged.found.as_deref()))
     }
 
     /// The same where by it the satellite is missed.
