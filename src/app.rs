@@ -23,6 +23,7 @@ mod log_file;
 mod logic;
 mod memory;
 pub mod model;
+pub mod on_board;
 mod settle;
 pub mod source_tests;
 pub mod sources;

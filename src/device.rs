@@ -6,6 +6,7 @@
 
 mod capabilities;
 mod make;
+mod on_board;
 pub mod panel;
 mod satrak;
 pub mod settings;
@@ -18,13 +19,14 @@ use jiff::Timestamp;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
 pub use make::Make;
+pub use on_board::{HeldSatellite, Offsets, OnBoard, Place};
 pub use satrak::{SatrakState, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
 pub use wire::{Direction, Finding, WireLine};
 
 use crate::{astro::Angle, protocol::satrak::Query};
 use panel::Act;
-use settings::{Change, Group};
+use settings::{Change, Group, SettleError};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -153,7 +155,8 @@ pub enum PrepareError {
     Stopped,
 }
 
-/// A controller as everyone may use it: nothing here starts a motion.
+/// A controller as everyone may use it: nothing here starts a motion, or decides
+/// where one leads.
 pub trait Device: Send {
     /// What it can do.
     fn capabilities(&self) -> Capabilities;
@@ -199,10 +202,6 @@ pub trait Device: Send {
         Duration::from_secs(1)
     }
 
-    /// Puts a target on the device without moving it. The outcome comes as a
-    /// [`Happening`].
-    fn prepare(&mut self, target: TrackTarget);
-
     /// Asks for the position without waiting for its turn.
     fn look(&mut self, now: Moment);
 
@@ -213,9 +212,8 @@ pub trait Device: Send {
     /// [`AntennaState::held`].
     fn read_group(&mut self, group: &str);
 
-    /// Puts new values of a group on the device and reads them back. How far it
-    /// is, and what came of it, stands in [`AntennaState::held`].
-    fn settle(&mut self, change: Change, now: Moment);
+    /// A change that is not sent: the reason stands in [`AntennaState::held`].
+    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment);
 
     /// While they are locked, changes of settings end with
     /// [`LockedOut`](settings::SettleError::LockedOut) before anything is sent, also
@@ -250,7 +248,7 @@ pub trait Device: Send {
     fn poll_period(&self) -> Duration;
 }
 
-/// The side of a controller that moves metal. Only the gate holds it.
+/// The side of a controller that moves metal or decides where it goes. Only the gate holds it.
 pub trait Moves: Device {
     /// Why `motion` must not be started or go on, where that is special to this
     /// device. The gate asks it after its own rules, and again while a jog runs.
@@ -263,6 +261,13 @@ pub trait Moves: Device {
     fn axes_of(&self, _act: &Act) -> [Option<f64>; 2] {
         [None; 2]
     }
+    /// Puts a target on the device without moving it. The outcome comes as a
+    /// [`Happening`].
+    fn prepare(&mut self, target: TrackTarget);
+
+    /// Puts new values of a group on the device and reads them back. How far it
+    /// is, and what came of it, stands in [`AntennaState::held`].
+    fn settle(&mut self, change: Change, now: Moment);
 
     /// Queues a motion other than an action. It is sent once, and not at all
     /// when a halt comes first.

@@ -37,7 +37,7 @@ pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use safety::{Mover, Response, Safety};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
-    Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, Snapshot, StopState,
+    Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
 };
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};

@@ -5,10 +5,12 @@ mod az_el;
 mod azimuth_route;
 pub mod bounds;
 pub mod follow;
+pub mod on_board;
 pub mod pass_export;
 mod trackability;
 mod within_rate;
 
 pub use bounds::{Barrier, Bounds, Clearance, Sweep};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
+pub use on_board::{OnBoardPass, Supervision};
 pub use trackability::{Loss, Reach, Sample, Trackability, trackability};

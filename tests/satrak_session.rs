@@ -22,11 +22,13 @@ mod satrak_session {
     mod let_go;
     mod lock_out;
     mod oddities;
+    mod on_board;
     mod overtaken;
     mod position;
     mod reconnect;
     mod secrets;
     mod settings;
+    mod settings_moving;
     mod settings_refused;
     mod stop;
     mod track;

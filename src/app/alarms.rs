@@ -5,11 +5,13 @@ use std::time::Duration;
 use jiff::Timestamp;
 
 use crate::{
+    astro::Angle,
     controller::{
         Motion, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
     driver::{Event, FollowProblem, Found, LinkLoss, Safety},
+    plan::on_board::Ranked,
     protocol::satrak::FaultKind,
     station::{Note, NoteReason},
 };
@@ -55,6 +57,15 @@ pub enum AlarmKind {
     CannotTrack(TrackTarget, PrepareError),
     /// A target cannot be followed position by position, or no further.
     CannotFollow(String, FollowProblem),
+    /// The unit tracks by itself, and not where the satellite is.
+    OffTarget {
+        /// So far it was off when it was noticed.
+        off: Angle,
+        /// The likeliest cause.
+        cause: Option<Ranked>,
+    },
+    /// By what the unit tells of itself it would miss a pass; the likeliest cause.
+    UnitDiffers(Ranked),
     /// Tracking ended before LOS.
     TrackingEnded,
     /// A motion ended somewhere else.
@@ -135,6 +146,7 @@ impl Alarm {
             | AlarmKind::MovesByItself
             | AlarmKind::DecimalCommas
             | AlarmKind::JogPositionOld
+            | AlarmKind::OffTarget { .. }
             | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             AlarmKind::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => {
                 Priority::Warning
@@ -240,6 +252,8 @@ impl AlarmKind {
                 | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
+                | Self::OffTarget { .. }
+                | Self::UnitDiffers(_)
                 | Self::ClockNotSet
                 | Self::DecimalCommas
                 | Self::Setting(_)
@@ -254,7 +268,11 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
-        | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_)) => true,
+        | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
+        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
+        (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
+            std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)
+        }
         _ => a == b,
     }
 }
@@ -303,6 +321,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::Connected(Found::Still)
         | Event::Back { .. }
         | Event::NotSent(_)
+        | Event::WouldMiss { .. }
         | Event::Tracking(_)
         | Event::Awaits { .. }
         | Event::Follows(_)

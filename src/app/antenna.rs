@@ -9,7 +9,7 @@ pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::{forecast::Followed, track_again::TrackAgain};
+use super::{forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, settings::Group},
@@ -61,6 +61,8 @@ pub struct AntennaModel {
     pub errors: VecDeque<ErrorSample>,
     /// Measured rates of azimuth and elevation, degrees a second.
     pub rates_deg_s: Option<(f64, f64)>,
+    /// How its unit would track the selected pass by itself.
+    pub judged: Option<Judged>,
     /// The last event that the operator should read, and when it came.
     pub news: Option<(Event, Timestamp)>,
     /// When STOP was pressed that no snapshot tells of yet.
@@ -82,6 +84,7 @@ impl AntennaModel {
             prediction: None,
             errors: VecDeque::new(),
             rates_deg_s: None,
+            judged: None,
             news: None,
             stop_pressed: None,
             ordered_track: None,

@@ -9,7 +9,7 @@ use super::{
     forecast::PassKey,
     sources::{self, SourceWork, Task},
 };
-use crate::{controller::TrackTarget, driver, station, ui::theme};
+use crate::{driver, station, ui::theme};
 
 impl App {
     /// Past every queue, to every antenna that it concerns.
@@ -72,6 +72,7 @@ impl App {
             }
             UiCommand::CloseCopy => model.copies.open = None,
             UiCommand::Track { antenna, pass } => self.track(antenna, pass),
+            UiCommand::TrackAnyway { antenna, pass } => self.track_on_board(antenna, pass, true),
             UiCommand::SetElevationFloor(floor_deg) => {
                 model.station.elevation_floor_deg = floor_deg;
             }
@@ -134,13 +135,7 @@ impl App {
             let follow = self.model.follow_of(forecast);
             return self.send(antenna, driver::Command::Follow(Box::new(follow)));
         }
-        let target = TrackTarget {
-            catalog_number: forecast.satellite.elements.catalog_number(),
-            name: forecast.satellite.elements.name().to_owned(),
-            from: self.track_from(forecast.pass.aos.time),
-            until: forecast.pass.los.time,
-        };
-        self.send(antenna, driver::Command::Track(target));
+        self.track_on_board(antenna, pass, false);
     }
 
     /// One at a time: two would write the same files.

@@ -44,6 +44,13 @@ pub enum UiCommand {
         /// Which pass was shown when it was asked for.
         pass: PassKey,
     },
+    /// Let the unit of this antenna track a pass although it would miss.
+    TrackAnyway {
+        /// Which antenna was shown when it was asked for.
+        antenna: usize,
+        /// Which pass was shown when it was asked for.
+        pass: PassKey,
+    },
     /// List passes from this maximum elevation on, degrees.
     SetElevationFloor(f64),
     /// List the passes of these satellites.
@@ -122,7 +129,9 @@ impl UiCommand {
             Self::Antenna(_, command) => {
                 !matches!(command, driver::Command::ReadGroup(_) | driver::Command::LockOut(_))
             }
-            Self::Track { .. } | Self::Upload(uploads::Ask::AgreeToTracking) => true,
+            Self::Track { .. }
+            | Self::TrackAnyway { .. }
+            | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,
         }
     }

@@ -10,7 +10,6 @@ use super::{
     sources::{SourceWork, Task},
 };
 use crate::{
-    astro::time::add_seconds,
     controller::{AxisMotion, panel::CheckState},
     driver::{Event, LinkState, StopState},
     station::Station,
@@ -149,7 +148,9 @@ impl App {
             self.take_event(index, event);
         }
         self.tell_lock_out(index);
+        self.judge_unit(index);
         self.watch_state(index);
+        self.watch_on_board(index);
     }
 
     fn take_event(&mut self, index: usize, event: Event) {
@@ -246,10 +247,5 @@ impl App {
         // ask for a frame at once, again and again.
         let wait = wait.max(Duration::from_millis(5));
         ctx.request_repaint_after_for(wait, egui::ViewportId::ROOT);
-    }
-
-    /// When a pass under way began, for the unit: it may not lie in the past.
-    pub(super) fn track_from(&self, aos: jiff::Timestamp) -> jiff::Timestamp {
-        aos.max(add_seconds(self.model.now, -1.0))
     }
 }

@@ -17,11 +17,11 @@ mod select;
 use jiff::Timestamp;
 
 pub use choice::{Chosen, ChosenObject};
-pub(super) use desk::Desk;
+pub(super) use desk::{Desk, Told};
 pub use order::{Cargo, Order};
 pub use places::Places;
 pub use select::Busy;
-pub(super) use select::{Selection, UnitNow};
+pub(super) use select::UnitNow;
 
 use super::host_keys::DoubtfulKey;
 use crate::driver::files::{FileObject, KeptFile, Progress, Uploaded};

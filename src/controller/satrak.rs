@@ -5,6 +5,7 @@ mod changes;
 mod device;
 mod exchange;
 mod kind;
+mod on_board;
 mod prepare;
 mod record;
 mod schedule;

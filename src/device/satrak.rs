@@ -2,7 +2,9 @@
 
 use jiff::Timestamp;
 
-use crate::protocol::satrak::{Faults, GpsData, Satellite, Settings, StartStopTime, Version};
+use crate::protocol::satrak::{
+    Faults, GpsData, GpsSettings, Satellite, Settings, StartStopTime, Version,
+};
 
 /// What the unit reported, each part as last read. `None` means not read.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,10 +24,15 @@ pub struct SatrakState {
     pub clock_from_gps: Option<bool>,
     /// The GPS receiver.
     pub gps: Option<GpsData>,
+    /// Whether the unit uses the place of its receiver.
+    pub gps_settings: Option<GpsSettings>,
     /// The general settings.
     pub settings: Option<Settings>,
     /// The satellite that the unit holds.
     pub satellite: Option<Satellite>,
+    /// The satellite was read after the window was seen to change: its highest
+    /// elevation is that of this window.
+    pub height_is_of_window: bool,
     /// When it tracks.
     pub window: Option<StartStopTime>,
 }

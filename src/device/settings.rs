@@ -4,6 +4,7 @@
 mod copy;
 mod field;
 mod held;
+mod hindrance;
 mod settling;
 mod value;
 
@@ -13,5 +14,6 @@ pub use field::{Access, Field, Group, Guard, Kind};
 pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
 };
+pub use hindrance::Hindrance;
 pub(crate) use settling::{Settling, Step};
 pub use value::{Unfit, Value, Values};

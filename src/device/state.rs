@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
-    Moment, SatrakState,
+    Moment, OnBoard, SatrakState,
     panel::{Check, Reading},
     settings::{Change, GroupState, Held, SettleError, Settled},
 };
@@ -34,6 +34,8 @@ pub struct AntennaState {
     pub checks: Arc<[Check]>,
     /// When [`Self::checks`] were read.
     pub checked_at: Option<Timestamp>,
+    /// What it goes by when it tracks by itself.
+    pub on_board: OnBoard,
     /// What a Satrak adds to the above.
     pub satrak: SatrakState,
     /// Its settings, as far as they were read, and what came of changes.

@@ -4,18 +4,27 @@
 //! [`Device`] side, so no other code can start a motion. A new rule, such as a
 //! keep-out, is one more entry of [`RULES`].
 
+mod program;
 mod rules;
+mod settings;
 mod way;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
     controller::{
         AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
+        settings::Hindrance,
     },
-    plan::{Barrier, Bounds, Sweep},
+    plan::{
+        Barrier, Bounds, Sweep,
+        on_board::{Judge, Trespass},
+    },
     station::{LockOut, MotionLimits, Mount},
 };
 use rules::RULES;
@@ -128,6 +137,30 @@ pub enum Refusal {
     /// No dead-man can be had, so nothing would end it if this program ended.
     #[error("nothing would stop it if this program ended")]
     Unguarded,
+    /// The pass that the unit is to track by itself is not known.
+    #[error("the pass is not known")]
+    PassUnknown,
+    /// The pass does not get up to where the antenna may point.
+    #[error(
+        "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
+    )]
+    TooLow {
+        /// Its greatest elevation.
+        highest_deg: f64,
+        /// The lowest elevation of the antenna.
+        lowest_deg: f64,
+    },
+    /// The unit's own program would lead where the antenna must not point.
+    #[error("the program of the unit leads to {0:?}")]
+    Path(Trespass),
+    /// A setting that decides where the antenna points, at a bad time.
+    #[error("{field} is not set: {why}")]
+    Setting {
+        /// Its label.
+        field: &'static str,
+        /// Why not now.
+        why: Hindrance,
+    },
 }
 
 impl From<&LockOut> for Refusal {
@@ -166,6 +199,8 @@ pub(super) struct Gate {
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
     unproved_since: Option<Instant>,
+    /// The pass that the device's own program is started on.
+    program: Option<Arc<Judge>>,
 }
 
 impl Gate {
@@ -180,6 +215,7 @@ impl Gate {
             to_deg: None,
             lock_out: None,
             unproved_since: None,
+            program: None,
         }
     }
 
@@ -269,6 +305,9 @@ impl Gate {
         let told = self.controller.as_told(motion);
         RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
         way::is_clear(&told, &situation)?;
+        if motion == Motion::StartProgram {
+            self.program_is_clear(now)?;
+        }
         self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
     }
 

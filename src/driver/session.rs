@@ -13,6 +13,8 @@ mod liveness;
 mod lock_out;
 mod marking;
 mod monitor;
+mod on_board;
+mod settle;
 mod standstill;
 mod step;
 mod supervise;
@@ -37,7 +39,7 @@ use super::{
 };
 use crate::{
     controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
-    plan::Bounds,
+    plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
 use command::{Leg, Waiting};
@@ -117,6 +119,8 @@ pub struct Session {
     park: Pointing,
     /// How it follows.
     manner: Manner,
+    /// What it must keep to while the unit tracks by itself.
+    ability: Ability,
     wanted: Wanted,
     dial: Dial,
     clock: Clock,
@@ -150,6 +154,8 @@ pub struct Session {
     /// The leg of a go-to that is under way, before the last one.
     leg: Option<Leg>,
     target: Option<TrackTarget>,
+    /// The watch over what the unit tracks by itself.
+    on_board: Option<on_board::Watch>,
     /// What this program follows, position by position.
     following: Option<Following>,
     jog: Option<Jog>,
@@ -206,6 +212,7 @@ impl Session {
             make,
             park: antenna.park_direction().into(),
             manner: Manner::of(antenna, make.capabilities),
+            ability: Ability::of(antenna),
             wanted,
             dial,
             clock,
@@ -230,6 +237,7 @@ impl Session {
             aim: None,
             leg: None,
             target: None,
+            on_board: None,
             following: None,
             jog: None,
             ended_hold: None,
@@ -263,6 +271,7 @@ impl Session {
             pending: self.pending.is_some(),
             aim: self.aim,
             target: self.target.clone(),
+            on_board: self.on_board.as_ref().map(on_board::Watch::view),
             following: self.following.as_ref().map(Following::view),
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),

@@ -9,12 +9,13 @@ use jiff::Timestamp;
 
 use super::{Intent, Refusal, Safety};
 use crate::{
+    astro::Angle,
     controller::{
-        AntennaState, Motion, Pointing, PrepareError, TrackTarget,
-        settings::{GroupState, Held},
+        AntennaState, Capabilities, Motion, Pointing, PrepareError, TrackTarget,
+        settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
-    plan::{FollowPhase, FollowStats, Sample},
+    plan::{FollowPhase, FollowStats, Sample, Supervision},
     station::LockOut,
 };
 
@@ -31,6 +32,8 @@ pub struct Snapshot {
     pub aim: Option<Pointing>,
     /// What is to be tracked.
     pub target: Option<TrackTarget>,
+    /// How the unit tracks it by itself.
+    pub on_board: Option<OnBoardView>,
     /// What this program follows with it, position by position.
     pub following: Option<FollowView>,
     /// It was moved from here, or a stop is owed, and standstill is not proved
@@ -64,6 +67,7 @@ impl Snapshot {
             pending: false,
             aim: None,
             target: None,
+            on_board: None,
             following: None,
             unproved: false,
             lock_out: None,
@@ -85,6 +89,20 @@ impl Snapshot {
     pub fn wants_stop(&self) -> bool {
         let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
         self.link != LinkState::Off || self.unproved || owed
+    }
+
+    /// Why the gate would refuse a setting that decides where the antenna points,
+    /// at `now`.
+    pub fn hindrance(&self, can: Capabilities, now: Instant) -> Option<Hindrance> {
+        if matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
+            return Some(Hindrance::Stopping);
+        }
+        let told = self.pending
+            || self.intent == Intent::Track
+            || self.following.is_some()
+            || self.jog.is_some()
+            || self.step.is_some();
+        Hindrance::of(&self.state, can, now).or(told.then_some(Hindrance::Moves))
     }
 
     /// Whether nothing but ages and counters differ. The window shows those
@@ -110,6 +128,7 @@ impl Snapshot {
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.satrak.clock = self.state.satrak.clock;
         newer.state.satrak.gps = self.state.satrak.gps;
+        newer.state.on_board.clock_ahead_s = self.state.on_board.clock_ahead_s;
         if let (Some(old), Some(new)) = (&self.following, &mut newer.following) {
             new.next_look = old.next_look;
             new.stats = old.stats;
@@ -130,6 +149,16 @@ fn same_settings(old: &Held, new: &Held) -> bool {
         (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
+}
+
+/// What the unit tracks by itself, and how well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnBoardView {
+    /// How it will follow by what it tells of itself.
+    pub found: Arc<Supervision>,
+    /// How far it is off the satellite, where that has lasted longer than turning to
+    /// it explains.
+    pub missing: Option<Angle>,
 }
 
 /// What is followed position by position, and how well.
@@ -257,6 +286,13 @@ pub enum Event {
     Unanswered(Motion),
     /// A satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
+    /// By what the device tells of itself it would miss the satellite of this name.
+    WouldMiss {
+        /// Name of the satellite.
+        name: String,
+        /// By how much and why.
+        found: Arc<Supervision>,
+    },
     /// The device tracks.
     Tracking(TrackTarget),
     /// The device has ended tracking by itself.

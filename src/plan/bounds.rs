@@ -153,6 +153,20 @@ impl Bounds {
             .min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()))
     }
 
+    /// The keep-out or the surroundings of the Sun that a direction is in.
+    pub fn forbids(&self, direction: AzEl, at: Timestamp) -> Option<Barrier> {
+        self.above_the_floor()
+            .nearest(direction, at)
+            .filter(|it| it.angle < Angle::ZERO)
+            .map(|it| it.barrier)
+    }
+
+    /// The same without the minimum elevation, for a unit that keeps to its own.
+    #[must_use]
+    pub fn above_the_floor(&self) -> Self {
+        Self { minimum_elevation: None, ..self.clone() }
+    }
+
     /// The first barrier that the axes may come into within `sweep`, and a
     /// direction in it. From a `start` below the minimum elevation nothing may lead
     /// lower than that.

@@ -169,6 +169,8 @@ pub enum CardAction {
     TrackSelected,
     /// Track what STOP has ended.
     TrackAgain,
+    /// Track the selected satellite although the unit would miss it.
+    TrackAnyway,
     /// Follow this position by position.
     Follow(FollowChoice),
     /// Let the unit start passes by itself, or not.

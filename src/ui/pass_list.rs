@@ -74,6 +74,8 @@ pub enum Verdict<'a> {
         /// Where that begins.
         at: Loss,
     },
+    /// The mount follows, but the unit would miss by what it tells of itself.
+    Misses,
     /// Nothing: a sentence such as "Not possible: stays below the travel".
     NotPossible(&'a str),
     /// Nothing for now: the unit is worked on.
@@ -104,6 +106,7 @@ impl<'a> Verdict<'a> {
     fn sentence(self) -> Cow<'a, str> {
         match self {
             Self::Trackable => "Trackable".into(),
+            Self::Misses => "The unit would miss".into(),
             Self::NotPossible(sentence) => sentence.into(),
             Self::InMaintenance => "In maintenance".into(),
             Self::Loses { seconds, at } => {

@@ -3,12 +3,14 @@
 
 mod alarms;
 mod faults;
+mod on_board;
 mod refusals;
 mod safety;
 
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
-pub use refusals::{answer, follow_problem, link_loss, prepare_error, refusal};
+pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
+pub use refusals::{answer, follow_problem, hindrance, link_loss, prepare_error, refusal};
 pub use safety::{forbidden, safety};
 
 use crate::{app::antenna::Stake, controller::Motion, driver::Intent, makes};

@@ -8,7 +8,7 @@ use azel::{
 };
 
 use super::{
-    scene::iss,
+    scene::{iss, track},
     script::{STILL, Scripted, plain},
 };
 
@@ -117,7 +117,7 @@ async fn a_setting_without_a_reply_is_not_sent_again() {
     }));
     unit.seconds(1.0).await;
     unit.events();
-    unit.handle.send(Command::Track(iss())).unwrap();
+    unit.handle.send(track(iss())).unwrap();
     unit.seconds(20.0).await;
     assert_eq!(unit.sent("SATELLITE=").len(), 1);
     assert_eq!(unit.sent("TRACK="), [""; 0]);
@@ -177,7 +177,7 @@ async fn a_program_that_is_accepted_and_never_starts_is_told() {
     }));
     unit.seconds(1.0).await;
     unit.events();
-    unit.handle.send(Command::Track(target)).unwrap();
+    unit.handle.send(track(target)).unwrap();
     unit.seconds(14.0).await;
     let shown = unit.handle.snapshot();
     assert_eq!((shown.intent, shown.pending), (Intent::Track, true));

@@ -12,7 +12,7 @@ use azel::{
 };
 
 use super::{
-    rig::{Rig, iss},
+    rig::{Rig, iss, track},
     settings::{change, read, settle, text},
 };
 
@@ -89,7 +89,7 @@ async fn all_of_them_reach_the_unit_as_documented() {
     rig.stop();
     rig.seconds(10.0).await;
     rig.events();
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(30, |event| matches!(event, Event::Tracking(_))).await;
     rig.send(Command::AutoTrack(true));
     rig.seconds(2.0).await;

@@ -9,7 +9,7 @@ use azel::{
 };
 use tokio::time::{Instant, timeout};
 
-use super::rig::{Rig, iss};
+use super::rig::{Rig, iss, track};
 
 /// A turn of the loop reads the clock a few times, and each question and its
 /// reply are a turn each.
@@ -67,7 +67,7 @@ async fn while_a_motion_to_a_position_has_no_answer() {
 #[tokio::test(start_paused = true)]
 async fn while_a_track_is_pending_and_while_it_waits_for_its_pass() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     assert_calm(&mut rig, 1, "in preparation").await;
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     assert_calm(&mut rig, 20, "before the pass").await;
@@ -77,7 +77,7 @@ async fn while_a_track_is_pending_and_while_it_waits_for_its_pass() {
 async fn while_a_track_is_prepared_without_an_answer() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::DropReply, true);
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     assert_calm(&mut rig, 30, "in preparation, with lost replies").await;
 }
 

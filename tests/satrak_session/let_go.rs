@@ -2,7 +2,7 @@
 
 use azel::driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState};
 
-use super::rig::{Rig, iss};
+use super::rig::{Rig, iss, track};
 
 async fn let_go(rig: &mut Rig) {
     rig.send(Command::Disconnect);
@@ -65,7 +65,7 @@ async fn a_jog_ends_before_the_unit_is_let_go_and_tracking_on_board_goes_on() {
     rig.send(Command::Connect);
     rig.until_up(3).await;
     rig.seconds(3.0).await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     let orders = rig.orders().len();
     let_go(&mut rig).await;

@@ -15,7 +15,7 @@ use azel::{
 
 use super::{
     rig::{Rig, antenna, iss, options},
-    scene::site,
+    scene::{site, track},
     script::{STILL, Scripted, plain},
     settings::{change, read, text},
 };
@@ -55,7 +55,7 @@ fn commands() -> Vec<Command> {
         Command::Jog { rates_deg_s: [1.0, 0.0] },
         Command::Step { steps_deg: [1.0, 0.0] },
         Command::Position { azimuth: angle(74.0), elevation: angle(60.0) },
-        Command::Track(iss()),
+        track(iss()),
         Command::Follow(Box::new(follow)),
         Command::Park,
         Command::AutoTrack(true),
@@ -107,7 +107,7 @@ async fn every_command_is_refused_and_nothing_but_questions_and_stop_goes_out() 
 #[tokio::test(start_paused = true)]
 async fn what_moves_is_stopped_and_auto_track_is_off_before_it_counts_as_locked_out() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(30, |event| matches!(event, Event::Tracking(_))).await;
     rig.send(Command::AutoTrack(true));
     rig.until("auto-track", 5, |shown| shown.state.program.unwrap().auto == Some(true)).await;

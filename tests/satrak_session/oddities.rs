@@ -8,7 +8,7 @@ use azel::{
     sim::satrak::{Fault, Options, Quirk},
 };
 
-use super::rig::{Rig, antenna, iss, options};
+use super::rig::{Rig, antenna, iss, options, track};
 
 const AIM_DEG: (f64, f64) = (100.0, 50.0);
 
@@ -82,7 +82,7 @@ async fn all_harmless_oddities_together_are_taken() {
     let faults = [Fault::Unsolicited, Fault::Garbage, Fault::Split];
     let mut rig = half_a_minute(&quirks, &faults).await;
     assert_arrived(&mut rig, "all");
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(20, |event| matches!(event, Event::Tracking(_))).await;
     rig.stop();
     rig.until_event(4, |event| *event == Event::Stopped).await;

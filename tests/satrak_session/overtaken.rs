@@ -6,7 +6,7 @@ use azel::{
     sim::satrak::Fault,
 };
 
-use super::rig::{Rig, iss, twin};
+use super::rig::{Rig, iss, track, twin};
 
 fn position() -> Command {
     Command::Position {
@@ -21,7 +21,7 @@ async fn what_waits_in_the_queue_when_stop_is_pressed_is_never_sent() {
     // The session has no turn between these.
     rig.send(Command::AutoTrack(true));
     rig.send(position());
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.stop();
     rig.until("stopped", 2, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
     rig.seconds(20.0).await;
@@ -74,13 +74,13 @@ async fn a_track_that_replaces_one_in_preparation_is_the_only_one_that_starts() 
     let mut replaced = 0;
     for pause_ms in (0..200).step_by(10) {
         let mut rig = Rig::usual().await;
-        rig.send(Command::Track(iss()));
+        rig.send(track(iss()));
         rig.seconds(f64::from(pause_ms) / 1000.0).await;
         if !rig.sent("TRACK=,1").is_empty() {
             continue;
         }
         replaced += 1;
-        rig.send(Command::Track(twin()));
+        rig.send(track(twin()));
         let told = rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
         assert_eq!(told, Event::Tracking(twin()), "after {pause_ms} ms");
         rig.seconds(20.0).await;

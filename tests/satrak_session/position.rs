@@ -7,7 +7,7 @@ use azel::{
     sim::satrak::Fault,
 };
 
-use super::rig::{Rig, antenna, iss, options};
+use super::rig::{Rig, antenna, iss, options, track};
 
 fn position(azimuth_deg: Option<f64>, elevation_deg: Option<f64>) -> Command {
     Command::Position {
@@ -121,7 +121,7 @@ async fn park_goes_to_the_park_position_and_stays_there() {
 #[tokio::test(start_paused = true)]
 async fn a_position_while_tracking_stops_first() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     rig.seconds(60.0).await;
     let before = rig.orders().len();

@@ -7,11 +7,11 @@ use azel::{
     sim::satrak::Fault,
 };
 
-use super::rig::{Rig, antenna, iss, options};
+use super::rig::{Rig, antenna, iss, options, track};
 
 async fn tracking() -> Rig {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     rig.seconds(100.0).await;
     rig.events();
@@ -88,7 +88,7 @@ async fn commands_without_a_link_are_told_and_not_kept_for_later() {
     rig.set_off(true);
     rig.seconds(0.1).await;
     rig.events();
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.send(Command::Park);
     rig.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
     rig.seconds(0.1).await;
@@ -148,7 +148,7 @@ async fn a_motion_to_a_position_is_watched_on_after_a_lost_link() {
 #[tokio::test(start_paused = true)]
 async fn a_link_lost_while_a_track_is_prepared_ends_the_intent_with_the_reason() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.seconds(0.05).await;
     rig.control.drop_clients();
     let told = rig.until_event(3, |event| matches!(event, Event::CannotTrack(..))).await;

@@ -17,7 +17,7 @@ use azel::{
 use tokio::time::{Instant, sleep};
 
 use super::scene::session;
-pub(super) use super::scene::{antenna, iss, options, twin};
+pub(super) use super::scene::{antenna, iss, options, track, twin};
 
 /// How finely the operator looks.
 const LOOK: Duration = Duration::from_millis(10);

@@ -11,8 +11,9 @@ use std::{
 use azel::{
     astro::{Angle, Site, time},
     controller::{TrackTarget, satrak::Satrak},
-    driver::{AntennaHandle, Clock, Dial, Session},
+    driver::{AntennaHandle, Clock, Command, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
+    plan::OnBoardPass,
     sim::satrak::Options,
     station::Antenna,
 };
@@ -64,6 +65,16 @@ pub(super) fn iss() -> TrackTarget {
         from: pass.aos.time,
         until: pass.los.time,
     }
+}
+
+/// Tracks `target`, with the elements of both on the same orbit.
+pub(super) fn track(target: TrackTarget) -> Command {
+    Command::Track(Box::new(on_board(target)))
+}
+
+pub(super) fn on_board(target: TrackTarget) -> OnBoardPass {
+    let elements = elements().swap_remove(usize::from(target.catalog_number == 25_545));
+    OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
 
 /// The other satellite on the same orbit.

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::settings::{Change, SettleError, SettleStep, Value},
+    controller::settings::{Change, Hindrance, SettleError, SettleStep, Value},
     driver::{Command, Snapshot},
     protocol::satrak::encode,
     sim::satrak::Fault,
@@ -177,7 +177,8 @@ async fn metal_that_moves_forbids_service_and_the_clock() {
     rig.hold([1.0, 0.0], 3.0).await;
     let shown = rig.shown();
     let settled = shown.state.held["reduction"].settled.as_ref().unwrap();
-    assert_eq!(settled.result, Err(SettleError::Moving));
+    let moves = SettleError::Hindered { field: "x", hindrance: Hindrance::Moves };
+    assert_eq!(settled.result, Err(moves));
     assert!(rig.sent("REDUCTION=").is_empty());
     rig.stop();
     rig.seconds(5.0).await;

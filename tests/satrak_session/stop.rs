@@ -6,7 +6,7 @@ use azel::{
     sim::satrak::Fault,
 };
 
-use super::rig::{Rig, iss};
+use super::rig::{Rig, iss, track};
 
 fn position(azimuth_deg: f64, elevation_deg: f64) -> Command {
     Command::Position {
@@ -21,7 +21,7 @@ fn is_stopping(stop: StopState) -> bool {
 
 async fn tracking() -> Rig {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     rig.seconds(100.0).await;
     assert!(rig.control.state().is_moving && rig.control.state().is_tracking);
@@ -77,7 +77,7 @@ async fn a_stop_ends_tracking_for_good() {
 #[tokio::test(start_paused = true)]
 async fn a_stop_while_a_track_is_prepared_ends_the_preparation() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.seconds(0.05).await;
     rig.stop();
     rig.seconds(20.0).await;

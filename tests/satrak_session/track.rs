@@ -1,12 +1,12 @@
 //! Following a satellite with the unit's own program.
 
 use azel::{
-    controller::{Motion, Phase, PrepareError, TrackTarget},
+    controller::{Phase, PrepareError, TrackTarget},
     driver::{Command, Event, Intent},
 };
 use jiff::SignedDuration;
 
-use super::rig::{Rig, antenna, iss, options, twin};
+use super::rig::{Rig, antenna, iss, options, track, twin};
 
 fn window_of(target: &TrackTarget) -> String {
     let text = |time| {
@@ -25,7 +25,7 @@ fn steps(rig: &Rig) -> Vec<String> {
 }
 
 async fn tracking(rig: &mut Rig, target: &TrackTarget) {
-    rig.send(Command::Track(target.clone()));
+    rig.send(track(target.clone()));
     let told = rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     assert_eq!(told, Event::Tracking(target.clone()));
 }
@@ -33,7 +33,7 @@ async fn tracking(rig: &mut Rig, target: &TrackTarget) {
 #[tokio::test(start_paused = true)]
 async fn every_step_is_read_back_before_the_program_starts() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Track(iss()));
+    rig.send(track(iss()));
     rig.seconds(0.02).await;
     let shown = rig.shown();
     assert_eq!((shown.intent, shown.pending), (Intent::Track, true));
@@ -80,7 +80,7 @@ async fn at_the_end_of_the_window_the_operator_is_back_in_standby() {
 async fn a_satellite_that_the_unit_does_not_have_is_told_and_nothing_moves() {
     let mut rig = Rig::usual().await;
     let unknown = TrackTarget { catalog_number: 7530, name: "AO-7".into(), ..iss() };
-    rig.send(Command::Track(unknown.clone()));
+    rig.send(track(unknown.clone()));
     let told = rig.until_event(10, |event| matches!(event, Event::CannotTrack(..))).await;
     let reason = PrepareError::NotOnDevice { file: "stations.txt".into() };
     assert_eq!(told, Event::CannotTrack(unknown, reason));
@@ -95,21 +95,22 @@ async fn a_satellite_that_the_unit_does_not_have_is_told_and_nothing_moves() {
 async fn a_name_that_the_protocol_cannot_carry_is_told() {
     let mut rig = Rig::usual().await;
     let odd = TrackTarget { name: "AO-7, OSCAR 7".into(), ..iss() };
-    rig.send(Command::Track(odd));
+    rig.send(track(odd));
     let told = rig.until_event(10, |event| matches!(event, Event::CannotTrack(..))).await;
     assert!(matches!(told, Event::CannotTrack(_, PrepareError::CannotBeSent(_))), "{told:?}");
     assert_eq!(rig.orders(), ["STOP="]);
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_pass_that_is_over_is_refused_by_the_unit_and_told() {
+async fn a_pass_at_another_time_is_refused_for_where_it_leads() {
     let mut rig = Rig::usual().await;
     let hour = SignedDuration::from_hours(1);
     let over = TrackTarget { from: iss().from - hour, until: iss().until - hour, ..iss() };
-    rig.send(Command::Track(over));
-    let told = rig.until_event(10, |event| matches!(event, Event::Refused(..))).await;
-    assert_eq!(told, Event::Refused(Motion::StartProgram, "5".into()));
-    assert_eq!(rig.shown().intent, Intent::Standby);
+    rig.send(track(over));
+    let told = rig.until_event(10, |event| matches!(event, Event::WouldMiss { .. })).await;
+    let Event::WouldMiss { found, .. } = told else { panic!("{told:?}") };
+    assert!(found.worst.off.degrees() > 10.0, "the satellite is below the horizon: {found:?}");
+    assert_eq!((rig.shown().intent, rig.orders()), (Intent::Standby, vec![]));
     rig.seconds(5.0).await;
     assert!(!rig.control.state().is_moving);
 }
@@ -139,7 +140,7 @@ async fn a_change_of_mind_during_the_preparation_tracks_the_last_choice() {
         tracking(&mut rig, &twin()).await;
         rig.stop();
         rig.until_event(3, |event| *event == Event::Stopped).await;
-        rig.send(Command::Track(iss()));
+        rig.send(track(iss()));
         rig.seconds(f64::from(pause_ms) / 1000.0).await;
         rig.events();
         tracking(&mut rig, &twin()).await;

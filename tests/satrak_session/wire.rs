@@ -78,7 +78,7 @@ async fn damaged_lines_are_recorded_with_what_is_wrong() {
     let bad: Vec<_> =
         lines.iter().filter(|l| matches!(l.finding, Finding::BadChecksum { .. })).collect();
     assert_eq!(bad.len() as u64, rig.shown().state.traffic.damaged);
-    assert!(bad.iter().any(|line| line_text(line).starts_with("$STATUS?,0,")), "numbers are shown");
+    assert!(bad.iter().any(|line| line_text(line).contains("?,")), "values are shown");
     let no_reply = |line: &&WireLine| matches!(line.finding, Finding::NoReply { .. });
     let missing = lines.iter().filter(no_reply).count();
     assert_eq!(missing as u64, rig.shown().state.traffic.unanswered);

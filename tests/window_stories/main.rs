@@ -23,6 +23,7 @@ mod keys;
 mod maintenance;
 mod makes;
 mod mask;
+mod on_board;
 mod panel;
 mod panel_layout;
 mod panel_more;

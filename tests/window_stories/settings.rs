@@ -108,6 +108,36 @@ fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
 }
 
 #[test]
+fn apply_waits_with_a_setting_that_points_until_the_antenna_may_be_pointed() {
+    for (is_on, auto, why) in [
+        (true, Some(false), "The unit tracks: stop it first."),
+        (false, Some(true), "Auto-track is on: switch it off first."),
+    ] {
+        let mut snapshot = read();
+        let program = snapshot.state.program.as_mut().unwrap();
+        (program.enabled, program.auto) = (is_on, auto);
+        let mut window = desk(LARGE, snapshot);
+        choose(&mut window, "SSPA auto rule", "Both");
+        assert!(!says(&window, why), "the transmitter points nowhere");
+        write(&mut window, "Elevation offset", "10");
+        assert!(says(&window, why));
+        apply(&mut window);
+        assert_eq!(asked(&mut window), []);
+        let name = "Elevation offset, new value";
+        let field = window.get_by_role_and_label(Role::TextInput, name);
+        assert_eq!(field.value().as_deref(), Some("10"), "the typing stays");
+        change(&mut window, 0, |snapshot| {
+            let program = snapshot.state.program.as_mut().unwrap();
+            (program.enabled, program.auto) = (false, Some(false));
+        });
+        assert!(!says(&window, why));
+        apply(&mut window);
+        let changes = settles(asked(&mut window));
+        assert_eq!(changes[0].values.get("elevation_offset_deg"), Some(&Value::Decimal(10.0)));
+    }
+}
+
+#[test]
 fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
     for size in SIZES {
         let mut window = desk(size, read());

@@ -21,7 +21,7 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
     assert_eq!(state_of(&window, "Stop"), "Edited");
     apply(&mut window);
     let values = settles(asked(&mut window)).remove(0).values;
-    let stop = Value::Time("2026-08-12T11:21:27Z".parse().unwrap());
+    let stop = Value::Time("2026-08-12T11:21:26Z".parse().unwrap());
     // The pass is under way, and its start on the unit already.
     assert_eq!(values, [("stop", stop)].into());
 }

@@ -1,7 +1,7 @@
 //! The hands of the operator in the Antennas view, on a model made by hand and
 //! on the real app.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use azel::{
     app::View,
@@ -54,7 +54,7 @@ pub(crate) fn held() -> Held {
 /// A unit that stands and is read.
 pub(crate) fn read() -> Snapshot {
     let mut snapshot = states::holding();
-    snapshot.state.link_since = Some(Instant::now());
+    snapshot.state.link_since = snapshot.state.measured.map(|measured| measured.asked);
     snapshot.state.held = Arc::new(held());
     snapshot
 }

@@ -122,7 +122,7 @@ fn a_wrong_password_is_told_and_without_a_keyring_it_is_said_how_long_it_lasts()
 #[test]
 fn the_operator_agrees_before_the_unit_s_tracking_ends() {
     for (busy, words) in
-        [(Busy::Tracks, "Its tracking ends"), (Busy::MayTrack, "the antenna may move")]
+        [(Busy::Tracks, "Its tracking is stopped"), (Busy::MayTrack, "the antenna may move")]
     {
         let mut window = part(WIDTHS[0], at(Stage::AsksAboutTracking(busy)));
         assert!(says(&window, words));

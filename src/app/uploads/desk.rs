@@ -22,6 +22,14 @@ use crate::{
 /// not, the operator is told rather than left waiting.
 const SELECTING: Duration = Duration::from_secs(90);
 
+/// What the session of an antenna is told.
+pub(in crate::app) enum Told {
+    /// To end tracking, and not to begin it by itself.
+    Rest,
+    /// To use a file.
+    Use(Selection),
+}
+
 /// The one place of orders.
 pub(in crate::app) struct Desk {
     places: Option<Places>,
@@ -57,7 +65,7 @@ impl Desk {
         ask: Ask,
         unit_of: impl Fn(&str) -> UnitNow,
         shown: &mut Uploads,
-    ) -> Option<Selection> {
+    ) -> Option<Told> {
         let next = match ask {
             Ask::Begin(order) => {
                 let unit = unit_of(&order.antenna);
@@ -101,7 +109,7 @@ impl Desk {
         unit: &UnitNow,
         steady: Instant,
         shown: &mut Uploads,
-    ) -> Option<Selection> {
+    ) -> Option<Told> {
         match Job::take(&mut self.listing) {
             Some(Ok(kept)) => shown.kept = kept,
             Some(Err(broke_off)) => shown.kept.list = Some(Err(broke_off.to_string())),
@@ -113,7 +121,8 @@ impl Desk {
         self.watch_selection(unit, steady, shown);
         let decided = take(&mut self.deciding).and_then(|result| self.flow.decided(result, shown));
         let reported = self.poll_transfer(unit, shown);
-        self.carry_out(decided.or(reported), shown)
+        let next = decided.or(reported).or_else(|| self.flow.rested(unit));
+        self.carry_out(next, shown)
     }
 
     fn poll_transfer(&mut self, unit: &UnitNow, shown: &mut Uploads) -> Option<Next> {
@@ -159,7 +168,7 @@ impl Desk {
         self.flow.selected(Err(text), self.clock.utc(), shown);
     }
 
-    fn carry_out(&mut self, next: Option<Next>, shown: &mut Uploads) -> Option<Selection> {
+    fn carry_out(&mut self, next: Option<Next>, shown: &mut Uploads) -> Option<Told> {
         let next = next?;
         let Some(places) = &self.places else {
             let text = "this user has no folder for data".to_owned();
@@ -167,7 +176,8 @@ impl Desk {
         };
         let wake = Arc::clone(&self.wake);
         let started = match next {
-            Next::Select(selection) => return Some(selection),
+            Next::Rest => return Some(Told::Rest),
+            Next::Select(selection) => return Some(Told::Use(selection)),
             Next::Run(errand) => errand::start(*errand, places, &self.clock, wake)
                 .map(|transfer| self.transfer = Some(transfer)),
             Next::Decide(decision) => host_keys::decide(&places.known_hosts, decision, wake)
@@ -179,7 +189,7 @@ impl Desk {
         }
     }
 
-    fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<Selection> {
+    fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<Told> {
         let unit = UnitNow::default();
         // A failure leads to nothing more.
         let _ = self.flow.reported(Report::failed(text), &unit, shown);

@@ -20,6 +20,9 @@ pub(super) enum Next {
     Run(Box<Errand>),
     /// What the operator has decided about a host key.
     Decide(Decision),
+    /// The unit is to end tracking, and not to begin it by itself: what decides
+    /// where it points passes the gate at rest.
+    Rest,
     /// The unit is to use this.
     Select(Selection),
 }
@@ -39,6 +42,8 @@ pub(super) struct Flow {
     /// On the unit, which does not use it yet.
     uploaded: Option<Box<Uploaded>>,
     selection: Option<Selection>,
+    /// The selection waits until the unit is at rest.
+    awaits_rest: bool,
     selections: u64,
 }
 
@@ -250,7 +255,18 @@ impl Flow {
         let selection = Selection { ticket, since: unit.at, file, satellite };
         self.selection = Some(selection.clone());
         shown.stage = Stage::Selecting(uploaded);
-        Some(Next::Select(selection))
+        self.awaits_rest = unit.busy.is_some();
+        Some(if self.awaits_rest { Next::Rest } else { Next::Select(selection) })
+    }
+
+    /// Goes on once the unit is at rest.
+    pub(super) fn rested(&mut self, unit: &UnitNow) -> Option<Next> {
+        self.awaits_rest &= self.selection.is_some();
+        if !self.awaits_rest || unit.hindrance.is_some() {
+            return None;
+        }
+        self.awaits_rest = false;
+        self.selection.clone().map(Next::Select)
     }
 
     /// Takes the unit's answer, if it is here.

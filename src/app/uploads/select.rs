@@ -1,12 +1,12 @@
 //! Tells a unit to use a file that was put on it.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 use jiff::Timestamp;
 
 use crate::{
     app::antenna::AntennaModel,
-    controller::settings::{Change, HeldGroup, Settled, Value},
+    controller::settings::{Change, HeldGroup, Hindrance, Settled, Value},
     driver::{
         self,
         files::{FileObject, Uploaded},
@@ -22,9 +22,9 @@ pub(super) const TICKETS: u64 = 1 << 63;
 /// Why the operator has to agree before a unit is told to use a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Busy {
-    /// It tracks, which will end.
+    /// It tracks. It is stopped.
     Tracks,
-    /// Its auto-track is on: it may begin to track the satellite by itself.
+    /// Its auto-track is on: it may begin to track by itself. It is switched off.
     MayTrack,
 }
 
@@ -48,6 +48,8 @@ pub(in crate::app) struct UnitNow {
     pub(super) busy: Option<Busy>,
     /// It is locked out for maintenance: by whom and why.
     pub(super) locked_out: Option<String>,
+    /// Why the driver would not tell it to use a file now.
+    pub(super) hindrance: Option<Hindrance>,
     /// The catalogue number of the satellite that it holds.
     pub(super) held: Option<u32>,
     /// The last selection that is over.
@@ -66,7 +68,11 @@ pub(super) struct Answer {
 
 impl UnitNow {
     /// As the session of `antenna` knows it.
-    pub(in crate::app) fn of(antenna: Option<&AntennaModel>, at: Timestamp) -> Self {
+    pub(in crate::app) fn of(
+        antenna: Option<&AntennaModel>,
+        at: Timestamp,
+        steady: Instant,
+    ) -> Self {
         let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
         let state = &antenna.snapshot.state;
         let group = state.held.get(GROUP);
@@ -80,7 +86,8 @@ impl UnitNow {
         let held = state.satrak.satellite.as_ref().map(|held| held.catalog_number);
         let locked_out = antenna.snapshot.lock_out.as_ref();
         let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
-        Self { at, busy: Busy::of(antenna), locked_out, held, answer }
+        let hindrance = antenna.snapshot.hindrance(antenna.make().capabilities, steady);
+        Self { at, busy: Busy::of(antenna), locked_out, hindrance, held, answer }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::{
         AntennaState, Capabilities, Device, Extent, Finding, Happening, Moment, Motion, Moves,
         PrepareError, Question, TrackTarget, WireLine,
         panel::Act,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError},
     },
     protocol::rc2000c::{
         Decoder, Motion as UnitMotion, PolarizationMotion, Request, Speed, Status,
@@ -121,11 +121,6 @@ impl Device for Rc2000c {
         self.line.halt_wait()
     }
 
-    fn prepare(&mut self, target: TrackTarget) {
-        let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
-        self.happenings.push_back(Happening::NotPrepared(target, reason));
-    }
-
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
     }
@@ -136,7 +131,7 @@ impl Device for Rc2000c {
 
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
 
     fn lock_changes(&mut self, _: bool) {}
 
@@ -189,6 +184,13 @@ impl Rc2000c {
 }
 
 impl Moves for Rc2000c {
+    fn prepare(&mut self, target: TrackTarget) {
+        let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
+        self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn start(&mut self, motion: Motion) {
         // A newer wish replaces one that has not gone out yet.
         self.orders.clear();

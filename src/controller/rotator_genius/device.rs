@@ -107,11 +107,6 @@ impl Device for Genius {
         self.is_rescue_wanted = false;
     }
 
-    fn prepare(&mut self, target: TrackTarget) {
-        let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
-        self.happenings.push_back(Happening::NotPrepared(target, reason));
-    }
-
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
     }
@@ -123,12 +118,8 @@ impl Device for Genius {
     /// All that it tells of its configuration is in every status.
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, change: Change, now: Moment) {
-        if self.next_poll.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
-        }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
+    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
+        self.settled(change, Err(why), now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {
@@ -165,6 +156,19 @@ impl Device for Genius {
 }
 
 impl Moves for Genius {
+    fn prepare(&mut self, target: TrackTarget) {
+        let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
+        self.happenings.push_back(Happening::NotPrepared(target, reason));
+    }
+
+    fn settle(&mut self, change: Change, now: Moment) {
+        if self.next_poll.is_none() {
+            return self.settled(change, Err(SettleError::NoLink), now);
+        }
+        self.state.group(change.group).step = Some(SettleStep::Waiting);
+        self.changes.push_back(change);
+    }
+
     fn objection(&self, motion: &Motion, now: Moment) -> Option<&'static str> {
         self.objection_to(motion, now)
     }

@@ -32,7 +32,9 @@ impl Satrak {
     fn doing(&self) -> Doing {
         let moves = self.state.measured.is_none_or(|measured| measured.moving());
         let tracks = self.program_may_run();
-        Doing { moves: moves || tracks || self.motion_waits(), tracks }
+        let moves = moves || tracks || self.motion_waits() || self.preparation.is_some();
+        let is_auto = self.state.program.is_some_and(|program| program.auto == Some(true));
+        Doing { moves, tracks, is_auto }
     }
 
     /// The next request of the change under way. It is over when there is none

@@ -28,6 +28,11 @@ impl Device for Satrak {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        // What the unit goes by may be another since the last link.
+        let unit = &mut self.state.satrak;
+        (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
+        (unit.settings, unit.satellite, unit.window) = (None, None, None);
+        self.state.on_board = unit.on_board();
         self.schedule = Some(Schedule::new(now.steady));
     }
 
@@ -124,14 +129,6 @@ impl Device for Satrak {
         halts.into_iter().flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
 
-    fn prepare(&mut self, target: TrackTarget) {
-        // An answer to a step of the former preparation must not move this one.
-        if let Some(outstanding) = &mut self.outstanding {
-            outstanding.disown();
-        }
-        self.preparation = Some(Preparation::new(target));
-    }
-
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
     }
@@ -146,12 +143,8 @@ impl Device for Satrak {
         }
     }
 
-    fn settle(&mut self, change: Change, now: Moment) {
-        if self.schedule.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
-        }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
+    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
+        self.settled(change, Err(why), now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {
@@ -190,6 +183,22 @@ impl Device for Satrak {
 }
 
 impl Moves for Satrak {
+    fn prepare(&mut self, target: TrackTarget) {
+        // An answer to a step of the former preparation must not move this one.
+        if let Some(outstanding) = &mut self.outstanding {
+            outstanding.disown();
+        }
+        self.preparation = Some(Preparation::new(target));
+    }
+
+    fn settle(&mut self, change: Change, now: Moment) {
+        if self.schedule.is_none() {
+            return self.settled(change, Err(SettleError::NoLink), now);
+        }
+        self.state.group(change.group).step = Some(SettleStep::Waiting);
+        self.changes.push_back(change);
+    }
+
     fn start(&mut self, motion: Motion) {
         // A newer wish replaces one that has not gone out yet.
         self.motions.clear();

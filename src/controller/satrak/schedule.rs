@@ -5,13 +5,14 @@ use std::time::{Duration, Instant};
 use crate::protocol::satrak::Query;
 
 /// Slower questions that are asked again and again, and how often.
-const SLOW: [(Query, Duration); 6] = [
+const SLOW: [(Query, Duration); 7] = [
     (Query::Faults, Duration::from_secs(30)),
     (Query::Clock, Duration::from_secs(10)),
     (Query::Satellite, Duration::from_secs(15)),
     (Query::StartStopTime, Duration::from_secs(15)),
     (Query::GpsData, Duration::from_secs(30)),
-    (Query::Settings, Duration::from_mins(1)),
+    (Query::Settings, Duration::from_secs(30)),
+    (Query::GpsSettings, Duration::from_secs(30)),
 ];
 /// While the fault flag is set, the list is read this often.
 const FAULTS_WHILE_SET: Duration = Duration::from_secs(5);
@@ -32,8 +33,14 @@ impl Schedule {
         Self { due: due.map(|query| (query, now)).collect() }
     }
 
-    /// The question that has been due for the longest.
+    /// The question that has been due for the longest; once a new link is probed the
+    /// position comes before all others.
     pub(super) fn next(&self, now: Instant) -> Option<Query> {
+        let is_probed = self.due.iter().all(|(query, due)| *query != Query::Version || *due > now);
+        let is_due = |(query, due): &(Query, Instant)| *query == Query::Status && *due <= now;
+        if is_probed && self.due.iter().any(is_due) {
+            return Some(Query::Status);
+        }
         let (query, due) = self.due.iter().min_by_key(|(_, due)| *due)?;
         (*due <= now).then_some(*query)
     }
@@ -102,6 +109,22 @@ mod tests {
         assert_eq!(schedule.next(now), Some(Query::Faults), "the first hurry is kept");
         schedule.done(Query::Faults, now, Duration::from_millis(500), false);
         assert_eq!(schedule.next(now), Some(Query::Version));
+    }
+
+    #[test]
+    fn the_position_comes_before_whatever_else_is_due() {
+        let start = Instant::now();
+        let period = Duration::from_millis(200);
+        let mut schedule = Schedule::new(start);
+        schedule.done(Query::Version, start, period, false);
+        schedule.done(Query::Status, start, period, false);
+        let now = start + Duration::from_mins(2);
+        assert_eq!(schedule.next(now), Some(Query::Status));
+        schedule.done(Query::Status, now, period, false);
+        let slow = schedule.next(now).unwrap();
+        assert_ne!(slow, Query::Status);
+        schedule.done(slow, now + period, period, false);
+        assert_eq!(schedule.next(now + period), Some(Query::Status));
     }
 
     #[test]

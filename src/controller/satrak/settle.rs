@@ -6,7 +6,7 @@ use super::settings::{GROUPS, Plan, Proof, Wish, values_of};
 use crate::{
     controller::{
         Moment,
-        settings::{self, Change, ReadFailure, SettleError, Step, Values},
+        settings::{self, Change, Hindrance, ReadFailure, SettleError, Step, Values},
     },
     protocol::satrak::{Faults, Reply, Request},
 };
@@ -39,6 +39,21 @@ pub(super) struct Doing {
     pub(super) moves: bool,
     /// Its program is on.
     pub(super) tracks: bool,
+    /// Its program starts by itself.
+    pub(super) is_auto: bool,
+}
+
+impl Doing {
+    /// Why a setting that decides where the antenna points is not sent. The gate
+    /// has let it through; what has begun since then comes first.
+    fn hindrance(self) -> Option<Hindrance> {
+        match self {
+            Self { tracks: true, .. } => Some(Hindrance::Tracks),
+            Self { is_auto: true, .. } => Some(Hindrance::AutoTrack),
+            Self { moves: true, .. } => Some(Hindrance::Moves),
+            _ => None,
+        }
+    }
 }
 
 impl Settling {
@@ -68,10 +83,10 @@ impl Settling {
         if self.core.needs_standstill() && doing.moves {
             return Next::Over(Err(SettleError::Moving));
         }
+        if let Some((field, hindrance)) = self.core.moving_field().zip(doing.hindrance()) {
+            return Next::Over(Err(SettleError::Hindered { field, hindrance }));
+        }
         if plan.is_clock {
-            if doing.tracks {
-                return Next::Over(Err(SettleError::Tracking));
-            }
             let after = now.utc.subsec_nanosecond().rem_euclid(1_000_000_000);
             if after > FULL_SECOND_NS {
                 let wait = 1_000_000_000_u32.saturating_sub(after.unsigned_abs());

@@ -36,13 +36,21 @@ impl AntennaState {
                 unit.faults = Some((faults, now.utc));
                 self.motion_lock = Some(faults.lock_motion());
             }
-            Reply::StartStopTime(window) => unit.window = Some(window),
+            Reply::StartStopTime(window) => {
+                unit.height_is_of_window &= unit.window == Some(window);
+                unit.window = Some(window);
+            }
             Reply::Settings(settings) => unit.settings = Some(settings),
             Reply::GpsData(gps) => unit.gps = Some(gps),
-            Reply::Satellite(satellite) => unit.satellite = Some(satellite),
+            Reply::GpsSettings(settings) => unit.gps_settings = Some(settings),
+            Reply::Satellite(satellite) => {
+                unit.satellite = Some(satellite);
+                unit.height_is_of_window = unit.window.is_some();
+            }
             // Only among the settings.
             _ => {}
         }
+        self.on_board = self.satrak.on_board();
     }
 
     fn take_values(&mut self, reply: &Reply, now: Moment) {

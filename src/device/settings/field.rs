@@ -1,6 +1,6 @@
 //! The description of a setting.
 
-use super::{Unfit, Value};
+use super::{Unfit, Value, Values};
 
 /// Settings that a device reports with one answer and takes with one command.
 #[derive(Debug)]
@@ -31,6 +31,8 @@ pub struct Field {
     pub access: Access,
     /// How much care a new value takes.
     pub guard: fn(&Value) -> Guard,
+    /// It decides where the antenna points or when it starts: it passes the gate.
+    pub moves: bool,
     /// What it does, in a sentence or two.
     pub about: &'static str,
 }
@@ -103,7 +105,16 @@ const fn free(_: &Value) -> Guard {
 impl Field {
     /// A setting without a unit that the operator may change freely.
     pub const fn edit(key: &'static str, label: &'static str, kind: Kind) -> Self {
-        Self { key, label, unit: "", kind, access: Access::Edit, guard: free, about: "" }
+        Self {
+            key,
+            label,
+            unit: "",
+            kind,
+            access: Access::Edit,
+            guard: free,
+            moves: false,
+            about: "",
+        }
     }
 
     /// A value that is only reported.
@@ -133,6 +144,12 @@ impl Field {
     pub const fn guarded(self, guard: fn(&Value) -> Guard) -> Self {
         Self { guard, ..self }
     }
+
+    /// With the mark of what decides where the antenna points or when it starts.
+    #[must_use]
+    pub const fn moving(self) -> Self {
+        Self { moves: true, ..self }
+    }
 }
 
 impl Group {
@@ -147,11 +164,16 @@ impl Group {
     }
 
     /// The most care that any of `values` takes.
-    pub fn guard(&self, values: &super::Values) -> Guard {
+    pub fn guard(&self, values: &Values) -> Guard {
         if self.is_service {
             return Guard::Service;
         }
         let guards = values.iter().filter_map(|(key, value)| Some((self.field(key)?.guard)(value)));
         guards.max_by_key(|guard| *guard as u8).unwrap_or(Guard::Free)
+    }
+
+    /// The first field of `values` that decides where the antenna points.
+    pub fn moving_field(&self, values: &Values) -> Option<&'static Field> {
+        self.fields.iter().find(|field| field.moves && values.contains_key(field.key))
     }
 }

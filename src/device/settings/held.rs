@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use jiff::Timestamp;
 
-use super::{Unfit, Values};
+use super::{Hindrance, Unfit, Values};
 
 /// The groups of a device by their keys, each as far as it is known.
 pub type Held = BTreeMap<&'static str, GroupState>;
@@ -103,9 +103,15 @@ pub enum SettleError {
     /// Not while the antenna moves.
     #[error("the antenna moves")]
     Moving,
-    /// Not while the unit tracks.
-    #[error("the unit tracks")]
-    Tracking,
+    /// A setting that decides where the antenna points, at a bad time. Nothing
+    /// was sent.
+    #[error("{hindrance}")]
+    Hindered {
+        /// Key of its field.
+        field: &'static str,
+        /// Why not now.
+        hindrance: Hindrance,
+    },
     /// The group could not be read before.
     #[error("the present values cannot be read: {0}")]
     Unread(ReadFailure),

@@ -70,6 +70,11 @@ impl Settling {
         self.group.guard(&self.change.values) == Guard::Service
     }
 
+    /// The key of a field that decides where the antenna points.
+    pub(crate) fn moving_field(&self) -> Option<&'static str> {
+        self.group.moving_field(&self.change.values).map(|field| field.key)
+    }
+
     /// Whether the device may have taken something of it.
     pub(crate) fn may_be_sent(&self) -> bool {
         self.step != Step::Look

@@ -3,7 +3,7 @@
 mod makes;
 
 use std::{
-    sync::{Arc, Mutex},
+    sync::{Arc, LazyLock, Mutex},
     time::{Duration, Instant},
 };
 
@@ -11,12 +11,14 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    astro::AzEl,
+    astro::{AzEl, Site, time::add_seconds},
     controller::{
         Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
         WireLine,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError},
     },
+    orbit::{PassSearch, Propagator, passes},
+    plan::{OnBoardPass, on_board::Ability},
     station::Antenna,
 };
 
@@ -54,7 +56,6 @@ impl Device for Metal {
         Vec::new()
     }
     fn look(&mut self, _: Moment) {}
-    fn prepare(&mut self, _: TrackTarget) {}
     fn motion_under_way(&self) -> bool {
         false
     }
@@ -64,7 +65,7 @@ impl Device for Metal {
 
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
 
     fn disable_auto(&mut self) {}
     fn state(&self) -> &AntennaState {
@@ -82,12 +83,36 @@ impl Device for Metal {
 }
 
 impl Moves for Metal {
+    fn prepare(&mut self, _: TrackTarget) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn act(&mut self, _: Act) {}
 
     fn start(&mut self, motion: Motion) {
         self.started.lock().unwrap().push(motion);
     }
 }
+
+/// A pass that keeps to the limits of the usual antenna.
+static PROGRAM: LazyLock<Arc<Judge>> = LazyLock::new(|| {
+    let catalog = crate::orbit::bundled().unwrap();
+    let elements = catalog.get(25_544).unwrap().clone();
+    let (site, from) = (Site::default(), "2026-08-12T00:00:00Z".parse().unwrap());
+    let aos_elevation = Angle::from_degrees(10.0);
+    let search =
+        PassSearch { aos_elevation, ..PassSearch::new(site, from, add_seconds(from, 86_400.0)) };
+    let propagator = Propagator::new(&elements).unwrap();
+    let pass = passes(&propagator, &search, &|| false)[0];
+    let target = TrackTarget {
+        catalog_number: 25_544,
+        name: "ISS".to_owned(),
+        from: pass.aos.time,
+        until: pass.los.time,
+    };
+    let pass = OnBoardPass { target, elements, site, is_agreed: false };
+    Arc::new(Judge::new(pass, Ability::of(&Antenna::satrak("Dish", ""))).unwrap())
+});
 
 /// What the gate knows when it is asked.
 struct Case {
@@ -139,6 +164,7 @@ impl Case {
         let metal = Metal { can, state: self.state.clone(), started: Arc::clone(&started) };
         let mut gate =
             Gate::new(Box::new(metal), self.antenna.limits, Bounds::of_antenna(&self.antenna));
+        gate.program = Some(Arc::clone(&PROGRAM));
         let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
         let now = Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH };
         let answer = gate.start(motion, self.intent, self.stopping, now);

@@ -207,6 +207,17 @@ impl Gate {
         Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) }
     }
 
+    /// Refuses a way to `to` that the unit takes by itself, at rates of its own. It
+    /// keeps to a minimum elevation of its own.
+    pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
+        let situation = self.situation(Intent::Track, false, now);
+        let Some(from_deg) = axes(&situation) else { return Ok(()) };
+        let to_deg = target(Some(to.azimuth), Some(to.elevation), from_deg, &situation);
+        let Some(to_deg) = to_deg else { return Ok(()) };
+        let sweep = sweep_between(from_deg, to_deg, &situation);
+        blocked(sweep, from_deg, &self.bounds.above_the_floor(), now)
+    }
+
     /// Refuses an action that brings the axes through what is forbidden; an axis
     /// whose end is not known stays as it is.
     pub(super) fn check_axes(&self, to_deg: [Option<f64>; 2], now: Moment) -> Result<(), Refusal> {

@@ -3,9 +3,13 @@
 use super::{Event, Session, wanted::Wanted};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, Pointing, Question, TrackTarget, panel::Act, settings::Change},
+    controller::{
+        Moment, Motion, Pointing, Question, TrackTarget,
+        panel::Act,
+        settings::{Change, SettleError},
+    },
     driver::{Intent, Refusal},
-    plan::{Bounds, Follow},
+    plan::{Bounds, Follow, OnBoardPass},
     station::LockOut,
 };
 
@@ -40,8 +44,8 @@ pub enum Command {
         /// `None` leaves it as it is.
         elevation: Option<Angle>,
     },
-    /// Follow a satellite.
-    Track(TrackTarget),
+    /// Let the device track a pass by itself.
+    Track(Box<OnBoardPass>),
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
@@ -99,7 +103,11 @@ impl Session {
         // name.
         let quiet = matches!(
             command,
-            Command::Jog { .. } | Command::Settle(_) | Command::Follow(_) | Command::Within(_)
+            Command::Jog { .. }
+                | Command::Settle(_)
+                | Command::Follow(_)
+                | Command::Track(_)
+                | Command::Within(_)
         );
         let line = (!quiet && tracing::enabled!(tracing::Level::INFO)).then(|| command.clone());
         if self.lock_out_forbids(&command) {
@@ -128,14 +136,14 @@ impl Session {
                 };
                 self.go_to(motion, Intent::Park, now);
             }
-            Command::Track(target) => self.track(target, now),
+            Command::Track(pass) => self.track(*pass, now),
             Command::Follow(follow) => self.follow(*follow, now),
             Command::AutoTrack(true) => {
                 self.start(Motion::EnableAuto, now);
             }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
-            Command::Settle(change) => self.gate.device().settle(change, now),
+            Command::Settle(change) => self.settle(change, now),
             Command::Ask(question) => self.gate.device().ask(question),
             Command::Act(act) => self.act(act, now),
             Command::Connect => self.wanted = Wanted::Yes,
@@ -209,10 +217,13 @@ impl Session {
         self.waiting = Some(Waiting::Motion(route.first));
     }
 
-    fn track(&mut self, target: TrackTarget, now: Moment) {
-        if let Err(refusal) = self.gate.check(Motion::StartProgram, Intent::Track, now) {
-            return self.tell(Event::NotSent(refusal));
-        }
+    fn track(&mut self, pass: OnBoardPass, now: Moment) {
+        let target = pass.target.clone();
+        tracing::info!(antenna = self.name, ?target, is_agreed = pass.is_agreed, "track");
+        let watch = match self.examine_pass(pass, now) {
+            Ok(watch) => watch,
+            Err(event) => return self.tell(event),
+        };
         if self.may_move() {
             self.halt_quietly(now);
         }
@@ -221,6 +232,7 @@ impl Session {
         self.aim = None;
         self.pending = Some(now.steady);
         self.target = Some(target.clone());
+        self.on_board = Some(watch);
         self.waiting = Some(Waiting::Prepare(target));
     }
 
@@ -231,7 +243,11 @@ impl Session {
         }
         match self.waiting.take() {
             None => {}
-            Some(Waiting::Prepare(target)) => self.gate.device().prepare(target),
+            Some(Waiting::Prepare(target)) => {
+                if let Err(refusal) = self.gate.prepare(target, self.intent, now) {
+                    self.give_up(Event::NotSent(refusal), now);
+                }
+            }
             Some(Waiting::Motion(motion)) => {
                 match self.gate.start(motion, self.intent, false, now) {
                     Ok(()) => {
@@ -258,7 +274,9 @@ impl Session {
             return;
         }
         match command {
-            Command::Settle(change) => self.gate.device().settle(change, now),
+            Command::Settle(change) => {
+                self.gate.device().refuse_change(change, SettleError::NoLink, now);
+            }
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
             Command::ReadGroup(_) | Command::Ask(_) => {}

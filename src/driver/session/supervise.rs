@@ -49,6 +49,7 @@ impl Session {
             Intent::Track => self.watch_track(now),
             Intent::Standby | Intent::Manual => {}
         }
+        self.watch_on_board(now);
     }
 
     /// When [`Self::supervise`] is to be called at the latest.
@@ -71,6 +72,9 @@ impl Session {
         match happening {
             Happening::Prepared(target) => {
                 if self.intent == Intent::Track && self.target.as_ref() == Some(&target) {
+                    if let Some(objection) = self.objection_to_pass() {
+                        return self.give_up(objection, now);
+                    }
                     self.pending = Some(now.steady);
                     self.waiting = Some(Waiting::Motion(Motion::StartProgram));
                 }

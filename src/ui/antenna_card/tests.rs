@@ -78,6 +78,8 @@ fn model() -> CardModel<'static> {
             selected: Some("METEOR-M2 4"),
             tracks_selected: false,
             refusal: None,
+            misses: None,
+            note: None,
             auto_track: Some(true),
             follow: None,
         }),

@@ -32,6 +32,11 @@ pub struct TrackModel<'a> {
     pub tracks_selected: bool,
     /// Why the selected satellite cannot be tracked.
     pub refusal: Option<&'a str>,
+    /// Why the unit would miss the selected satellite; it is tracked all the same
+    /// only by holding.
+    pub misses: Option<&'a str>,
+    /// What else is to be known of how the unit tracks.
+    pub note: Option<&'a str>,
     /// Whether the unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
     /// What else can be followed position by position; none if nothing can.
@@ -43,6 +48,7 @@ pub struct TrackModel<'a> {
 pub struct TrackState {
     parking: bool,
     hold: HoldState,
+    tracking: HoldState,
 }
 
 /// A mode goes out at once, except for Park, which has to be held.
@@ -73,9 +79,14 @@ pub(super) fn show(
         follow::show(ui, row.with_min_x(row.right() - follow::WIDTH), follow, typed, actions);
         row.max.x -= follow::WIDTH + 4.0;
     }
-    satellite_row(ui, row, model, actions);
+    satellite_row(ui, row, model, &mut state.tracking, actions);
     if let Some(refusal) = model.refusal {
-        refusal_row(ui, at, refusal);
+        caution_row(ui, at, "track refusal", refusal);
+    }
+    for (salt, words) in [("misses", model.misses), ("track note", model.note)] {
+        if let Some(words) = words.filter(|_| model.refusal.is_none()) {
+            caution_row(ui, at, salt, words);
+        }
     }
     if let Some(on) = model.auto_track {
         at.skip(4.0);
@@ -97,7 +108,13 @@ fn park_row(ui: &Ui, row: Rect, state: &mut TrackState, actions: &mut Vec<CardAc
 }
 
 /// Left what the unit holds, right what is selected or the button to track it.
-fn satellite_row(ui: &Ui, row: Rect, model: &TrackModel<'_>, actions: &mut Vec<CardAction>) {
+fn satellite_row(
+    ui: &Ui,
+    row: Rect,
+    model: &TrackModel<'_>,
+    hold: &mut HoldState,
+    actions: &mut Vec<CardAction>,
+) {
     let held = row.with_max_x(row.left() + 0.45 * row.width() - 8.0);
     two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
     let rest = row.with_min_x(held.right() + 8.0);
@@ -107,6 +124,12 @@ fn satellite_row(ui: &Ui, row: Rect, model: &TrackModel<'_>, actions: &mut Vec<C
         two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
         return;
     };
+    if model.misses.is_some() && model.refusal.is_none() {
+        if hold_button::show(ui, rest, "Hold 1 s to track anyway", hold) {
+            actions.push(CardAction::TrackAnyway);
+        }
+        return;
+    }
     let words = format!("Track {selected}");
     let button = Button::primary(&words).locked(model.refusal.is_some());
     let width = button.width(ui).min(rest.width());
@@ -126,14 +149,14 @@ fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: 
     paint::name_text(ui, salt, room, &format!("{head}: {name}")).on_hover_text(name);
 }
 
-/// Says why the selected satellite cannot be tracked.
-fn refusal_row(ui: &Ui, at: &mut Cursor, refusal: &str) {
+/// Says why the selected satellite cannot be tracked, or what is to be known.
+fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
     let t = theme::tokens(ui);
     let start = at.at() + vec2(20.0, 2.0);
-    let taken = paint::paragraph(ui, start, at.width() - 20.0, refusal, text::small(), t.warn);
+    let taken = paint::paragraph(ui, start, at.width() - 20.0, words, text::small(), t.warn);
     let glyph = paint::square(pos2(at.left + 7.0, taken.top() + 8.0), 13.0);
     icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);
-    paint::name_text(ui, "track refusal", taken, refusal);
+    paint::name_text(ui, salt, taken, words);
     at.y = taken.bottom();
 }
 

@@ -3,6 +3,7 @@
 mod checks;
 mod clock;
 mod gps;
+mod minimum;
 mod satellite;
 mod service;
 mod window;
@@ -124,6 +125,7 @@ fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &
         Section::General => {
             row::head(ui);
             fields(ui, unit, form, "general", |_| true);
+            minimum::show(ui, unit, form);
         }
         Section::Gps => gps::show(ui, unit, form),
         Section::Window => window::show(ui, unit, form, desk.commands),

@@ -15,6 +15,7 @@ use crate::{
             button::{Button, HEIGHT as BUTTON},
             paint,
         },
+        words,
     },
 };
 
@@ -78,7 +79,8 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
     report(ui, rect, unit, form);
     let count = form.count_all(unit);
-    let can_apply = count.ready > 0 && count.sending == 0 && unit.is_open();
+    let hindrance = form.hindrance(unit);
+    let can_apply = count.ready > 0 && count.sending == 0 && unit.is_open() && hindrance.is_none();
     let changes = if count.ready == 1 { "change" } else { "changes" };
     let words = match count.ready {
         0 => "Apply (Ctrl Enter)".to_owned(),
@@ -158,5 +160,8 @@ fn pending(ui: &Ui, unit: &Unit<'_>, form: &Form) -> (String, Color32) {
     if !unit.is_open() {
         said.push("no link".to_owned());
     }
-    (said.join(", "), t.t2)
+    match form.hindrance(unit) {
+        Some(why) => (format!("{}. {}", said.join(", "), words::hindrance(why)), t.warn),
+        None => (said.join(", "), t.t2),
+    }
 }

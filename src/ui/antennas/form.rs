@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     app::UiCommand,
-    controller::settings::{Access, Change, Group, Guard, Values},
+    controller::settings::{Access, Change, Group, Guard, Hindrance, Values},
     driver::Command,
     ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
 };
@@ -106,6 +106,18 @@ impl Form {
     pub(super) fn count_all(&self, unit: &Unit<'_>) -> Count {
         let groups: Vec<&str> = unit.antenna.groups().iter().map(|group| group.key).collect();
         self.count(unit, &groups)
+    }
+
+    /// Why what is ready cannot be sent now: some of it decides where the antenna
+    /// points.
+    pub(super) fn hindrance(&self, unit: &Unit<'_>) -> Option<Hindrance> {
+        let ready = |key: &str, draft: &Draft| {
+            let Some(group) = unit.description(key) else { return false };
+            let moving = group.fields.iter().filter(|field| field.moves);
+            moving.into_iter().any(|field| field_state::of(unit, group, field, draft).1.is_some())
+        };
+        let hindrance = unit.hindrance().filter(|_| unit.is_open())?;
+        self.drafts.iter().any(|(key, draft)| ready(key, draft)).then_some(hindrance)
     }
 
     /// Asks for every group that is not known on this link, each once.

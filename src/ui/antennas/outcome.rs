@@ -75,8 +75,9 @@ pub(super) fn sentence(
         SettleError::Moving => {
             format!("{subject}: not sent, the antenna moves. Apply when it stands.")
         }
-        SettleError::Tracking => {
-            format!("{subject}: not sent, the unit tracks. Apply when tracking is off.")
+        SettleError::Hindered { field, hindrance } => {
+            let label = group.field(field).map_or(subject, |field| field.label);
+            format!("{label}: not sent. {} The edit stays.", words::hindrance(*hindrance))
         }
         SettleError::Unread(failure) => format!(
             "{subject}: not sent, its present value cannot be read: {}. Read again.",

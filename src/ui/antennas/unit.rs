@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use crate::{
     app::{Model, antenna::AntennaModel},
     astro::time::add_seconds,
-    controller::settings::{Group, GroupState, ReadFailure, Values},
+    controller::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
     driver::Intent,
 };
 
@@ -75,6 +75,12 @@ impl<'a> Unit<'a> {
         }
         let follows = self.antenna.snapshot.intent == Intent::Track;
         follows || program.is_some_and(|program| program.enabled)
+    }
+
+    /// Why a setting that decides where the antenna points has to wait.
+    pub(super) fn hindrance(&self) -> Option<Hindrance> {
+        let can = self.antenna.make().capabilities;
+        self.antenna.snapshot.hindrance(can, self.model.steady)
     }
 
     /// It is known that nothing turns, nor is about to.

@@ -34,6 +34,7 @@ use crate::{
             mode_selector::{Mode, ModeModel},
             paint,
         },
+        words,
     },
 };
 
@@ -68,6 +69,7 @@ pub(super) fn show(
     let modes = modes(can);
     let mode = mode(snapshot.intent);
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
+    let [misses, note] = on_board(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -94,7 +96,11 @@ pub(super) fn show(
                 current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
                 pending: snapshot.pending.then_some(mode),
             },
-            track: modes.contains(&Mode::Track).then(|| track(model, antenna, &locks)),
+            track: modes.contains(&Mode::Track).then(|| TrackModel {
+                misses: misses.as_deref(),
+                note: note.as_deref(),
+                ..track(model, antenna, &locks)
+            }),
             drive: DriveModel {
                 keys: axes::keys(antenna),
                 jog_locked: locks.jog,
@@ -207,6 +213,8 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
         selected: selected.map(|forecast| forecast.satellite.short_name()),
         tracks_selected,
         refusal: locks.track,
+        misses: None,
+        note: None,
         auto_track: state
             .program
             .filter(|_| antenna.snapshot.link.is_open())
@@ -219,6 +227,23 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
             here_decimals: format::decimals(antenna.make().capabilities).min(1),
         }),
     }
+}
+
+/// Why the unit would miss the selected satellite, and what else is to be known of
+/// how it tracks by itself.
+fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
+    let Some(found) = antenna.supervision() else { return [None, None] };
+    let name = model.selected_pass().map(|forecast| forecast.satellite.short_name());
+    let is_missed = !found.is_within_beam;
+    let misses = name.filter(|_| is_missed).map(|name| {
+        let why = words::would_miss(name, found);
+        format!("{why} Follow it from here instead.")
+    });
+    let lowest_deg = antenna.config.limits.minimum_elevation_deg;
+    let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
+    let off = words::within_beam(found).filter(|_| !is_missed);
+    let said: Vec<String> = off.into_iter().chain(lower).chain(words::not_known(found)).collect();
+    [misses, (!said.is_empty()).then(|| said.join(" "))]
 }
 
 /// All antennas but the one whose card is shown.

@@ -42,8 +42,10 @@ pub(super) fn list(
         let forecast = passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
         let pass = &forecast.pass;
         let trackability = forecast.trackability(model.selected_antenna);
+        let misses = model.antenna().is_some_and(|antenna| antenna.misses().is_some());
         let verdict = trackability.map(|trackability| match trackability {
             _ if in_maintenance => Verdict::InMaintenance,
+            Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
             Trackability::Whole => Verdict::Trackable,
             Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
             Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),

@@ -133,7 +133,7 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     let Some(verdict) = row.verdict else { return false };
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
-        Verdict::Loses { .. } => (Icon::Warning, t.warn, t.warn),
+        Verdict::Loses { .. } | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
         Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
         Verdict::InMaintenance => (Icon::Lock, t.warn, t.warn),
     };

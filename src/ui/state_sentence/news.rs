@@ -58,6 +58,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain("Not tracking ")
             .bold(short(&target.name))
             .plain(format!(": {}.", words::prepare_error(reason))),
+        Event::WouldMiss { name, found } => caution.plain(format!(
+            "Not tracking. {} Hold Track anyway, or follow from here.",
+            words::would_miss(short(name), found)
+        )),
         Event::FollowOver { name, stats } => follow_over(name, *stats),
         Event::CannotFollow(target, problem) => caution
             .plain("Not following ")

@@ -43,11 +43,11 @@ fn yes_or_no(answer: Option<Answer>, yes: Ask) -> Option<Ask> {
 fn about_tracking(busy: Busy) -> &'static str {
     match busy {
         Busy::Tracks => {
-            "The unit tracks. Its tracking ends when it is told to use the new file. Go on?"
+            "The unit tracks. Its tracking is stopped before it is told to use the new file. Go on?"
         }
         Busy::MayTrack => {
-            "Auto-track is on: the unit may begin to track the satellite by itself, and the \
-             antenna may move, once it is told to use the new file. Go on?"
+            "Auto-track is on: the antenna may move by itself. It is switched off before the unit \
+             is told to use the new file, and stays off. Go on?"
         }
     }
 }

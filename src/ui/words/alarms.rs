@@ -50,6 +50,22 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::CannotFollow(name, problem) => {
             format!("{antenna} does not follow {name}: {}", super::follow_problem(problem))
         }
+        AlarmKind::OffTarget { off, cause } => {
+            let off = format::degrees(off.degrees(), 1);
+            match cause {
+                Some(cause) => {
+                    format!("{antenna} is {off} off its satellite: {}.", super::cause(cause))
+                }
+                None => format!(
+                    "{antenna} is {off} off its satellite. What the unit tells does not explain \
+                     it; the age of its elements is not known."
+                ),
+            }
+        }
+        AlarmKind::UnitDiffers(ranked) => {
+            let why = super::cause(ranked);
+            format!("{antenna} would miss by its own program: {why}.")
+        }
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stands still before its target."),
         AlarmKind::StartedByItself => {

@@ -1,7 +1,7 @@
 //! Why something was not sent or not done.
 
 use crate::{
-    controller::PrepareError,
+    controller::{PrepareError, settings::Hindrance},
     driver::{FollowProblem, LinkLoss, Refusal},
     ui::format,
 };
@@ -71,7 +71,21 @@ pub fn refusal(refusal: &Refusal) -> String {
                                \u{201c}Move without dead-man\u{201d} to allow it for a minute."
             .to_owned(),
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
+        Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
+        Refusal::TooLow { highest_deg, lowest_deg } => format!(
+            "Not sent: what is left of the pass is not above the {} of this antenna; the pass \
+             reaches {}.",
+            format::degrees(*lowest_deg, 1),
+            format::degrees(*highest_deg, 1)
+        ),
+        Refusal::Path(trespass) => super::trespass(trespass),
+        Refusal::Setting { field, why } => format!("{field} was not sent. {}", hindrance(*why)),
     }
+}
+
+/// Why a setting that decides where the antenna points has to wait, and what to do.
+pub fn hindrance(hindrance: Hindrance) -> String {
+    super::sentence(&hindrance.to_string())
 }
 
 /// Why a target is not followed, or no further.

@@ -16,7 +16,7 @@ use azel::{
         Measured, Moment, Motion, Moves, Question, Standstill, TrackTarget, WireLine, aimed,
         panel::Act,
         satrak,
-        settings::{Change, Group},
+        settings::{Change, Group, SettleError},
     },
     station::{Choice, Connection, Holds, Kind, Link, Setting, Table, Usual, Value},
 };
@@ -186,15 +186,13 @@ impl Device for Lever {
 
     fn look(&mut self, _: Moment) {}
 
-    fn prepare(&mut self, _: TrackTarget) {}
-
     fn groups(&self) -> &'static [&'static Group] {
         MAKE.groups
     }
 
     fn read_group(&mut self, _: &str) {}
 
-    fn settle(&mut self, _: Change, _: Moment) {}
+    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
 
     fn lock_changes(&mut self, _: bool) {}
 
@@ -224,6 +222,10 @@ impl Device for Lever {
 }
 
 impl Moves for Lever {
+    fn prepare(&mut self, _: TrackTarget) {}
+
+    fn settle(&mut self, _: Change, _: Moment) {}
+
     fn start(&mut self, motion: Motion) {
         let Motion::Position { azimuth, elevation } = motion else { return };
         let measured = self.state.measured.map(|measured| measured.pointing);

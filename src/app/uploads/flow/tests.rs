@@ -3,6 +3,7 @@ use std::path::PathBuf;
 use super::*;
 use crate::{
     app::uploads::Busy,
+    controller::settings::Hindrance,
     driver::files::{
         ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
     },
@@ -67,6 +68,16 @@ impl Desk {
         self.flow.reported(report(outcome), &self.unit, &mut self.shown)
     }
 
+    /// Tracking and auto-track end first, and the unit is told when they have.
+    fn assert_rests_before_it_is_told(&mut self, go_on: impl FnOnce(&mut Self) -> Option<Next>) {
+        self.unit.hindrance = Some(Hindrance::Tracks);
+        assert!(matches!(go_on(self), Some(Next::Rest)));
+        assert!(self.flow.rested(&self.unit).is_none());
+        (self.unit.hindrance, self.unit.busy) = (None, None);
+        selection(self.flow.rested(&self.unit));
+        assert!(self.flow.rested(&self.unit).is_none(), "once");
+    }
+
     fn failure(&self) -> &Failure {
         let Stage::Failed(failure) = &self.shown.stage else { panic!("{:?}", self.shown.stage) };
         failure
@@ -124,7 +135,7 @@ fn a_unit_that_tracks_is_left_alone_until_the_operator_agrees() {
 
     desk.begin();
     assert_runs(desk.flow.agree(&desk.unit, &mut desk.shown));
-    selection(desk.reported(Outcome::Uploaded(uploaded())));
+    desk.assert_rests_before_it_is_told(|desk| desk.reported(Outcome::Uploaded(uploaded())));
 }
 
 #[test]
@@ -134,7 +145,8 @@ fn tracking_that_began_meanwhile_or_a_stop_asks_again() {
     desk.unit.busy = Some(Busy::MayTrack);
     assert!(desk.reported(Outcome::Uploaded(uploaded())).is_none());
     assert_eq!(desk.shown.stage, Stage::AsksAboutTracking(Busy::MayTrack));
-    selection(desk.flow.agree(&desk.unit, &mut desk.shown));
+    desk.assert_rests_before_it_is_told(|desk| desk.flow.agree(&desk.unit, &mut desk.shown));
+    desk.unit.busy = Some(Busy::MayTrack);
     desk.flow.selected(Ok(()), now(), &mut desk.shown);
 
     desk.begin();

@@ -18,6 +18,7 @@ pub(super) static GENERAL: Group = Group {
     is_service: false,
     fields: &[
         Field::edit("clock_from_gps", "Clock from GPS", Kind::Flag)
+            .moving()
             .about("The unit sets its clock from GPS by itself."),
         Field::edit(
             "time_offset_ms",
@@ -25,24 +26,30 @@ pub(super) static GENERAL: Group = Group {
             Kind::Integer { least: -3_600_000, most: 3_600_000 },
         )
         .in_unit("ms")
+        .moving()
         .about("Shifts the track in time. Whether more is ahead or behind is not documented."),
         Field::edit("azimuth_offset_deg", "Azimuth offset", OFFSET)
             .in_unit("°")
+            .moving()
             .about("Added to the azimuth while the unit tracks."),
         Field::edit("elevation_offset_deg", "Elevation offset", OFFSET)
             .in_unit("°")
+            .moving()
             .about("Added to the elevation while the unit tracks."),
         Field::edit("lead_ms", "Go to start before", Kind::Integer { least: 0, most: 3_600_000 })
             .in_unit("ms")
+            .moving()
             .about("So long before the window begins the unit goes to the start of the track."),
         Field::edit(
             "position_base",
             "Position base",
             Kind::Choice(&[(0, "Resolver+enc."), (1, "Resolver")]),
         )
+        .moving()
         .about("The sensors from which the unit takes its position."),
         Field::edit("minimum_elevation_deg", "Minimum elevation", ELEVATION)
             .in_unit("°")
+            .moving()
             .about("The unit does not point lower."),
         Field::edit(
             "north_offset_deg",
@@ -50,6 +57,7 @@ pub(super) static GENERAL: Group = Group {
             Kind::Decimal { least: -360.0, most: 360.0, places: 1 },
         )
         .in_unit("°")
+        .moving()
         .about("Between the mount's zero and north."),
         Field::edit(
             "sspa",
@@ -72,6 +80,7 @@ pub(super) static GENERAL: Group = Group {
         .about("No command sets it: presumably the last of file, web and FTP that was set."),
         Field::edit("elevation_threshold_deg", "Elevation threshold", ELEVATION)
             .in_unit("°")
+            .moving()
             .about("What the unit does with it is not documented."),
     ],
 };

@@ -15,10 +15,13 @@ pub(super) static GPS: Group = Group {
     is_service: false,
     fields: &[
         Field::edit("is_automatic", "Position from GPS", Kind::Flag)
+            .moving()
             .about("On: the unit uses its receiver. Off: it uses the place below."),
         Field::edit("latitude_deg", "Latitude", LATITUDE)
+            .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
         Field::edit("longitude_deg", "Longitude", LONGITUDE)
+            .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
     ],
 };

@@ -28,11 +28,12 @@ pub(super) static ANGLES: Group = Group {
             "Sensor references",
             Kind::Choice(&[(GIVEN, "As given"), (PRESENT, "Present position")]),
         )
+        .moving()
         .about("Present position: the unit takes the references from where it stands."),
-        Field::edit("x_sensor", "X sensor reference", COUNT),
-        Field::edit("x_deg", "X angle at it", ANGLE).in_unit("°"),
-        Field::edit("y_sensor", "Y sensor reference", COUNT),
-        Field::edit("y_deg", "Y angle at it", ANGLE).in_unit("°"),
+        Field::edit("x_sensor", "X sensor reference", COUNT).moving(),
+        Field::edit("x_deg", "X angle at it", ANGLE).moving().in_unit("°"),
+        Field::edit("y_sensor", "Y sensor reference", COUNT).moving(),
+        Field::edit("y_deg", "Y angle at it", ANGLE).moving().in_unit("°"),
     ],
 };
 
@@ -41,8 +42,8 @@ pub(super) static REDUCTION: Group = Group {
     title: "Drive reduction",
     is_service: true,
     fields: &[
-        Field::edit("x", "X reduction", RATIO).about("Its unit is not documented."),
-        Field::edit("y", "Y reduction", RATIO).about("Its unit is not documented."),
+        Field::edit("x", "X reduction", RATIO).moving().about("Its unit is not documented."),
+        Field::edit("y", "Y reduction", RATIO).moving().about("Its unit is not documented."),
     ],
 };
 
@@ -54,6 +55,7 @@ pub(super) static IMAGE: Group = Group {
         Field::read("status", "Update status", Kind::Text(text))
             .about("As the unit says it: its values are not documented."),
         Field::write("file", "Image file", Kind::Text(text))
+            .moving()
             .about("On the unit. Presumably firmware or configuration."),
     ],
 };

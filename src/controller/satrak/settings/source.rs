@@ -19,6 +19,7 @@ const CATALOG_NUMBER: Kind = Kind::Integer { least: 0, most: 999_999_999 };
 
 const fn continue_tracking() -> Field {
     Field::write("continue_tracking", "Keep the present track", Kind::Flag)
+        .moving()
         .about("Off: what the unit tracks now is stopped. On: it goes on until its end.")
 }
 
@@ -28,9 +29,13 @@ pub(super) static FILE: Group = Group {
     is_service: false,
     fields: &[
         Field::edit("file", "TLE file", Kind::Text(text))
+            .moving()
             .about("In the unit's folder of element files."),
-        Field::edit("name", "Satellite", Kind::Text(text)).about("Its name as in the file."),
+        Field::edit("name", "Satellite", Kind::Text(text))
+            .moving()
+            .about("Its name as in the file."),
         Field::edit("period", "Update period", PERIOD)
+            .moving()
             .about("Its unit is not documented here; days for web and FTP."),
         continue_tracking(),
         Field::read("catalog_number", "Catalogue number", CATALOG_NUMBER)
@@ -49,9 +54,11 @@ pub(super) static WEB: Group = Group {
     title: "Web",
     is_service: false,
     fields: &[
-        Field::edit("url", "Web address", Kind::Text(url)).about("A comma in it is sent as %2C."),
-        Field::edit("period_days", "Update period", PERIOD).in_unit("days"),
-        Field::edit("on_error", "When a fetch fails", ON_ERROR),
+        Field::edit("url", "Web address", Kind::Text(url))
+            .moving()
+            .about("A comma in it is sent as %2C."),
+        Field::edit("period_days", "Update period", PERIOD).moving().in_unit("days"),
+        Field::edit("on_error", "When a fetch fails", ON_ERROR).moving(),
         continue_tracking(),
     ],
 };
@@ -61,16 +68,20 @@ pub(super) static FTP: Group = Group {
     title: "FTP",
     is_service: false,
     fields: &[
-        Field::edit("address", "Server address", Kind::Text(text)),
-        Field::edit("user", "User", Kind::Text(text)),
+        Field::edit("address", "Server address", Kind::Text(text)).moving(),
+        Field::edit("user", "User", Kind::Text(text)).moving(),
         Field::edit("password", "Password", Kind::Password(password))
+            .moving()
             .about("The unit sends it in clear, also when it is asked."),
         Field::edit("port", "Port", Kind::Integer { least: 1, most: 65_535 })
+            .moving()
             .about("22 is SFTP, 21 is FTP."),
-        Field::edit("file", "TLE file", Kind::Text(text)),
-        Field::edit("satellite", "Satellite", Kind::Text(text)).about("Its name as in the file."),
-        Field::edit("period_days", "Update period", PERIOD).in_unit("days"),
-        Field::edit("on_error", "When a fetch fails", ON_ERROR),
+        Field::edit("file", "TLE file", Kind::Text(text)).moving(),
+        Field::edit("satellite", "Satellite", Kind::Text(text))
+            .moving()
+            .about("Its name as in the file."),
+        Field::edit("period_days", "Update period", PERIOD).moving().in_unit("days"),
+        Field::edit("on_error", "When a fetch fails", ON_ERROR).moving(),
     ],
 };
 

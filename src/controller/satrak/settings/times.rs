@@ -24,9 +24,11 @@ pub(super) static WINDOW: Group = Group {
     fields: &[
         Field::edit("start", "Start", Kind::Time)
             .in_unit("UTC")
+            .moving()
             .about("The unit tracks from here on while tracking is switched on."),
         Field::edit("stop", "Stop", Kind::Time)
             .in_unit("UTC")
+            .moving()
             .about("The unit ends tracking here."),
     ],
 };
@@ -52,7 +54,9 @@ pub(super) static CLOCK: Group = Group {
             "set_from",
             "Set from",
             Kind::Choice(&[(FROM_THIS_PC, "This PC"), (FROM_GPS, "GPS")]),
-        ),
+        )
+        .moving()
+        .about("The unit tracks by its clock."),
     ],
 };
 

@@ -19,6 +19,7 @@ use crate::{
             paint,
             segmented::{self, Segment},
         },
+        words,
     },
 };
 
@@ -147,8 +148,9 @@ fn use_it(
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 32.0), Sense::hover());
     let values = again(group, unit.values(group.key));
     let is_free = form.count(unit, &[group.key]) == Count::default();
-    let refusal = if unit.tracks() {
-        Some("Not while the unit tracks.")
+    let hindrance = unit.hindrance().map(words::hindrance);
+    let refusal = if let Some(why) = &hindrance {
+        Some(why.as_str())
     } else if !is_free {
         Some("Apply does it, with the edits.")
     } else if !unit.is_fresh(group.key) || values.is_empty() {

@@ -4,13 +4,12 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use super::fields;
 use crate::{
-    app::UiCommand,
-    astro::time::add_seconds,
+    app::{UiCommand, forecast::Forecast, on_board},
     controller::{
         Motion,
         settings::{Kind, Value},
     },
-    driver::{Command, Event},
+    driver::{Command, Event, Refusal},
     ui::{
         antennas::{
             form::Form,
@@ -101,7 +100,12 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let pass = unit.model.selected_pass();
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), egui::Sense::hover());
-    let can = pass.is_some() && unit.is_open() && unit.values("window").is_some();
+    let model = unit.model;
+    let window = |forecast: &Forecast| {
+        on_board::window(forecast, &unit.antenna.config, model.station.site, model.now)
+    };
+    let window = pass.map_or(Err(Refusal::PassUnknown), window);
+    let can = window.is_ok() && unit.is_open() && unit.values("window").is_some();
     let button = Button::normal("Take from pass").locked(!can);
     let place = rect.with_max_x(rect.left() + button.width(ui));
     let clicked = button.show(ui, "take from pass", place).clicked();
@@ -109,23 +113,22 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let words = pass.map_or_else(
         || "No pass is selected.".to_owned(),
         |forecast| {
-            let pass = forecast.pass;
-            format!(
-                "{}, {} to {}",
-                forecast.satellite.short_name(),
-                format::time(pass.aos.time),
-                format::time_z(pass.los.time)
-            )
+            let name = forecast.satellite.short_name();
+            match &window {
+                Ok((start, stop)) => {
+                    format!("{name}, {} to {}", format::time(*start), format::time_z(*stop))
+                }
+                Err(refusal) => words::refusal(refusal),
+            }
         },
     );
     row::said(ui, room, &words, text::small(), t.t3, &words);
-    let (Some(forecast), true, Some(group)) = (pass, clicked, section::group("window")) else {
+    let (true, Some(group)) = (clicked, section::group("window")) else {
         return;
     };
-    // The unit takes whole seconds, and no time that is over.
-    let start = forecast.pass.aos.time.max(unit.model.now);
-    let stop = add_seconds(forecast.pass.los.time, 1.0);
-    for (key, time) in [("start", start), ("stop", stop)] {
+    let Ok((start, stop)) = window else { return };
+    // The unit takes no time that is over.
+    for (key, time) in [("start", start.max(unit.model.now)), ("stop", stop)] {
         if let Some(field) = group.field(key) {
             let text = Kind::Time.text(&Value::Time(time));
             form.draft(group.key).type_in(field, text, unit.values(group.key));

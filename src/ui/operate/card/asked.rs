@@ -1,7 +1,7 @@
 //! What was asked for on the card.
 
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel},
+    app::{Model, UiCommand, antenna::AntennaModel, forecast::Forecast},
     astro::{Angle, AzEl},
     controller::panel::Act,
     driver::{Command, Intent},
@@ -48,6 +48,12 @@ impl Desk<'_> {
             CardAction::TrackAgain => {
                 let again = self.antenna.track_again.as_ref();
                 return self.commands.extend(again.map(|again| again.command.clone()));
+            }
+            CardAction::TrackAnyway => {
+                let pass = self.model.selected_pass().map(Forecast::key);
+                let antenna = self.model.selected_antenna;
+                let command = pass.map(|pass| UiCommand::TrackAnyway { antenna, pass });
+                return self.commands.extend(command);
             }
             CardAction::Jog { x, y, rate_deg_s } => {
                 Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }

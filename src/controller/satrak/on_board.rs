@@ -1,0 +1,50 @@
+//! From what a Satrak reports to what any device that tracks by itself goes by.
+
+use super::SatrakState;
+use crate::{
+    controller::{HeldSatellite, Offsets, OnBoard, Place},
+    protocol::satrak::Position,
+};
+
+/// Places are told with two decimals.
+const STEP_DEG: f64 = 0.01;
+
+impl SatrakState {
+    /// What the unit goes by when it tracks.
+    pub(super) fn on_board(&self) -> OnBoard {
+        let offsets = self.settings.as_ref().map(|settings| Offsets {
+            time_s: settings.time_offset_ms as f64 / 1000.0,
+            azimuth_deg: settings.az_offset_deg,
+            elevation_deg: settings.el_offset_deg,
+            north_deg: settings.north_offset_deg,
+            minimum_elevation_deg: settings.minimum_elevation_deg,
+            lead_s: settings.lead_ms as f64 / 1000.0,
+        });
+        let satellite = self.satellite.as_ref().map(|held| HeldSatellite {
+            catalog_number: held.catalog_number,
+            name: held.name.clone(),
+            maximum_elevation_deg: self.height_is_of_window.then_some(held.maximum_elevation_deg),
+        });
+        OnBoard {
+            place: self.place().map(|place| Place {
+                latitude_deg: place.latitude_deg(),
+                longitude_deg: place.longitude_deg(),
+                step_deg: STEP_DEG,
+            }),
+            clock_ahead_s: self.clock.map(|clock| clock.ahead_s),
+            offsets,
+            satellite,
+            window: self.window.map(|window| (window.start, window.stop)),
+        }
+    }
+
+    /// The place that the unit uses: the one it was given, or that of its receiver.
+    /// What it uses without a fix is not documented.
+    fn place(&self) -> Option<Position> {
+        let settings = self.gps_settings?;
+        if settings.automatic {
+            return self.gps.filter(|gps| gps.valid)?.position;
+        }
+        settings.position
+    }
+}

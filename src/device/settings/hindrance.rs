@@ -1,0 +1,46 @@
+//! When a setting that decides where the antenna points has to wait.
+
+use std::time::{Duration, Instant};
+
+use crate::device::{AntennaState, Capabilities};
+
+/// A position that is older says nothing of an antenna that may move.
+const RECENT: Duration = Duration::from_secs(5);
+
+/// Why a setting that decides where the antenna points is not sent now.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Hindrance {
+    /// A stop is under way.
+    #[error("a stop is under way: wait until the antenna stands")]
+    Stopping,
+    /// Nothing was read on this link, or nothing lately.
+    #[error("it is not known whether the antenna stands: wait until its position is read")]
+    Unknown,
+    /// The device's own program is on.
+    #[error("the unit tracks: stop it first")]
+    Tracks,
+    /// The device starts to track by itself.
+    #[error("auto-track is on: switch it off first")]
+    AutoTrack,
+    /// The antenna moves, or was told to.
+    #[error("the antenna moves: stop it first")]
+    Moves,
+}
+
+impl Hindrance {
+    /// What the state of a device says against such a setting at `now`.
+    pub fn of(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
+        let since = state.link_since;
+        let measured = state
+            .measured
+            .filter(|measured| since.is_some_and(|since| measured.asked >= since))
+            .filter(|measured| now.saturating_duration_since(measured.asked) < RECENT);
+        let Some(measured) = measured else { return Some(Self::Unknown) };
+        match state.program {
+            None if can.has_program => Some(Self::Unknown),
+            Some(program) if program.enabled => Some(Self::Tracks),
+            Some(program) if program.auto == Some(true) => Some(Self::AutoTrack),
+            _ => measured.moving().then_some(Self::Moves),
+        }
+    }
+}

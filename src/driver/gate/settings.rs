@@ -1,0 +1,55 @@
+//! Settings that decide where the antenna points, and targets, on their way to
+//! the controller.
+
+use super::{Gate, Refusal};
+use crate::{
+    controller::{
+        Moment, Motion, TrackTarget,
+        settings::{Change, Hindrance, SettleError},
+    },
+    driver::Intent,
+};
+
+impl Gate {
+    /// Puts a change of settings on the device, or says why not: what decides where
+    /// the antenna points waits until it stands and would not start by itself. A
+    /// refusal stands among the outcomes of the settings too. `may_move` says that
+    /// the antenna was told to move, whatever it does.
+    pub(in crate::driver) fn settle(
+        &mut self,
+        change: Change,
+        may_move: bool,
+        stopping: bool,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let groups = self.controller.groups();
+        let group = groups.iter().find(|group| group.key == change.group);
+        let field = group.and_then(|group| group.moving_field(&change.values));
+        let hindrance = || {
+            let (state, can) = (self.controller.state(), self.controller.capabilities());
+            let told = may_move.then_some(Hindrance::Moves);
+            let stopping = stopping.then_some(Hindrance::Stopping);
+            stopping.or_else(|| Hindrance::of(state, can, now.steady)).or(told)
+        };
+        let Some((field, why)) = field.and_then(|field| Some((field, hindrance()?))) else {
+            self.controller.settle(change, now);
+            return Ok(());
+        };
+        let error = SettleError::Hindered { field: field.key, hindrance: why };
+        self.controller.refuse_change(change, error, now);
+        Err(Refusal::Setting { field: field.label, why })
+    }
+
+    /// Puts a target on the device, or says why not: where auto-track is on the
+    /// antenna may start by it.
+    pub(in crate::driver) fn prepare(
+        &mut self,
+        target: TrackTarget,
+        intent: Intent,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        self.check(Motion::StartProgram, intent, now)?;
+        self.controller.prepare(target);
+        Ok(())
+    }
+}

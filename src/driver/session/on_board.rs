@@ -1,0 +1,140 @@
+//! Watches over a pass that the unit tracks by itself: before it starts, by what
+//! the unit tells of itself, and while it runs, by where it points.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use super::{Event, Session};
+use crate::{
+    astro::Angle,
+    controller::{Moment, OnBoard},
+    driver::{FollowProblem, OnBoardView},
+    plan::{OnBoardPass, Supervision, on_board::Judge},
+};
+
+/// An antenna that was on its satellite may be off it for so long.
+const OFF_FOR: Duration = Duration::from_secs(10);
+/// A unit's clock is told with the delay of the link: a smaller change is none,
+/// seconds.
+const SAME_CLOCK_S: f64 = 0.2;
+
+/// A pass that the unit tracks, or is about to.
+pub(super) struct Watch {
+    judge: Arc<Judge>,
+    found: Arc<Supervision>,
+    found_by: OnBoard,
+    /// The target was put on the unit.
+    holds_target: bool,
+    /// When the position came in that was compared last.
+    compared: Option<Instant>,
+    was_on_target: bool,
+    /// Since when it is off, and how long it may be.
+    off_since: Option<(Instant, Duration)>,
+    /// How far it is off, once that has lasted too long.
+    missing: Option<Angle>,
+}
+
+impl Watch {
+    fn new(judge: Arc<Judge>, unit: &OnBoard) -> Self {
+        Self {
+            found: Arc::new(judge.supervise(unit, false)),
+            judge,
+            found_by: unit.clone(),
+            holds_target: false,
+            compared: None,
+            was_on_target: false,
+            off_since: None,
+            missing: None,
+        }
+    }
+
+    pub(super) fn view(&self) -> OnBoardView {
+        OnBoardView { found: Arc::clone(&self.found), missing: self.missing }
+    }
+
+    /// Judges anew where the unit tells something else.
+    fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
+        let same_clock = match (unit.clock_ahead_s, self.found_by.clock_ahead_s) {
+            (Some(now), Some(then)) => (now - then).abs() < SAME_CLOCK_S,
+            (now, then) => now.is_some() == then.is_some(),
+        };
+        let with_clock = OnBoard { clock_ahead_s: self.found_by.clock_ahead_s, ..unit.clone() };
+        let is_same = same_clock && with_clock == self.found_by;
+        if is_same && holds_target == self.holds_target {
+            return;
+        }
+        self.holds_target = holds_target;
+        self.found = Arc::new(self.judge.supervise(unit, holds_target));
+        self.found_by = unit.clone();
+    }
+
+    /// Why the unit is not to be started on the pass.
+    fn objection(&self) -> Option<Event> {
+        let pass = self.judge.pass();
+        let is_refused = !self.found.is_within_beam && !pass.is_agreed;
+        is_refused.then(|| Event::WouldMiss {
+            name: pass.target.name.clone(),
+            found: Arc::clone(&self.found),
+        })
+    }
+}
+
+impl Session {
+    /// Whether the unit may be started on `pass`; if not, what is to be told.
+    pub(super) fn examine_pass(&mut self, pass: OnBoardPass, now: Moment) -> Result<Watch, Event> {
+        let name = pass.target.name.clone();
+        let judge = Judge::new(pass, self.ability)
+            .map_err(|error| Event::CannotFollow(name, FollowProblem::Orbit(error)))?;
+        let watch = Watch::new(Arc::new(judge), &self.gate.state().on_board);
+        if let Some(event) = watch.objection() {
+            return Err(event);
+        }
+        self.gate.check_pass(&watch.judge, now).map_err(Event::NotSent)?;
+        Ok(watch)
+    }
+
+    /// What speaks against the pass now that the unit holds it and was read again.
+    pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
+        let watch = self.on_board.as_mut()?;
+        watch.judge_again(&self.gate.state().on_board, true);
+        watch.objection()
+    }
+
+    /// Looks whether the unit is where it should be.
+    pub(super) fn watch_on_board(&mut self, now: Moment) {
+        if self.target.is_none() || self.follows() {
+            self.on_board = None;
+        }
+        let Some(watch) = &mut self.on_board else { return };
+        let state = self.gate.state();
+        let is_on = state.program.is_some_and(|program| program.enabled);
+        if !is_on || self.pending.is_some() {
+            return;
+        }
+        watch.judge_again(&state.on_board, true);
+        let Some(measured) = state.measured else { return };
+        let target = &watch.judge.pass().target;
+        let is_up = (target.from..target.until).contains(&measured.at);
+        if !is_up || watch.compared == Some(measured.received) {
+            return;
+        }
+        watch.compared = Some(measured.received);
+        let predicted = watch.judge.direction(measured.at);
+        let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
+        let Some(off) = off else { return };
+        if off <= self.ability.half_beam {
+            (watch.was_on_target, watch.off_since, watch.missing) = (true, None, None);
+            return;
+        }
+        // Both axes may have to turn by more than the beam.
+        let rate_deg_s = self.ability.maximum_rate_deg_s;
+        let slew_s = if watch.was_on_target { 0.0 } else { 2.0 * off.degrees() / rate_deg_s };
+        let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
+        let (since, allowed) = *watch.off_since.get_or_insert((now.steady, OFF_FOR + slew));
+        if now.steady.saturating_duration_since(since) >= allowed {
+            watch.missing = Some(off);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Changes of settings on their way to the gate.
+
+use super::{Event, Session};
+use crate::controller::{Moment, settings::Change};
+
+impl Session {
+    /// Puts `change` on the device; why it is not sent stands among the outcomes of
+    /// the settings too.
+    pub(super) fn settle(&mut self, change: Change, now: Moment) {
+        let (may_move, stopping) = (self.may_move(), self.halting.is_some());
+        if let Err(refusal) = self.gate.settle(change, may_move, stopping, now) {
+            self.tell(Event::NotSent(refusal));
+        }
+    }
+}

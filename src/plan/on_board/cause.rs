@@ -1,0 +1,168 @@
+//! Why a device that tracks by itself will miss.
+
+use super::{
+    Judge,
+    path::{Unit, site, turned},
+};
+use crate::{
+    astro::{Angle, frames},
+    device::{Offsets, OnBoard, Place},
+};
+
+/// An error below this is none worth naming, degrees.
+const WORTH_NAMING_DEG: f64 = 0.02;
+/// The unit tells the highest elevation of a pass roughly, and the window is not
+/// the whole pass: a difference up to this says nothing, degrees.
+const HIGHEST_ROUGH_DEG: f64 = 3.0;
+
+/// Why a device will miss the satellite.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cause {
+    /// It takes itself to stand elsewhere.
+    Place {
+        /// Where.
+        place: Place,
+        /// How far from the station.
+        away_km: f64,
+    },
+    /// Its clock is ahead of ours.
+    Clock {
+        /// By so much, seconds.
+        ahead_s: f64,
+    },
+    /// It shifts the track in time.
+    TimeOffset {
+        /// By so much, seconds.
+        offset_s: f64,
+    },
+    /// It adds this to the azimuth, degrees.
+    AzimuthOffset(f64),
+    /// It adds this to the elevation, degrees.
+    ElevationOffset(f64),
+    /// Its north is not that of the station.
+    NorthOffset {
+        /// As the device tells it, degrees.
+        offset_deg: f64,
+        /// How far that is from the station's, degrees.
+        off_deg: f64,
+    },
+    /// It does not point as low as the pass goes.
+    MinimumElevation(f64),
+    /// It holds another satellite.
+    OtherSatellite {
+        /// Its number; 0 for none.
+        catalog_number: u32,
+        /// Its name.
+        name: String,
+    },
+    /// It predicts another height of the pass: its elements are others.
+    Elements {
+        /// The highest elevation as it tells it, degrees.
+        told_deg: f64,
+        /// As its place and our elements give it.
+        expected_deg: f64,
+    },
+}
+
+/// A cause with the error that it alone makes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranked {
+    /// What.
+    pub cause: Cause,
+    /// How far it alone puts the beam off at worst; `None` where that is not known.
+    pub off: Option<Angle>,
+}
+
+/// What is not known of a device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// Where it takes itself to stand.
+    Place,
+    /// What time it takes it to be.
+    Clock,
+    /// What it adds to its path.
+    Offsets,
+    /// How old its elements are: no device tells.
+    Elements,
+}
+
+/// What `told` leaves open.
+pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
+    let open = [
+        (told.place.is_none(), Unknown::Place),
+        (told.clock_ahead_s.is_none(), Unknown::Clock),
+        (told.offsets.is_none(), Unknown::Offsets),
+        (true, Unknown::Elements),
+    ];
+    open.into_iter().filter_map(|(is_open, what)| is_open.then_some(what)).collect()
+}
+
+/// All causes, the one with the greatest error first; before them those whose error
+/// is not known.
+pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<Ranked> {
+    let right = Unit::right(judge);
+    let alone = |unit: Unit<'_>| {
+        let errors = unit.either_way().map(|unit| judge.worst(&unit).off);
+        errors.fold(Angle::ZERO, |worst, off| if off > worst { off } else { worst })
+    };
+    let mut ranked = Vec::new();
+    let mut add = |cause, unit: Unit<'_>| {
+        let off = alone(unit);
+        if off.degrees() >= WORTH_NAMING_DEG {
+            ranked.push(Ranked { cause, off: Some(off) });
+        }
+    };
+    let ours = judge.pass.site;
+    if let (Some(place), Some(site)) = (told.place, site(told, ours))
+        && site != ours
+    {
+        let away_km = frames::site_ecef_km(site).distance(frames::site_ecef_km(ours));
+        add(Cause::Place { place, away_km }, Unit { site, ..right });
+    }
+    if let Some(ahead_s) = told.clock_ahead_s {
+        add(Cause::Clock { ahead_s }, Unit { ahead_s, ..right });
+    }
+    if let Some(offsets) = told.offsets {
+        let with = |offsets| Unit { offsets, ..right };
+        let none = right.offsets;
+        let Offsets { time_s, azimuth_deg, elevation_deg, .. } = offsets;
+        add(Cause::TimeOffset { offset_s: time_s }, with(Offsets { time_s, ..none }));
+        add(Cause::AzimuthOffset(azimuth_deg), with(Offsets { azimuth_deg, ..none }));
+        add(Cause::ElevationOffset(elevation_deg), with(Offsets { elevation_deg, ..none }));
+        let minimum_elevation_deg = offsets.minimum_elevation_deg;
+        let raised = with(Offsets { minimum_elevation_deg, ..none });
+        add(Cause::MinimumElevation(minimum_elevation_deg), raised);
+        let turned = turned(offsets.north_deg, judge.ability.mount);
+        let (offset_deg, off_deg) = (offsets.north_deg, turned.degrees());
+        add(Cause::NorthOffset { offset_deg, off_deg }, Unit { turned, ..right });
+    }
+    if holds_target {
+        ranked.extend(satellite(judge, told));
+    }
+    ranked.sort_by(|a, b| {
+        let weight = |ranked: &Ranked| ranked.off.map_or(f64::INFINITY, Angle::degrees);
+        weight(b).total_cmp(&weight(a))
+    });
+    ranked
+}
+
+/// Another satellite, or other elements of the same one.
+fn satellite(judge: &Judge, told: &OnBoard) -> Option<Ranked> {
+    let held = told.satellite.as_ref()?;
+    let target = &judge.pass.target;
+    if held.catalog_number != target.catalog_number {
+        let (catalog_number, name) = (held.catalog_number, held.name.clone());
+        return Some(Ranked { cause: Cause::OtherSatellite { catalog_number, name }, off: None });
+    }
+    let told_deg = held.maximum_elevation_deg?;
+    let (start, stop) = told.window?;
+    let is_this = start.as_second() == target.from.as_second()
+        && stop.as_second() == target.until.as_second();
+    let unit = Unit { site: site(told, judge.pass.site)?, ..Unit::right(judge) };
+    let expected_deg = judge.highest(&unit).filter(|_| is_this && judge.span_s() > 0.0)?.degrees();
+    let differs_deg = (told_deg - expected_deg).abs();
+    (differs_deg > HIGHEST_ROUGH_DEG).then_some(Ranked {
+        cause: Cause::Elements { told_deg, expected_deg },
+        off: Some(Angle::from_degrees(differs_deg)),
+    })
+}

@@ -1,0 +1,163 @@
+//! Where an antenna will really point whose device tracks by itself.
+
+use jiff::Timestamp;
+
+use super::Judge;
+use crate::{
+    astro::{
+        Angle, AzEl, Site,
+        time::{add_seconds, seconds_between},
+    },
+    device::{Offsets, OnBoard},
+    orbit::Propagator,
+    plan::Sample,
+    station::Mount,
+};
+
+/// The error of a pass is taken at so many times.
+const LOOKS: f64 = 240.0;
+/// Two samples of a path are at most so far apart in time,
+const STEP_S: f64 = 1.0;
+/// or else so far in the sky.
+const STEP_DEG: f64 = 0.5;
+/// The longest step, seconds: of what hardly moves.
+const LONGEST_STEP_S: f64 = 60.0;
+
+/// Equal steps from `from` to `to`, both included.
+pub(super) fn spread(from: Timestamp, to: Timestamp) -> impl Iterator<Item = Timestamp> {
+    let span_s = seconds_between(from, to).max(0.0);
+    let step_s = (span_s / LOOKS).max(STEP_S);
+    let count = (span_s / step_s).ceil() as u32;
+    (0..=count).map(move |index| add_seconds(from, (f64::from(index) * step_s).min(span_s)))
+}
+
+/// What a device goes by while it tracks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unit<'a> {
+    pub(super) propagator: &'a Propagator,
+    pub(super) window: (Timestamp, Timestamp),
+    pub(super) site: Site,
+    pub(super) ahead_s: f64,
+    pub(super) offsets: Offsets,
+    /// By how much the azimuth of the mount is really smaller than told.
+    pub(super) turned: Angle,
+}
+
+impl<'a> Unit<'a> {
+    /// A device that goes by the same as we do.
+    pub(super) fn right(judge: &'a Judge) -> Self {
+        let target = &judge.pass.target;
+        Self {
+            propagator: &judge.propagator,
+            window: (target.from, target.until),
+            site: judge.pass.site,
+            ahead_s: 0.0,
+            offsets: Offsets { minimum_elevation_deg: -90.0, ..Offsets::default() },
+            turned: Angle::ZERO,
+        }
+    }
+
+    /// A device that tells `told`; what it does not tell is right.
+    pub(super) fn of(told: &OnBoard, judge: &'a Judge) -> Self {
+        let right = Self::right(judge);
+        let offsets = told.offsets.unwrap_or(right.offsets);
+        Self {
+            site: site(told, judge.pass.site).unwrap_or(right.site),
+            ahead_s: told.clock_ahead_s.unwrap_or_default(),
+            offsets,
+            turned: turned(offsets.north_deg, judge.ability.mount),
+            ..right
+        }
+    }
+
+    /// With its time offset ahead and behind: which it is is not known.
+    pub(super) fn either_way(self) -> impl Iterator<Item = Self> {
+        let behind = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
+        let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: behind, ..self });
+        std::iter::once(self).chain(other)
+    }
+
+    /// Where it computes the satellite to be at `at` by our clock: at the ends of
+    /// its window before and after it.
+    pub(super) fn computed(&self, at: Timestamp) -> Option<AzEl> {
+        let (start, stop) = self.window;
+        let own = add_seconds(at, self.ahead_s).clamp(start, stop.max(start));
+        let shifted = add_seconds(own, self.offsets.time_s);
+        Some(self.propagator.look_from(self.site, shifted).ok()?.direction)
+    }
+
+    /// Where the antenna really points at `at` by our clock.
+    pub(super) fn direction(&self, at: Timestamp) -> Option<AzEl> {
+        let AzEl { azimuth, elevation } = self.computed(at)?;
+        let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);
+        let raised = elevation + Angle::from_degrees(self.offsets.elevation_deg);
+        let raised = if raised < lowest { lowest } else { raised };
+        let azimuth = azimuth + Angle::from_degrees(self.offsets.azimuth_deg);
+        Some(AzEl {
+            azimuth: (azimuth - self.turned).wrapped_360(),
+            elevation: Angle::from_degrees(raised.degrees().min(90.0)),
+        })
+    }
+}
+
+/// The place that a device tells, as high as ours. One that is ours as finely as it
+/// is told is ours.
+pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
+    let place = told.place?;
+    let away_deg = [
+        place.latitude_deg - ours.latitude().degrees(),
+        place.longitude_deg - ours.longitude().degrees(),
+    ];
+    if away_deg.iter().all(|away_deg| away_deg.abs() <= place.step_deg + 1e-9) {
+        return Some(ours);
+    }
+    Site::new(place.latitude_deg, place.longitude_deg, ours.altitude_m()).ok()
+}
+
+/// By how much a north offset turns the azimuth away from that of the station: its
+/// zero is the mount's, which the station may know as the azimuth of the lower axis.
+pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
+    let told = Angle::from_degrees(north_deg).wrapped_180();
+    let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return told };
+    let beside = |axis_deg: f64| (told - Angle::from_degrees(axis_deg)).wrapped_180();
+    let ends = [lower_axis_azimuth_deg, lower_axis_azimuth_deg + 180.0].map(beside);
+    ends.into_iter().fold(told, |least, off| if off.abs() < least.abs() { off } else { least })
+}
+
+/// The path of `unit` while its clock runs through `window`.
+pub(super) fn samples(
+    unit: Unit<'_>,
+    (start, stop): (Timestamp, Timestamp),
+) -> impl Iterator<Item = Sample> + '_ {
+    let ours = |own: Timestamp| add_seconds(own, -unit.ahead_s);
+    let (from, to) = (ours(start), ours(stop));
+    let span_s = seconds_between(from, to).max(0.0);
+    let at = move |after_s: f64| {
+        let time = add_seconds(from, after_s);
+        Some(Sample { time, direction: unit.direction(time)? })
+    };
+    let (mut last, mut after_s, mut step_s) = (None::<Sample>, 0.0, STEP_S);
+    std::iter::from_fn(move || {
+        let Some(before) = last else {
+            last = at(0.0);
+            return last;
+        };
+        if after_s >= span_s {
+            return None;
+        }
+        loop {
+            let next_s = (after_s + step_s).min(span_s);
+            let next = at(next_s)?;
+            let way_deg = before.direction.separation(next.direction).degrees();
+            if way_deg > STEP_DEG && step_s > STEP_S {
+                step_s = (step_s / 2.0).max(STEP_S);
+                continue;
+            }
+            if way_deg < STEP_DEG / 4.0 {
+                step_s = (step_s * 2.0).min(LONGEST_STEP_S);
+            }
+            (last, after_s) = (Some(next), next_s);
+            return last;
+        }
+    })
+}

@@ -1,0 +1,122 @@
+//! How a unit tracks by itself, and why it misses.
+
+use crate::{
+    astro::AzEl,
+    controller::Place,
+    plan::{
+        Supervision,
+        on_board::{Cause, OffLimits, Ranked, Trespass, Unknown},
+    },
+    ui::format,
+};
+
+/// Why a unit misses, in a clause that begins with the unit.
+pub fn cause(ranked: &Ranked) -> String {
+    match &ranked.cause {
+        Cause::Place { place, away_km } => format!(
+            "the unit stands {} km from this station: its place is {}",
+            format::number(*away_km, usize::from(*away_km < 100.0)),
+            place_words(*place)
+        ),
+        Cause::Clock { ahead_s } => {
+            let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
+            format!("the unit's clock is {} {word}", format::age(ahead_s.abs()))
+        }
+        Cause::TimeOffset { offset_s } => {
+            format!("the unit's tracking time offset is {} s", format::signed(*offset_s, 1))
+        }
+        Cause::AzimuthOffset(offset_deg) => {
+            format!("the unit's azimuth offset is {}°", format::signed(*offset_deg, 2))
+        }
+        Cause::ElevationOffset(offset_deg) => {
+            format!("the unit's elevation offset is {}°", format::signed(*offset_deg, 2))
+        }
+        Cause::NorthOffset { offset_deg, off_deg } => format!(
+            "the unit's north offset is {}°, which is {} off the station's mount",
+            format::signed(*offset_deg, 1),
+            format::degrees(off_deg.abs(), 1)
+        ),
+        Cause::MinimumElevation(lowest_deg) => {
+            format!("the unit does not point below {}", format::degrees(*lowest_deg, 1))
+        }
+        Cause::OtherSatellite { catalog_number: 0, .. } => "the unit holds no satellite".to_owned(),
+        Cause::OtherSatellite { catalog_number, name } => {
+            format!("the unit holds {name} ({catalog_number})")
+        }
+        Cause::Elements { told_deg, expected_deg } => format!(
+            "the unit predicts a maximum of {} and Azel {}: its elements are others",
+            format::degrees(*told_deg, 1),
+            format::degrees(*expected_deg, 1)
+        ),
+    }
+}
+
+fn place_words(place: Place) -> String {
+    let angle = |angle_deg: f64, plus, minus| {
+        let letter = if angle_deg < 0.0 { minus } else { plus };
+        format!("{}\u{a0}{letter}", format::number(angle_deg.abs(), 2))
+    };
+    format!("{} {}", angle(place.latitude_deg, 'N', 'S'), angle(place.longitude_deg, 'E', 'W'))
+}
+
+/// By how much a unit would miss `name`, and why.
+pub fn would_miss(name: &str, found: &Supervision) -> String {
+    let off = format::degrees(found.worst.off.degrees(), 1);
+    let at = format::time_z(found.worst.at);
+    match found.causes.first() {
+        Some(first) => {
+            let why = super::capitalised(&cause(first));
+            format!("{why}. It would miss {name} by up to {off} at {at}.")
+        }
+        None => format!("By what the unit tells it would miss {name} by up to {off} at {at}."),
+    }
+}
+
+/// What is not known of a unit; `None` where nothing but its elements is.
+pub fn not_known(found: &Supervision) -> Option<String> {
+    let word = |unknown: &Unknown| match unknown {
+        Unknown::Place => Some("its place"),
+        Unknown::Clock => Some("its clock"),
+        Unknown::Offsets => Some("its offsets"),
+        Unknown::Elements => None,
+    };
+    let words: Vec<&str> = found.unknown.iter().filter_map(word).collect();
+    (!words.is_empty()).then(|| format!("Not known of the unit: {}.", words.join(", ")))
+}
+
+/// What is said of a unit that will follow well enough.
+pub fn within_beam(found: &Supervision) -> Option<String> {
+    let first = found.causes.first()?;
+    let off = format::degrees(found.worst.off.degrees(), 2);
+    Some(format!("Up to {off} off: {}.", cause(first)))
+}
+
+/// The lowest elevation of a unit that is below that of the station.
+pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
+    format!(
+        "The unit's minimum elevation is {}, the station's {}. Set it under Antennas.",
+        format::degrees(unit_deg, 1),
+        format::degrees(station_deg, 1)
+    )
+}
+
+/// Where a unit's own program would go wrong first, and what to do.
+pub fn trespass(Trespass { at, direction, limit }: &Trespass) -> String {
+    let bound = match limit {
+        OffLimits::Elevation { lowest_deg } => {
+            format!("below the {} of this antenna", format::degrees(*lowest_deg, 1))
+        }
+        OffLimits::Forbidden(barrier) => super::forbidden(barrier),
+        OffLimits::Travel => "beyond the travel of its axes".to_owned(),
+    };
+    format!(
+        "Not sent: at {} the unit would point to {}, {bound}. Follow from here instead.",
+        format::time_z(*at),
+        pair(*direction)
+    )
+}
+
+fn pair(direction: AzEl) -> String {
+    let elevation = format::degrees(direction.elevation_deg(), 1);
+    format!("{}, {elevation}", format::degrees(direction.azimuth_deg(), 1))
+}

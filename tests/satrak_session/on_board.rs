@@ -1,0 +1,223 @@
+//! The unit tracks by itself: what it goes by is judged before, and where it points
+//! is watched while it does.
+
+use azel::{
+    astro::{Angle, AzEl, time},
+    controller::{TrackTarget, settings::Value},
+    driver::{Command, Event, Refusal},
+    orbit::{PassSearch, Propagator, passes},
+    plan::{
+        OnBoardPass, Supervision,
+        on_board::{Cause, OffLimits, Trespass},
+    },
+    protocol::satrak::encode,
+};
+use tokio::io::AsyncWriteExt as _;
+
+use super::{
+    rig::{Rig, antenna, iss, options, track},
+    scene,
+    settings::{change, settle},
+};
+
+/// So far south-east that it sees the pass from elsewhere: 1,596 km away.
+const ELSEWHERE: [(&str, f64); 2] = [("latitude_deg", 28.94), ("longitude_deg", 38.57)];
+
+/// A unit that has its place and all else read.
+async fn read() -> Rig {
+    let mut rig = Rig::usual().await;
+    rig.until("its place", 90, |shown| shown.state.on_board.place.is_some()).await;
+    rig.events();
+    rig
+}
+
+async fn general(rig: &mut Rig, field: &'static str, value: Value) {
+    assert_eq!(settle(rig, change("general", [(field, value)])).await, Ok(()));
+}
+
+async fn stand_elsewhere(rig: &mut Rig) {
+    let place = ELSEWHERE.map(|(field, angle_deg)| (field, Value::Decimal(angle_deg)));
+    let [latitude, longitude] = place;
+    let by_hand = ("is_automatic", Value::Flag(false));
+    assert_eq!(settle(rig, change("gps", [by_hand, latitude, longitude])).await, Ok(()));
+}
+
+/// Another client tells the unit something.
+async fn by_another(rig: &Rig, payload: &str) {
+    let (mut near, far) = tokio::io::duplex(4096);
+    let control = rig.control.clone();
+    tokio::spawn(async move { control.serve(far).await });
+    near.write_all(&encode(payload)).await.unwrap();
+    tokio::time::sleep(std::time::Duration::from_secs(1)).await;
+}
+
+/// What is told when the unit would miss; nothing went out.
+async fn refused(rig: &mut Rig) -> Supervision {
+    rig.events();
+    rig.send(track(iss()));
+    let told = rig.until_event(10, |event| matches!(event, Event::WouldMiss { .. })).await;
+    rig.seconds(5.0).await;
+    assert!(rig.sent("SATELLITE=").is_empty() && rig.sent("TRACK=").is_empty());
+    let Event::WouldMiss { found, .. } = told else { panic!("{told:?}") };
+    assert!(!found.is_within_beam);
+    (*found).clone()
+}
+
+fn first(found: &Supervision) -> Cause {
+    found.causes.first().unwrap_or_else(|| panic!("{found:?}")).cause.clone()
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_goes_by_the_same_tracks_and_is_told_what_is_not_known() {
+    let mut rig = read().await;
+    rig.send(track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    rig.seconds(200.0).await;
+    let shown = rig.shown();
+    let view = shown.on_board.as_ref().unwrap();
+    assert_eq!((view.found.causes.clone(), view.missing), (vec![], None));
+    assert_eq!(view.found.lower_minimum_deg, Some(3.0), "5 in the station");
+    rig.send(Command::Standby);
+    rig.seconds(2.0).await;
+    assert_eq!(rig.shown().on_board, None);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_stands_elsewhere_is_not_started_and_says_how_far() {
+    let mut rig = read().await;
+    stand_elsewhere(&mut rig).await;
+    let Cause::Place { away_km, .. } = first(&refused(&mut rig).await) else { panic!() };
+    assert!((1580.0..1610.0).contains(&away_km), "{away_km}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_operator_who_agrees_is_told_that_it_misses_while_it_does() {
+    let mut rig = read().await;
+    stand_elsewhere(&mut rig).await;
+    // It must not point below the station's limit, whatever was agreed to.
+    let agreed = || {
+        let pass = OnBoardPass { is_agreed: true, ..scene::on_board(iss()) };
+        Command::Track(Box::new(pass))
+    };
+    rig.send(agreed());
+    let low = rig.until_event(10, |event| matches!(event, Event::NotSent(_))).await;
+    assert!(matches!(low, Event::NotSent(Refusal::Path(_))), "{low:?}");
+    general(&mut rig, "minimum_elevation_deg", Value::Decimal(5.0)).await;
+    rig.send(agreed());
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    rig.until("missed", 200, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
+    })
+    .await;
+    let shown = rig.shown();
+    let view = shown.on_board.as_ref().unwrap();
+    assert!(view.missing.unwrap() > Angle::from_degrees(5.0), "{view:?}");
+    assert!(matches!(first(&view.found), Cause::Place { .. }));
+    assert!(rig.control.state().is_tracking, "it is told, not ended");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_and_offsets_that_miss_are_found_before_the_pass() {
+    let mut rig = read().await;
+    general(&mut rig, "elevation_offset_deg", Value::Decimal(2.0)).await;
+    assert_eq!(first(&refused(&mut rig).await), Cause::ElevationOffset(2.0));
+    general(&mut rig, "elevation_offset_deg", Value::Decimal(0.0)).await;
+    general(&mut rig, "azimuth_offset_deg", Value::Decimal(-2.0)).await;
+    assert_eq!(first(&refused(&mut rig).await), Cause::AzimuthOffset(-2.0));
+    general(&mut rig, "azimuth_offset_deg", Value::Decimal(0.0)).await;
+    general(&mut rig, "time_offset_ms", Value::Integer(9000)).await;
+    assert_eq!(first(&refused(&mut rig).await), Cause::TimeOffset { offset_s: 9.0 });
+    general(&mut rig, "time_offset_ms", Value::Integer(0)).await;
+    general(&mut rig, "minimum_elevation_deg", Value::Decimal(30.0)).await;
+    assert_eq!(first(&refused(&mut rig).await), Cause::MinimumElevation(30.0));
+    general(&mut rig, "minimum_elevation_deg", Value::Decimal(5.0)).await;
+    let ahead = time::add_seconds(iss().from, 3600.0);
+    let civil = jiff::tz::TimeZone::UTC.to_datetime(ahead);
+    let clock = civil.strftime("TIME=,%-H,%-M,%-S,%-d,%-m,%Y").to_string();
+    by_another(&rig, &clock).await;
+    rig.until("its clock", 15, |shown| shown.state.on_board.clock_ahead_s > Some(1000.0)).await;
+    assert!(matches!(first(&refused(&mut rig).await), Cause::Clock { .. }));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_small_offset_is_told_and_tracked() {
+    let mut rig = read().await;
+    general(&mut rig, "elevation_offset_deg", Value::Decimal(0.2)).await;
+    rig.send(track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    let shown = rig.shown();
+    let found = &shown.on_board.as_ref().unwrap().found;
+    assert!(found.is_within_beam && (found.worst.off.degrees() - 0.2).abs() < 0.05, "{found:?}");
+    assert_eq!(first(found), Cause::ElevationOffset(0.2));
+    rig.seconds(60.0).await;
+    let shown = rig.shown();
+    let causes = &shown.on_board.as_ref().unwrap().found.causes;
+    assert_eq!(causes.len(), 1, "the height of the pass agrees too: {causes:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_another_client_changes_while_the_unit_tracks_is_read_and_told() {
+    let mut rig = read().await;
+    rig.send(track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    let in_pass = |shown: &azel::driver::Snapshot| {
+        shown.state.program.is_some_and(|it| it.phase == azel::controller::Phase::Tracking)
+    };
+    rig.until("in the pass", 120, in_pass).await;
+    rig.seconds(20.0).await;
+    by_another(&rig, "SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?").await;
+    rig.until("found", 32, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| !view.found.is_within_beam)
+    })
+    .await;
+    rig.until("missed", 20, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
+    })
+    .await;
+    assert_eq!(first(&rig.shown().on_board.as_ref().unwrap().found), Cause::ElevationOffset(8.0));
+    by_another(&rig, "SETTINGS=,?,?,?,0.0,?,?,?,?,?,?,?").await;
+    rig.until("on it again", 20, |shown| shown.on_board.as_ref().unwrap().missing.is_none()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
+    let mut low = antenna();
+    low.limits.minimum_elevation_deg = 30.0;
+    let mut rig = Rig::connected(&options(), &low).await;
+    rig.send(track(iss()));
+    let told = rig.until_event(10, |event| matches!(event, Event::NotSent(_))).await;
+    let Event::NotSent(Refusal::Path(Trespass { at, direction, limit })) = told else {
+        panic!("{told:?}")
+    };
+    let OffLimits::Elevation { lowest_deg } = limit else { panic!("{limit:?}") };
+    assert!((lowest_deg - 30.0).abs() < 1e-9);
+    assert!(time::seconds_between(iss().from, at).abs() < 2.0);
+    assert!((direction.elevation_deg() - 10.0).abs() < 0.5);
+    rig.seconds(5.0).await;
+    assert_eq!(rig.orders(), [] as [&str; 0]);
+
+    // The window above it is tracked, and the metal stays above.
+    let satellite = scene::on_board(iss());
+    let propagator = Propagator::new(&satellite.elements).unwrap();
+    let search = PassSearch {
+        aos_elevation: Angle::from_degrees(30.0),
+        ..PassSearch::new(scene::site(), iss().from, iss().until)
+    };
+    let above = passes(&propagator, &search, &|| false)[0];
+    let target = TrackTarget {
+        from: time::add_seconds(above.aos.time, 1.0),
+        until: above.los.time,
+        ..iss()
+    };
+    rig.send(track(target.clone()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    let mut lowest = AzEl::from_degrees(0.0, 90.0);
+    while rig.control.state().is_tracking {
+        rig.seconds(0.5).await;
+        let now = rig.control.state();
+        if now.el_deg < lowest.elevation_deg() {
+            lowest = AzEl::from_degrees(now.az_deg, now.el_deg);
+        }
+    }
+    assert!((29.9..31.0).contains(&lowest.elevation_deg()), "{lowest:?}");
+}
