@@ -14,11 +14,13 @@ pub mod command;
 pub mod copies;
 pub mod daylight;
 mod demo;
+pub mod effects;
 pub mod forecast;
 pub mod host_keys;
 mod job;
 mod log_file;
 mod logic;
+pub mod mask_file;
 mod memory;
 pub mod model;
 mod settle;
@@ -45,6 +47,7 @@ use self::{
     demo::Demo,
     job::Job,
     log_file::LogWork,
+    mask_file::MaskWork,
     memory::Keeper,
     model::CatalogState,
     sources::{Outcome, Places, SourceWork, Sources, Task},
@@ -83,6 +86,7 @@ pub struct App {
     elements_job: Option<Job<Outcome>>,
     copy_work: CopyWork,
     log_work: LogWork,
+    mask_work: MaskWork,
     uploads: uploads::Desk,
     source_tests: source_tests::Desk,
     keeper: Keeper,
@@ -117,6 +121,7 @@ impl App {
             sky: model::Sky::default(),
             uploads: uploads::Uploads::default(),
             source_tests: source_tests::SourceTests::default(),
+            effects: effects::Effects::default(),
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
@@ -126,6 +131,7 @@ impl App {
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
+        let mask_work = MaskWork::beside(places.library().map(PathBuf::from));
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
@@ -144,6 +150,7 @@ impl App {
             elements_job: Some(elements_job),
             copy_work,
             log_work,
+            mask_work,
             uploads,
             source_tests,
             keeper,

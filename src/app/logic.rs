@@ -30,6 +30,7 @@ impl App {
         self.take_catalog();
         self.take_copies();
         self.take_log_file();
+        self.take_mask_file();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);
             let renewed = self.model.forecasts.refresh(
@@ -48,6 +49,7 @@ impl App {
         }
         self.poll_uploads();
         self.source_tests.poll(&mut self.model.source_tests);
+        self.work_on_effects();
         self.model.refresh_sky();
         self.remember();
     }

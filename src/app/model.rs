@@ -11,6 +11,7 @@ use super::{
     clearance::Clearance,
     copies::Copies,
     daylight::{self, SunSpan},
+    effects::Effects,
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
     source_tests::SourceTests,
     sources::Sources,
@@ -86,6 +87,8 @@ pub struct Model {
     pub uploads: Uploads,
     /// The sources that units are told to use, tested from here.
     pub source_tests: SourceTests,
+    /// What the keep-outs do to the passes to come.
+    pub effects: Effects,
     /// What must not be missed.
     pub alarms: Alarms,
     /// Copies of the settings of units.
