@@ -139,7 +139,7 @@ impl App {
         let asked = question.clone();
         let work = move |cancelled: &(dyn Fn() -> bool + Sync)| {
             let ways = known.unwrap_or_else(|| ways(&passes, cancelled));
-            answer(asked, ways, edition)
+            answer(asked, &ways, edition)
         };
         match Job::start("azel-effects", Arc::clone(&self.wake), work) {
             // A job on an older question is cancelled.
@@ -160,10 +160,10 @@ pub fn ways(passes: &[Forecast], cancelled: &dyn Fn() -> bool) -> Arc<[Way]> {
 }
 
 /// Works out the answer.
-pub fn answer(question: Question, ways: Arc<[Way]>, edition: u64) -> Effect {
-    let tally = |obstacles: &Obstacles| tally(obstacles, &question, &ways);
+pub fn answer(question: Question, ways: &Arc<[Way]>, edition: u64) -> Effect {
+    let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
     let (before, after) = (tally(&question.before), tally(&question.after));
-    Effect { ways: Arc::clone(&ways), before, after, edition, question }
+    Effect { ways: Arc::clone(ways), before, after, edition, question }
 }
 
 fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
@@ -275,7 +275,7 @@ mod tests {
         let after = Obstacles { mask: HorizonMask::parse(mask).ok(), keep_outs };
         let antenna = Some("Satrak".to_owned());
         let question = Question { before, after, antenna, half_beam: Angle::ZERO };
-        let effect = answer(question, [way()].into(), 0);
+        let effect = answer(question, &[way()].into(), 0);
         assert_eq!(effect.before, Tally::default());
         effect.after
     }

@@ -366,7 +366,7 @@ fn the_effect_on_the_passes_stands_below_the_plot() {
         window.get_by_label_contains("Being worked out.");
         let passes = window.state().model.forecasts.favourites.passes.clone();
         let ways = effects::ways(&passes, &|| false);
-        let effect = effects::answer(question.clone(), ways, 0);
+        let effect = effects::answer(question.clone(), &ways, 0);
         assert!(effect.after.touched > 0);
         let touched =
             format!("block part of {} of the {} passes", effect.after.touched, effect.ways.len());

@@ -49,7 +49,7 @@ pub(in crate::ui) fn paint(
         }
         painter.add(filled(&area, t.keep));
         painter.add(Shape::closed_line(area.clone(), Stroke::new(1.5, t.bad)));
-        words.extend(label(painter, dome, &area, mark.name, t));
+        words.push(label(painter, dome, &area, mark.name, t));
     }
     words
 }
@@ -104,7 +104,7 @@ pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
 
 /// The words of a keep-out, inside where they have room, otherwise beside it
 /// towards the zenith.
-fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -> Option<Rect> {
+fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -> Rect {
     let bounds = Rect::from_points(area);
     let head = painter.layout_no_wrap("KEEP-OUT".to_owned(), text::sized(11.0, Weight::Bold), t.t1);
     let below = painter.layout_no_wrap(name.to_owned(), text::caption(), t.t1);
@@ -128,7 +128,7 @@ fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -
     let (first, second) = (rect.top() + PADDING, rect.top() + PADDING + head.size().y);
     painter.galley(at(first, head.size()), head, t.t1);
     painter.galley(at(second, below.size()), below, t.t1);
-    Some(rect)
+    rect
 }
 
 #[cfg(test)]

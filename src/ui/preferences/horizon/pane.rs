@@ -299,19 +299,18 @@ fn zone(
         let half_deg =
             state.shown(model).map_or(0.0, |antenna| antenna.config.beam_width_deg / 2.0);
         let behind = place.with_min_x(rect.right() + 8.0);
-        match zone.margin.problem() {
-            Some(why) => standing(ui, behind, "margin", &Standing::Wrong(why), t),
-            None => {
-                let own = zone.margin.kept();
-                let words = format!(
-                    "°   half beam {} + {} = {}",
-                    format::degrees(half_deg, 2),
-                    format::degrees(own, 1),
-                    format::degrees(half_deg + own, 2)
-                );
-                paint::text_in(ui, behind, Align2::LEFT_CENTER, &words, text::small(), t.t3);
-            }
+        if let Some(why) = zone.margin.problem() {
+            standing(ui, behind, "margin", &Standing::Wrong(why), t);
+            return;
         }
+        let own = zone.margin.kept();
+        let words = format!(
+            "°   half beam {} + {} = {}",
+            format::degrees(half_deg, 2),
+            format::degrees(own, 1),
+            format::degrees(half_deg + own, 2)
+        );
+        paint::text_in(ui, behind, Align2::LEFT_CENTER, &words, text::small(), t.t3);
     });
     labelled(ui, "When entered", |ui, place| {
         let all = [

@@ -33,6 +33,8 @@ const HANDLE: f32 = 10.0;
 const CHOSEN: f32 = 12.0;
 const MIDDLE: f32 = 7.0;
 const POINT: f32 = 6.0;
+/// Height of a line of the legend.
+const ROW: f32 = 18.0;
 /// What the pointer takes hold of around a mark.
 const GRIP: f32 = 16.0;
 
@@ -613,7 +615,6 @@ fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
             painter.line_segment(line, Stroke::new(1.5, t.warn));
         }),
     ];
-    const ROW: f32 = 18.0;
     let size = vec2(150.0, ROW * rows.len() as f32);
     let corner = rect.left_bottom() + vec2(16.0, -8.0 - size.y);
     let place = Rect::from_min_size(corner, size);
