@@ -135,7 +135,8 @@ fn paint_sky(
     }
     labels.reserve_path(&dome.circle(dome.radius), 4.0);
     if layers.keep_outs {
-        for words in keep_outs::paint(painter, dome, scene.keep_outs, t) {
+        keep_outs::paint(painter, dome, scene.keep_outs, t);
+        for words in keep_outs::words(painter, dome, scene.keep_outs, t) {
             labels.reserve(words);
         }
     }

@@ -342,7 +342,7 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
         ("Rectangle", Tool::Rectangle),
     ];
     let segments = tools.map(|(word, tool)| (word, chosen(state.tool == tool)));
-    let place = row.with_max_x(row.left() + 330.0_f32.min(row.width() * 0.6));
+    let place = row.with_max_x(row.left() + 304.0_f32.min(row.width() * 0.6));
     let clicked = segmented::show(ui, "horizon tool", place, "Tool", &segments);
     if let Some((_, tool)) = clicked.and_then(|index| tools.get(index)) {
         state.tool = *tool;
@@ -358,7 +358,7 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
     let mut left = place.right() + 12.0;
     for (on, word) in [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes of 48 h")]
     {
-        let width = paint::text_width(ui, word, text::body()) + 40.0;
+        let width = paint::text_width(ui, word, text::body()) + 32.0;
         if left + width < undoing.left() {
             let rect = row.with_min_x(left).with_max_x(left + width);
             ui.place(rect, Checkbox::new(on, word));

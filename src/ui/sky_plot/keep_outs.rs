@@ -23,14 +23,8 @@ const STRIP: f32 = 1.0;
 /// Around the words, points.
 const PADDING: f32 = 3.0;
 
-/// Paints the keep-outs. Returns the boxes of their words.
-pub(in crate::ui) fn paint(
-    painter: &Painter,
-    dome: Dome,
-    marks: &[KeepOutMark<'_>],
-    t: &Tokens,
-) -> Vec<Rect> {
-    let mut words = Vec::new();
+/// Paints the keep-outs without their words.
+pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'_>], t: &Tokens) {
     for mark in marks {
         let area = outline(dome, mark.zone);
         let around = margin(dome, mark.zone, mark.margin);
@@ -49,9 +43,19 @@ pub(in crate::ui) fn paint(
         }
         painter.add(filled(&area, t.keep));
         painter.add(Shape::closed_line(area.clone(), Stroke::new(1.5, t.bad)));
-        words.push(label(painter, dome, &area, mark.name, t));
     }
-    words
+}
+
+/// Paints the words of the keep-outs. Returns their boxes.
+pub(in crate::ui) fn words(
+    painter: &Painter,
+    dome: Dome,
+    marks: &[KeepOutMark<'_>],
+    t: &Tokens,
+) -> Vec<Rect> {
+    let areas = marks.iter().map(|mark| (mark, outline(dome, mark.zone)));
+    let seen = areas.filter(|(_, area)| area.len() > 2);
+    seen.map(|(mark, area)| label(painter, dome, &area, mark.name, t)).collect()
 }
 
 /// The area of a zone above the horizon.
@@ -121,7 +125,9 @@ fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -
         inside.translate(towards * by)
     };
     let ground = if fits { t.keep } else { t.sky };
-    painter.rect_filled(rect, 0.0, ground);
+    if let Some(corners) = dome.clipped(rect) {
+        painter.add(Shape::convex_polygon(corners, ground, Stroke::NONE));
+    }
     let at = |y: f32, size: egui::Vec2| {
         Align2::CENTER_TOP.align_size_within_rect(size, rect.with_min_y(y)).min
     };

@@ -17,7 +17,7 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
     };
     let after = toll(&effect.after, &effect.question.after);
     let (who, (passes, time_s)) = match (zone, after) {
-        (Some(name), Some(toll)) => (format!("The keep-out {name} blocks"), toll),
+        (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
         _ => ("The keep-outs block".to_owned(), (effect.after.touched, effect.after.lost_s)),
     };
     let blocks = match passes {

@@ -1,5 +1,7 @@
 //! The sky with the skyline and the keep-outs, to be drawn in.
 
+use std::ops::Range;
+
 use egui::{
     Align2, EventFilter, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Shape,
     Stroke, StrokeKind, Ui, WidgetInfo, vec2,
@@ -11,7 +13,11 @@ use super::{
     edit::{self, place},
 };
 use crate::{
-    app::{Model, antenna::AntennaModel, effects::Effect},
+    app::{
+        Model,
+        antenna::AntennaModel,
+        effects::{Effect, Toll},
+    },
     astro::{Angle, AzEl, Zone},
     station::{Antenna, Mount},
     ui::{
@@ -34,7 +40,7 @@ const CHOSEN: f32 = 12.0;
 const MIDDLE: f32 = 7.0;
 const POINT: f32 = 6.0;
 /// Height of a line of the legend.
-const ROW: f32 = 18.0;
+const ROW: f32 = 17.0;
 /// What the pointer takes hold of around a mark.
 const GRIP: f32 = 16.0;
 
@@ -52,7 +58,7 @@ pub(super) fn show(
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt("horizon plot").max_rect(rect));
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui);
-    let dome = Dome::fitted(rect.with_min_y(rect.top() + 16.0));
+    let dome = Dome::fitted(rect.with_min_y(rect.top() + 24.0));
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let antenna = state.shown(model);
 
@@ -118,10 +124,10 @@ fn paint_sky(
         Chosen::Zone(index) => skies.zones.get(index),
         Chosen::Skyline | Chosen::Sun => None,
     };
-    if state.shows_passes
-        && let Some(effect) = &model.effects.effect
-    {
-        passes(ui, dome, effect, chosen.map(|zone| zone.name.trim()), t);
+    let name = chosen.map(|zone| zone.name.trim());
+    let shown_effect = model.effects.effect.as_ref().filter(|_| state.shows_passes);
+    if let Some(effect) = shown_effect {
+        passes(ui, dome, effect, name, t);
     }
     if let Some(config) = config {
         travel(ui, dome, config, t);
@@ -143,6 +149,10 @@ fn paint_sky(
         })
         .collect();
     keep_outs::paint(painter, dome, &marks, t);
+    if let Some(effect) = shown_effect {
+        blocked(ui, dome, effect, name, t);
+    }
+    keep_outs::words(painter, dome, &marks, t);
     for zone in skies.zones.iter().filter(|zone| zone.zone().is_err()) {
         let corners = zone.corners_deg();
         let path: Vec<Pos2> =
@@ -172,29 +182,38 @@ fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
     }
 }
 
-fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+/// What the keep-out of this name does to the passes.
+fn toll_of<'a>(effect: &'a Effect, name: Option<&str>) -> Option<&'a Toll> {
     let keep_outs = &effect.question.after.keep_outs;
-    let toll = keep_outs
-        .iter()
-        .position(|of| Some(&*of.name) == chosen)
-        .and_then(|place| effect.after.of_each.get(place));
+    let place = keep_outs.iter().position(|of| Some(&*of.name) == name)?;
+    effect.after.of_each.get(place)
+}
+
+fn path(dome: Dome, effect: &Effect, way: usize, samples: Option<Range<usize>>) -> Vec<Pos2> {
+    let Some(way) = effect.ways.get(way) else { return Vec::new() };
+    let samples = samples.map_or(Some(way.samples.as_slice()), |range| way.samples.get(range));
+    dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
+}
+
+/// All passes, those that the chosen keep-out touches above the others.
+fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+    let toll = toll_of(effect, chosen);
     let touched =
         |way: usize| toll.is_some_and(|toll| toll.blocked.iter().any(|(of, _)| *of == way));
-    let path = |way: usize, samples: std::ops::Range<usize>| -> Vec<Pos2> {
-        let samples = effect.ways.get(way).and_then(|way| way.samples.get(samples));
-        dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
-    };
     for is_touched in [false, true] {
         let colour = if is_touched { t.other } else { t.grid };
-        for (index, way) in effect.ways.iter().enumerate() {
-            if touched(index) == is_touched {
-                let line = path(index, 0..way.samples.len());
-                ui.painter().add(Shape::line(line, Stroke::new(1.0, colour)));
-            }
+        for way in (0..effect.ways.len()).filter(|way| touched(*way) == is_touched) {
+            let line = path(dome, effect, way, None);
+            ui.painter().add(Shape::line(line, Stroke::new(1.0, colour)));
         }
     }
-    for (way, samples) in toll.map(|toll| toll.blocked.iter()).into_iter().flatten() {
-        let line = path(*way, samples.clone());
+}
+
+/// The parts of passes that the chosen keep-out blocks.
+fn blocked(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+    let parts = toll_of(effect, chosen).map(|toll| toll.blocked.iter());
+    for (way, samples) in parts.into_iter().flatten() {
+        let line = path(dome, effect, *way, Some(samples.clone()));
         ui.painter().add(Shape::line(line, Stroke::new(1.5, t.warn)));
     }
 }
@@ -615,10 +634,15 @@ fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
             painter.line_segment(line, Stroke::new(1.5, t.warn));
         }),
     ];
-    let size = vec2(150.0, ROW * rows.len() as f32);
-    let corner = rect.left_bottom() + vec2(16.0, -8.0 - size.y);
-    let place = Rect::from_min_size(corner, size);
-    if place.clamp(dome.centre).distance(dome.centre) < dome.radius {
+    let corner = rect.left_bottom() + vec2(12.0, -6.0 - ROW * rows.len() as f32);
+    let row = |index: usize, name: &str| {
+        let width = paint::text_width(ui, name, text::small()) + 30.0;
+        Rect::from_min_size(corner + vec2(0.0, ROW * index as f32), vec2(width, ROW))
+    };
+    let is_over = |(index, (name, _)): (usize, &(&str, Sample))| {
+        row(index, name).clamp(dome.centre).distance(dome.centre) < dome.radius + 4.0
+    };
+    if rows.iter().enumerate().any(is_over) {
         return;
     }
     for (index, (name, sample)) in rows.into_iter().enumerate() {
