@@ -44,11 +44,14 @@ pub(super) fn show(
     state: &mut HorizonState,
 ) {
     let inner = rect.shrink2(vec2(PADDING, 0.0)).with_min_y(rect.top() + 8.0);
+    // The scroll bar stands beside the numbers.
+    let (inner, width) = (inner.with_max_x(rect.right() - 2.0), inner.width());
     let builder = UiBuilder::new().id_salt("horizon pane").max_rect(inner);
     ui.scope_builder(builder, |ui| {
         ui.set_clip_rect(rect);
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.set_max_width(width);
             table(ui, model, skies, state);
             ui.add_space(12.0);
             match state.chosen {
@@ -414,9 +417,8 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
     let t = theme::tokens(ui);
     let head = row(ui, 32.0);
     paint::text_in(ui, head, Align2::LEFT_CENTER, "Sun", text::value(), t.t1);
-    let place = row(ui, FIELD);
-    let words = "Keep antennas away from the Sun";
-    ui.place(place.with_max_x(place.left() + 280.0), Checkbox::new(&mut skies.sun.is_on, words));
+    ui.add(Checkbox::new(&mut skies.sun.is_on, "Keep antennas away from the Sun"));
+    ui.add_space(4.0);
     if !skies.sun.is_on {
         return;
     }

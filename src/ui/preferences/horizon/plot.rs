@@ -58,7 +58,9 @@ pub(super) fn show(
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt("horizon plot").max_rect(rect));
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui);
-    let dome = Dome::fitted(rect.with_min_y(rect.top() + 24.0));
+    // Beside a disc that is not as wide as the plot, the hint needs no line of its own.
+    let hint_height = if rect.width() > rect.height() + 300.0 { 0.0 } else { 24.0 };
+    let dome = Dome::fitted(rect.with_min_y(rect.top() + hint_height));
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let antenna = state.shown(model);
 
