@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     controller::{AxisMotion, panel::CheckState},
-    driver::{Event, LinkState, StopState},
+    driver::{Event, LinkState, Safety, StopState},
     station::Station,
 };
 
@@ -31,6 +31,7 @@ impl App {
         self.take_catalog();
         self.take_copies();
         self.take_log_file();
+        self.take_mask_file();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);
             let renewed = self.model.forecasts.refresh(
@@ -59,6 +60,7 @@ impl App {
         self.watch_closing();
         self.poll_uploads();
         self.source_tests.poll(&mut self.model.source_tests);
+        self.work_on_effects();
         self.model.refresh_sky();
         self.remember();
     }
@@ -166,6 +168,9 @@ impl App {
             _ => {}
         }
         self.take_closing_event(index, &event);
+        if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {
+            self.offer_resume(index, name);
+        }
         if let Some(kind) = alarm_of(&event) {
             self.model.alarms.raise(antenna, kind, now);
         }
