@@ -1,8 +1,9 @@
 //! The one checker that every motion passes.
 //!
 //! Invariant: the gate owns the controller and hands out only its
-//! [`Device`] side, so no other code can start a motion. A new rule, such as a
-//! keep-out, is one more entry of [`RULES`].
+//! [`Device`] side, so no other code can start a motion. A new rule is one more
+//! entry of [`RULES`], and one more case of the table that proves that it is
+//! needed (`tests/each_rule.rs`).
 
 mod program;
 mod rules;
@@ -27,7 +28,7 @@ use crate::{
     },
     station::{LockOut, MotionLimits, Mount},
 };
-use rules::RULES;
+use rules::{Check, RULES, Rule};
 
 /// From one side of the zenith to the other.
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -171,10 +172,13 @@ impl From<&LockOut> for Refusal {
 
 /// What the rules look at beside the motion itself.
 struct Situation<'a> {
+    gate: &'a Gate,
     state: &'a AntennaState,
     can: Capabilities,
     intent: Intent,
     stopping: bool,
+    /// The antenna was told to move, whatever it does.
+    may_move: bool,
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
@@ -187,6 +191,7 @@ struct Situation<'a> {
 /// The checker and the controller behind it.
 pub(super) struct Gate {
     controller: Box<dyn Moves>,
+    rules: Vec<Rule>,
     limits: MotionLimits,
     mount: Mount,
     bounds: Bounds,
@@ -208,6 +213,7 @@ impl Gate {
         let run_out_s = controller.capabilities().standstill.run_out_s;
         Self {
             controller,
+            rules: RULES.to_vec(),
             limits,
             mount: bounds.mount(),
             bounds,
@@ -217,6 +223,15 @@ impl Gate {
             unproved_since: None,
             program: None,
         }
+    }
+
+    /// The same gate without the rule of this name.
+    #[cfg(test)]
+    fn without(mut self, name: &str) -> Self {
+        let before = self.rules.len();
+        self.rules.retain(|rule| rule.name != name);
+        assert_eq!(self.rules.len() + 1, before, "no rule is called {name}");
+        self
     }
 
     /// The lock-out of the unit.
@@ -302,21 +317,20 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         let situation = self.situation(intent, stopping, now);
-        let told = self.controller.as_told(motion);
-        RULES.iter().try_for_each(|rule| rule(&motion, &situation))?;
-        way::is_clear(&told, &situation)?;
-        if motion == Motion::StartProgram {
-            self.program_is_clear(now)?;
-        }
-        self.controller.objection(&motion, now).map_or(Ok(()), |why| Err(Refusal::Controller(why)))
+        self.rules.iter().try_for_each(|rule| match rule.check {
+            Check::Motion(check) => check(&motion, &situation),
+            Check::Act(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+        })
     }
 
     fn situation(&self, intent: Intent, stopping: bool, now: Moment) -> Situation<'_> {
         Situation {
+            gate: self,
             state: self.controller.state(),
             can: self.controller.capabilities(),
             intent,
             stopping,
+            may_move: false,
             limits: self.limits,
             mount: self.mount,
             bounds: &self.bounds,
@@ -335,13 +349,17 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        // What moves nothing may still get in the way of hands.
-        if let Some(lock_out) = &self.lock_out {
-            return Err(lock_out.into());
-        }
+        let situation = self.situation(intent, stopping, now);
+        self.rules.iter().try_for_each(|rule| match rule.check {
+            Check::Act(check) => check(&act, &situation),
+            Check::Motion(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+        })?;
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
-            self.check_axes(self.controller.axes_of(&act), now)?;
+            self.rules.iter().try_for_each(|rule| match rule.check {
+                Check::MovingAct(check) => check(&act, &situation),
+                Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
+            })?;
             self.unproved_since = Some(now.steady);
         }
         self.controller.act(act);

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
-use super::{Refusal, Situation};
+use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
-    controller::{Motion, aimed},
+    controller::{Motion, aimed, panel::Act, settings::Hindrance},
     driver::intent::Intent,
     station::Mount,
 };
@@ -15,22 +15,56 @@ const FRESH: Duration = Duration::from_secs(1);
 /// Anything else needs a position younger than this.
 const RECENT: Duration = Duration::from_secs(5);
 
-type Rule = fn(&Motion, &Situation<'_>) -> Result<(), Refusal>;
+/// One reason to refuse.
+#[derive(Clone, Copy)]
+pub(super) struct Rule {
+    /// Unlike that of any other rule.
+    pub(super) name: &'static str,
+    pub(super) check: Check,
+}
 
-/// All rules, the plainest reason first.
-pub(super) const RULES: [Rule; 12] = [
-    unit_is_not_locked_out,
-    something_is_asked_for,
-    controller_offers_it,
-    position_is_fresh,
-    no_stop_under_way,
-    intent_allows_it,
-    no_fault_forbids_it,
-    no_limit_switch_in_that_direction,
-    within_rates_and_steps,
-    no_blind_jog,
-    within_travel,
-    within_reach,
+/// What a rule is about.
+#[derive(Clone, Copy)]
+pub(super) enum Check {
+    /// Any motion, an action that moves among them.
+    Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
+    /// An action.
+    Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
+    /// An action that moves, after the rules of motions.
+    MovingAct(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
+    /// A setting that decides where the antenna points.
+    Setting(fn(&Situation<'_>) -> Option<Hindrance>),
+}
+
+/// A list of rules, each with the name of its function.
+macro_rules! rules {
+    ($($kind:ident($check:ident),)*) => {
+        &[$(Rule { name: stringify!($check), check: Check::$kind($check) },)*]
+    };
+}
+
+/// All rules; of each kind the plainest reason first.
+pub(super) const RULES: &[Rule] = rules![
+    Motion(unit_is_not_locked_out),
+    Motion(something_is_asked_for),
+    Motion(controller_offers_it),
+    Motion(position_is_fresh),
+    Motion(no_stop_under_way),
+    Motion(intent_allows_it),
+    Motion(no_fault_forbids_it),
+    Motion(no_limit_switch_in_that_direction),
+    Motion(within_rates_and_steps),
+    Motion(no_blind_jog),
+    Motion(within_travel),
+    Motion(within_reach),
+    Motion(way_is_clear),
+    Motion(program_is_clear),
+    Motion(controller_agrees),
+    Act(no_action_while_locked_out),
+    MovingAct(way_of_the_action_is_clear),
+    Setting(no_setting_while_stopping),
+    Setting(no_setting_while_the_unit_may_move),
+    Setting(no_setting_after_a_motion_was_asked_for),
 ];
 
 fn unit_is_not_locked_out(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
@@ -232,4 +266,43 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
         }
     }
     Ok(())
+}
+
+/// Judged as the device is told it, which may round.
+fn way_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    way::is_clear(&situation.gate.controller.as_told(*motion), situation)
+}
+
+fn program_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    if *motion != Motion::StartProgram {
+        return Ok(());
+    }
+    situation.gate.program_is_clear(situation.now)
+}
+
+fn controller_agrees(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let objection = situation.gate.controller.objection(motion, situation.now);
+    objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
+}
+
+/// What moves nothing may still get in the way of hands.
+fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
+}
+
+fn way_of_the_action_is_clear(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let gate = situation.gate;
+    gate.check_axes(gate.controller.axes_of(act), situation.now)
+}
+
+fn no_setting_while_stopping(situation: &Situation<'_>) -> Option<Hindrance> {
+    situation.stopping.then_some(Hindrance::Stopping)
+}
+
+fn no_setting_while_the_unit_may_move(situation: &Situation<'_>) -> Option<Hindrance> {
+    Hindrance::of(situation.state, situation.can, situation.now.steady)
+}
+
+fn no_setting_after_a_motion_was_asked_for(situation: &Situation<'_>) -> Option<Hindrance> {
+    situation.may_move.then_some(Hindrance::Moves)
 }

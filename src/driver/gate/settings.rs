@@ -1,11 +1,11 @@
 //! Settings that decide where the antenna points, and targets, on their way to
 //! the controller.
 
-use super::{Gate, Refusal};
+use super::{Check, Gate, Refusal, Situation};
 use crate::{
     controller::{
         Moment, Motion, TrackTarget,
-        settings::{Change, Hindrance, SettleError},
+        settings::{Change, SettleError},
     },
     driver::Intent,
 };
@@ -26,10 +26,12 @@ impl Gate {
         let group = groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
         let hindrance = || {
-            let (state, can) = (self.controller.state(), self.controller.capabilities());
-            let told = may_move.then_some(Hindrance::Moves);
-            let stopping = stopping.then_some(Hindrance::Stopping);
-            stopping.or_else(|| Hindrance::of(state, can, now.steady)).or(told)
+            let asked = self.situation(Intent::Standby, stopping, now);
+            let situation = Situation { may_move, ..asked };
+            self.rules.iter().find_map(|rule| match rule.check {
+                Check::Setting(check) => check(&situation),
+                Check::Motion(_) | Check::Act(_) | Check::MovingAct(_) => None,
+            })
         };
         let Some((field, why)) = field.and_then(|field| Some((field, hindrance()?))) else {
             self.controller.settle(change, now);

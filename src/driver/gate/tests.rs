@@ -1,5 +1,6 @@
 //! Each rule refuses and allows.
 
+mod each_rule;
 mod makes;
 
 use std::{
@@ -14,12 +15,12 @@ use crate::{
     astro::{AzEl, Site, time::add_seconds},
     controller::{
         Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
-        WireLine,
+        WireLine, satrak,
         settings::{Change, Group, SettleError},
     },
     orbit::{PassSearch, Propagator, passes},
     plan::{OnBoardPass, on_board::Ability},
-    station::Antenna,
+    station::{Antenna, KeepOut, Station},
 };
 
 /// A controller that remembers what was started.
@@ -27,6 +28,20 @@ struct Metal {
     can: Capabilities,
     state: AntennaState,
     started: Arc<Mutex<Vec<Motion>>>,
+    objection: Option<&'static str>,
+    leads_to: [Option<f64>; 2],
+}
+
+impl Metal {
+    fn of(case: &Case, started: Arc<Mutex<Vec<Motion>>>) -> Self {
+        Self {
+            can: case.antenna.connection.make().capabilities,
+            state: case.state.clone(),
+            started,
+            objection: case.objection,
+            leads_to: case.leads_to,
+        }
+    }
 }
 
 impl Device for Metal {
@@ -60,7 +75,7 @@ impl Device for Metal {
         false
     }
     fn groups(&self) -> &'static [&'static Group] {
-        &[]
+        satrak::GROUPS
     }
 
     fn read_group(&mut self, _: &str) {}
@@ -83,6 +98,14 @@ impl Device for Metal {
 }
 
 impl Moves for Metal {
+    fn objection(&self, _: &Motion, _: Moment) -> Option<&'static str> {
+        self.objection
+    }
+
+    fn axes_of(&self, _: &Act) -> [Option<f64>; 2] {
+        self.leads_to
+    }
+
     fn prepare(&mut self, _: TrackTarget) {}
 
     fn settle(&mut self, _: Change, _: Moment) {}
@@ -121,6 +144,14 @@ struct Case {
     stopping: bool,
     age: Duration,
     antenna: Antenna,
+    keep_outs: Vec<KeepOut>,
+    /// The unit's program is started on [`PROGRAM`].
+    pass_is_known: bool,
+    lock_out: Option<LockOut>,
+    /// What the controller has against any motion.
+    objection: Option<&'static str>,
+    /// Where any action brings the axes, degrees.
+    leads_to: [Option<f64>; 2],
 }
 
 impl Case {
@@ -150,6 +181,11 @@ impl Case {
             stopping: false,
             age: Duration::from_millis(100),
             antenna: Antenna::satrak("Dish", ""),
+            keep_outs: Vec::new(),
+            pass_is_known: true,
+            lock_out: None,
+            objection: None,
+            leads_to: [None; 2],
         }
     }
 
@@ -159,17 +195,26 @@ impl Case {
 
     /// What the gate says; it is checked that only an allowed motion starts.
     fn ask(&self, motion: Motion) -> Result<(), Refusal> {
-        let started = Arc::new(Mutex::new(Vec::new()));
-        let can = self.antenna.connection.make().capabilities;
-        let metal = Metal { can, state: self.state.clone(), started: Arc::clone(&started) };
-        let mut gate =
-            Gate::new(Box::new(metal), self.antenna.limits, Bounds::of_antenna(&self.antenna));
-        gate.program = Some(Arc::clone(&PROGRAM));
-        let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
-        let now = Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH };
-        let answer = gate.start(motion, self.intent, self.stopping, now);
+        let started = Arc::default();
+        let mut gate = self.gate(&started);
+        let answer = gate.start(motion, self.intent, self.stopping, self.now());
         assert_eq!(started.lock().unwrap().len(), usize::from(answer.is_ok()));
         answer
+    }
+
+    fn gate(&self, started: &Arc<Mutex<Vec<Motion>>>) -> Gate {
+        let metal = Metal::of(self, Arc::clone(started));
+        let station = Station { keep_outs: self.keep_outs.clone(), ..Station::default() };
+        let bounds = Bounds::of(&station, &self.antenna);
+        let mut gate = Gate::new(Box::new(metal), self.antenna.limits, bounds);
+        gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
+        gate.set_lock_out(self.lock_out.clone());
+        gate
+    }
+
+    fn now(&self) -> Moment {
+        let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
+        Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH }
     }
 }
 
@@ -375,11 +420,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
     if let Mount::AzEl { azimuth_to_deg, .. } = &mut mount {
         *azimuth_to_deg = 450.0;
     }
-    let metal = Metal {
-        can: case.antenna.connection.make().capabilities,
-        state: case.state.clone(),
-        started: Arc::default(),
-    };
+    let metal = Metal::of(&case, Arc::default());
     let gate = Gate::new(
         Box::new(metal),
         case.antenna.limits,

@@ -11,11 +11,11 @@ fn of(antenna: Antenna, intent: Intent) -> Case {
     case
 }
 
-fn genius(intent: Intent) -> Case {
+pub(super) fn genius(intent: Intent) -> Case {
     of(Antenna::genius("Mast", ""), intent)
 }
 
-fn rc2000c(intent: Intent) -> Case {
+pub(super) fn rc2000c(intent: Intent) -> Case {
     of(Antenna::rc2000c("Dish", ""), intent)
 }
 
@@ -86,11 +86,7 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
     {
         let mut case = rc2000c(Intent::Position);
         case.axes()[0].angle_deg = Some(at_deg);
-        let metal = Metal {
-            can: case.antenna.connection.make().capabilities,
-            state: case.state.clone(),
-            started: Arc::default(),
-        };
+        let metal = Metal::of(&case, Arc::default());
         let gate = Gate::new(
             Box::new(metal),
             case.antenna.limits,
@@ -128,11 +124,7 @@ fn tipped(intent: Intent) -> (Case, Gate) {
     case.axes()[0].angle_deg = Some(200.0);
     case.axes()[1].angle_deg = Some(120.0);
     case.state.measured.as_mut().unwrap().pointing = AzEl::from_degrees(20.0, 60.0).into();
-    let metal = Metal {
-        can: case.antenna.connection.make().capabilities,
-        state: case.state.clone(),
-        started: Arc::default(),
-    };
+    let metal = Metal::of(&case, Arc::default());
     let gate = Gate::new(Box::new(metal), case.antenna.limits, Bounds::of_antenna(&case.antenna));
     (case, gate)
 }

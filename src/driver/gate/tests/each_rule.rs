@@ -1,0 +1,207 @@
+//! No rule can go: of each one a case that it alone refuses, and that passes when
+//! it is taken out of the list.
+
+use std::collections::BTreeSet;
+
+use super::{
+    makes::{genius, rc2000c},
+    *,
+};
+use crate::controller::settings::{Value, Values};
+
+/// What is asked of the gate.
+#[derive(Debug, Clone, Copy)]
+enum Asked {
+    Motion(Motion),
+    /// An action that moves nothing.
+    Act,
+    MovingAct,
+    /// A setting that decides where the antenna points.
+    Setting,
+    /// The same, of an antenna that was told to move.
+    SettingInMotion,
+}
+
+/// The case of a rule.
+struct Needed {
+    rule: &'static str,
+    case: Case,
+    asked: Asked,
+    is_its_refusal: fn(&Refusal) -> bool,
+}
+
+fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
+    let (intent, stopping, now) = (case.intent, case.stopping, case.now());
+    let act = Act { action: "turn", values: Values::new() };
+    let change = || Change {
+        ticket: 1,
+        group: "gps",
+        values: Values::from([("is_automatic", Value::Flag(true))]),
+        seen: None,
+        is_unlocked: false,
+    };
+    match asked {
+        Asked::Motion(motion) => gate.start(motion, intent, stopping, now),
+        Asked::Act => gate.act(act, false, intent, stopping, now),
+        Asked::MovingAct => gate.act(act, true, intent, stopping, now),
+        Asked::Setting => gate.settle(change(), false, stopping, now),
+        Asked::SettingInMotion => gate.settle(change(), true, stopping, now),
+    }
+}
+
+fn locked_out(case: Case) -> Case {
+    let lock_out =
+        LockOut { by: "Ada".to_owned(), reason: "gear".to_owned(), since: Timestamp::UNIX_EPOCH };
+    Case { lock_out: Some(lock_out), ..case }
+}
+
+/// A mast stands between 100 and 120 degrees, up to 40.
+fn beside_a_mast(case: Case) -> Case {
+    let corners_deg = [(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)];
+    let mast = KeepOut {
+        name: "mast".to_owned(),
+        entered: crate::station::Entered::Hard,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    };
+    Case { keep_outs: vec![mast], ..case }
+}
+
+fn changed(mut case: Case, change: fn(&mut Case)) -> Case {
+    change(&mut case);
+    case
+}
+
+/// Where the azimuth axis of an RC2000C ends, degrees.
+fn last_azimuth_deg() -> f64 {
+    let [(_, to_deg), _] = rc2000c(Intent::Manual).antenna.mount.travel_deg();
+    to_deg
+}
+
+fn table() -> Vec<Needed> {
+    use Intent::{Manual, Position, Standby, Track};
+    let manual = || Case::new(Manual);
+    let needed = |rule, case, asked, is_its_refusal| Needed { rule, case, asked, is_its_refusal };
+    let turn = Asked::Motion(jog(1.0, 0.0));
+    vec![
+        needed("unit_is_not_locked_out", locked_out(manual()), turn, |it| {
+            matches!(it, Refusal::LockedOut { .. })
+        }),
+        needed("something_is_asked_for", manual(), Asked::Motion(jog(0.0, 0.0)), |it| {
+            *it == Refusal::Nothing
+        }),
+        needed("controller_offers_it", genius(Manual), Asked::Motion(jog(1.0, 1.0)), |it| {
+            *it == Refusal::OneAxis
+        }),
+        needed("position_is_fresh", Case { age: Duration::from_secs(1), ..manual() }, turn, |it| {
+            matches!(it, Refusal::PositionOld(_))
+        }),
+        needed("no_stop_under_way", Case { stopping: true, ..manual() }, turn, |it| {
+            *it == Refusal::Stopping
+        }),
+        needed("intent_allows_it", Case::new(Standby), turn, |it| *it == Refusal::Intent(Standby)),
+        needed(
+            "no_fault_forbids_it",
+            changed(manual(), |case| case.state.motion_lock = Some(true)),
+            turn,
+            |it| *it == Refusal::Fault,
+        ),
+        needed(
+            "no_limit_switch_in_that_direction",
+            changed(manual(), |case| case.axes()[0].plus_limit = true),
+            turn,
+            |it| matches!(it, Refusal::Limit { plus: true, .. }),
+        ),
+        needed("within_rates_and_steps", manual(), Asked::Motion(step(5.5, 0.0)), |it| {
+            matches!(it, Refusal::StepTooLarge { .. })
+        }),
+        needed(
+            "no_blind_jog",
+            changed(genius(Manual), |case| case.axes()[0].angle_deg = None),
+            turn,
+            |it| matches!(it, Refusal::AngleUnknown { .. }),
+        ),
+        needed(
+            "within_travel",
+            changed(rc2000c(Manual), |case| {
+                case.axes()[0].angle_deg = Some(last_azimuth_deg() - 0.001);
+            }),
+            turn,
+            |it| matches!(it, Refusal::Travel { .. }),
+        ),
+        needed(
+            "within_reach",
+            rc2000c(Position),
+            Asked::Motion(position(last_azimuth_deg() + 1.0, 45.0)),
+            |it| matches!(it, Refusal::Travel { .. }),
+        ),
+        needed(
+            "way_is_clear",
+            beside_a_mast(genius(Position)),
+            Asked::Motion(position(160.0, 20.0)),
+            |it| matches!(it, Refusal::Forbidden { .. }),
+        ),
+        needed(
+            "program_is_clear",
+            Case { pass_is_known: false, ..Case::new(Track) },
+            Asked::Motion(Motion::StartProgram),
+            |it| *it == Refusal::PassUnknown,
+        ),
+        needed(
+            "controller_agrees",
+            Case { objection: Some("one rotator at a time"), ..manual() },
+            turn,
+            |it| matches!(it, Refusal::Controller(_)),
+        ),
+        needed("no_action_while_locked_out", locked_out(manual()), Asked::Act, |it| {
+            matches!(it, Refusal::LockedOut { .. })
+        }),
+        needed(
+            "way_of_the_action_is_clear",
+            Case { leads_to: [Some(160.0), Some(20.0)], ..beside_a_mast(rc2000c(Manual)) },
+            Asked::MovingAct,
+            |it| matches!(it, Refusal::Forbidden { .. }),
+        ),
+        needed(
+            "no_setting_while_stopping",
+            Case { stopping: true, ..genius(Standby) },
+            Asked::Setting,
+            |it| matches!(it, Refusal::Setting { why: Hindrance::Stopping, .. }),
+        ),
+        needed(
+            "no_setting_while_the_unit_may_move",
+            changed(genius(Standby), |case| case.axes()[1].motion = AxisMotion::Plus),
+            Asked::Setting,
+            |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
+        ),
+        needed(
+            "no_setting_after_a_motion_was_asked_for",
+            genius(Standby),
+            Asked::SettingInMotion,
+            |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
+        ),
+    ]
+}
+
+#[test]
+fn a_case_that_only_this_rule_refuses_passes_without_it() {
+    for Needed { rule, case, asked, is_its_refusal } in table() {
+        let gate = || case.gate(&Arc::default());
+        let Err(refused) = put(&mut gate(), &case, asked) else { panic!("{rule} lets it through") };
+        assert!(is_its_refusal(&refused), "{rule}: {refused:?}");
+        assert_eq!(put(&mut gate().without(rule), &case, asked), Ok(()), "without {rule}");
+        for other in RULES.iter().filter(|other| other.name != rule) {
+            let answer = put(&mut gate().without(other.name), &case, asked);
+            assert_eq!(answer, Err(refused.clone()), "{rule}, without {}", other.name);
+        }
+    }
+}
+
+#[test]
+fn every_rule_has_its_case_and_a_name_of_its_own() {
+    let names: BTreeSet<&str> = RULES.iter().map(|rule| rule.name).collect();
+    assert_eq!(names.len(), RULES.len(), "two rules share a name");
+    let cases: BTreeSet<&str> = table().iter().map(|needed| needed.rule).collect();
+    assert_eq!(cases, names);
+}
