@@ -12,7 +12,7 @@ use std::{
 };
 
 use azel::{
-    astro::{Angle, AzEl, Site, time},
+    astro::{Angle, AzEl, time},
     controller::{
         rc2000c::Calibration,
         rotator_genius::{ROTATORS, Rotators},
@@ -162,11 +162,14 @@ impl Unit {
         let text: Vec<(Instant, String)> = match self {
             Self::Satrak(control) => control.received(),
             Self::Genius(control) => control.received(),
-            Self::Rc2000c(control, _) => control
-                .received()
-                .iter()
-                .map(|(at, frame)| (*at, char::from(frame.code()).to_string()))
-                .collect(),
+            Self::Rc2000c(control, _) => {
+                let frames = control.received().into_iter();
+                let text = |frame: &azel::protocol::rc2000c::Frame| {
+                    let data = String::from_utf8_lossy(frame.data());
+                    format!("{}{data}", char::from(frame.code()))
+                };
+                frames.map(|(at, frame)| (at, text(&frame))).collect()
+            }
         };
         let word = |text: &str| match self {
             Self::Satrak(_) if text.starts_with("STOP=") || text.starts_with("TRACK=,0") => {
@@ -175,8 +178,8 @@ impl Unit {
             Self::Satrak(_) if !text.contains('=') => Word::Question,
             Self::Genius(_) if text == "|S" => Word::Stop,
             Self::Genius(_) if text == "|h" => Word::Question,
-            Self::Rc2000c(..) if text == "2" => Word::Stop,
-            Self::Rc2000c(..) if matches!(text, "0" | "1" | "5") => Word::Question,
+            Self::Rc2000c(..) if text.starts_with("3X") => Word::Stop,
+            Self::Rc2000c(..) if text.starts_with(['0', '1', '5']) => Word::Question,
             _ => Word::Other,
         };
         text.into_iter().filter(|(at, _)| *at >= from).map(|(at, it)| (at, word(&it))).collect()
@@ -672,6 +675,6 @@ fn holds_stop(bytes: &[u8], unit: &Unit) -> bool {
         Unit::Satrak(_) => holds(b"STOP=") || holds(b"STOP ="),
         Unit::Genius(_) => holds(b"|S"),
         // The code follows the start and the address.
-        Unit::Rc2000c(..) => bytes.get(2) == Some(&b'2'),
+        Unit::Rc2000c(..) => bytes.get(2..4) == Some(b"3X"),
     }
 }
