@@ -1,6 +1,7 @@
 //! Each rule refuses and allows.
 
 mod each_rule;
+mod any;
 mod makes;
 
 use std::{
