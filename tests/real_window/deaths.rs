@@ -90,14 +90,17 @@ impl Scene {
     /// before the window shows it does nothing, and a machine under load may let
     /// a hold run out, so it is tried again.
     fn hold(&mut self) {
+        let mut attempts = 0..;
         self.dead_men = wait_for("a held key", || {
             let pressed = Instant::now();
-            self.screen.press_x_plus();
-            let until = pressed + Duration::from_secs(2);
+            self.screen.press_x_plus(attempts.next()?);
+            let until = pressed + Duration::from_millis(1200);
             while Instant::now() < until && !self.unit.is_told_to_move_since(pressed) {
                 thread::sleep(Duration::from_millis(20));
             }
-            thread::sleep(STEADY);
+            if self.unit.is_told_to_move_since(pressed) {
+                thread::sleep(STEADY);
+            }
             let is_held = self.unit.is_told_to_move_since(pressed)
                 && !self.unit.is_told_to_stop_since(pressed)
                 && self.unit.is_moving();

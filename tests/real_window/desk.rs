@@ -16,7 +16,9 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Places in a window of 1440 x 900 without the demo banner.
 const MANUAL: [&str; 2] = ["1218", "456"];
-const X_PLUS: [&str; 2] = ["1228", "640"];
+const X_PLUS_X: &str = "1228";
+/// Notes above the keys push them down by up to three lines.
+const X_PLUS_Y: [&str; 3] = ["687", "640", "664"];
 
 /// Ends its process when it goes away.
 pub(super) struct Running(Child);
@@ -154,12 +156,14 @@ impl Screen {
         connection.flush().expect("the screen");
     }
 
-    /// Takes up Manual and presses the key X+.
-    pub(super) fn press_x_plus(&self) {
+    /// Takes up Manual and presses the key X+ where it may be. Each attempt tries
+    /// another place.
+    pub(super) fn press_x_plus(&self, attempt: usize) {
         let [x, y] = MANUAL;
         self.xdotool(&["mousemove", x, y, "click", "1"]);
-        let [x, y] = X_PLUS;
-        self.xdotool(&["mousemove", x, y, "mousedown", "1"]);
+        let places = X_PLUS_Y.iter().copied().cycle();
+        let y = places.skip(attempt).next().expect("a cycle has no end");
+        self.xdotool(&["mousemove", X_PLUS_X, y, "mousedown", "1"]);
     }
 
     pub(super) fn release_key(&self) {

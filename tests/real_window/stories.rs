@@ -6,8 +6,9 @@ use super::desk::{Satrak, Screen, wait_for};
 /// move. What is clicked before the window shows it does nothing, so it is
 /// tried again.
 fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
+    let mut attempts = 0..;
     wait_for("the jog", || {
-        screen.press_x_plus();
+        screen.press_x_plus(attempts.next()?);
         let moved = satrak.line_soon("in payload=MOVE=,0.5,0");
         if moved.is_none() {
             screen.release_key();
