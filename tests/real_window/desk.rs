@@ -90,6 +90,8 @@ impl Screen {
         let server = Running::start(
             Command::new("Xvfb")
                 .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
+                // Or it starts anew whenever its last client leaves, and drops a new one.
+                .arg("-noreset")
                 .stderr(Stdio::null()),
         );
         let screen = Self { display, server, folder: tempfile::tempdir().expect("a folder") };
@@ -125,8 +127,10 @@ impl Screen {
 
     /// Starts `command`, which opens the program's window on this screen.
     pub(super) fn window_of(&self, command: &mut Command) -> (Running, String) {
-        let running = Running::start(command);
+        let mut running = Running::start(command);
         let window = wait_for("the window", || {
+            let ended = running.0.try_wait().expect("a child");
+            assert!(ended.is_none(), "the program has ended without a window: {ended:?}");
             let found = self.xdotool(&["search", "--onlyvisible", "--name", "^Azel$"]);
             found.lines().last().map(str::to_owned)
         });
