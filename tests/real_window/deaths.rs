@@ -59,11 +59,6 @@ fn log_file(screen: &Screen) -> PathBuf {
     screen.folder.path().join("log.txt")
 }
 
-fn marks(screen: &Screen) -> usize {
-    let folder = screen.folder.path().join(".local/share/azel/marks");
-    fs::read_dir(folder).map_or(0, Iterator::count)
-}
-
 /// Shown by `--nocapture`.
 #[allow(clippy::print_stdout)]
 fn report(what: &str, took: Duration) {
@@ -114,7 +109,7 @@ impl Scene {
             None
         });
         assert_eq!(self.dead_men.len(), 1, "{:?}", self.dead_men);
-        assert_eq!(marks(&self.screen), 1);
+        assert_eq!(self.screen.marks(), 1);
     }
 
     /// Waits until no dead-man runs that watched over this hold, or another one.
@@ -220,7 +215,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
     let killed = Instant::now();
     scene.azel.signal("KILL");
     scene.azel.wait_for_end();
-    assert_eq!(marks(&scene.screen), 1, "the mark outlives the program");
+    assert_eq!(scene.screen.marks(), 1, "the mark outlives the program");
     let before = scene.unit.clients().len();
 
     let started = Instant::now();
@@ -234,7 +229,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
     let (at, first) =
         wait_for("its first word", || scene.unit.heard_since(came).into_iter().next());
     assert!(first.starts_with("STOP="), "{first}");
-    wait_for("the mark to go", || (marks(&scene.screen) == 0).then_some(()));
+    wait_for("the mark to go", || (scene.screen.marks() == 0).then_some(()));
     let proved = started.elapsed();
     report("start to connected", came.saturating_duration_since(started));
     report("start to STOP", at.saturating_duration_since(started));
@@ -254,7 +249,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
 fn a_log_that_nobody_reads_holds_up_no_stop() {
     let (unread, mut log) = io::pipe().expect("a pipe");
     // As much as a pipe takes: the first line of the log already waits.
-    log.write_all(&[b'\n'; 65_536]).expect("room in a new pipe");
+    log.write_all(&vec![b'\n'; 65_536]).expect("room in a new pipe");
     let scene = Scene::with_log(screen(), Unit::start(), log.into(), "azel=trace");
     let released = Instant::now();
     scene.screen.release_key();

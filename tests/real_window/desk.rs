@@ -165,9 +165,14 @@ impl Screen {
     pub(super) fn press_x_plus(&self, attempt: usize) {
         let [x, y] = MANUAL;
         self.xdotool(&["mousemove", x, y, "click", "1"]);
-        let places = X_PLUS_Y.iter().copied().cycle();
-        let y = places.skip(attempt).next().expect("a cycle has no end");
+        let y = X_PLUS_Y.iter().cycle().nth(attempt).expect("a cycle has no end");
         self.xdotool(&["mousemove", X_PLUS_X, y, "mousedown", "1"]);
+    }
+
+    /// How many antennas are marked on disk as moved by hand and not proved to stand.
+    pub(super) fn marks(&self) -> usize {
+        let folder = self.folder.path().join(".local/share/azel/marks");
+        fs::read_dir(folder).map_or(0, Iterator::count)
     }
 
     pub(super) fn release_key(&self) {

@@ -50,8 +50,15 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     screen.release_key();
 
     hold_x_plus(&screen, &mut satrak);
+    // What becomes of an antenna that moves is asked; the question takes the key.
     screen.close(&window);
     satrak.wait_for_line("in payload=STOP=");
+    screen.release_key();
+    screen.xdotool(&["key", "Escape"]);
+    satrak.wait_for_line("in payload=STOP=");
+    wait_for("proved standstill", || (screen.marks() == 0).then_some(()));
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    screen.close(&window);
     assert_eq!(azel.exit_code(), Some(0));
 }
 
