@@ -318,7 +318,8 @@ impl Gate {
     ) -> Result<(), Refusal> {
         let situation = self.situation(intent, stopping, now);
         self.rules.iter().try_for_each(|rule| match rule.check {
-            Check::Motion(check) => check(&motion, &situation),
+            Check::Motion(check) => check(&motion, &situation)
+                .inspect_err(|_| tracing::debug!(rule = rule.name, "refused")),
             Check::Act(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
         })
     }

@@ -1,7 +1,7 @@
 //! Each rule refuses and allows.
 
-mod each_rule;
 mod any;
+mod each_rule;
 mod makes;
 
 use std::{
