@@ -234,22 +234,20 @@ impl App {
         before.retain(|antenna| station.antennas.contains(&antenna.config));
         for config in &station.antennas {
             let bounds = Bounds::of(&station, config);
-            let antenna = match before.iter().position(|antenna| antenna.config == *config) {
-                Some(kept) => {
-                    let antenna = before.swap_remove(kept);
-                    // Not taken only where the session is too busy to take anything.
-                    if antenna.handle.send(Command::Within(Box::new(bounds))).is_err() {
-                        self.model.alarms.raise(None, AlarmKind::NotTaken, self.model.now);
-                    }
-                    antenna
+            let kept = before.iter().position(|antenna| antenna.config == *config);
+            let antenna = if let Some(kept) = kept {
+                let antenna = before.swap_remove(kept);
+                // Not taken only where the session is too busy to take anything.
+                if antenna.handle.send(Command::Within(Box::new(bounds))).is_err() {
+                    self.model.alarms.raise(None, AlarmKind::NotTaken, self.model.now);
                 }
-                None => {
-                    let antenna = self.open_antenna(config.clone(), bounds);
-                    if owed.contains(&config.name) {
-                        antenna.handle.stop();
-                    }
-                    antenna
+                antenna
+            } else {
+                let antenna = self.open_antenna(config.clone(), bounds);
+                if owed.contains(&config.name) {
+                    antenna.handle.stop();
                 }
+                antenna
             };
             self.model.antennas.push(antenna);
         }

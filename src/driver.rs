@@ -21,6 +21,7 @@ use std::{
     io,
     panic::{self, AssertUnwindSafe},
     path::PathBuf,
+    pin::Pin,
     sync::Arc,
     task::Poll,
     thread,
@@ -262,9 +263,9 @@ fn dial(antenna: &Antenna) -> Dial {
 /// unwatched, so STOP is the first word of the next.
 async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
     let mut broke = 0_u32;
-    while caught(async { open().run().await }).await.is_none() {
+    while caught(Box::pin(async { Box::pin(open().run()).await })).await.is_none() {
         wires.stop();
-        wires.tell(&Event::Safety(Safety::SessionBroke));
+        wires.tell(Event::Safety(Safety::SessionBroke));
         // The first restart waits for nothing; one that breaks again and again must
         // not keep the other sessions from running.
         tokio::time::sleep(MOST_REST.min(Duration::from_millis(200) * broke)).await;
@@ -273,8 +274,7 @@ async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
 }
 
 /// The outcome of `work`; `None` when it panicked.
-async fn caught<F: Future>(work: F) -> Option<F::Output> {
-    let mut work = Box::pin(work);
+async fn caught<F: Future>(mut work: Pin<Box<F>>) -> Option<F::Output> {
     poll_fn(move |context| {
         let polled = panic::catch_unwind(AssertUnwindSafe(|| work.as_mut().poll(context)));
         polled.map_or(Poll::Ready(None), |polled| polled.map(Some))

@@ -301,9 +301,10 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // Said where it was asked for; many antennas have such an axis.
-        Event::Safety(Safety::StoppedByFlags { .. }) => return None,
-        Event::Safety(matter) => AlarmKind::Safety(matter),
+        // Many antennas have an axis without an angle: said where STOP was asked for.
+        Event::Safety(matter) if !matches!(matter, Safety::StoppedByFlags { .. }) => {
+            AlarmKind::Safety(matter)
+        }
         Event::JogLeaseOver => AlarmKind::JogLeaseOver,
         Event::JogPositionOld => AlarmKind::JogPositionOld,
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
@@ -321,6 +322,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::Connected(Found::Still)
         | Event::Back { .. }
         | Event::NotSent(_)
+        | Event::Safety(_)
         | Event::WouldMiss { .. }
         | Event::Tracking(_)
         | Event::Awaits { .. }

@@ -92,9 +92,9 @@ impl Wires {
     }
 
     /// Tells the window.
-    pub(super) fn tell(&self, event: &Event) {
-        if self.events.try_send(event.clone()).is_err() {
-            tracing::warn!(?event, "nobody reads the events; one was dropped");
+    pub(super) fn tell(&self, event: Event) {
+        if let Err(error) = self.events.try_send(event) {
+            tracing::warn!(%error, "nobody reads the events; one was dropped");
         }
         (self.wake)();
     }
@@ -274,7 +274,7 @@ impl Session {
 
     fn tell(&self, event: Event) {
         tracing::info!(antenna = self.name, ?event, "event");
-        self.wires.tell(&event);
+        self.wires.tell(event);
     }
 
     /// Puts out a new snapshot when anything in it has changed.

@@ -188,7 +188,7 @@ impl Bounds {
                 .each(direction, &suns)
                 .filter(|(_, _, warns_only)| !warns_only)
                 .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()));
-            let Some((barrier, angle, _)) = nearest else { return None };
+            let (barrier, angle, _) = nearest?;
             // What lies on the edge is free, also where it is a whole side of the sweep.
             let clear_deg = angle.degrees() + FINEST_DEG;
             if clear_deg >= radius_deg {
@@ -319,8 +319,8 @@ mod tests {
 
     #[test]
     fn the_sun_is_avoided_where_it_will_be_too() {
-        let mut station = Station::default();
-        station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 60.0 });
+        let sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 60.0 });
+        let mut station = Station { sun_avoidance, ..Station::default() };
         let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
         let later = noon() + SignedDuration::from_mins(50);
         let ahead = sun_moon::sun(station.site, later);

@@ -92,7 +92,9 @@ async fn all_harmless_oddities_together_are_taken() {
 #[tokio::test(start_paused = true)]
 async fn each_fault_of_the_line_is_lived_with_and_counted() {
     for (fault, name) in Fault::ALL {
-        if matches!(fault, Fault::Unit(_) | Fault::Silence | Fault::HangUp) {
+        // A unit that lies has tests of its own.
+        let lies = matches!(fault, Fault::FrozenAngles | Fault::FalseRest);
+        if lies || matches!(fault, Fault::Unit(_) | Fault::Silence | Fault::HangUp) {
             continue;
         }
         let mut rig = half_a_minute(&[], &[fault]).await;

@@ -68,21 +68,19 @@ fn beat_ends(input: BorrowedFd<'_>) -> bool {
             return true;
         }
         match poll(&mut [PollFd::new(input, PollFlags::POLLIN)], in_time(left)) {
-            Ok(0) => return true,
             Err(Errno::EINTR) => continue,
-            Err(_) => return true,
+            Ok(0) | Err(_) => return true,
             Ok(_) => {}
         }
         match read(input, &mut bytes) {
-            Ok(0) => return true,
-            Ok(count) => {
+            Ok(count @ 1..) => {
                 if bytes.iter().take(count).any(|byte| *byte == word::END) {
                     return false;
                 }
                 until = Instant::now() + SILENCE;
             }
             Err(Errno::EINTR | Errno::EAGAIN) => {}
-            Err(_) => return true,
+            Ok(0) | Err(_) => return true,
         }
     }
 }

@@ -29,7 +29,8 @@ impl DeadMan {
         now: Instant,
     ) -> io::Result<Self> {
         let (beats, heard) = pipe::pipe()?;
-        let digits: String = stop.iter().map(|byte| format!("{byte:02x}")).collect();
+        let digits =
+            stop.iter().fold(String::new(), |digits, byte| digits + &format!("{byte:02x}"));
         let child = Command::new(program)
             .arg(SUBCOMMAND)
             .arg(digits)
@@ -53,11 +54,8 @@ impl DeadMan {
             return true;
         }
         self.last = now;
-        match self.beats.try_write(&[word::BEAT]) {
-            Ok(_) => true,
-            // A full pipe: the child does not read, so it does not watch.
-            Err(_) => false,
-        }
+        // A full pipe: the child does not read, so it does not watch.
+        self.beats.try_write(&[word::BEAT]).is_ok()
     }
 
     /// When the next beat is due.

@@ -149,7 +149,7 @@ impl Session {
 
 /// Whether two holds turn the same axes the same way, at whatever rates.
 fn is_same_way(a: [f64; 2], b: [f64; 2]) -> bool {
-    let way = |rate: f64| if rate == 0.0 { 0.0 } else { rate.signum() };
+    let way = |rate: f64| rate.partial_cmp(&0.0);
     a.map(way) == b.map(way)
 }
 

@@ -8,6 +8,8 @@ use crate::{
 };
 
 /// An alarm in words. `antenna` is its name, where it is about one.
+// One arm a kind.
+#[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
     match kind {
         AlarmKind::LinkLost(LinkLoss::Unreadable) => {

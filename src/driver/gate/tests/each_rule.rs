@@ -79,6 +79,8 @@ fn last_azimuth_deg() -> f64 {
     to_deg
 }
 
+// One line or two for each rule.
+#[allow(clippy::too_many_lines)]
 fn table() -> Vec<Needed> {
     use Intent::{Manual, Position, Standby, Track};
     let manual = || Case::new(Manual);
