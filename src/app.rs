@@ -24,6 +24,7 @@ mod logic;
 mod memory;
 pub mod model;
 pub mod on_board;
+mod owed;
 mod settle;
 pub mod source_tests;
 pub mod sources;
