@@ -15,12 +15,14 @@ pub mod command;
 pub mod copies;
 pub mod daylight;
 mod demo;
+pub mod effects;
 pub mod forecast;
 pub mod host_keys;
 mod job;
 mod lock_outs;
 mod log_file;
 mod logic;
+pub mod mask_file;
 mod memory;
 pub mod model;
 pub mod on_board;
@@ -51,6 +53,7 @@ use self::{
     demo::Demo,
     job::Job,
     log_file::LogWork,
+    mask_file::MaskWork,
     memory::Keeper,
     model::CatalogState,
     sources::{Outcome, Places, SourceWork, Sources, Task},
@@ -96,6 +99,7 @@ pub struct App {
     elements_broke_off: bool,
     copy_work: CopyWork,
     log_work: LogWork,
+    mask_work: MaskWork,
     uploads: uploads::Desk,
     source_tests: source_tests::Desk,
     keeper: Keeper,
@@ -135,6 +139,7 @@ impl App {
             sky: model::Sky::default(),
             uploads: uploads::Uploads::default(),
             source_tests: source_tests::SourceTests::default(),
+            effects: effects::Effects::default(),
             alarms: alarms::Alarms::default(),
             copies: copies::Copies::default(),
             view: View::Operate,
@@ -146,6 +151,7 @@ impl App {
         let copy_work = CopyWork::beside(settings_path.as_deref());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let log_work = LogWork::beside(places.library().map(PathBuf::from));
+        let mask_work = MaskWork::beside(places.library().map(PathBuf::from));
         let task = Task::default();
         let elements_job = sources::start(&places, task, clock.utc(), Arc::clone(&wake))?;
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
@@ -165,6 +171,7 @@ impl App {
             elements_broke_off: false,
             copy_work,
             log_work,
+            mask_work,
             uploads,
             source_tests,
             keeper,

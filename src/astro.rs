@@ -13,7 +13,9 @@ mod zone;
 
 pub use angle::Angle;
 pub use azel::AzEl;
-pub use horizon_mask::{HorizonMask, MOST_MASK_POINTS, MaskError, MaskTextError};
+pub use horizon_mask::{
+    HorizonMask, MOST_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
+};
 pub use refraction::Air;
 pub use site::{Site, SiteError};
 pub use zone::{FEWEST_CORNERS, MOST_CORNERS, Zone, ZoneError};

@@ -109,6 +109,9 @@ impl App {
             }
             UiCommand::OpenedAlarms => model.alarms.unopened = false,
             UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(id),
+            UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
+            UiCommand::ImportMask(path) => self.import_mask(path),
+            UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::SaveStation(station) => self.save_station(*station),
             UiCommand::TestSource(ask) => self.source_tests.ask(ask, &mut model.source_tests),
             UiCommand::Upload(ask) => self.ask_about_upload(ask),

@@ -9,7 +9,7 @@ use std::{
 use super::{App, antenna::Stake};
 use crate::{
     driver::{Command, Event, Intent, StopState},
-    station::Station,
+    station::{OnClose, Station},
 };
 
 /// A STOP is told as not proved before that.
@@ -49,9 +49,12 @@ pub enum Wanted {
 
 /// What becomes of antennas when nobody can be asked, as when the operating system
 /// ends the program.
-fn without_being_asked(_: &Station) -> CloseHow {
-    // The one place where the word of the station file comes in.
-    CloseHow::Hold
+fn without_being_asked(station: &Station) -> CloseHow {
+    match station.on_close {
+        None | Some(OnClose::Hold) => CloseHow::Hold,
+        Some(OnClose::Park) => CloseHow::Park,
+        Some(OnClose::Leave) => CloseHow::Leave,
+    }
 }
 
 impl App {

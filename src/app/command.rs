@@ -4,11 +4,13 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     closing::CloseHow,
+    effects,
     forecast::{Forecast, PassKey, Scope},
     model::{Model, View},
     source_tests, uploads,
 };
 use crate::{
+    astro::HorizonMask,
     driver,
     orbit::Source,
     station::Station,
@@ -108,6 +110,12 @@ pub enum UiCommand {
     CloseCopy,
     /// Write these lines of the console to a file.
     SaveLog(Vec<Arc<Line>>),
+    /// Work out what keep-outs do to the passes to come.
+    ShowEffects(Box<effects::Question>),
+    /// Read a horizon mask from this file into the form.
+    ImportMask(PathBuf),
+    /// Write this horizon mask to a file.
+    ExportMask(Box<HorizonMask>),
     /// Save these settings and use them.
     SaveStation(Box<Station>),
     /// About a file of elements for a unit.

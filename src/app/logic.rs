@@ -32,6 +32,7 @@ impl App {
         self.take_catalog();
         self.take_copies();
         self.take_log_file();
+        self.take_mask_file();
         if let CatalogState::Ready(catalog) = &self.model.catalog {
             let catalog = Arc::clone(catalog);
             let renewed = self.model.forecasts.refresh(
@@ -63,6 +64,7 @@ impl App {
         self.watch_closing();
         self.poll_uploads();
         self.source_tests.poll(&mut self.model.source_tests);
+        self.work_on_effects();
         self.model.refresh_sky();
         self.remember();
     }
@@ -170,6 +172,9 @@ impl App {
             _ => {}
         }
         self.take_closing_event(index, &event);
+        if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {
+            self.offer_resume(index, name);
+        }
         if let Some(kind) = alarm_of(&event) {
             self.model.alarms.raise(antenna, kind, now);
         }

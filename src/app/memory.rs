@@ -124,6 +124,7 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         sun_and_moon: shown("sun_and_moon", usual.sun_and_moon),
         keyholes: shown("keyholes", usual.keyholes),
         mask: shown("mask", usual.mask),
+        keep_outs: shown("keep_outs", usual.keep_outs),
     }
 }
 

@@ -12,6 +12,7 @@ use super::{
     closing::Closing,
     copies::Copies,
     daylight::{self, SunSpan},
+    effects::Effects,
     forecast::{Followed, Forecast, Forecasts, ListChoice, PassKey, Scope, ahead},
     source_tests::SourceTests,
     sources::Sources,
@@ -87,6 +88,8 @@ pub struct Model {
     pub uploads: Uploads,
     /// The sources that units are told to use, tested from here.
     pub source_tests: SourceTests,
+    /// What the keep-outs do to the passes to come.
+    pub effects: Effects,
     /// What must not be missed.
     pub alarms: Alarms,
     /// Copies of the settings of units.

@@ -48,6 +48,15 @@ impl App {
         }
     }
 
+    /// A target that waits for the operator's word is offered as one that STOP has
+    /// ended.
+    pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
+        let until = add_seconds(self.model.now, OFFERED_S);
+        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        let command = UiCommand::Antenna(index, Command::Resume);
+        antenna.track_again = Some(TrackAgain { name: name.to_owned(), command, until });
+    }
+
     /// A STOP goes to this antenna now.
     pub(super) fn note_stop(&mut self, index: usize) {
         let latest = add_seconds(self.model.now, OFFERED_S);
@@ -97,6 +106,7 @@ fn chooses_something_else(command: &Command) -> bool {
             | Command::Position { .. }
             | Command::Track(_)
             | Command::Park
+            | Command::Resume
             | Command::Act(_)
             | Command::LockOut(_)
             | Command::Disconnect

@@ -1,9 +1,13 @@
 //! The horizon mask of a site: the elevation below which hills, walls and
 //! trees block the sky, by azimuth.
 
+mod import;
+
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+
+pub use import::{MaskForm, MaskImportError};
 
 use super::Angle;
 

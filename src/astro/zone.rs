@@ -153,6 +153,47 @@ impl Zone {
         self.edges.iter().flat_map(move |edge| edge.points(step)).chain(first)
     }
 
+    /// Points around the zone at the distance `margin`, with about `step` (0.01
+    /// degrees at least) between them, in the order of the edges: all directions
+    /// with this clearance where the zone is simple. Empty where there is no margin.
+    pub fn margin_sampled(&self, margin: Angle, step: Angle) -> Vec<AzEl> {
+        let step = step.radians().max(0.01_f64.to_radians());
+        if margin.radians() <= 0.0 {
+            return Vec::new();
+        }
+        let mut points = Vec::new();
+        let before = self.edges.iter().cycle().skip(self.edges.len().saturating_sub(1));
+        for (edge, before) in self.edges.iter().zip(before) {
+            let (Some(arriving), Some(leaving)) =
+                (self.outward(before, 1.0), self.outward(edge, 0.0))
+            else {
+                continue;
+            };
+            points.extend(fan(edge.at(0.0), arriving, leaving, margin.radians(), step));
+            let parts = (edge.length() / step).ceil().max(1.0) as u32;
+            points.extend((1..parts).filter_map(|part| {
+                let share = f64::from(part) / f64::from(parts);
+                let away = self.outward(edge, share)?;
+                Some(away_from(edge.at(share), away, margin.radians()))
+            }));
+        }
+        // What lies too near belongs to the inside of a bend.
+        let least = margin.radians() - 1e-6;
+        let points = points.into_iter().map(AzEl::from_enu);
+        points.filter(|point| self.clearance(*point).radians() >= least).collect()
+    }
+
+    /// The direction away from the zone, across an edge at `share` of its way.
+    fn outward(&self, edge: &Edge, share: f64) -> Option<DVec3> {
+        let at = edge.at(share);
+        let across = edge.across(share);
+        [across, -across].into_iter().find(|away| {
+            let inwards = share.clamp(1e-3, 1.0 - 1e-3);
+            let probe = away_from(edge.at(inwards), edge.across(inwards) * away.dot(across), 1e-6);
+            at.is_finite() && self.clearance(AzEl::from_enu(probe)).radians() > 0.0
+        })
+    }
+
     /// The middle of the edge from corner `index` (from 0) to the next one; `None`
     /// where there is no such edge. Its azimuth is counted on from the corner's.
     pub fn middle_of_edge(&self, index: usize) -> Option<AzEl> {
@@ -171,6 +212,23 @@ impl Zone {
 fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
     let is_counted_on = (a.azimuth - b.azimuth).abs().degrees() > 180.0;
     is_counted_on && is_same(a.to_enu(), b.to_enu())
+}
+
+/// The point at the angle `by` from `at` towards `away`, which is across.
+fn away_from(at: DVec3, away: DVec3, by: f64) -> DVec3 {
+    at * by.cos() + away * by.sin()
+}
+
+/// Points around a corner from one direction across to another.
+fn fan(at: DVec3, from: DVec3, to: DVec3, by: f64, step: f64) -> Vec<DVec3> {
+    let angle = from.cross(to).length().atan2(from.dot(to));
+    let parts = (angle * by / step).ceil().max(1.0) as u32;
+    let turned = |part: u32| {
+        let share = f64::from(part) / f64::from(parts);
+        let mixed = from * ((1.0 - share) * angle).sin() + to * (share * angle).sin();
+        away_from(at, mixed.try_normalize().unwrap_or(from), by)
+    };
+    (0..=parts).map(turned).collect()
 }
 
 fn is_same(a: DVec3, b: DVec3) -> bool {

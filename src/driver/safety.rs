@@ -1,5 +1,7 @@
 //! What the driver has seen or done for safety, beyond what was asked of it.
 
+use std::time::Duration;
+
 use jiff::Timestamp;
 
 use crate::plan::Barrier;
@@ -35,6 +37,24 @@ pub enum Safety {
     },
     /// A held jog does not turn the axis.
     JogWithoutEffect,
+    /// The clock of this computer was set.
+    ClockStepped {
+        /// By this much, seconds; positive ahead.
+        by_s: f64,
+    },
+    /// This computer slept.
+    Slept {
+        /// For this long.
+        lasted: Duration,
+    },
+    /// A target is not followed further without the operator's word: the antenna was
+    /// out of sight.
+    AsksToResume {
+        /// Name of the target.
+        name: String,
+        /// For how long.
+        lost: Duration,
+    },
     /// The antenna was about to enter, or is inside, what is forbidden.
     Forbidden {
         /// What it is.

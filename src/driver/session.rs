@@ -2,6 +2,7 @@
 //! intent and stops what has to be stopped. It lives on the driver's thread
 //! and needs neither window nor frames.
 
+mod clocks;
 mod command;
 mod converse;
 mod farewell;
@@ -43,8 +44,9 @@ use crate::{
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
+use clocks::Clocks;
 use command::{Leg, Waiting};
-use follow::{Following, Manner};
+use follow::{Following, Manner, ResumeRule};
 use guard::Guard;
 use halting::Halting;
 use jog::Jog;
@@ -122,6 +124,8 @@ pub struct Session {
     manner: Manner,
     /// What it must keep to while the unit tracks by itself.
     ability: Ability,
+    /// When it follows on by itself.
+    rule: ResumeRule,
     wanted: Wanted,
     dial: Dial,
     clock: Clock,
@@ -142,6 +146,12 @@ pub struct Session {
     /// When the look came in that the rest was watched by last.
     looked: Option<Instant>,
     link: LinkState,
+    /// The clocks when they were compared last.
+    clocks: Option<Clocks>,
+    /// For how long the computer has slept since the link was up last.
+    slept: Duration,
+    /// Where the antenna was seen last on the link before.
+    left_at: Option<Pointing>,
     /// When the link went away while it had been up before.
     away_since: Option<Instant>,
     /// That the link is lost was told.
@@ -216,6 +226,7 @@ impl Session {
             park: antenna.park_direction().into(),
             manner: Manner::of(antenna, make.capabilities),
             ability: Ability::of(antenna),
+            rule: ResumeRule::of(antenna),
             wanted,
             dial,
             clock,
@@ -232,6 +243,9 @@ impl Session {
             rest: Rest::default(),
             looked: None,
             link,
+            clocks: None,
+            slept: Duration::ZERO,
+            left_at: None,
             away_since: None,
             told_lost: false,
             unread: true,

@@ -175,6 +175,8 @@ pub struct FollowView {
     pub phase: FollowPhase,
     /// How well it is followed, and the number of commands.
     pub stats: FollowStats,
+    /// It waits for the operator's word, because the antenna was out of sight.
+    pub awaits_word: bool,
     /// When it is looked at next whether the antenna is where it should be.
     pub next_look: Option<Instant>,
     /// Where the antenna was sent last; `None` before the first position.
@@ -237,6 +239,8 @@ pub enum LinkLoss {
     Broken(String),
     /// Open, but no reply.
     Silent,
+    /// The computer slept: it is opened anew.
+    Slept,
     /// Open, but no reply that can be read.
     Unreadable,
     /// Open, but to another device, or to one that wants to be told a code.

@@ -50,10 +50,12 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 // The signatures are serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_usual_sway(sway_deg: &f64) -> bool {
     sway_deg.total_cmp(&USUAL_SWAY_DEG).is_eq()
 }
 
+#[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_usual_outage(resume_after_s: &f64) -> bool {
     resume_after_s.total_cmp(&USUAL_RESUME_AFTER_S).is_eq()
 }

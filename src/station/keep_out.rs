@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::Antenna;
+use super::{Antenna, Station};
 use crate::astro::{Angle, AzEl, Zone};
 
 /// A region of the sky in which metal must not point.
@@ -59,6 +59,23 @@ impl KeepOut {
         self.antenna.as_deref().is_none_or(|name| Antenna::same_name(name, antenna))
     }
 
+    /// Whether everything that `other` keeps antennas out of is kept out of by this
+    /// one too, at least as strictly.
+    pub fn holds_all_of(&self, other: &Self) -> bool {
+        const STEP: Angle = Angle::from_degrees(0.25);
+        let same_antennas = match (&self.antenna, &other.antenna) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(own), Some(others)) => Antenna::same_name(own, others),
+        };
+        let is_strict = self.entered != Entered::Warn || other.entered == Entered::Warn;
+        // Around each point of the edge the whole margin of the other one has room.
+        let room = self.margin() - other.margin() + Angle::from_degrees(1e-6);
+        let is_within = |point: AzEl| self.zone.clearance(point) <= room;
+        let same_zone = self.zone == other.zone && self.margin_deg >= other.margin_deg;
+        same_antennas && is_strict && (same_zone || other.zone.edges_sampled(STEP).all(is_within))
+    }
+
     /// What the operator adds.
     pub fn margin(&self) -> Angle {
         Angle::from_degrees(self.margin_deg)
@@ -78,6 +95,71 @@ impl KeepOut {
     }
 }
 
+impl Station {
+    /// What keeps antennas away from less in `after` than here, by name. A keep-out
+    /// that grows, or a new one, is none of these.
+    pub fn loosened_in(&self, after: &Self) -> Option<&str> {
+        let is_held = |old: &&KeepOut| after.keep_outs.iter().any(|new| new.holds_all_of(old));
+        let sun = self.sun_avoidance.filter(|old| {
+            after
+                .sun_avoidance
+                .is_none_or(|new| new.radius_deg < old.radius_deg || new.ahead_min < old.ahead_min)
+        });
+        let keep_out = self.keep_outs.iter().find(|old| !is_held(old));
+        keep_out.map(|old| old.name.as_str()).or(sun.map(|_| "Sun avoidance"))
+    }
+}
+
 fn as_corners<S: Serializer>(zone: &Zone, out: S) -> Result<S::Ok, S::Error> {
     KeepOut::corners_deg(zone).serialize(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keep_out(corners: &[(f64, f64)]) -> KeepOut {
+        KeepOut {
+            name: "mast".to_owned(),
+            entered: Entered::Hard,
+            antenna: None,
+            margin_deg: 2.0,
+            zone: KeepOut::zone_of(corners).unwrap(),
+        }
+    }
+
+    fn mast() -> KeepOut {
+        keep_out(&[(100.0, 0.0), (100.0, 20.0), (120.0, 20.0), (120.0, 0.0)])
+    }
+
+    #[test]
+    fn what_grows_is_tightened_and_what_shrinks_is_loosened() {
+        let site = |keep_out: Vec<KeepOut>| Station { keep_outs: keep_out, ..Station::default() };
+        let before = site(vec![mast()]);
+        let higher = keep_out(&[(99.0, -1.0), (99.0, 30.0), (121.0, 30.0), (121.0, -1.0)]);
+        let lower = keep_out(&[(100.0, 0.0), (100.0, 19.5), (120.0, 19.5), (120.0, 0.0)]);
+        for (after, is_loosened) in [
+            (vec![mast()], false),
+            (vec![mast(), lower.clone()], false),
+            (vec![higher.clone()], false),
+            (vec![KeepOut { name: "tower".to_owned(), ..higher.clone() }], false),
+            (vec![KeepOut { margin_deg: 2.5, ..lower.clone() }], false),
+            (vec![KeepOut { margin_deg: 1.9, ..mast() }], true),
+            (vec![KeepOut { entered: Entered::GoRound, ..mast() }], false),
+            (vec![KeepOut { entered: Entered::Warn, ..mast() }], true),
+            (vec![KeepOut { antenna: Some("Satrak".to_owned()), ..mast() }], true),
+            (vec![lower], true),
+            (Vec::new(), true),
+        ] {
+            let loosened = before.loosened_in(&site(after.clone()));
+            assert_eq!(loosened, is_loosened.then_some("mast"), "{after:?}");
+        }
+        assert_eq!(site(Vec::new()).loosened_in(&before), None);
+        let sun = |radius_deg| Station {
+            sun_avoidance: Some(SunAvoidance { radius_deg, ahead_min: 10.0 }),
+            ..Station::default()
+        };
+        assert_eq!(sun(5.0).loosened_in(&sun(4.0)), Some("Sun avoidance"));
+        assert_eq!(sun(5.0).loosened_in(&sun(6.0)), None);
+    }
 }

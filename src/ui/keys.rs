@@ -55,7 +55,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 
 /// All keys, in the order of the list. STOP's key is taken by the app before
 /// anything else.
-pub const ALL: [Binding; 21] = [
+pub const ALL: [Binding; 23] = [
     row(Place::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -145,6 +145,19 @@ pub const ALL: [Binding; 21] = [
     with(
         Modifiers::COMMAND,
         row(Place::Focus, &[(Key::Enter, Act::There)], "apply the settings of a unit, in Antennas"),
+    ),
+    with(
+        Modifiers::COMMAND,
+        row(
+            Place::Focus,
+            &[(Key::Z, Act::There)],
+            "undo; with Shift again, in Horizon and keep-outs",
+        ),
+    ),
+    row(
+        Place::Focus,
+        &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
+        "add, remove a corner; arrows move it by 0.5°, Shift 5°, Ctrl 0.1°",
     ),
     row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

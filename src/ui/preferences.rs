@@ -5,36 +5,69 @@ mod connection_fields;
 mod draft;
 mod fields;
 mod form;
+mod horizon;
 mod points;
 mod station_fields;
 
-use egui::{Align2, Color32, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align2, Color32, Rect, RichText, Role, ScrollArea, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 use jiff::Timestamp;
 
 use super::{
     format, text, theme,
     widgets::{
         button::{Button, HEIGHT},
+        hold_button::{self, HoldState},
         paint,
+        segmented::{self, Segment},
     },
+    words,
 };
 use crate::{
-    app::{Model, UiCommand},
-    station::Station,
+    app::{Model, UiCommand, antenna::AntennaModel, mask_file::MaskNews},
+    astro::MaskForm,
+    station::{Entered, Station},
 };
 use draft::Draft;
+use horizon::HorizonState;
 
 /// Below this width of the form there is one column.
 const TWO_COLUMNS_FROM: f32 = 1100.0;
 /// Height of the bar below the form.
 const FOOTER: f32 = 56.0;
 const PADDING: f32 = 16.0;
+/// The pages stand at the left from this width on.
+const LIST_FROM: f32 = 1240.0;
+const LIST: f32 = 232.0;
+/// Height of the strip of pages above the form.
+const STRIP: f32 = 40.0;
+/// Width of the button that has to be held.
+const HOLD: f32 = 150.0;
 
 /// What was typed, and what came of the last saving.
 #[derive(Default)]
 pub struct PreferencesState {
     draft: Option<(Station, Draft)>,
     outcome: Option<Result<Timestamp, String>>,
+    section: Section,
+    horizon: HorizonState,
+    confirming: HoldState,
+}
+
+/// A page of the settings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Section {
+    /// Site, satellites and antennas.
+    #[default]
+    Station,
+    /// What blocks the sky, and where antennas must not point.
+    Horizon,
+}
+
+impl Section {
+    const ALL: [(&'static str, Self); 2] =
+        [("Station and antennas", Self::Station), ("Horizon and keep-outs", Self::Horizon)];
 }
 
 impl PreferencesState {
@@ -47,12 +80,34 @@ impl PreferencesState {
     /// something is typed.
     pub fn forget(&mut self) {
         self.draft = None;
+        self.horizon.forget();
+    }
+
+    /// A horizon mask was read or written, or not, and why.
+    pub fn mask_news(&mut self, news: MaskNews) {
+        self.horizon.exchanged(match news {
+            MaskNews::Read(mask, form) => {
+                let points = mask.points_deg().len();
+                if let Some((_, draft)) = &mut self.draft {
+                    draft.skies.mask = mask.to_string();
+                }
+                let form = match form {
+                    MaskForm::Points => "plain numbers",
+                    MaskForm::Table => "a table",
+                    MaskForm::Keys => "keys and values",
+                };
+                Ok(format!("{points} points read from {form}. Save to use them."))
+            }
+            MaskNews::Written(path) => Ok(format!("Written to {}.", path.display())),
+            MaskNews::Failed(why) => Err(format!("{}.", words::capitalised(&why))),
+        });
     }
 
     /// The settings were saved at this time, or not, and why.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         if result.is_ok() {
             self.draft = None;
+            self.horizon.forget();
         }
         self.outcome = Some(result);
     }
@@ -72,21 +127,32 @@ pub fn show(
         state.draft.take().unwrap_or_else(|| (model.station.clone(), Draft::of(&model.station)));
     let before = Draft::of(&station);
     let (body, footer) = rect.split_top_bottom_at_y(rect.bottom() - FOOTER);
-    let inner = body.shrink2(vec2(PADDING, 0.0)).with_min_y(body.top() + PADDING);
-    let builder = UiBuilder::new().id_salt("preferences").max_rect(inner);
-    ui.scope_builder(builder, |ui| {
-        ui.set_clip_rect(body);
-        ui.label(RichText::new("Station settings").font(text::title()));
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            form::show(ui, &mut draft, rect.width() >= TWO_COLUMNS_FROM);
-        });
-    });
+    let page = sections(ui, body, state);
+    let antennas = draft.antenna_names();
+    match state.section {
+        Section::Station => {
+            let inner = page.shrink2(vec2(PADDING, 0.0)).with_min_y(page.top() + PADDING);
+            let builder = UiBuilder::new().id_salt("preferences").max_rect(inner);
+            ui.scope_builder(builder, |ui| {
+                ui.set_clip_rect(page);
+                ui.label(RichText::new("Station settings").font(text::title()));
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    form::show(ui, &mut draft, page.width() >= TWO_COLUMNS_FROM);
+                });
+            });
+        }
+        Section::Horizon => {
+            let (skies, horizon) = (&mut draft.skies, &mut state.horizon);
+            horizon::show(ui, page, model, (&station, &antennas), skies, horizon, commands);
+        }
+    }
 
     ui.painter().rect_filled(footer, 0.0, t.bg1);
     ui.painter().hline(footer.x_range(), footer.top() + 0.5, (1.0, t.line));
     let read = draft.read();
     let edited = draft != before;
-    let busy = read.as_ref().and_then(|station| busy(model, station));
+    let busy = read.as_ref().and_then(|after| busy(model, &station, after));
+    let inside = read.as_ref().and_then(|after| inside(model, &station, after));
     let can_save = read.is_some() && (edited || model.demo) && busy.is_none();
     let save = Button::primary("Save and use").locked(!can_save);
     let revert = Button::normal("Revert").locked(!edited);
@@ -94,50 +160,143 @@ pub fn show(
         let min = pos2(right - width, footer.center().y - HEIGHT / 2.0);
         Rect::from_min_size(min, vec2(width, HEIGHT))
     };
-    let saving = place(footer.right() - PADDING, save.width(ui));
+    let holds = can_save && inside.is_some();
+    let width = if holds { HOLD } else { save.width(ui) };
+    let saving = place(footer.right() - PADDING, width);
     let reverting = place(saving.left() - 8.0, revert.width(ui));
     let room = footer.with_min_x(footer.left() + PADDING).with_max_x(reverting.left() - PADDING);
     let (words, colour) = match busy {
-        Some(name) => (format!("{name} moves or tracks. Stop it, then save."), t.warn),
-        None => outcome(ui, model, read.is_some(), edited, state),
+        Some(words) => (words, t.warn),
+        None if let Some(words) = &inside => (words.clone(), t.warn),
+        None => outcome(ui, model, (&draft, &before), read.is_some(), state),
     };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), colour);
     paint::name_text(ui, "outcome", room, &words).on_hover_text(&words);
     let reverted = revert.show(ui, "revert", reverting).clicked();
-    if save.show(ui, "save", saving).clicked()
-        && let Some(station) = read
-    {
+    let saved = if holds {
+        hold_button::show(ui, saving, "Hold 1 s to save", &mut state.confirming)
+    } else {
+        save.show(ui, "save", saving).clicked()
+    };
+    if saved && let Some(station) = read {
         commands.push(UiCommand::SaveStation(Box::new(station)));
     }
     if reverted {
         state.outcome = None;
+        state.horizon.forget();
     } else {
         state.draft = Some((station, draft));
     }
 }
 
-/// The antenna that would be let go in the middle of a motion, because it is
-/// changed or left out in `station`.
-fn busy<'a>(model: &'a Model, station: &Station) -> Option<&'a str> {
+/// The pages at the left, or above where there is no room. Returns what is left.
+fn sections(ui: &Ui, body: Rect, state: &mut PreferencesState) -> Rect {
+    let t = theme::tokens(ui);
+    if body.width() < LIST_FROM {
+        let (strip, page) = body.split_top_bottom_at_y(body.top() + STRIP);
+        ui.painter().rect_filled(strip, 0.0, t.bg1);
+        let segments = Section::ALL.map(|(word, of)| {
+            (word, if of == state.section { Segment::Chosen } else { Segment::Free })
+        });
+        let place = strip.shrink2(vec2(PADDING, 6.0));
+        let place = place.with_max_x(place.left() + 360.0);
+        let clicked = segmented::show(ui, "preferences page", place, "Page", &segments);
+        if let Some((_, section)) = clicked.and_then(|index| Section::ALL.get(index)) {
+            state.section = *section;
+        }
+        return page;
+    }
+    let (list, page) = body.split_left_right_at_x(body.left() + LIST);
+    ui.painter().rect_filled(list, 0.0, t.bg1);
+    ui.painter().vline(list.right() - 0.5, list.y_range(), (1.0, t.line));
+    let head = list.with_max_y(list.top() + FOOTER).shrink2(vec2(PADDING, 0.0));
+    paint::text_in(ui, head, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
+    for (index, (word, section)) in Section::ALL.into_iter().enumerate() {
+        let top = head.bottom() + 34.0 * index as f32;
+        let row = Rect::from_min_size(pos2(list.left(), top), vec2(LIST, 34.0));
+        let is_chosen = section == state.section;
+        let response = paint::control(ui, ("page", index), row, Role::RadioButton, true, word);
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, word));
+        if is_chosen {
+            ui.painter().rect_filled(row, 0.0, t.bgsel);
+            ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
+        } else if response.hovered() {
+            ui.painter().rect_filled(row, 0.0, t.bg3);
+        }
+        let room = row.shrink2(vec2(PADDING, 0.0));
+        paint::text_in(ui, room, Align2::LEFT_CENTER, word, text::body(), t.t1);
+        paint::focus_ring(ui, &response, 0);
+        if response.clicked() {
+            state.section = section;
+        }
+    }
+    page
+}
+
+/// Why `after` has to wait: an antenna would be let go in the middle of a motion,
+/// because it is changed or left out, or loses a keep-out while it moves. What only
+/// tightens never waits.
+fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     // The simulators of the demonstration end with it.
-    let mut antennas = model.antennas.iter().filter(|_| !model.demo);
-    let busy =
-        antennas.find(|antenna| antenna.is_busy() && !station.antennas.contains(&antenna.config));
-    busy.map(|antenna| antenna.config.name.as_str())
+    let mut antennas = model.antennas.iter().filter(|of| !model.demo && of.is_busy());
+    let loosened = before.loosened_in(after);
+    antennas.find_map(|antenna| {
+        let name = &antenna.config.name;
+        if !after.antennas.contains(&antenna.config) {
+            return Some(format!("{name} moves or tracks. Stop it, then save."));
+        }
+        let loosened = loosened?;
+        Some(format!("{name} moves or tracks. To loosen {loosened}, stop it, then save."))
+    })
+}
+
+/// The antenna that stands inside of a keep-out of `after`, and did not in `before`.
+fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
+    let holds_in = |station: &Station, antenna: &AntennaModel| {
+        let direction = antenna.snapshot.state.measured?.direction()?;
+        let half_beam = antenna.config.beam_width() * 0.5;
+        let mut hold = station
+            .keep_outs
+            .iter()
+            .filter(|of| of.entered != Entered::Warn && of.holds_for(&antenna.config.name));
+        let found = hold.find(|of| of.zone.clearance(direction) < of.margin() + half_beam);
+        found.map(|of| of.name.clone())
+    };
+    model.antennas.iter().find_map(|antenna| {
+        let zone = holds_in(after, antenna)?;
+        let is_new = holds_in(before, antenna).as_ref() != Some(&zone);
+        let name = &antenna.config.name;
+        is_new.then(|| {
+            format!("{name} stands inside \"{zone}\" now. It may leave it, not enter it again.")
+        })
+    })
 }
 
 /// What stands beside the buttons.
 fn outcome(
     ui: &Ui,
     model: &Model,
+    (draft, before): (&Draft, &Draft),
     usable: bool,
-    edited: bool,
     state: &PreferencesState,
 ) -> (String, Color32) {
     let t = theme::tokens(ui);
+    let edited = draft != before;
+    let edits = draft.skies.edits(&before.skies);
     match (&state.outcome, edited) {
-        _ if !usable => ("Some fields cannot be used yet.".to_owned(), t.warn),
+        _ if !usable => {
+            let words = match &draft.skies.problems(&draft.antenna_names())[..] {
+                [] => "Some fields cannot be used yet.".to_owned(),
+                [only] => format!("1 field is not valid: {only}."),
+                [first, others @ ..] => {
+                    format!("{} fields are not valid: {first} and others.", others.len() + 1)
+                }
+            };
+            (words, t.warn)
+        }
         (Some(Err(why)), _) => (format!("Not saved: {why}."), t.bad),
+        (_, true) if edits == 1 => ("1 change not saved yet.".to_owned(), t.sat),
+        (_, true) if edits > 1 => (format!("{edits} changes not saved yet."), t.sat),
         (_, true) => ("Not saved yet.".to_owned(), t.sat),
         (Some(Ok(at)), _) => (format!("Saved {}.", format::time_z(*at)), t.ok),
         _ if model.demo => {

@@ -5,13 +5,14 @@ mod antenna;
 mod beam_view;
 mod bearing;
 mod bodies;
-mod corners;
-mod geometry;
-mod grid;
+pub(super) mod corners;
+pub(super) mod geometry;
+pub(super) mod grid;
+pub(super) mod keep_outs;
 mod labels;
-mod legend;
-mod marks;
-mod mask;
+pub(super) mod legend;
+pub(super) mod marks;
+pub(super) mod mask;
 mod nodes;
 mod placement;
 mod readout;
@@ -33,7 +34,7 @@ use self::{
 };
 use super::{text, theme, tokens::Tokens};
 
-pub use scene::{Bearing, Keyholes, Measured, OtherSatellite, SkyScene, Track};
+pub use scene::{Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
 
 /// What the plot remembers from frame to frame.
 #[derive(Debug, Clone, Default)]
@@ -58,11 +59,20 @@ pub struct Layers {
     pub keyholes: bool,
     /// What the horizon mask blocks.
     pub mask: bool,
+    /// Where antennas must not point.
+    pub keep_outs: bool,
 }
 
 impl Default for Layers {
     fn default() -> Self {
-        Self { others: true, names: true, sun_and_moon: true, keyholes: true, mask: true }
+        Self {
+            others: true,
+            names: true,
+            sun_and_moon: true,
+            keyholes: true,
+            mask: true,
+            keep_outs: true,
+        }
     }
 }
 
@@ -124,6 +134,12 @@ fn paint_sky(
         labels.reserve(name);
     }
     labels.reserve_path(&dome.circle(dome.radius), 4.0);
+    if layers.keep_outs {
+        keep_outs::paint(painter, dome, scene.keep_outs, t);
+        for words in keep_outs::words(painter, dome, scene.keep_outs, t) {
+            labels.reserve(words);
+        }
+    }
     if let Some(holes) = scene.keyholes.filter(|_| layers.keyholes) {
         for outline in grid::keyholes(painter, dome, &holes, t) {
             labels.reserve(Rect::from_points(&outline));

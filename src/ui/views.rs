@@ -21,7 +21,7 @@ use super::{
     upload::{self, UploadState},
 };
 use crate::{
-    app::{Model, UiCommand, View},
+    app::{Model, UiCommand, View, mask_file::MaskNews},
     driver::Command,
 };
 
@@ -191,6 +191,11 @@ impl Views {
     /// The lines of the console were saved here, or not, and why.
     pub fn log_saved(&mut self, result: Result<PathBuf, String>) {
         self.console.saved(result);
+    }
+
+    /// A horizon mask was read or written, or not, and why.
+    pub fn mask_news(&mut self, news: MaskNews) {
+        self.preferences.mask_news(news);
     }
 
     /// The settings were saved at this time, or not, and why.

@@ -6,7 +6,7 @@ use std::{
     io,
     sync::{
         Arc,
-        atomic::{AtomicBool, AtomicU64, Ordering},
+        atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering},
     },
     time::Duration,
 };
@@ -35,6 +35,8 @@ pub(super) struct Rig {
     handle: AntennaHandle,
     events: Vec<Event>,
     is_off: Arc<AtomicBool>,
+    set_by_s: Arc<AtomicI64>,
+    asleep_s: Arc<AtomicU64>,
     /// Changes when the link is to break.
     breaks: watch::Sender<u32>,
     utc_origin: Timestamp,
@@ -76,14 +78,29 @@ impl Rig {
             })
         };
         let readings = AtomicU64::new(0);
+        let (set_by_s, asleep_s) = (Arc::new(AtomicI64::new(0)), Arc::new(AtomicU64::new(0)));
+        let (offset_s, slept_s) = (Arc::clone(&set_by_s), Arc::clone(&asleep_s));
         let clock = Clock::new(move || {
             // In paused time a loop that never sleeps would go on for ever.
             assert!(readings.fetch_add(1, Ordering::Relaxed) < MOST_READINGS, "a busy loop");
-            add_seconds(utc_origin, started.elapsed().as_secs_f64())
+            let offset_s = offset_s.load(Ordering::Relaxed) as f64;
+            add_seconds(utc_origin, started.elapsed().as_secs_f64() + offset_s)
         });
+        let clock = clock.sleeping(move || Duration::from_secs(slept_s.load(Ordering::Relaxed)));
         let (session, handle) = Session::new(controller, antenna, dial, clock, Arc::new(|| {}));
         tokio::spawn(session.run());
-        Self { handle, events: Vec::new(), is_off, breaks, utc_origin, started }
+        Self { handle, events: Vec::new(), is_off, breaks, set_by_s, asleep_s, utc_origin, started }
+    }
+
+    /// Sets the clock of the computer ahead of the right time by so many seconds.
+    pub(super) fn set_clock(&self, by_s: i64) {
+        self.set_by_s.store(by_s, Ordering::Relaxed);
+    }
+
+    /// The computer sleeps: UTC goes on meanwhile, the steady clock stands.
+    pub(super) fn sleep_for(&self, seconds: u64) {
+        self.set_by_s.fetch_add(seconds as i64, Ordering::Relaxed);
+        self.asleep_s.fetch_add(seconds, Ordering::Relaxed);
     }
 
     pub(super) fn utc(&self) -> Timestamp {

@@ -1,16 +1,19 @@
 //! A Satrak that is sent from position to position, though it could track by
 //! itself.
 
+use std::time::Duration;
+
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, FollowProblem, Intent, Refusal},
+    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety},
     plan::{Follow, FollowPhase, Target},
-    protocol::satrak::FaultKind,
+    protocol::satrak::{FaultKind, Goto, Motion, Request},
     sim::satrak::{Control, Fault, Options},
-    station::{AfterPass, Antenna},
+    station::{AfterPass, Antenna, Resume},
 };
 use jiff::SignedDuration;
+use tokio::io::AsyncWriteExt as _;
 
 use super::{
     rig::{Rig, figures},
@@ -111,22 +114,116 @@ async fn stop_and_every_other_wish_end_it_for_good() {
     }
 }
 
-#[tokio::test(start_paused = true)]
-async fn it_goes_on_after_the_link_was_lost() {
+/// In the middle of the usual pass, followed from here.
+async fn following(antenna: &Antenna) -> (Rig, Control, Scene) {
     let scene = sky::usual();
-    let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
+    let (rig, control) = connected(antenna, &scene, 60.0).await;
     rig.send(Command::Follow(Box::new(scene.follow())));
+    let mut rig = rig;
     rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
+    (rig, control, scene)
+}
+
+fn is_followed(rig: &Rig, control: &Control) -> bool {
+    let shown = rig.shown();
+    let predicted = shown.following.as_ref().and_then(|following| following.predicted);
+    predicted
+        .is_some_and(|predicted| direction(control).separation(predicted.direction).degrees() < 0.6)
+}
+
+/// Somebody else sends the antenna to another place.
+async fn send_elsewhere(control: &Control) {
+    let (mut near, far) = tokio::io::duplex(4096);
+    let unit = control.clone();
+    tokio::spawn(async move { unit.serve(far).await });
+    let here = direction(control);
+    let azimuth_deg = (here.azimuth_deg() + 20.0) % 360.0;
+    let goto = Goto::new(Some(azimuth_deg.round()), Some(60.0)).unwrap();
+    near.write_all(&Request::Motion(Motion::Goto(goto)).to_bytes()).await.unwrap();
+    tokio::time::sleep(Duration::from_secs(15)).await;
+}
+
+fn asks(event: &Event) -> bool {
+    matches!(event, Event::Safety(Safety::AsksToResume { .. }))
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
+    let (mut rig, control, _) = following(&antenna()).await;
     rig.set_off(true);
     rig.seconds(40.0).await;
     let sent = gotos(&control);
     rig.set_off(false);
-    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.until_event(20.0, asks).await;
     rig.seconds(20.0).await;
-    assert!(gotos(&control) > sent);
+    assert_eq!(gotos(&control), sent, "nothing moves without a word");
+    assert!(rig.shown().following.as_ref().unwrap().awaits_word);
+    rig.send(Command::Resume);
+    rig.seconds(20.0).await;
     assert_eq!(rig.phase(), Some(FollowPhase::Following));
-    let predicted = rig.shown().following.as_ref().unwrap().predicted.unwrap();
-    assert!(direction(&control).separation(predicted.direction).degrees() < 0.6);
+    assert!(gotos(&control) > sent && is_followed(&rig, &control));
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_short_outage_it_goes_on() {
+    let (mut rig, control, _) = following(&antenna()).await;
+    rig.set_off(true);
+    rig.seconds(1.0).await;
+    rig.set_off(false);
+    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    let sent = gotos(&control);
+    rig.seconds(20.0).await;
+    assert!(gotos(&control) > sent && is_followed(&rig, &control));
+    assert!(!rig.events().iter().any(asks));
+}
+
+#[tokio::test(start_paused = true)]
+async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
+    let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
+    for is_moved in [false, true] {
+        let (mut rig, control, _) = following(&goes_on).await;
+        rig.set_off(true);
+        rig.seconds(2.0).await;
+        if is_moved {
+            send_elsewhere(&control).await;
+        }
+        rig.seconds(18.0).await;
+        let sent = gotos(&control);
+        rig.set_off(false);
+        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.seconds(20.0).await;
+        assert_eq!(gotos(&control) > sent, !is_moved, "moved: {is_moved}");
+        assert_eq!(rig.events().iter().any(asks), is_moved);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_is_set_stops_the_following_until_the_operators_word() {
+    for by_s in [600, -600, 3] {
+        let (mut rig, control, _) = following(&antenna()).await;
+        rig.set_clock(by_s);
+        let stepped = |event: &Event| matches!(event, Event::Safety(Safety::ClockStepped { .. }));
+        rig.until_event(2.0, stepped).await;
+        rig.seconds(2.0).await;
+        let sent = gotos(&control);
+        rig.seconds(20.0).await;
+        assert_eq!(gotos(&control), sent, "{by_s}");
+        rig.set_clock(0);
+        rig.until_event(2.0, stepped).await;
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_sleep_positions_are_read_anew_and_nothing_moves_by_itself() {
+    let (mut rig, control, _) = following(&antenna()).await;
+    let sent = gotos(&control);
+    rig.sleep_for(60);
+    rig.until_event(2.0, |event| matches!(event, Event::Safety(Safety::Slept { .. }))).await;
+    rig.until_event(5.0, asks).await;
+    rig.seconds(20.0).await;
+    assert!(gotos(&control) <= sent + 1, "{} {sent}", gotos(&control));
+    let measured = rig.shown().state.measured.unwrap();
+    assert!(measured.asked >= rig.shown().state.link_since.unwrap(), "read on the new link");
 }
 
 #[tokio::test(start_paused = true)]

@@ -27,6 +27,7 @@ fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
         catalog_number: Some(rig::NOAA_20),
         phase,
         stats: FollowStats::default(),
+        awaits_word: false,
         next_look: None,
         commanded: is_up.then_some(WANTED.into()),
         predicted: is_up.then_some(predicted),

@@ -12,7 +12,7 @@ use azel::{
     app::View,
     astro::{Angle, AzEl},
     controller::Pointing,
-    driver::{AntennaHandle, Clock, Command, Driver, Snapshot, StopState},
+    driver::{AntennaHandle, Clock, Command, Driver, Event, Safety, Snapshot, StopState},
     makes,
     plan::Bounds,
     station::{self, Antenna, Kind, Station, Value},
@@ -139,4 +139,39 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     shown.view = View::Operate;
     let window = rig::window(SIZES[0], shown);
     assert!(says(&window, "200.00"), "the card shows where it is");
+}
+
+#[test]
+fn a_controller_that_breaks_down_is_started_again_with_stop() {
+    let (address, heard) = unit();
+    let antenna: Antenna = KIND.antenna("Lever", &address);
+    let (woke, woken) = mpsc::sync_channel(1);
+    let wake = Arc::new(move || {
+        let _ = woke.try_send(());
+    });
+    let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
+    let mut handle: AntennaHandle = driver.open(&antenna, Bounds::of_antenna(&antenna), None);
+    let to = |azimuth: f64, elevation: f64| Command::Position {
+        azimuth: Some(Angle::from_degrees(azimuth)),
+        elevation: Some(Angle::from_degrees(elevation)),
+    };
+    let next = || heard.recv_timeout(PATIENCE).unwrap();
+    while !at(&handle.snapshot(), 10.0, 20.0) {
+        woken.recv_timeout(PATIENCE).unwrap();
+    }
+    assert!(next().starts_with("C "));
+    handle.send(to(13.0, 13.0)).unwrap();
+    let broke = Event::Safety(Safety::SessionBroke);
+    while !std::iter::from_fn(|| handle.next_event()).any(|event| event == broke) {
+        woken.recv_timeout(PATIENCE).unwrap();
+    }
+    let words = [next(), next()];
+    assert!(words.contains(&"S".to_owned()), "{words:?}");
+    while !matches!(handle.snapshot().stop, StopState::Stopped { .. }) {
+        woken.recv_timeout(PATIENCE).unwrap();
+    }
+    handle.send(to(200.0, 40.0)).unwrap();
+    while !at(&handle.snapshot(), 200.0, 40.0) {
+        woken.recv_timeout(PATIENCE).unwrap();
+    }
 }

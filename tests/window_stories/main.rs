@@ -20,6 +20,7 @@ mod extremes;
 mod following;
 mod fourth_make;
 mod holds;
+mod horizon;
 mod keys;
 mod maintenance;
 mod makes;

@@ -141,6 +141,18 @@ impl Edge {
         }
     }
 
+    /// The direction across the edge at `share` of the way, of length 1.
+    pub(super) fn across(&self, share: f64) -> DVec3 {
+        match self.shape {
+            Shape::GreatCircle { normal } => normal,
+            Shape::Arc { elevation } => AzEl {
+                azimuth: Angle::from_radians(self.from_azimuth + self.turn * share),
+                elevation: Angle::from_radians(elevation + FRAC_PI_2),
+            }
+            .to_enu(),
+        }
+    }
+
     /// Along the edge, radians.
     pub(super) fn length(&self) -> f64 {
         match self.shape {

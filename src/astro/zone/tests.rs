@@ -148,6 +148,29 @@ fn the_points_of_the_edges_are_close_and_come_around() {
     assert_eq!(mast.middle_of_edge(4), None);
 }
 
+#[test]
+fn the_margin_runs_around_at_its_distance() {
+    let angle = Angle::from_degrees;
+    for corners in [
+        &[(350.0, 0.0), (350.0, 20.0), (370.0, 20.0), (370.0, 0.0)][..],
+        &[(0.0, 60.0), (120.0, 60.0), (240.0, 60.0), (360.0, 60.0)],
+        // Bent inwards at 110 degrees.
+        &[(100.0, 0.0), (100.0, 40.0), (110.0, 8.0), (120.0, 40.0), (120.0, 0.0)],
+        &[(77.0, 90.0), (100.0, 30.0), (140.0, 30.0)],
+    ] {
+        let zone = zone(corners).unwrap();
+        let points = zone.margin_sampled(angle(3.0), angle(1.0));
+        assert!(points.len() > 30, "{}", points.len());
+        for point in &points {
+            assert!((zone.clearance(*point).degrees() - 3.0).abs() < 1e-3);
+        }
+        for pair in points.windows(2) {
+            assert!(pair[0].separation(pair[1]).degrees() < 2.5, "{pair:?}");
+        }
+        assert_eq!(zone.margin_sampled(Angle::ZERO, angle(1.0)), []);
+    }
+}
+
 /// A polygon around `middle`: corners at rising bearings, up to 40 degrees away.
 fn star() -> impl Strategy<Value = (AzEl, Vec<AzEl>)> {
     let corner = (0.05..1.0_f64, 2.0..40.0_f64);
@@ -249,6 +272,9 @@ proptest! {
         let zone = built.unwrap();
         let near = (from + share_a * (to - from), low + share_b * (high - low));
         for (azimuth, elevation) in [(f64::from(azimuth), f64::from(elevation)), near] {
+            if elevation > 90.0 {
+                continue;
+            }
             let clearance = clearance_deg(&zone, azimuth, elevation);
             let past = (azimuth - from).rem_euclid(360.0);
             let inside = past <= to - from && (low..=high).contains(&elevation);

@@ -49,6 +49,8 @@ pub enum Command {
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
+    /// Follow on, where that waits for the operator's word.
+    Resume,
     /// Keep within these bounds from now on.
     Within(Box<Bounds>),
     /// The operator has seen that the antenna stands: no STOP is owed any more.
@@ -121,6 +123,7 @@ impl Session {
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.gate.keep_within(*bounds),
+            Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Intent::Standby, now),
             Command::Manual => self.leave_for(Intent::Manual, now),
             Command::Hold => self.leave_for(Intent::Position, now),
@@ -295,6 +298,7 @@ impl Session {
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.gate.keep_within(*bounds),
+            Command::Resume => self.resume(),
             Command::Standby => {
                 self.intent = Intent::Standby;
                 self.following = None;

@@ -88,6 +88,7 @@ impl Session {
             self.told_lost = false;
         }
         let now = self.now();
+        self.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
         self.record();
         end
@@ -212,7 +213,9 @@ impl Session {
             }
             let now = self.now();
             self.supervise(now);
-            if let Some(loss) = self.watch_link(now, start.steady) {
+            if let Some(loss) =
+                self.watch_clocks(now).or_else(|| self.watch_link(now, start.steady))
+            {
                 return Some(loss);
             }
             if self.wanted == Wanted::ForStop && self.let_go_quietly() {

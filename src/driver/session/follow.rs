@@ -10,17 +10,37 @@ pub(super) use following::{Following, Manner};
 
 use super::{Command, Event, Session};
 use crate::{
-    controller::{Moment, Motion},
-    driver::{FollowProblem, Intent, Refusal},
+    astro::Angle,
+    controller::{Moment, Motion, Pointing},
+    driver::{FollowProblem, Intent, Refusal, Safety},
     plan::{
         Follow, FollowPhase,
         follow::{AxisNow, Next, Planner},
     },
-    station::AfterPass,
+    station::{AfterPass, Antenna, Resume},
 };
 
 /// So many commands in a row may stay without an answer and without effect.
 const MOST_LOST: u32 = 3;
+
+/// When a target is followed on by itself after the antenna was out of sight.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ResumeRule {
+    resume: Resume,
+    /// After a shorter time it goes on in any case.
+    after: Duration,
+    half_beam: Angle,
+}
+
+impl ResumeRule {
+    pub(super) fn of(antenna: &Antenna) -> Self {
+        Self {
+            resume: antenna.resume,
+            after: Duration::try_from_secs_f64(antenna.resume_after_s).unwrap_or_default(),
+            half_beam: antenna.beam_width() * 0.5,
+        }
+    }
+}
 
 impl Session {
     /// Takes up a target. What moves for another reason is stopped first.
@@ -106,6 +126,8 @@ impl Session {
         let Some(following) = &mut self.following else { return };
         let name = following.name();
         let before = std::mem::replace(&mut following.phase, phase);
+        // No answer was no for the pass that is over.
+        following.awaits_word &= before != FollowPhase::Following;
         if before == FollowPhase::Following {
             following.predicted = None;
             let stats = std::mem::take(&mut following.stats);
@@ -134,6 +156,10 @@ impl Session {
         let measured = self.gate.state().measured.filter(|_| !is_busy);
         let Some(following) = &mut self.following else { return };
         if now.steady < following.next_look {
+            return;
+        }
+        if following.awaits_word {
+            following.next_look = now.steady + self.manner.following.period();
             return;
         }
         following.is_held_up = measured.is_none();
@@ -211,11 +237,53 @@ impl Session {
         }
     }
 
-    /// The device was read anew: what it was told on another link may be gone.
-    pub(super) fn follow_on(&mut self) {
+    /// The device was read anew after it was out of sight for `lost`: what it was told
+    /// on another link may be gone, and somebody may have gone to the antenna.
+    pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing) {
+        let Some(following) = &mut self.following else { return };
+        following.planner.forget_sent();
+        following.sent = None;
+        if lost <= self.rule.after {
+            return;
+        }
+        // Where it was sent, or where it was left, within what it coasts.
+        let places = following.commanded.into_iter().chain(self.left_at);
+        let is_where_it_was = places.into_iter().any(|place| {
+            place.separation(at).is_some_and(|off| off <= self.rule.half_beam + self.coast())
+        });
+        if self.rule.resume == Resume::Ask || !is_where_it_was {
+            self.await_word(lost);
+        }
+    }
+
+    fn coast(&self) -> Angle {
+        let rate_deg_s = self.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
+        Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.run_out_s)
+    }
+
+    fn await_word(&mut self, lost: Duration) {
+        let Some(following) = &mut self.following else { return };
+        following.awaits_word = true;
+        let name = following.name();
+        self.tell(Event::Safety(Safety::AsksToResume { name, lost }));
+    }
+
+    /// Stops the antenna and keeps its target until the operator's word.
+    pub(super) fn suspend_following(&mut self, lost: Duration, now: Moment) {
+        if !self.follows() {
+            return;
+        }
+        let following = self.following.take();
+        self.halt_quietly(now);
+        self.following = following;
+        self.await_word(lost);
+    }
+
+    /// The operator lets it go on.
+    pub(super) fn resume(&mut self) {
         if let Some(following) = &mut self.following {
+            following.awaits_word = false;
             following.planner.forget_sent();
-            following.sent = None;
         }
     }
 }

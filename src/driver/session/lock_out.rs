@@ -110,6 +110,7 @@ impl Session {
             | Command::EndJog
             | Command::AllowUnguarded
             | Command::SeenStanding
+            | Command::Resume
             | Command::Within(_)
             | Command::Act(_)
             | Command::Settle(_)

@@ -158,7 +158,11 @@ impl Session {
         } else {
             Found::Still
         };
-        self.follow_on();
+        let away = self
+            .away_since
+            .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
+        let lost = away + std::mem::take(&mut self.slept);
+        self.follow_on(lost, measured.pointing);
         let by_device = self.intent == Intent::Track && !self.follows();
         if by_device && found != Found::Tracking {
             self.intent = Intent::Standby;

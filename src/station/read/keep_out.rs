@@ -95,8 +95,7 @@ impl Fields<'_> {
     pub(super) fn sun_avoidance(&mut self) -> Option<SunAvoidance> {
         const KEY: &str = "sun_avoidance";
         const NAME: &str = "Sun avoidance";
-        let Some(value) = self.table.get(KEY) else { return None };
-        if !value.is_table() {
+        if !self.table.get(KEY)?.is_table() {
             self.table.remove(KEY);
             self.does_not_hold(KEY, NAME, "must be a table");
             return None;

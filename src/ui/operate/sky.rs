@@ -9,10 +9,11 @@ use crate::{
     driver::{LinkState, StopState},
     orbit::PassPoint,
     plan::Sample,
-    station::Mount,
     ui::{
         format,
-        sky_plot::{self, Bearing, Keyholes, Measured, OtherSatellite, SkyScene, Track},
+        sky_plot::{
+            self, Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track,
+        },
         state_sentence::state_sentence,
     },
 };
@@ -70,7 +71,8 @@ pub(super) fn show(
             antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
         ),
         mask: model.station.horizon_mask.as_ref(),
-        keyholes: antenna.and_then(keyholes),
+        keep_outs: &antenna.map(|antenna| keep_outs(model, antenna)).unwrap_or_default(),
+        keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
         track,
         others: &others,
         sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
@@ -133,15 +135,16 @@ fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
     Some(format::age(model.steady.saturating_duration_since(since).as_secs_f64()))
 }
 
-/// Where the lower axis dips below what the travel reaches.
-fn keyholes(antenna: &AntennaModel) -> Option<Keyholes> {
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = antenna.config.mount else {
-        return None;
-    };
-    Some(Keyholes {
-        lower_axis_azimuth: Angle::from_degrees(lower_axis_azimuth_deg),
-        radius: Angle::from_degrees(travel_from_deg.clamp(1.0, 45.0)),
+/// The keep-outs that hold for the antenna.
+fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a>> {
+    let config = &antenna.config;
+    let hold = model.station.keep_outs.iter().filter(|of| of.holds_for(&config.name));
+    hold.map(|of| KeepOutMark {
+        name: &of.name,
+        zone: &of.zone,
+        margin: of.margin() + config.beam_width() * 0.5,
     })
+    .collect()
 }
 
 /// The antenna while its azimuth is known, and its elevation is not.

@@ -4,6 +4,7 @@
 use super::{
     antenna_fields,
     fields::{Standing, Typed},
+    horizon::draft::Skies,
     station_fields::{self, Ground},
 };
 use crate::station::{Antenna, Kind, Station};
@@ -13,6 +14,7 @@ use crate::station::{Antenna, Kind, Station};
 pub(super) struct Draft {
     pub(super) ground: Typed<Ground>,
     pub(super) antennas: Vec<Typed<Antenna>>,
+    pub(super) skies: Skies,
 }
 
 impl Draft {
@@ -20,6 +22,7 @@ impl Draft {
         Self {
             ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
+            skies: Skies::of(station),
         }
     }
 
@@ -29,6 +32,11 @@ impl Draft {
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
         let name = Antenna::free_name(kind.name, &taken);
         self.antennas.push(typed(kind.antenna(&name, kind.usual_address)));
+    }
+
+    /// The antennas of the form, each by its name before anything was typed.
+    pub(super) fn antenna_names(&self) -> Vec<String> {
+        self.antennas.iter().map(|antenna| antenna.before().name.clone()).collect()
     }
 
     /// How the fields of the site stand.
@@ -66,7 +74,15 @@ impl Draft {
         {
             return None;
         }
-        ground.with(self.antennas.iter().map(|antenna| antenna.read().0).collect())
+        let mut station =
+            ground.with(self.antennas.iter().map(|antenna| antenna.read().0).collect())?;
+        let renamed: Vec<(String, String)> = self
+            .antennas
+            .iter()
+            .map(|antenna| (antenna.before().name.clone(), name(antenna).trim().to_owned()))
+            .collect();
+        self.skies.put_into(&mut station, &renamed)?;
+        Some(station)
     }
 }
 

@@ -5,8 +5,8 @@ use super::{
     fields::{Description, Look, Placed},
 };
 use crate::{
-    astro::{HorizonMask, MaskTextError, Site},
-    station::{Antenna, KeepOut, OnClose, Station, SunAvoidance, ranges},
+    astro::Site,
+    station::{Antenna, OnClose, Station, ranges},
 };
 
 /// A station without its antennas, with a site that need not be one.
@@ -18,10 +18,7 @@ pub(super) struct Ground {
     altitude_m: f64,
     elevation_floor_deg: f64,
     favourites: Vec<u32>,
-    horizon_mask: Option<HorizonMask>,
     on_close: Option<OnClose>,
-    keep_outs: Vec<KeepOut>,
-    sun_avoidance: Option<SunAvoidance>,
 }
 
 impl Ground {
@@ -34,24 +31,21 @@ impl Ground {
             altitude_m: site.altitude_m(),
             elevation_floor_deg: station.elevation_floor_deg,
             favourites: station.favourites.clone(),
-            horizon_mask: station.horizon_mask.clone(),
             on_close: station.on_close,
-            keep_outs: station.keep_outs.clone(),
-            sun_avoidance: station.sun_avoidance,
         }
     }
 
-    /// The station with these antennas.
+    /// The station with these antennas, without what the page of the horizon holds.
     pub(super) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
         Some(Station {
             site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
             name: self.name,
-            horizon_mask: self.horizon_mask,
+            horizon_mask: None,
             elevation_floor_deg: self.elevation_floor_deg,
             favourites: self.favourites,
             on_close: self.on_close,
-            keep_outs: self.keep_outs,
-            sun_avoidance: self.sun_avoidance,
+            keep_outs: Vec::new(),
+            sun_avoidance: None,
             antennas,
         })
     }
@@ -82,14 +76,6 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
             |ground| Some(favourites(ground)),
             read_favourites,
         ),
-        Of::written(
-            "Horizon mask",
-            Look::Lines { hint: "azimuth elevation, one point a line" },
-            |ground| {
-                Some(ground.horizon_mask.as_ref().map(ToString::to_string).unwrap_or_default())
-            },
-            read_mask,
-        ),
     ];
     all.into_iter().map(|field| ("", field)).collect()
 }
@@ -107,24 +93,4 @@ fn read_favourites(ground: &mut Ground, text: &str) -> Result<(), String> {
     ground.favourites =
         numbers.ok_or("must be catalogue numbers with commas between, such as 43013, 25544")?;
     Ok(())
-}
-
-fn read_mask(ground: &mut Ground, text: &str) -> Result<(), String> {
-    ground.horizon_mask = if text.is_empty() {
-        None
-    } else {
-        Some(HorizonMask::parse(text).map_err(|error| mask_problem(&error))?)
-    };
-    Ok(())
-}
-
-/// Why a text is no mask, to stand behind the name of its field.
-fn mask_problem(error: &MaskTextError) -> String {
-    match error {
-        MaskTextError::Format { line } => {
-            format!("line {line} must be an azimuth and an elevation, such as 120 8.5")
-        }
-        MaskTextError::Point { .. } => error.to_string().replace('-', "−"),
-        MaskTextError::Mask(_) => "must hold points, such as 120 8.5, or nothing".to_owned(),
-    }
 }

@@ -32,6 +32,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
                 (&mut layers.sun_and_moon, "Sun and Moon"),
                 (&mut layers.keyholes, "Keyholes"),
                 (&mut layers.mask, "Horizon mask"),
+                (&mut layers.keep_outs, "Keep-outs"),
             ] {
                 ui.checkbox(on, name);
             }

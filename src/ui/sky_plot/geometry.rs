@@ -12,57 +12,57 @@ const MAX_RADIUS: f32 = 420.0;
 /// The disc of the sky: zenith in the middle, horizon at the rim, north up
 /// and east right.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Dome {
+pub(in crate::ui) struct Dome {
     /// The zenith.
-    pub(super) centre: Pos2,
+    pub(in crate::ui) centre: Pos2,
     /// Radius of the horizon, points.
-    pub(super) radius: f32,
+    pub(in crate::ui) radius: f32,
 }
 
 impl Dome {
     /// The largest disc that fits into `rect` with its rim labels.
-    pub(super) fn fitted(rect: Rect) -> Self {
+    pub(in crate::ui) fn fitted(rect: Rect) -> Self {
         let radius = rect.width().min(rect.height()) / 2.0 - MARGIN;
         Self { centre: rect.center(), radius: radius.clamp(1.0, MAX_RADIUS) }
     }
 
     /// The point of a direction; none when it is not finite. What is below
     /// the horizon lies outside the rim.
-    pub(super) fn point(&self, direction: AzEl) -> Option<Pos2> {
+    pub(in crate::ui) fn point(&self, direction: AzEl) -> Option<Pos2> {
         let finite = direction.azimuth.is_finite() && direction.elevation.is_finite();
         finite
             .then(|| self.at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32))
     }
 
     /// The point of a direction, and none below the horizon.
-    pub(super) fn visible(&self, direction: AzEl) -> Option<Pos2> {
+    pub(in crate::ui) fn visible(&self, direction: AzEl) -> Option<Pos2> {
         self.point(direction).filter(|_| direction.elevation_deg() >= 0.0)
     }
 
     /// The points of a path. What is not finite or below the horizon is left
     /// out.
-    pub(super) fn path(&self, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
+    pub(in crate::ui) fn path(&self, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
         directions.into_iter().filter_map(|direction| self.visible(direction)).collect()
     }
 
     /// The point at an azimuth in radians and an elevation in degrees.
-    pub(super) fn at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
+    pub(in crate::ui) fn at(&self, azimuth_rad: f32, elevation_deg: f32) -> Pos2 {
         self.centre + outward(azimuth_rad) * self.ring(elevation_deg)
     }
 
     /// Radius of the ring of an elevation, points.
-    pub(super) fn ring(&self, elevation_deg: f32) -> f32 {
+    pub(in crate::ui) fn ring(&self, elevation_deg: f32) -> f32 {
         self.radius * (90.0 - elevation_deg) / 90.0
     }
 
     /// Length of a small angle across the radius near the middle, points.
-    pub(super) fn length(&self, angle: Angle) -> f32 {
+    pub(in crate::ui) fn length(&self, angle: Angle) -> f32 {
         self.radius * angle.degrees() as f32 / 90.0
     }
 
     /// A rectangle with its corners pulled inside the rim; none when its
     /// middle lies outside.
-    pub(super) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
+    pub(in crate::ui) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
         // Inside of the line of the rim.
         let limit = self.radius - 1.0;
         let inside = |point: Pos2| {
@@ -75,18 +75,18 @@ impl Dome {
     }
 
     /// The circle of a given radius as a closed path, points.
-    pub(super) fn circle(&self, radius: f32) -> Vec<Pos2> {
+    pub(in crate::ui) fn circle(&self, radius: f32) -> Vec<Pos2> {
         circle(self.centre, radius)
     }
 }
 
 /// The unit vector on the screen towards an azimuth.
-pub(super) fn outward(azimuth_rad: f32) -> Vec2 {
+pub(in crate::ui) fn outward(azimuth_rad: f32) -> Vec2 {
     vec2(azimuth_rad.sin(), -azimuth_rad.cos())
 }
 
 /// A circle as a closed path with a point at least each 3 points of length.
-pub(super) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
+pub(in crate::ui) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
     let steps = (std::f32::consts::TAU * radius / 3.0).ceil().clamp(24.0, 720.0) as u16;
     (0..=steps)
         .map(|step| {
@@ -98,7 +98,7 @@ pub(super) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
 
 /// Dashes along the whole length of a path, each as its own line. Both
 /// lengths are in points and above zero.
-pub(super) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>> {
+pub(in crate::ui) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>> {
     let mut done = Vec::new();
     let mut current: Vec<Pos2> = path.first().copied().into_iter().collect();
     let (mut drawing, mut left) = (true, dash);
@@ -130,14 +130,19 @@ pub(super) fn dashes(path: &[Pos2], dash: f32, gap: f32) -> Vec<Vec<Pos2>> {
 }
 
 /// The dashes of a path as shapes.
-pub(super) fn dashed(path: &[Pos2], dash: f32, gap: f32, stroke: impl Into<Stroke>) -> Vec<Shape> {
+pub(in crate::ui) fn dashed(
+    path: &[Pos2],
+    dash: f32,
+    gap: f32,
+    stroke: impl Into<Stroke>,
+) -> Vec<Shape> {
     let stroke = stroke.into();
     dashes(path, dash, gap).into_iter().map(|piece| Shape::line(piece, stroke)).collect()
 }
 
 /// Parallel lines that fall to the right by 45 degrees, or rise when `rising`,
 /// clipped to a polygon of any form. `spacing` is in points, across the lines.
-pub(super) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
+pub(in crate::ui) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
     let side = if rising { 1.0 } else { -1.0 };
     // Constant along each line of the hatch.
     let level = |point: Pos2| point.x + side * point.y;
@@ -162,12 +167,12 @@ pub(super) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 
 }
 
 /// Whether the points of a rectangle can be used for painting.
-pub(super) fn usable(rect: Rect) -> bool {
+pub(in crate::ui) fn usable(rect: Rect) -> bool {
     rect.is_finite() && rect.width() > 2.0 * MARGIN && rect.height() > 2.0 * MARGIN
 }
 
 /// A point moved to the middle of its pixel, for lines that must be sharp.
-pub(super) fn sharp(point: Pos2) -> Pos2 {
+pub(in crate::ui) fn sharp(point: Pos2) -> Pos2 {
     pos2(point.x.floor() + 0.5, point.y.floor() + 0.5)
 }
 

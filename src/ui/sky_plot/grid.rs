@@ -24,12 +24,12 @@ const NAME_SIZE: Vec2 = vec2(22.0, 14.0);
 const HATCH: f32 = 5.0;
 
 /// Paints the ground of the disc.
-pub(super) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
+pub(in crate::ui) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
     painter.circle_filled(dome.centre, dome.radius, t.sky);
 }
 
 /// Paints the rings and the spokes.
-pub(super) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
+pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     let thin = Stroke::new(1.0, t.grid);
     for elevation in [30.0, 60.0] {
         painter.circle_stroke(dome.centre, dome.ring(elevation), thin);
@@ -59,7 +59,7 @@ pub(super) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
 
 /// Paints the rim with its ticks and names, and the ring of the minimum
 /// elevation. Returns the boxes of the names.
-pub(super) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Tokens) -> Vec<Rect> {
+pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Tokens) -> Vec<Rect> {
     let elevation = minimum.degrees() as f32;
     if elevation > 0.0 && elevation < 90.0 {
         let ring = dome.circle(dome.ring(elevation));
@@ -84,7 +84,7 @@ pub(super) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Tokens) -> 
 
 /// Where the names of the azimuths stand, as far as their size is known
 /// without painting them.
-pub(super) fn name_boxes(dome: Dome) -> Vec<Rect> {
+pub(in crate::ui) fn name_boxes(dome: Dome) -> Vec<Rect> {
     let box_at = |azimuth_deg: u16| {
         let towards = outward(f32::from(azimuth_deg).to_radians());
         let centre = dome.centre + towards * (dome.radius + NAMES);
@@ -94,7 +94,7 @@ pub(super) fn name_boxes(dome: Dome) -> Vec<Rect> {
 }
 
 /// Paints the caps at both ends of the lower axis. Returns their outlines.
-pub(super) fn keyholes(
+pub(in crate::ui) fn keyholes(
     painter: &Painter,
     dome: Dome,
     holes: &Keyholes,
@@ -118,7 +118,7 @@ pub(super) fn keyholes(
 
 /// The half of a circle on the sphere that lies above the horizon, around a
 /// point of the horizon. Empty when it is not finite or has no size.
-pub(super) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2> {
+pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2> {
     if !(azimuth.is_finite() && radius.degrees() > 0.0 && radius.degrees() < 90.0) {
         return Vec::new();
     }

@@ -55,14 +55,35 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
     ];
     let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
     let keyhole = scene.keyholes.map(|_| ("Keyhole", keyhole as Sample));
-    always.into_iter().chain(mask).chain(keyhole)
+    let mut keep_outs = scene.keep_outs.iter();
+    let margin = keep_outs
+        .any(|mark| mark.margin.degrees() > 0.0)
+        .then_some(("Safety margin", margin as Sample));
+    let keep_out = (!scene.keep_outs.is_empty()).then_some(("Keep-out", keep_out as Sample));
+    always.into_iter().chain(mask).chain(keyhole).chain(keep_out).chain(margin)
 }
 
-fn mask(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn mask(painter: &Painter, at: Pos2, t: &Tokens) {
     hatched(painter, at, (t.mask, t.hatch), true);
 }
 
-fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn keep_out(painter: &Painter, at: Pos2, t: &Tokens) {
+    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+    let stroke = Stroke::new(1.25, t.bad);
+    painter.rect(area, 0.0, t.keep, stroke, egui::StrokeKind::Inside);
+}
+
+pub(in crate::ui) fn margin(painter: &Painter, at: Pos2, t: &Tokens) {
+    let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
+    let mut ring = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];
+    let lines = hatch(&ring, 4.0, true);
+    let thin = Stroke::new(0.75, t.bad);
+    painter.extend(lines.into_iter().map(|line| Shape::line_segment(line, thin)));
+    ring.push(area.left_top());
+    painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.bad)));
+}
+
+pub(in crate::ui) fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
     hatched(painter, at, (t.warnbg, t.warn), false);
 }
 

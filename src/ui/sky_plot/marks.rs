@@ -14,7 +14,7 @@ const ARM: (f32, f32) = (11.0, 26.0);
 
 /// The form of an event of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EventForm {
+pub(in crate::ui) enum EventForm {
     /// Rise: a triangle that points up.
     Up,
     /// Highest point: a diamond.
@@ -24,7 +24,7 @@ pub(super) enum EventForm {
 }
 
 /// AOS, TCA or LOS.
-pub(super) fn event(
+pub(in crate::ui) fn event(
     painter: &Painter,
     at: Pos2,
     form: EventForm,
@@ -43,7 +43,7 @@ pub(super) fn event(
 }
 
 /// The Sun: a circle with eight rays.
-pub(super) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
     let stroke = Stroke::new(1.5, t.sun);
     painter.circle(at, 5.0, t.sky, stroke);
     for eighth in 0..8_u8 {
@@ -53,7 +53,7 @@ pub(super) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
 }
 
 /// The Moon: a crescent, open to the right.
-pub(super) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
     const RADIUS: f32 = 7.0;
     // Both arcs meet in the two horns; the inner one has its middle aside.
     let horn: f32 = 50.0_f32.to_radians();
@@ -74,7 +74,7 @@ pub(super) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
 }
 
 /// A satellite that is not selected; a square stands still in the sky.
-pub(super) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: &Tokens) {
+pub(in crate::ui) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: &Tokens) {
     if geostationary {
         painter.rect_filled(Rect::from_center_size(at, Vec2::splat(7.0)), 0.0, t.other);
     } else {
@@ -83,24 +83,24 @@ pub(super) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: &Tokens
 }
 
 /// The selected satellite.
-pub(super) fn selected(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn selected(painter: &Painter, at: Pos2, t: &Tokens) {
     painter.circle(at, 5.0, t.sat, Stroke::new(OUTLINE, t.sky));
 }
 
 /// The commanded direction: a ring with the diameter of the beam.
-pub(super) fn commanded(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
+pub(in crate::ui) fn commanded(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
     painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25 + 2.0 * OUTLINE, t.sky));
     painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25, t.cmd));
 }
 
 /// The preview of a commanded direction.
-pub(super) fn ghost(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
+pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
     let ring = circle(at, diameter / 2.0);
     painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(2.25, t.cmd)));
 }
 
 /// The measured direction: a cross-hair, scaled; 1 is its size in the plot.
-pub(super) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
+pub(in crate::ui) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
     for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.ant)] {
         // The outline goes around the ends of the arms as well.
         let more = (stroke.width - 2.0) / 2.0;
@@ -112,7 +112,7 @@ pub(super) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
 }
 
 /// The last known direction of an antenna whose link is lost.
-pub(super) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
     for arm in arms() {
         let line = [at + arm * ARM.0, at + arm * ARM.1];
         painter.line_segment(line, Stroke::new(2.0 + 2.0 * OUTLINE, t.sky));

@@ -18,7 +18,7 @@ const HATCH_LINE: f32 = 1.3;
 const SKYLINE: f32 = 1.25;
 
 /// Paints what lies between the skyline and the rim.
-pub(super) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t: &Tokens) {
+pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t: &Tokens) {
     let rim = dome_line(dome, |_| 0.0);
     // What lies below the horizon blocks nothing that is drawn.
     let skyline = dome_line(dome, |azimuth| mask.elevation_at(azimuth).degrees().max(0.0) as f32);

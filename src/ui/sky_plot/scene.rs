@@ -3,8 +3,9 @@
 use jiff::Timestamp;
 
 use crate::{
-    astro::{Angle, AzEl, HorizonMask},
+    astro::{Angle, AzEl, HorizonMask, Zone},
     plan::Sample,
+    station::Mount,
 };
 
 /// Everything in the plot at one moment. A direction that is not finite is
@@ -17,6 +18,8 @@ pub struct SkyScene<'a> {
     pub minimum_elevation: Angle,
     /// What blocks the sky of the site.
     pub mask: Option<&'a HorizonMask>,
+    /// Where the antenna must not point.
+    pub keep_outs: &'a [KeepOutMark<'a>],
     /// Where the mount cannot point.
     pub keyholes: Option<Keyholes>,
     /// The selected pass.
@@ -48,6 +51,17 @@ pub struct SkyScene<'a> {
     pub description: &'a str,
 }
 
+/// A region in which the antenna must not point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KeepOutMark<'a> {
+    /// What the operator calls it.
+    pub name: &'a str,
+    /// Its edges.
+    pub zone: &'a Zone,
+    /// How far the antenna stays away from them.
+    pub margin: Angle,
+}
+
 /// The caps on the horizon at both ends of the lower axis of an X/Y mount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Keyholes {
@@ -55,6 +69,20 @@ pub struct Keyholes {
     pub lower_axis_azimuth: Angle,
     /// Angular radius of each cap.
     pub radius: Angle,
+}
+
+impl Keyholes {
+    /// Where the lower axis dips below what the travel reaches; `None` for a mount
+    /// without such an axis.
+    pub fn of(mount: &Mount) -> Option<Self> {
+        let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, .. } = *mount else {
+            return None;
+        };
+        Some(Self {
+            lower_axis_azimuth: Angle::from_degrees(lower_axis_azimuth_deg),
+            radius: Angle::from_degrees(travel_from_deg.clamp(1.0, 45.0)),
+        })
+    }
 }
 
 /// The selected pass.

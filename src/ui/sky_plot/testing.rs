@@ -57,6 +57,7 @@ pub(super) fn empty() -> SkyScene<'static> {
         now: now(),
         minimum_elevation: Angle::from_degrees(5.0),
         mask: None,
+        keep_outs: &[],
         keyholes: None,
         track: None,
         others: &[],

@@ -110,6 +110,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
         LinkLoss::ConnectTimeout => "nobody answers at the address".to_owned(),
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
         LinkLoss::Broken(why) => format!("the connection broke ({why})"),
+        LinkLoss::Slept => "this computer slept, it is read anew".to_owned(),
         LinkLoss::Unreadable => "what the unit answers cannot be read".to_owned(),
         LinkLoss::OtherDevice => {
             "another device answers there, or one that wants to be told a code first".to_owned()

@@ -87,6 +87,20 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
                 Response::Told => format!("{antenna} is {into}, {driver}."),
             }
         }
+        Safety::ClockStepped { by_s } => format!(
+            "The clock of this computer was set by {} s. {antenna} does not go on by itself with \
+             what depends on it.",
+            format::signed(*by_s, 1)
+        ),
+        Safety::Slept { lasted } => format!(
+            "This computer slept for {}. {antenna} is read anew.",
+            format::age(lasted.as_secs_f64())
+        ),
+        Safety::AsksToResume { name, lost } => format!(
+            "{antenna} was tracking {name} and was out of sight for {}. It stands until you track \
+             it again.",
+            format::age(lost.as_secs_f64())
+        ),
         Safety::SessionBroke => format!(
             "The connection to {antenna} broke down inside Azel and was started again with STOP."
         ),

@@ -88,6 +88,9 @@ static MAKE: Make = Make {
     actions: &[],
 };
 
+/// The order at which the controller breaks down, instead of sending it.
+pub(super) const FRAGILE: &str = "G 13 13\n";
+
 /// Speaks in lines: a code, `P?` answered with a place, `G` and a place, `S`.
 struct Lever {
     greeting: String,
@@ -161,6 +164,7 @@ impl Device for Lever {
 
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>> {
         if let Some(order) = self.orders.pop_front() {
+            assert!(order != FRAGILE, "a controller with a fault of its own");
             return Some(order.into_bytes());
         }
         self.asked.is_none().then(|| {
@@ -245,20 +249,21 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
     let address = listener.local_addr().unwrap().to_string();
     let (tell, heard) = mpsc::sync_channel(64);
     let serve = move || {
-        let (mut stream, _) = listener.accept().unwrap();
-        let lines = BufReader::new(stream.try_clone().unwrap()).lines();
         let mut place = "10 20".to_owned();
-        for line in lines.map_while(Result::ok) {
-            if line == "P?" {
-                // In one piece, or the second one waits for the first to be seen.
-                stream.write_all(format!("P {place}\n").as_bytes()).unwrap();
-                continue;
+        for mut stream in listener.incoming().map_while(Result::ok) {
+            let lines = BufReader::new(stream.try_clone().unwrap()).lines();
+            for line in lines.map_while(Result::ok) {
+                if line == "P?" {
+                    // In one piece, or the second one waits for the first to be seen.
+                    stream.write_all(format!("P {place}\n").as_bytes()).unwrap();
+                    continue;
+                }
+                if let Some(aim) = line.strip_prefix("G ") {
+                    aim.clone_into(&mut place);
+                }
+                // Whoever listened may have seen enough.
+                let _ = tell.try_send(line);
             }
-            if let Some(aim) = line.strip_prefix("G ") {
-                aim.clone_into(&mut place);
-            }
-            // Whoever listened may have seen enough.
-            let _ = tell.try_send(line);
         }
     };
     thread::Builder::new().name("lever".to_owned()).spawn(serve).unwrap();

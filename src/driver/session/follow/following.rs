@@ -47,6 +47,8 @@ pub(in crate::driver::session) struct Following {
     /// When the position came in that was compared last.
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
+    /// It waits for the operator's word.
+    pub(super) awaits_word: bool,
     /// That a barrier is in the way was told.
     pub(super) told_barrier: bool,
     /// Where the last position leads.
@@ -66,6 +68,7 @@ impl Following {
             lost: 0,
             compared: None,
             predicted: None,
+            awaits_word: false,
             told_barrier: false,
             commanded: None,
         }
@@ -78,6 +81,7 @@ impl Following {
             catalog_number: target.catalog_number(),
             phase: self.phase,
             stats: self.stats,
+            awaits_word: self.awaits_word,
             next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
             commanded: self.commanded,
             predicted: self.predicted,

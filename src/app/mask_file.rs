@@ -1,0 +1,88 @@
+//! Horizon masks from files and to files, on a thread.
+
+use std::{fs, path::PathBuf, sync::Arc};
+
+use super::{App, job::Job};
+use crate::{
+    astro::{HorizonMask, MaskForm},
+    whole_file,
+};
+
+/// A file with a mask is not larger, bytes.
+const MOST: u64 = 4 << 20;
+
+/// What became of a file.
+pub enum MaskNews {
+    /// A mask was read, in this form.
+    Read(HorizonMask, MaskForm),
+    /// A mask was written here.
+    Written(PathBuf),
+    /// It could not be done, and why.
+    Failed(String),
+}
+
+/// One file at a time, in one folder for those that are written.
+#[derive(Default)]
+pub(super) struct MaskWork {
+    folder: Option<PathBuf>,
+    job: Option<Job<MaskNews>>,
+}
+
+impl MaskWork {
+    /// The folder stands beside that of the elements.
+    pub(super) fn beside(library: Option<PathBuf>) -> Self {
+        Self { folder: library.map(|library| library.with_file_name("horizon")), job: None }
+    }
+}
+
+impl App {
+    /// Begins to read the mask at `path`.
+    pub(super) fn import_mask(&mut self, path: PathBuf) {
+        self.begin_mask_work(move |_| match read(&path) {
+            Ok((mask, form)) => MaskNews::Read(mask, form),
+            Err(why) => MaskNews::Failed(format!("{why}: {}", path.display())),
+        });
+    }
+
+    /// Begins to write a mask as a table.
+    pub(super) fn export_mask(&mut self, mask: &HorizonMask) {
+        let Some(folder) = &self.mask_work.folder else {
+            let why = "this user has no folder for data".to_owned();
+            return self.views.mask_news(MaskNews::Failed(why));
+        };
+        let name = format!("horizon-{}.csv", self.model.now.strftime("%Y%m%dT%H%M%SZ"));
+        let (path, text) = (folder.join(name), mask.to_csv());
+        self.begin_mask_work(move |_| match whole_file::replace(&path, text.as_bytes()) {
+            Ok(()) => MaskNews::Written(path),
+            Err(error) => MaskNews::Failed(format!("{error}: {}", path.display())),
+        });
+    }
+
+    fn begin_mask_work(
+        &mut self,
+        work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> MaskNews + Send + 'static,
+    ) {
+        match Job::start("azel-mask-file", Arc::clone(&self.wake), work) {
+            Ok(job) => self.mask_work.job = Some(job),
+            Err(error) => {
+                self.views.mask_news(MaskNews::Failed(format!("no thread for the file: {error}")));
+            }
+        }
+    }
+
+    /// Takes what the thread has done.
+    pub(super) fn take_mask_file(&mut self) {
+        let Some(end) = Job::take(&mut self.mask_work.job) else { return };
+        self.views.mask_news(end.unwrap_or_else(|broke| MaskNews::Failed(broke.to_string())));
+    }
+}
+
+fn read(path: &std::path::Path) -> Result<(HorizonMask, MaskForm), String> {
+    let size = fs::metadata(path).map_err(|error| error.to_string())?.len();
+    if size > MOST {
+        return Err(format!("the file has {size} bytes, a mask has {MOST} at most"));
+    }
+    let bytes = fs::read(path).map_err(|error| error.to_string())?;
+    let text = String::from_utf8(bytes).map_err(|_| "the file is no text".to_owned())?;
+    HorizonMask::import(&text).map_err(|error| error.to_string())
+}

@@ -1,0 +1,45 @@
+//! Sees when the clock of this computer is set and when the computer has slept.
+
+use std::time::Duration;
+
+use super::{Event, Session};
+use crate::{
+    astro::time::seconds_between,
+    controller::Moment,
+    driver::{LinkLoss, Safety},
+};
+
+/// A clock that is kept right moves by less from one look to the next, seconds.
+const STEP_S: f64 = 0.5;
+/// A shorter sleep is none.
+const NAP: Duration = Duration::from_secs(1);
+
+/// The clocks at the last look.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Clocks {
+    at: Moment,
+    asleep: Duration,
+}
+
+impl Session {
+    /// Compares the clocks with each other. After a sleep the link is opened anew:
+    /// what was measured before looks fresh, because the steady clock stood.
+    pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
+        let look = Clocks { at: now, asleep: self.clock.asleep() };
+        let before = self.clocks.replace(look)?;
+        let lasted = look.asleep.saturating_sub(before.asleep);
+        let steady = now.steady.saturating_duration_since(before.at.steady);
+        let expected_s = (steady + lasted).as_secs_f64();
+        let by_s = seconds_between(before.at.utc, now.utc) - expected_s;
+        if by_s.abs() > STEP_S {
+            self.tell(Event::Safety(Safety::ClockStepped { by_s }));
+            self.suspend_following(steady, now);
+        }
+        if lasted < NAP {
+            return None;
+        }
+        self.tell(Event::Safety(Safety::Slept { lasted }));
+        self.slept += lasted;
+        self.link.is_open().then_some(LinkLoss::Slept)
+    }
+}

@@ -1,0 +1,428 @@
+//! The page of the horizon and the keep-outs: what blocks the sky, and where metal
+//! must not point.
+
+pub(super) mod draft;
+mod edit;
+mod effect;
+mod history;
+mod pane;
+mod plot;
+mod skyline;
+
+use egui::{Align2, Checkbox, Key, Modifiers, Rect, Ui, pos2, vec2};
+use jiff::Timestamp;
+
+use self::{draft::Skies, history::History, skyline::Recording};
+use crate::{
+    app::{
+        Model, UiCommand,
+        antenna::AntennaModel,
+        effects::{Obstacles, Question},
+    },
+    astro::{Angle, AzEl, Site, sun_moon, time::add_seconds},
+    station::{Mount, Station},
+    ui::{
+        format,
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+            segmented::{self, Segment},
+        },
+    },
+};
+
+/// The plot and the table stand side by side from this width on.
+const BESIDE_FROM: f32 = 1000.0;
+const PANE: f32 = 472.0;
+const BAR: f32 = 56.0;
+const TOOLS: f32 = 40.0;
+const EFFECT: f32 = 72.0;
+const PADDING: f32 = 16.0;
+/// The way of the Sun is drawn from a point each so many seconds.
+const SUN_STEP_S: f64 = 600.0;
+
+/// What is chosen to be edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Chosen {
+    /// The horizon mask.
+    #[default]
+    Skyline,
+    /// The keep-out of this place.
+    Zone(usize),
+    /// The avoidance of the Sun.
+    Sun,
+}
+
+/// What the pointer does in the plot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Tool {
+    #[default]
+    Select,
+    Point,
+    Polygon,
+    Rectangle,
+}
+
+/// What is shown where there is room for one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Tab {
+    #[default]
+    Plot,
+    Table,
+}
+
+type SunWay = (Site, i64, Vec<AzEl>);
+
+/// What is chosen, drawn and undone.
+pub(super) struct HorizonState {
+    chosen: Chosen,
+    /// A corner of the keep-out, or a point of the skyline.
+    corner: Option<usize>,
+    tool: Tool,
+    tab: Tab,
+    snaps: bool,
+    shows_passes: bool,
+    /// The corners of a keep-out that is being drawn.
+    drawing: Vec<(f64, f64)>,
+    /// What is being dragged, and where it was.
+    drag: Option<(usize, (f64, f64))>,
+    antenna: Option<usize>,
+    history: History,
+    sun: Option<SunWay>,
+    recording: Option<Recording>,
+    /// The path of a file with a mask, while it is typed.
+    import: Option<String>,
+    told: Option<Result<String, String>>,
+}
+
+impl Default for HorizonState {
+    fn default() -> Self {
+        Self {
+            chosen: Chosen::default(),
+            corner: None,
+            tool: Tool::default(),
+            tab: Tab::default(),
+            snaps: true,
+            shows_passes: true,
+            drawing: Vec::new(),
+            drag: None,
+            antenna: None,
+            history: History::default(),
+            sun: None,
+            recording: None,
+            import: None,
+            told: None,
+        }
+    }
+}
+
+impl HorizonState {
+    fn choose(&mut self, chosen: Chosen) {
+        if self.chosen != chosen {
+            self.chosen = chosen;
+            self.corner = None;
+        }
+    }
+
+    fn begin_drag(&mut self, index: usize, at: Option<(f64, f64)>) {
+        self.corner = Some(index);
+        self.drag = at.map(|at| (index, at));
+    }
+
+    /// The antenna whose beam and travel are shown.
+    fn shown<'a>(&self, model: &'a Model) -> Option<&'a AntennaModel> {
+        model.antennas.get(self.antenna.unwrap_or(model.selected_antenna))
+    }
+
+    /// The steps are those of another draft now.
+    pub(super) fn forget(&mut self) {
+        self.history = History::default();
+        self.recording = None;
+    }
+
+    /// A mask was read from a file or written to one, or not, and why.
+    pub(super) fn exchanged(&mut self, result: Result<String, String>) {
+        if result.is_ok() {
+            self.import = None;
+        }
+        self.told = Some(result);
+    }
+
+    /// The Sun over the site from midnight to midnight UTC.
+    fn sun_way(&mut self, site: Site, now: Timestamp) -> &[AzEl] {
+        const DAY_S: i64 = 86_400;
+        let day = now.as_second().div_euclid(DAY_S);
+        let is_known = self.sun.as_ref().is_some_and(|(of, on, _)| (*of, *on) == (site, day));
+        if !is_known {
+            let midnight = Timestamp::from_second(day * DAY_S).unwrap_or(now);
+            let at = |step: u16| {
+                sun_moon::sun(site, add_seconds(midnight, f64::from(step) * SUN_STEP_S))
+            };
+            self.sun = Some((site, day, (0..=144).map(at).collect()));
+        }
+        self.sun.as_ref().map(|(.., way)| &way[..]).unwrap_or_default()
+    }
+}
+
+/// Shows the page in `rect`.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    (station, antennas): (&Station, &[String]),
+    skies: &mut Skies,
+    state: &mut HorizonState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    if let Chosen::Zone(index) = state.chosen
+        && index >= skies.zones.len()
+    {
+        state.choose(Chosen::Skyline);
+    }
+    take_keys(ui, skies, state);
+    let is_wide = rect.width() >= BESIDE_FROM;
+    let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
+    ui.painter().rect_filled(bar, 0.0, t.bg1);
+    ui.painter().hline(bar.x_range(), bar.bottom() - 0.5, (1.0, t.line));
+    view_bar(ui, bar, is_wide, model, skies, state, commands);
+    let import = state.import.is_some() || state.told.is_some();
+    let (import, rest) = rest.split_top_bottom_at_y(rest.top() + if import { TOOLS } else { 0.0 });
+    skyline::exchange(ui, import, state, commands);
+    let effect_height = if is_wide { EFFECT } else { 32.0 };
+    let (left, pane) = if is_wide {
+        rest.split_left_right_at_x(rest.right() - PANE.min(rest.width() * 0.45))
+    } else {
+        let (above, below) = rest.split_top_bottom_at_y(rest.bottom() - effect_height);
+        effect_lines(ui, below, model, skies, state);
+        match state.tab {
+            Tab::Plot => (above, Rect::NOTHING),
+            Tab::Table => (Rect::NOTHING, above),
+        }
+    };
+    if left.is_positive() {
+        let (tools, below) = left.split_top_bottom_at_y(left.top() + TOOLS);
+        tool_bar(ui, tools, skies, state);
+        let plot = if is_wide {
+            let (plot, effect) = below.split_top_bottom_at_y(below.bottom() - effect_height);
+            effect_lines(ui, effect, model, skies, state);
+            plot
+        } else {
+            below
+        };
+        plot::show(ui, plot, model, skies, state);
+    }
+    if pane.is_positive() {
+        ui.painter().rect_filled(pane, 0.0, t.bg1);
+        ui.painter().vline(pane.left() + 0.5, pane.y_range(), (1.0, t.line));
+        pane::show(ui, pane, model, antennas, skies, state);
+    }
+    ask_for_effect(ui, model, station, skies, state, commands);
+    let is_held = ui.input(|input| input.pointer.any_down());
+    if !is_held && !ui.text_edit_focused() {
+        state.history.settle(skies);
+    }
+}
+
+fn take_keys(ui: &Ui, skies: &mut Skies, state: &mut HorizonState) {
+    if ui.text_edit_focused() {
+        return;
+    }
+    let redo = Modifiers::COMMAND | Modifiers::SHIFT;
+    let (undoes, redoes) = ui.input_mut(|input| {
+        let redoes =
+            input.consume_key(redo, Key::Z) || input.consume_key(Modifiers::COMMAND, Key::Y);
+        (!redoes && input.consume_key(Modifiers::COMMAND, Key::Z), redoes)
+    });
+    if undoes {
+        state.history.undo(skies);
+    }
+    if redoes {
+        state.history.redo(skies);
+    }
+    if undoes || redoes {
+        (state.drag, state.corner) = (None, None);
+    }
+}
+
+fn view_bar(
+    ui: &mut Ui,
+    bar: Rect,
+    is_wide: bool,
+    model: &Model,
+    skies: &mut Skies,
+    state: &mut HorizonState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let mut right = bar.right() - PADDING;
+    let mut place = |width: f32| from_right(&mut right, bar, width);
+    let export = Button::normal("Export").locked(skies.skyline().is_empty());
+    if export.show(ui, "export", place(export.width(ui))).clicked() {
+        let mask = skies.read_mask().ok().flatten();
+        commands.extend(mask.map(|mask| UiCommand::ExportMask(Box::new(mask))));
+    }
+    let import = Button::normal("Import");
+    if import.show(ui, "import", place(import.width(ui))).clicked() {
+        state.told = None;
+        state.import = if state.import.is_some() { None } else { Some(String::new()) };
+    }
+    let record = Button::normal(if is_wide { "Record the skyline" } else { "Record" });
+    if record.show(ui, "record", place(record.width(ui))).clicked() && state.recording.is_none() {
+        state.recording = Some(Recording::over(&skies.mask));
+        state.choose(Chosen::Skyline);
+        state.tab = Tab::Table;
+    }
+    if !is_wide {
+        let tabs = [("Plot", state.tab == Tab::Plot), ("Table", state.tab == Tab::Table)];
+        let tabs = tabs.map(|(word, is_on)| (word, chosen(is_on)));
+        match segmented::show(ui, "horizon tab", place(130.0), "Shown", &tabs) {
+            Some(0) => state.tab = Tab::Plot,
+            Some(_) => state.tab = Tab::Table,
+            None => {}
+        }
+    }
+    let shown = state.antenna.unwrap_or(model.selected_antenna);
+    if model.antennas.len() > 1 {
+        let names: Vec<(&str, Segment)> = model
+            .antennas
+            .iter()
+            .enumerate()
+            .map(|(index, antenna)| (antenna.config.name.as_str(), chosen(index == shown)))
+            .collect();
+        let wanted: f32 = names
+            .iter()
+            .map(|(name, _)| paint::text_width(ui, name, text::body_medium()) + 28.0)
+            .sum();
+        let width = wanted.min(right - bar.left() - 240.0).max(60.0);
+        let room = from_right(&mut right, bar, width);
+        if let Some(index) = segmented::show(ui, "horizon antenna", room, "Antenna", &names) {
+            state.antenna = Some(index);
+        }
+    }
+    let words = bar.with_max_x(right).shrink2(vec2(PADDING, 8.0));
+    let (above, below) = words.split_top_bottom_at_fraction(0.5);
+    paint::text_in(ui, above, Align2::LEFT_CENTER, "Horizon and keep-outs", text::value(), t.t1);
+    let what = state.shown(model).map_or_else(
+        || "No antenna yet".to_owned(),
+        |antenna| {
+            let mount = match antenna.config.mount {
+                Mount::Xy { .. } => "X/Y",
+                Mount::AzEl { .. } => "az/el",
+            };
+            let beam = format::degrees(antenna.config.beam_width_deg, 2);
+            format!("Shown: {}, {mount}, beam {beam}", antenna.config.name)
+        },
+    );
+    paint::text_in(ui, below, Align2::LEFT_CENTER, &what, text::small(), t.t2);
+}
+
+/// The next place for a button of this width, from the right end of a bar.
+fn from_right(right: &mut f32, bar: Rect, width: f32) -> Rect {
+    let middle = bar.center().y;
+    let rect = Rect::from_min_max(pos2(*right - width, middle - 16.0), pos2(*right, middle + 16.0));
+    *right -= width + 8.0;
+    rect
+}
+
+fn chosen(is_on: bool) -> Segment {
+    if is_on { Segment::Chosen } else { Segment::Free }
+}
+
+fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(bar, 0.0, t.bg2);
+    let row = bar.shrink2(vec2(PADDING, 8.0));
+    let tools = [
+        ("Select", Tool::Select),
+        ("Horizon point", Tool::Point),
+        ("Polygon", Tool::Polygon),
+        ("Rectangle", Tool::Rectangle),
+    ];
+    let segments = tools.map(|(word, tool)| (word, chosen(state.tool == tool)));
+    let place = row.with_max_x(row.left() + 304.0_f32.min(row.width() * 0.6));
+    let clicked = segmented::show(ui, "horizon tool", place, "Tool", &segments);
+    if let Some((_, tool)) = clicked.and_then(|index| tools.get(index)) {
+        state.tool = *tool;
+        state.drawing.clear();
+    }
+    let undo = Button::normal("Undo").locked(!state.history.can_undo());
+    let undoing = row.with_min_x(row.right() - undo.width(ui));
+    let undoing = Rect::from_center_size(undoing.center(), vec2(undoing.width(), SMALL_HEIGHT));
+    if undo.show(ui, "undo", undoing).clicked() {
+        state.history.undo(skies);
+        state.corner = None;
+    }
+    let mut left = place.right() + 12.0;
+    for (on, word) in [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes of 48 h")]
+    {
+        let width = paint::text_width(ui, word, text::body()) + 32.0;
+        if left + width < undoing.left() {
+            let rect = row.with_min_x(left).with_max_x(left + width);
+            ui.place(rect, Checkbox::new(on, word));
+        }
+        left += width;
+    }
+}
+
+fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &HorizonState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg2);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let zone = match state.chosen {
+        Chosen::Zone(index) => skies.zones.get(index).map(|zone| zone.name.trim()),
+        Chosen::Skyline | Chosen::Sun => None,
+    };
+    let lines = match &model.effects.effect {
+        Some(effect) => effect::lines(effect, zone),
+        None => ["Being worked out.".to_owned(), String::new()],
+    };
+    let inner = rect.shrink2(vec2(PADDING, 6.0));
+    if rect.height() < EFFECT {
+        paint::text_in(ui, inner, Align2::LEFT_CENTER, &lines.join(" "), text::small(), t.t1);
+    } else {
+        let icon = paint::square(inner.left_top() + vec2(7.0, 9.0), 14.0);
+        icons::paint(ui.painter(), icon, Icon::Eye, t.sat);
+        let head = inner.with_max_y(inner.top() + 18.0).with_min_x(inner.left() + 24.0);
+        let title = "What it does to the next 48 h";
+        paint::text_in(ui, head, Align2::LEFT_CENTER, title, text::body_medium(), t.t1);
+        for (line, colour, offset) in
+            lines.iter().zip([t.t1, t.t2]).zip([20.0, 40.0]).map(|((a, b), c)| (a, b, c))
+        {
+            let row =
+                Rect::from_min_size(head.left_top() + vec2(0.0, offset), vec2(head.width(), 18.0));
+            paint::text_in(ui, row, Align2::LEFT_CENTER, line, text::small(), colour);
+        }
+    }
+    paint::name_text(ui, "effect", rect, &lines.join(" ")).on_hover_text(lines.join("\n"));
+}
+
+/// Asks for the effect of what is drawn, unless that was the last question.
+fn ask_for_effect(
+    ui: &Ui,
+    model: &Model,
+    station: &Station,
+    skies: &Skies,
+    state: &HorizonState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let config = state.shown(model).map(|antenna| &antenna.config);
+    let question = Question {
+        before: Obstacles {
+            mask: station.horizon_mask.clone(),
+            keep_outs: station.keep_outs.clone(),
+        },
+        after: Obstacles {
+            mask: skies.read_mask().unwrap_or_else(|_| station.horizon_mask.clone()),
+            keep_outs: skies.zones.iter().filter_map(draft::ZoneDraft::keep_out).collect(),
+        },
+        antenna: config.map(|config| config.name.clone()),
+        half_beam: config.map_or(Angle::ZERO, |config| config.beam_width() * 0.5),
+    };
+    if model.effects.wanted() != Some(&question) {
+        ui.ctx().request_repaint_after_for(crate::app::effects::DEBOUNCE, egui::ViewportId::ROOT);
+        commands.push(UiCommand::ShowEffects(Box::new(question)));
+    }
+}

@@ -1,0 +1,441 @@
+//! The mask, the keep-outs and the avoidance of the Sun as typed and drawn:
+//! nothing is lost by a typing error, and the plot keeps the last value that was
+//! right.
+
+use std::ops::RangeInclusive;
+
+use crate::{
+    astro::{HorizonMask, Zone},
+    station::{Antenna, Entered, KeepOut, Station, SunAvoidance, ranges},
+    ui::{preferences::fields::number, words},
+};
+
+/// Azimuth of a corner: once around and once more either way.
+pub(super) const AZIMUTH: RangeInclusive<f64> = -360.0..=720.0;
+
+/// All of the page.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::ui::preferences) struct Skies {
+    /// The mask, as [`HorizonMask::import`] reads it; empty for none.
+    pub(in crate::ui::preferences) mask: String,
+    pub(super) zones: Vec<ZoneDraft>,
+    pub(super) sun: SunDraft,
+}
+
+/// One keep-out.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ZoneDraft {
+    pub(super) name: String,
+    pub(super) antenna: Option<String>,
+    pub(super) entered: Entered,
+    pub(super) margin: Cell,
+    pub(super) corners: Vec<Corner>,
+    /// As saved; `None` for a new one.
+    was: Option<Box<KeepOut>>,
+}
+
+/// One corner of a keep-out.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Corner {
+    pub(super) azimuth: Cell,
+    pub(super) elevation: Cell,
+}
+
+/// A number as typed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Cell {
+    pub(super) text: String,
+    /// The last one that was right.
+    kept: f64,
+    /// As saved; `None` for a new one.
+    was: Option<f64>,
+    range: (f64, f64),
+}
+
+/// How far antennas stay away from the Sun.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SunDraft {
+    pub(super) is_on: bool,
+    pub(super) radius: Cell,
+    pub(super) ahead: Cell,
+}
+
+impl Cell {
+    fn new(value: f64, was: Option<f64>, range: &RangeInclusive<f64>) -> Self {
+        Self { text: written(value), kept: value, was, range: (*range.start(), *range.end()) }
+    }
+
+    /// The last value that was right.
+    pub(super) fn kept(&self) -> f64 {
+        self.kept
+    }
+
+    fn typed(&self) -> Option<f64> {
+        let (low, high) = self.range;
+        number(self.text.trim()).filter(|value| (low..=high).contains(value))
+    }
+
+    /// Takes over what is typed, if it can be used.
+    pub(super) fn take(&mut self) {
+        self.kept = self.typed().unwrap_or(self.kept);
+    }
+
+    /// Puts in a value, drawn into the range.
+    pub(super) fn set(&mut self, value: f64) {
+        let (low, high) = self.range;
+        self.kept = value.clamp(low, high);
+        self.text = written(self.kept);
+    }
+
+    /// Why it cannot be used, and what stands in for it.
+    pub(super) fn problem(&self) -> Option<String> {
+        let (low, high) = self.range;
+        self.typed().is_none().then(|| {
+            let words = format!("{low} to {high}. The plot keeps {}°.", written(self.kept));
+            words.replace('-', "−")
+        })
+    }
+
+    /// What it was, where it is another now.
+    pub(super) fn edited(&self) -> Option<String> {
+        let was = self.was?;
+        let is_same = self.typed().is_some_and(|value| value.total_cmp(&was).is_eq());
+        (!is_same).then(|| written(was).replace('-', "−"))
+    }
+
+    fn is_edited(&self) -> bool {
+        self.was.is_none() || self.edited().is_some()
+    }
+}
+
+/// With one decimal, or with as many as it has.
+fn written(value: f64) -> String {
+    let tenths = value * 10.0;
+    let is_short = (tenths - tenths.round()).abs() < 1e-9;
+    if is_short { format!("{value:.1}") } else { value.to_string() }
+}
+
+impl Corner {
+    fn new(at: (f64, f64), was: Option<(f64, f64)>) -> Self {
+        Self {
+            azimuth: Cell::new(at.0, was.map(|was| was.0), &AZIMUTH),
+            elevation: Cell::new(at.1, was.map(|was| was.1), &ranges::CORNER_ELEVATION_DEG),
+        }
+    }
+
+    /// A corner that was not there before.
+    pub(super) fn added(azimuth_deg: f64, elevation_deg: f64) -> Self {
+        Self::new((azimuth_deg, elevation_deg), None)
+    }
+
+    pub(super) fn at(&self) -> (f64, f64) {
+        (self.azimuth.kept, self.elevation.kept)
+    }
+
+    pub(super) fn problem(&self) -> Option<String> {
+        self.azimuth.problem().or_else(|| self.elevation.problem())
+    }
+
+    pub(super) fn is_new(&self) -> bool {
+        self.azimuth.was.is_none()
+    }
+
+    /// What it was, where it is another now.
+    pub(super) fn edited(&self) -> Option<String> {
+        match (self.azimuth.edited(), self.elevation.edited()) {
+            (None, None) => None,
+            (Some(azimuth), None) => Some(azimuth),
+            (None, Some(elevation)) => Some(elevation),
+            (Some(azimuth), Some(elevation)) => Some(format!("{azimuth}, {elevation}")),
+        }
+    }
+}
+
+impl ZoneDraft {
+    fn of(keep_out: &KeepOut) -> Self {
+        let corners = KeepOut::corners_deg(&keep_out.zone);
+        let margin_deg = keep_out.margin_deg;
+        Self {
+            name: keep_out.name.clone(),
+            antenna: keep_out.antenna.clone(),
+            entered: keep_out.entered,
+            margin: Cell::new(margin_deg, Some(margin_deg), &ranges::MARGIN_DEG),
+            corners: corners.into_iter().map(|at| Corner::new(at, Some(at))).collect(),
+            was: Some(Box::new(keep_out.clone())),
+        }
+    }
+
+    /// A new one.
+    pub(super) fn added(name: String, corners: &[(f64, f64)]) -> Self {
+        Self {
+            name,
+            antenna: None,
+            entered: Entered::Hard,
+            margin: Cell::new(KeepOut::USUAL_MARGIN_DEG, None, &ranges::MARGIN_DEG),
+            corners: corners.iter().map(|at| Corner::new(*at, None)).collect(),
+            was: None,
+        }
+    }
+
+    /// The same under another name, as a new one.
+    pub(super) fn copied(&self, name: String) -> Self {
+        let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::at).collect();
+        let mut copy = Self::added(name, &corners);
+        copy.margin.set(self.margin.kept);
+        Self { antenna: self.antenna.clone(), entered: self.entered, ..copy }
+    }
+
+    /// The corners as the plot shows them.
+    pub(super) fn corners_deg(&self) -> Vec<(f64, f64)> {
+        self.corners.iter().map(Corner::at).collect()
+    }
+
+    /// The zone as the plot shows it; why it is none.
+    pub(super) fn zone(&self) -> Result<Zone, String> {
+        KeepOut::zone_of(&self.corners_deg())
+            .map_err(|error| words::capitalised(&error.to_string()))
+    }
+
+    /// As the plot shows it; `None` where the corners make no zone.
+    pub(super) fn keep_out(&self) -> Option<KeepOut> {
+        Some(KeepOut {
+            name: self.name.trim().to_owned(),
+            entered: self.entered,
+            antenna: self.antenna.clone(),
+            margin_deg: self.margin.kept,
+            zone: self.zone().ok()?,
+        })
+    }
+
+    pub(super) fn is_new(&self) -> bool {
+        self.was.is_none()
+    }
+
+    /// How many of its values are others than before.
+    pub(super) fn edits(&self) -> usize {
+        let Some(was) = &self.was else { return 1 };
+        let gone = KeepOut::corners_deg(&was.zone).len().saturating_sub(self.corners.len());
+        let corners = self.corners.iter().flat_map(|of| [&of.azimuth, &of.elevation]);
+        corners.chain([&self.margin]).filter(|cell| cell.is_edited()).count()
+            + usize::from(was.name != self.name)
+            + usize::from(was.antenna != self.antenna)
+            + usize::from(was.entered != self.entered)
+            + gone
+    }
+}
+
+impl SunDraft {
+    fn of(sun: Option<SunAvoidance>) -> Self {
+        const USUAL_RADIUS_DEG: f64 = 5.0;
+        let radius = sun.map_or(USUAL_RADIUS_DEG, |sun| sun.radius_deg);
+        let ahead = sun.map_or(SunAvoidance::USUAL_AHEAD_MIN, |sun| sun.ahead_min);
+        Self {
+            is_on: sun.is_some(),
+            radius: Cell::new(radius, sun.map(|_| radius), &ranges::SUN_RADIUS_DEG),
+            ahead: Cell::new(ahead, sun.map(|_| ahead), &ranges::SUN_AHEAD_MIN),
+        }
+    }
+
+    /// As the plot shows it.
+    pub(super) fn kept(&self) -> Option<SunAvoidance> {
+        self.is_on
+            .then_some(SunAvoidance { radius_deg: self.radius.kept, ahead_min: self.ahead.kept })
+    }
+
+    fn problem(&self) -> Option<String> {
+        let problem = self.radius.problem().or_else(|| self.ahead.problem());
+        problem.filter(|_| self.is_on)
+    }
+}
+
+impl Skies {
+    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+        Self {
+            mask: station.horizon_mask.as_ref().map(ToString::to_string).unwrap_or_default(),
+            zones: station.keep_outs.iter().map(ZoneDraft::of).collect(),
+            sun: SunDraft::of(station.sun_avoidance),
+        }
+    }
+
+    /// The mask; why the text holds none.
+    pub(super) fn read_mask(&self) -> Result<Option<HorizonMask>, String> {
+        if self.mask.trim().is_empty() {
+            return Ok(None);
+        }
+        let (mask, _) = HorizonMask::import(&self.mask).map_err(|error| error.to_string())?;
+        Ok(Some(mask))
+    }
+
+    /// A free name for a new keep-out.
+    pub(super) fn free_name(&self, wanted: &str) -> String {
+        let others: Vec<&str> = self.zones.iter().map(|zone| &*zone.name).collect();
+        Antenna::free_name(wanted, &others)
+    }
+
+    /// Why a keep-out cannot be saved, apart from its cells.
+    pub(super) fn problem_of(&self, index: usize, antennas: &[String]) -> Option<String> {
+        let zone = self.zones.get(index)?;
+        if zone.name.trim().is_empty() {
+            return Some("A keep-out needs a name.".to_owned());
+        }
+        let mut others = self.zones.iter().enumerate().filter(|(other, _)| *other != index);
+        if others.any(|(_, other)| Antenna::same_name(&other.name, &zone.name)) {
+            return Some("Another keep-out has this name.".to_owned());
+        }
+        let is_there = |name: &String| antennas.iter().any(|of| Antenna::same_name(of, name));
+        if let Some(name) = zone.antenna.as_ref().filter(|name| !is_there(name)) {
+            return Some(format!("No antenna is called {name}."));
+        }
+        zone.zone().err().map(|why| format!("{why}."))
+    }
+
+    /// What cannot be used, each with its place, as it stands beside Save.
+    pub(in crate::ui::preferences) fn problems(&self, antennas: &[String]) -> Vec<String> {
+        let mut problems = Vec::new();
+        if self.read_mask().is_err() {
+            problems.push("skyline".to_owned());
+        }
+        for (index, zone) in self.zones.iter().enumerate() {
+            let name = zone.name.trim();
+            for (number, corner) in (1..).zip(&zone.corners) {
+                if corner.problem().is_some() {
+                    problems.push(format!("{name}, corner {number}"));
+                }
+            }
+            if zone.margin.problem().is_some() {
+                problems.push(format!("{name}, safety margin"));
+            }
+            if self.problem_of(index, antennas).is_some() {
+                problems.push(if name.is_empty() {
+                    "keep-out".to_owned()
+                } else {
+                    name.to_owned()
+                });
+            }
+        }
+        if self.sun.problem().is_some() {
+            problems.push("Sun".to_owned());
+        }
+        problems
+    }
+
+    /// How many values are others than in `before`.
+    pub(in crate::ui::preferences) fn edits(&self, before: &Self) -> usize {
+        let gone = before
+            .zones
+            .iter()
+            .filter(|old| !self.zones.iter().any(|new| new.was.is_some() && new.was == old.was));
+        usize::from(self.mask != before.mask)
+            + self.zones.iter().map(ZoneDraft::edits).sum::<usize>()
+            + gone.count()
+            + usize::from(self.sun != before.sun)
+    }
+
+    /// Puts all of it into `station`, once there is no problem left. The names in
+    /// `renamed` are those of antennas before and now.
+    pub(in crate::ui::preferences) fn put_into(
+        &self,
+        station: &mut Station,
+        renamed: &[(String, String)],
+    ) -> Option<()> {
+        let mut moved = self.clone();
+        for zone in &mut moved.zones {
+            let named = zone.antenna.as_ref();
+            let found = renamed
+                .iter()
+                .find(|(before, _)| named.is_some_and(|name| Antenna::same_name(before, name)));
+            if let Some((_, now)) = found {
+                zone.antenna = Some(now.clone());
+            }
+        }
+        let antennas: Vec<String> = station.antennas.iter().map(|of| of.name.clone()).collect();
+        if !moved.problems(&antennas).is_empty() {
+            return None;
+        }
+        station.horizon_mask = moved.read_mask().ok()?;
+        station.keep_outs = moved.zones.iter().map(ZoneDraft::keep_out).collect::<Option<_>>()?;
+        station.sun_avoidance = moved.sun.kept();
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    pub(in crate::ui::preferences) fn mast() -> KeepOut {
+        KeepOut {
+            name: "mast".to_owned(),
+            entered: Entered::Hard,
+            antenna: None,
+            margin_deg: 2.25,
+            zone: KeepOut::zone_of(&[(350.0, 0.0), (350.0, 16.0), (370.0, 24.0), (370.0, 0.0)])
+                .unwrap(),
+        }
+    }
+
+    fn station() -> Station {
+        Station {
+            keep_outs: vec![mast()],
+            sun_avoidance: Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.5 }),
+            horizon_mask: HorizonMask::parse("0 2\n90 14.25").ok(),
+            ..Station::default()
+        }
+    }
+
+    #[test]
+    fn what_was_not_touched_is_put_back_as_it_was() {
+        let skies = Skies::of(&station());
+        let mut empty = Station::default();
+        assert_eq!(skies.put_into(&mut empty, &[]), Some(()));
+        assert_eq!(empty, station());
+        assert_eq!(skies.edits(&Skies::of(&station())), 0);
+    }
+
+    #[test]
+    fn a_wrong_cell_keeps_its_text_and_the_plot_its_value() {
+        let mut skies = Skies::of(&station());
+        let cell = &mut skies.zones[0].corners[1].elevation;
+        "97".clone_into(&mut cell.text);
+        cell.take();
+        assert!((cell.kept() - 16.0).abs() < 1e-12);
+        assert_eq!(cell.problem().unwrap(), "−90 to 90. The plot keeps 16.0°.");
+        assert_eq!(skies.problems(&[]), ["mast, corner 2"]);
+        assert_eq!(skies.put_into(&mut Station::default(), &[]), None);
+        let cell = &mut skies.zones[0].corners[1].elevation;
+        "17,5".clone_into(&mut cell.text);
+        cell.take();
+        assert_eq!((cell.problem(), cell.edited()), (None, Some("16.0".to_owned())));
+        assert_eq!(skies.edits(&Skies::of(&station())), 1);
+    }
+
+    #[test]
+    fn a_keep_out_follows_the_new_name_of_its_antenna_and_misses_a_gone_one() {
+        let mut skies = Skies::of(&station());
+        skies.zones[0].antenna = Some("Satrak".to_owned());
+        let mut renamed =
+            Station { antennas: vec![Antenna::satrak("Big dish", "h:4001")], ..Station::default() };
+        let names = [("Satrak".to_owned(), "Big dish".to_owned())];
+        assert_eq!(skies.put_into(&mut renamed, &names), Some(()));
+        assert_eq!(renamed.keep_outs[0].antenna.as_deref(), Some("Big dish"));
+        assert_eq!(skies.put_into(&mut renamed, &[]), None);
+        assert_eq!(skies.problems(&["Big dish".to_owned()]), ["mast"]);
+    }
+
+    #[test]
+    fn names_are_unique_and_not_empty() {
+        let mut skies = Skies::of(&station());
+        let name = skies.free_name("mast");
+        assert_eq!(name, "mast 2");
+        let copy = skies.zones[0].copied(name);
+        skies.zones.push(copy);
+        assert_eq!(skies.problems(&[]), Vec::<String>::new());
+        "MAST ".clone_into(&mut skies.zones[1].name);
+        assert_eq!(skies.problems(&[]), ["mast", "MAST"]);
+        " ".clone_into(&mut skies.zones[1].name);
+        assert_eq!(skies.problems(&[]), ["keep-out"]);
+        assert_eq!(skies.edits(&Skies::of(&station())), 1, "a new one");
+        skies.zones.clear();
+        assert_eq!(skies.edits(&Skies::of(&station())), 1, "one is gone");
+    }
+}

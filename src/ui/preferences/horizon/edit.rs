@@ -1,0 +1,198 @@
+//! Changes of corners and skyline points, and what the pointer says of them.
+
+use egui::Pos2;
+
+use super::draft::{Corner, Skies, ZoneDraft};
+use crate::{
+    astro::{Angle, AzEl, HorizonMask},
+    ui::sky_plot::geometry::Dome,
+};
+
+/// A corner needs two others.
+pub(super) const FEWEST: usize = crate::astro::FEWEST_CORNERS;
+
+/// The direction under a point of the plot in degrees, the azimuth as it is
+/// counted nearest to `near_deg`. Outside the rim is the horizon.
+pub(super) fn under(dome: Dome, at: Pos2, near_deg: f64) -> (f64, f64) {
+    let off = at - dome.centre;
+    let azimuth_deg = f64::from(off.x.atan2(-off.y)).to_degrees();
+    let elevation_deg = 90.0 - f64::from(off.length() / dome.radius) * 90.0;
+    (counted_near(azimuth_deg, near_deg), elevation_deg.clamp(0.0, 90.0))
+}
+
+/// The azimuth with the turns that bring it nearest to `near_deg`.
+pub(super) fn counted_near(azimuth_deg: f64, near_deg: f64) -> f64 {
+    near_deg + Angle::from_degrees(azimuth_deg - near_deg).wrapped_180().degrees()
+}
+
+/// Rounded to half a degree, or to a tenth.
+pub(super) fn snapped((azimuth_deg, elevation_deg): (f64, f64), is_coarse: bool) -> (f64, f64) {
+    let parts = if is_coarse { 2.0 } else { 10.0 };
+    let round = |value: f64| (value * parts).round() / parts;
+    (round(azimuth_deg), round(elevation_deg))
+}
+
+/// The direction that keeps what moved less since `from`.
+pub(super) fn along_one_axis(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
+    if (to.0 - from.0).abs() >= (to.1 - from.1).abs() { (to.0, from.1) } else { (from.0, to.1) }
+}
+
+/// Where a direction lies in the plot; below the horizon at the rim.
+pub(super) fn place(dome: Dome, (azimuth_deg, elevation_deg): (f64, f64)) -> Pos2 {
+    let azimuth = Angle::from_degrees(azimuth_deg).radians() as f32;
+    dome.at(azimuth, elevation_deg.max(0.0) as f32)
+}
+
+impl ZoneDraft {
+    /// Moves a corner.
+    pub(super) fn put(&mut self, corner: usize, (azimuth_deg, elevation_deg): (f64, f64)) {
+        if let Some(corner) = self.corners.get_mut(corner) {
+            corner.azimuth.set(azimuth_deg);
+            corner.elevation.set(elevation_deg);
+        }
+    }
+
+    /// A new corner in the middle of the edge that leaves from `corner`. Returns its
+    /// place.
+    pub(super) fn split(&mut self, corner: usize) -> Option<usize> {
+        if self.corners.len() >= crate::astro::MOST_CORNERS {
+            return None;
+        }
+        let at = self.middle(corner)?;
+        let (azimuth_deg, elevation_deg) = snapped(at, false);
+        self.corners.insert(corner + 1, Corner::added(azimuth_deg, elevation_deg));
+        Some(corner + 1)
+    }
+
+    /// The middle of the edge that leaves from `corner`, degrees.
+    pub(super) fn middle(&self, corner: usize) -> Option<(f64, f64)> {
+        if let Ok(zone) = self.zone() {
+            let middle = zone.middle_of_edge(corner)?;
+            return Some((middle.azimuth.degrees(), middle.elevation_deg()));
+        }
+        let from = self.corners.get(corner)?.at();
+        let to = self.corners.get((corner + 1) % self.corners.len())?.at();
+        Some((f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1)))
+    }
+
+    /// Takes a corner away where enough remain.
+    pub(super) fn remove(&mut self, corner: usize) -> bool {
+        let can = self.corners.len() > FEWEST && corner < self.corners.len();
+        if can {
+            self.corners.remove(corner);
+        }
+        can
+    }
+
+    /// The corner behind which a new one at `at` belongs: the nearest edge in the
+    /// plot.
+    pub(super) fn nearest_edge(&self, dome: Dome, at: Pos2) -> Option<usize> {
+        let places: Vec<Pos2> = self.corners.iter().map(|of| place(dome, of.at())).collect();
+        let edges = places.iter().zip(places.iter().cycle().skip(1)).enumerate();
+        let away = |(_, (from, to)): &(usize, (&Pos2, &Pos2))| {
+            let along = **to - **from;
+            let share = (at - **from).dot(along) / along.length_sq().max(1e-6);
+            at.distance(**from + along * share.clamp(0.0, 1.0))
+        };
+        edges.min_by(|a, b| away(a).total_cmp(&away(b))).map(|(index, _)| index)
+    }
+}
+
+/// The corners of a box between two directions, the shorter way around.
+pub(super) fn rectangle(from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 4]> {
+    let to_azimuth = counted_near(to.0, from.0);
+    let (left, right) = (from.0.min(to_azimuth), from.0.max(to_azimuth));
+    let (low, high) = (from.1.min(to.1), from.1.max(to.1));
+    let has_area = right - left >= 1.0 && high - low >= 1.0;
+    has_area.then_some([(left, low), (left, high), (right, high), (right, low)])
+}
+
+impl Skies {
+    /// The points of the skyline; none where the text holds no mask.
+    pub(super) fn skyline(&self) -> Vec<(f64, f64)> {
+        let mask = self.read_mask().ok().flatten();
+        mask.map(|mask| mask.points_deg().to_vec()).unwrap_or_default()
+    }
+
+    /// Puts points in the place of the skyline; `false` where they make none.
+    pub(super) fn set_skyline(&mut self, points: Vec<(f64, f64)>) -> bool {
+        if points.is_empty() {
+            self.mask.clear();
+            return true;
+        }
+        let wrapped = points
+            .into_iter()
+            .map(|(azimuth, elevation)| (azimuth.rem_euclid(360.0), elevation.clamp(-90.0, 90.0)));
+        let mask = HorizonMask::from_degrees(wrapped);
+        if let Ok(mask) = &mask {
+            self.mask = mask.to_string();
+        }
+        mask.is_ok()
+    }
+
+    /// The first keep-out around a direction, of those for which `is_shown` holds.
+    pub(super) fn zone_at(
+        &self,
+        direction: AzEl,
+        is_shown: impl Fn(&ZoneDraft) -> bool,
+    ) -> Option<usize> {
+        self.zones.iter().position(|zone| {
+            is_shown(zone)
+                && zone.zone().is_ok_and(|zone| zone.clearance(direction).radians() < 0.0)
+        })
+    }
+}
+
+/// A box in the middle of the south, for a keep-out to begin with.
+pub(super) const FIRST_BOX: [(f64, f64); 4] =
+    [(170.0, 0.0), (170.0, 20.0), (190.0, 20.0), (190.0, 0.0)];
+
+#[cfg(test)]
+mod tests {
+    use egui::pos2;
+
+    use super::*;
+    use crate::station::Station;
+
+    const DOME: Dome = Dome { centre: pos2(100.0, 100.0), radius: 90.0 };
+
+    #[test]
+    fn a_place_and_its_direction_belong_together() {
+        for (azimuth, elevation, near) in
+            [(370.0, 20.0, 350.0), (-10.0, 0.0, 0.0), (90.0, 45.0, 80.0)]
+        {
+            let found = under(DOME, place(DOME, (azimuth, elevation)), near);
+            assert!((found.0 - azimuth).abs() < 1e-3 && (found.1 - elevation).abs() < 1e-3);
+        }
+        assert!(under(DOME, pos2(500.0, 100.0), 90.0).1.abs() < 1e-9);
+        assert_eq!(snapped((10.26, 5.74), true), (10.5, 5.5));
+        assert_eq!(along_one_axis((10.0, 5.0), (12.0, 6.0)), (12.0, 5.0));
+    }
+
+    #[test]
+    fn a_box_goes_the_shorter_way_through_north() {
+        let found = rectangle((355.0, 20.0), (10.0, 0.0));
+        assert_eq!(found, Some([(355.0, 0.0), (355.0, 20.0), (370.0, 20.0), (370.0, 0.0)]));
+        assert_eq!(rectangle((10.0, 5.0), (10.5, 20.0)), None);
+    }
+
+    #[test]
+    fn corners_are_added_and_removed_and_three_remain() {
+        let mut zone = ZoneDraft::added("box".to_owned(), &FIRST_BOX);
+        assert_eq!(zone.nearest_edge(DOME, place(DOME, (180.0, 25.0))), Some(1));
+        assert_eq!(zone.split(1), Some(2));
+        assert_eq!(zone.corners[2].at(), (180.0, 20.0));
+        assert!(zone.remove(2) && zone.remove(0));
+        assert!(!zone.remove(0));
+        assert_eq!(zone.corners.len(), 3);
+    }
+
+    #[test]
+    fn a_skyline_of_points_becomes_the_text() {
+        let mut skies = Skies::of(&Station::default());
+        assert!(skies.set_skyline(vec![(370.0, 4.0), (90.0, 2.5)]));
+        assert_eq!(skies.skyline(), [(10.0, 4.0), (90.0, 2.5)]);
+        assert!(!skies.set_skyline(vec![(10.0, 4.0), (370.0, 2.5)]), "one direction twice");
+        assert!(skies.set_skyline(Vec::new()) && skies.mask.is_empty());
+    }
+}

@@ -1,0 +1,56 @@
+//! What the edits do to the passes to come, in two lines.
+
+use crate::{
+    app::effects::{Effect, Tally},
+    ui::format,
+};
+
+/// The two lines: what the chosen keep-out or all of them do, and the same before.
+pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
+    let of = effect.ways.len();
+    if of == 0 {
+        return ["No pass of a favourite in the next 48 h.".to_owned(), String::new()];
+    }
+    let toll = |tally: &Tally, obstacles: &crate::app::effects::Obstacles| {
+        let place = obstacles.keep_outs.iter().position(|of| Some(&*of.name) == zone)?;
+        tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
+    };
+    let after = toll(&effect.after, &effect.question.after);
+    let (who, (passes, time_s)) = match (zone, after) {
+        (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
+        _ => ("The keep-outs block".to_owned(), (effect.after.touched, effect.after.lost_s)),
+    };
+    let blocks = match passes {
+        0 => format!("{who} none of the {of} passes."),
+        1 => format!("{who} part of 1 of the {of} passes, {}.", format::duration(time_s)),
+        _ => format!(
+            "{who} part of {passes} of the {of} passes, {} of each on average.",
+            format::duration(time_s / passes as f64)
+        ),
+    };
+    let impossible = match effect.after.impossible {
+        0 if passes == 0 => String::new(),
+        0 => " None becomes impossible.".to_owned(),
+        1 => " 1 becomes impossible.".to_owned(),
+        many => format!(" {many} become impossible."),
+    };
+    let (old, new) = (&effect.before, &effect.after);
+    let before = if (old.touched, old.masked, old.impossible)
+        == (new.touched, new.masked, new.impossible)
+        && (old.lost_s - new.lost_s).abs() < 0.5
+    {
+        format!("All together as saved. The skyline cuts {} passes.", new.masked)
+    } else {
+        format!(
+            "All together {} passes, {} lost, skyline cuts {}; as saved {} passes, {} lost, \
+             skyline cuts {}.",
+            new.touched,
+            format::duration(new.lost_s),
+            new.masked,
+            old.touched,
+            format::duration(old.lost_s),
+            old.masked
+        )
+    };
+    [blocks + &impossible, before]
+}

@@ -1,0 +1,84 @@
+//! What was undone and can be done again.
+
+use super::draft::Skies;
+
+/// Steps that are kept.
+const MOST: usize = 100;
+
+/// The states before this one, and those that were undone.
+#[derive(Default)]
+pub(super) struct History {
+    settled: Option<Skies>,
+    before: Vec<Skies>,
+    undone: Vec<Skies>,
+}
+
+impl History {
+    /// Takes note of a state once nothing is being dragged or typed.
+    pub(super) fn settle(&mut self, now: &Skies) {
+        if self.settled.as_ref() == Some(now) {
+            return;
+        }
+        if let Some(old) = self.settled.replace(now.clone()) {
+            self.before.push(old);
+            self.undone.clear();
+            if self.before.len() > MOST {
+                self.before.remove(0);
+            }
+        }
+    }
+
+    pub(super) fn can_undo(&self) -> bool {
+        !self.before.is_empty()
+    }
+
+    /// Goes one step back.
+    pub(super) fn undo(&mut self, now: &mut Skies) {
+        self.settle(now);
+        if let Some(old) = self.before.pop() {
+            self.undone.push(std::mem::replace(now, old));
+            self.settled = Some(now.clone());
+        }
+    }
+
+    /// Takes the last step back again.
+    pub(super) fn redo(&mut self, now: &mut Skies) {
+        if let Some(next) = self.undone.pop() {
+            self.before.push(std::mem::replace(now, next));
+            self.settled = Some(now.clone());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::station::Station;
+
+    #[test]
+    fn steps_are_undone_and_done_again() {
+        let mut now = Skies::of(&Station::default());
+        let mut history = History::default();
+        history.settle(&now);
+        assert!(!history.can_undo());
+        for mask in ["0 1", "0 2"] {
+            mask.clone_into(&mut now.mask);
+            history.settle(&now);
+        }
+        // Not settled yet: it counts as a step all the same.
+        "0 3".clone_into(&mut now.mask);
+        for expected in ["0 2", "0 1", "", ""] {
+            history.undo(&mut now);
+            assert_eq!(now.mask, expected);
+        }
+        for expected in ["0 1", "0 2", "0 3", "0 3"] {
+            history.redo(&mut now);
+            assert_eq!(now.mask, expected);
+        }
+        history.undo(&mut now);
+        "0 9".clone_into(&mut now.mask);
+        history.settle(&now);
+        history.redo(&mut now);
+        assert_eq!(now.mask, "0 9", "another step ends what was undone");
+    }
+}
