@@ -45,7 +45,7 @@ mod tests {
         }
         let told = standing(&alarms);
         assert_eq!(told.len(), 1, "{told:?}");
-        assert!(told[0].starts_with("The Rotator Genius at 10.0.0.6:9006 may still"), "{told:?}");
+        assert!(told[0].starts_with("The 4O3A Rotator Genius at 10.0.0.6:9006"), "{told:?}");
         tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
         assert_eq!(standing(&alarms), [""; 0]);
     }
