@@ -306,10 +306,11 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // Said where it was asked for; many antennas have such an axis.
-        Event::Safety(Safety::StoppedByFlags { .. }) => return None,
-        // Stands for as long as the snapshot says so.
-        Event::Safety(Safety::LeftMoving { asks: true, .. }) => return None,
+        // The first is said where it was asked for; many antennas have such an axis.
+        // The second stands for as long as the snapshot says so.
+        Event::Safety(Safety::StoppedByFlags { .. } | Safety::LeftMoving { asks: true, .. }) => {
+            return None;
+        }
         Event::Safety(matter) => AlarmKind::Safety(matter),
         Event::JogLeaseOver => AlarmKind::JogLeaseOver,
         Event::JogPositionOld => AlarmKind::JogPositionOld,

@@ -8,11 +8,14 @@ use crate::{driver::Unit, station::Antenna};
 
 /// The units among `owed` that no antenna has.
 pub(super) fn strangers<'a>(
-    owed: Vec<Unit>,
-    antennas: impl Iterator<Item = &'a Antenna> + Clone,
+    mut owed: Vec<Unit>,
+    antennas: impl Iterator<Item = &'a Antenna>,
 ) -> Vec<Unit> {
-    let is_known = |unit: &Unit| antennas.clone().any(|antenna| Unit::of(antenna) == *unit);
-    owed.into_iter().filter(|unit| !is_known(unit)).collect()
+    for antenna in antennas {
+        let known = Unit::of(antenna);
+        owed.retain(|unit| *unit != known);
+    }
+    owed
 }
 
 /// Tells of `strangers`, each until its STOP is paid.
