@@ -8,6 +8,9 @@
 
 #[cfg(target_os = "linux")]
 mod real_window {
+    mod deaths;
     mod desk;
+    mod processes;
     mod stories;
+    mod unit;
 }

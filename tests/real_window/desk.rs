@@ -14,6 +14,12 @@ use std::{
 /// Nothing here takes longer on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
+/// Places in a window of 1440 x 900 without the demo banner.
+const MANUAL: [&str; 2] = ["1218", "456"];
+const X_PLUS_X: &str = "1228";
+/// Notes above the keys push them down by up to three lines.
+const X_PLUS_Y: [&str; 3] = ["687", "640", "664"];
+
 /// Ends its process when it goes away.
 pub(super) struct Running(Child);
 
@@ -22,10 +28,34 @@ impl Running {
         Self(command.spawn().unwrap_or_else(|error| panic!("{command:?}: {error}")))
     }
 
+    pub(super) fn id(&self) -> u32 {
+        self.0.id()
+    }
+
+    /// Sends a signal to it alone.
+    pub(super) fn signal(&self, name: &str) {
+        send_signal(name, &self.id().to_string());
+    }
+
+    /// Sends a signal to its process group, which it must lead.
+    pub(super) fn signal_group(&self, name: &str) {
+        send_signal(name, &format!("-{}", self.id()));
+    }
+
+    /// Waits for its end, by itself or by a signal.
+    pub(super) fn wait_for_end(&mut self) {
+        wait_for("the process to end", || self.0.try_wait().expect("a child"));
+    }
+
     /// The exit code, once it has ended by itself.
     pub(super) fn exit_code(&mut self) -> Option<i32> {
         wait_for("the program to end", || self.0.try_wait().expect("a child")).code()
     }
+}
+
+fn send_signal(name: &str, to: &str) {
+    let status = Command::new("kill").args(["-s", name, "--", to]).status().expect("kill");
+    assert!(status.success(), "kill -s {name} -- {to}");
 }
 
 impl Drop for Running {
@@ -50,7 +80,7 @@ pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
 /// A screen of its own.
 pub(super) struct Screen {
     display: String,
-    _server: Running,
+    pub(super) server: Running,
     pub(super) folder: tempfile::TempDir,
 }
 
@@ -60,10 +90,11 @@ impl Screen {
         let server = Running::start(
             Command::new("Xvfb")
                 .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
+                // Or it starts anew whenever its last client leaves, and drops a new one.
+                .arg("-noreset")
                 .stderr(Stdio::null()),
         );
-        let screen =
-            Self { display, _server: server, folder: tempfile::tempdir().expect("a folder") };
+        let screen = Self { display, server, folder: tempfile::tempdir().expect("a folder") };
         wait_for("the screen", || {
             screen
                 .command("xdotool")
@@ -83,16 +114,23 @@ impl Screen {
             .env("DISPLAY", &self.display)
             .env_remove("WAYLAND_DISPLAY")
             .env("HOME", self.folder.path())
-            .env_remove("XDG_CONFIG_HOME");
+            .env_remove("XDG_CONFIG_HOME")
+            .env_remove("XDG_DATA_HOME");
         command
     }
 
     /// The program on this screen, and its window.
     pub(super) fn azel(&self, arguments: &[&str]) -> (Running, String) {
-        let running = Running::start(
-            self.command(env!("CARGO_BIN_EXE_azel")).args(arguments).env("AZEL_LOG", "error"),
-        );
+        let mut command = self.command(env!("CARGO_BIN_EXE_azel"));
+        self.window_of(command.args(arguments).env("AZEL_LOG", "error"))
+    }
+
+    /// Starts `command`, which opens the program's window on this screen.
+    pub(super) fn window_of(&self, command: &mut Command) -> (Running, String) {
+        let mut running = Running::start(command);
         let window = wait_for("the window", || {
+            let ended = running.0.try_wait().expect("a child");
+            assert!(ended.is_none(), "the program has ended without a window: {ended:?}");
             let found = self.xdotool(&["search", "--onlyvisible", "--name", "^Azel$"]);
             found.lines().last().map(str::to_owned)
         });
@@ -120,6 +158,25 @@ impl Screen {
             .check()
             .expect("the window is there");
         connection.flush().expect("the screen");
+    }
+
+    /// Takes up Manual and presses the key X+ where it may be. Each attempt tries
+    /// another place.
+    pub(super) fn press_x_plus(&self, attempt: usize) {
+        let [x, y] = MANUAL;
+        self.xdotool(&["mousemove", x, y, "click", "1"]);
+        let y = X_PLUS_Y.iter().cycle().nth(attempt).expect("a cycle has no end");
+        self.xdotool(&["mousemove", X_PLUS_X, y, "mousedown", "1"]);
+    }
+
+    /// How many antennas are marked on disk as moved by hand and not proved to stand.
+    pub(super) fn marks(&self) -> usize {
+        let folder = self.folder.path().join(".local/share/azel/marks");
+        fs::read_dir(folder).map_or(0, Iterator::count)
+    }
+
+    pub(super) fn release_key(&self) {
+        self.xdotool(&["mouseup", "1"]);
     }
 
     pub(super) fn xdotool(&self, arguments: &[&str]) -> String {

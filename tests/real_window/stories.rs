@@ -2,25 +2,16 @@
 
 use super::desk::{Satrak, Screen, wait_for};
 
-/// Places in a window of 1440 x 900 without the demo banner.
-const MANUAL: [&str; 2] = ["1218", "456"];
-const X_PLUS: [&str; 2] = ["1228", "640"];
-
-fn click(screen: &Screen, [x, y]: [&str; 2]) {
-    screen.xdotool(&["mousemove", x, y, "click", "1"]);
-}
-
 /// Takes up Manual and holds the key X+ down until the unit has been told to
 /// move. What is clicked before the window shows it does nothing, so it is
 /// tried again.
 fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
-    let [x, y] = X_PLUS;
+    let mut attempts = 0..;
     wait_for("the jog", || {
-        click(screen, MANUAL);
-        screen.xdotool(&["mousemove", x, y, "mousedown", "1"]);
+        screen.press_x_plus(attempts.next()?);
         let moved = satrak.line_soon("in payload=MOVE=,0.5,0");
         if moved.is_none() {
-            screen.xdotool(&["mouseup", "1"]);
+            screen.release_key();
         }
         moved
     });
@@ -50,17 +41,24 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     satrak.wait_for_line("out payload=STATUS?");
 
     hold_x_plus(&screen, &mut satrak);
-    screen.xdotool(&["mouseup", "1"]);
+    screen.release_key();
     satrak.wait_for_line("in payload=STOP=");
 
     hold_x_plus(&screen, &mut satrak);
     screen.xdotool(&["key", "Escape"]);
     satrak.wait_for_line("in payload=STOP=");
-    screen.xdotool(&["mouseup", "1"]);
+    screen.release_key();
 
     hold_x_plus(&screen, &mut satrak);
+    // What becomes of an antenna that moves is asked; the question takes the key.
     screen.close(&window);
     satrak.wait_for_line("in payload=STOP=");
+    screen.release_key();
+    screen.xdotool(&["key", "Escape"]);
+    satrak.wait_for_line("in payload=STOP=");
+    wait_for("proved standstill", || (screen.marks() == 0).then_some(()));
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    screen.close(&window);
     assert_eq!(azel.exit_code(), Some(0));
 }
 

@@ -1,5 +1,6 @@
 //! Each rule refuses and allows.
 
+mod any;
 mod each_rule;
 mod makes;
 

@@ -3,11 +3,11 @@
 use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
-    controller::aimed,
+    controller::{JogSpeeds, aimed},
 };
 
 /// Out of what is forbidden an antenna goes by hand alone, with this share of the
-/// fastest rate at most.
+/// fastest rate at most, or at the slowest speed that the controller has.
 const OUT_SHARE: f64 = 0.25;
 /// A way out has to gain at least this much over what it is judged ahead, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
@@ -84,7 +84,11 @@ fn by_hand(
         }
     }
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-    let allowed_deg_s = situation.limits.maximum_rate_deg_s * OUT_SHARE;
+    let slowest_share = match situation.can.jog {
+        JogSpeeds::Named(speeds) => speeds.first().map_or(0.0, |slowest| slowest.share),
+        JogSpeeds::AnyRate => 0.0,
+    };
+    let allowed_deg_s = situation.limits.maximum_rate_deg_s * OUT_SHARE.max(slowest_share);
     if fastest > allowed_deg_s {
         return Err(Refusal::TooFast { asked_deg_s: fastest, allowed_deg_s });
     }

@@ -117,6 +117,12 @@ impl Control {
         self.lock().unit.use_panel();
     }
 
+    /// Puts both axes somewhere else, as if by hand, in counts; they stand there.
+    pub fn place(&self, counts: [u16; 2]) {
+        self.live();
+        self.lock().unit.place(counts);
+    }
+
     /// Closes every connection. The controller goes on with what it does.
     pub fn drop_clients(&self) {
         self.shared.drops.send_modify(|count| *count += 1);

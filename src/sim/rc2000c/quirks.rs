@@ -82,13 +82,17 @@ pub enum Fault {
     ElevationOvercurrent,
     /// The track mode finds its peak at a limit.
     PeakLimit,
+    /// The angles that are told stay what they were.
+    FrozenAngles,
+    /// Both axes are told to stand, whatever they do.
+    FalseRest,
     /// The controller shows this alarm.
     Alarm(Alarm),
 }
 
 impl Fault {
     /// All faults with their names.
-    pub const ALL: [(Self, &'static str); 36] = [
+    pub const ALL: [(Self, &'static str); 38] = [
         (Self::Silence, "silence"),
         (Self::DropReply, "drop_reply"),
         (Self::Garbage, "garbage"),
@@ -105,6 +109,8 @@ impl Fault {
         (Self::AzimuthOvercurrent, "az_overcurrent"),
         (Self::ElevationOvercurrent, "el_overcurrent"),
         (Self::PeakLimit, "peak_limit"),
+        (Self::FrozenAngles, "frozen_angles"),
+        (Self::FalseRest, "false_rest"),
         (Self::Alarm(Alarm::LowBattery), "low_battery"),
         (Self::Alarm(Alarm::Azimuth), "az_alarm"),
         (Self::Alarm(Alarm::Elevation), "el_alarm"),

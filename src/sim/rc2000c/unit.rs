@@ -37,6 +37,8 @@ pub(super) struct Unit {
     mode: Mode,
     azimuth: Axis,
     elevation: Axis,
+    /// The counts that a frozen display shows.
+    frozen: Option<[u16; 2]>,
     feed: Feed,
     is_auto_polarization: bool,
     tracking: Option<Tracking>,
@@ -55,6 +57,7 @@ impl Unit {
             mode: Mode::Manual,
             azimuth: Axis::new(az_counts, AZIMUTH_TRAVEL, false),
             elevation: Axis::new(el_counts, ELEVATION_TRAVEL, true),
+            frozen: None,
             feed: Feed::new(START_POLARIZATION),
             is_auto_polarization: false,
             tracking: None,
@@ -77,6 +80,8 @@ impl Unit {
             is_overloaded: has(Fault::ElevationOvercurrent),
             runs_away: has(Fault::ElevationRunaway),
         });
+        let is_frozen = has(Fault::FrozenAngles);
+        self.frozen = is_frozen.then(|| self.frozen.unwrap_or_else(|| self.counts()));
         self.feed.set_rotating(self.quirks.contains(&Quirk::RotatingFeed));
     }
 
@@ -162,6 +167,13 @@ impl Unit {
             mode: self.mode,
             is_turning,
         }
+    }
+
+    /// Puts both axes somewhere else, as if by hand; they stand there.
+    pub(super) fn place(&mut self, [azimuth, elevation]: [u16; 2]) {
+        self.azimuth = Axis::new(azimuth, AZIMUTH_TRAVEL, false);
+        self.elevation = Axis::new(elevation, ELEVATION_TRAVEL, true);
+        self.suffer();
     }
 
     fn counts(&self) -> [u16; 2] {

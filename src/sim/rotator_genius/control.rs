@@ -116,6 +116,12 @@ impl Control {
         unit.inject(faults);
     }
 
+    /// Puts both rotators somewhere else, as if by hand; they stand there.
+    pub fn place(&self, angles: [WholeDegrees; 2]) {
+        self.live();
+        self.lock().unit.place(angles);
+    }
+
     /// Closes every connection. The device goes on with what it does.
     pub fn drop_clients(&self) {
         self.shared.drops.send_modify(|count| *count += 1);

@@ -60,6 +60,10 @@ pub enum Fault {
     Refuse,
     /// "Panic" is 0x07. The codes are not documented.
     Panic,
+    /// The angles that are told stay what they were.
+    FrozenAngles,
+    /// Both rotators are told to stand, whatever they do.
+    FalseRest,
     /// The sensor of this rotator is not connected.
     NoSensor(RotatorNumber),
     /// This rotator is driven but does not turn.
@@ -68,7 +72,7 @@ pub enum Fault {
 
 impl Fault {
     /// All faults with their names.
-    pub const ALL: [(Self, &'static str); 12] = [
+    pub const ALL: [(Self, &'static str); 14] = [
         (Self::Silence, "silence"),
         (Self::DropReply, "drop_reply"),
         (Self::HangUp, "hang_up"),
@@ -77,6 +81,8 @@ impl Fault {
         (Self::Merge, "merge"),
         (Self::Refuse, "refuse"),
         (Self::Panic, "panic"),
+        (Self::FrozenAngles, "frozen_angles"),
+        (Self::FalseRest, "false_rest"),
         (Self::NoSensor(RotatorNumber::One), "no_sensor_1"),
         (Self::NoSensor(RotatorNumber::Two), "no_sensor_2"),
         (Self::Stuck(RotatorNumber::One), "stuck_1"),

@@ -22,11 +22,13 @@ fn rotator(rotor: &Rotor, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     let is_narrow = quirks.contains(&Quirk::Narrow);
     let angle = |angle: Option<WholeDegrees>| angle.map_or(NONE, WholeDegrees::degrees);
     let position = angle(rotor.measured());
-    let target = angle(rotor.journey().map(|(target, _)| target));
-    let start = angle(rotor.journey().map(|(_, start)| start));
+    let journey = rotor.journey().filter(|_| !rotor.rests_falsely());
+    let target = angle(journey.map(|(target, _)| target));
+    let start = angle(journey.map(|(_, start)| start));
     let (cw, ccw) = (rotor.limit_cw, rotor.limit_ccw);
     let kind = char::from(rotor.kind.letter());
     let moving = match rotor.moving() {
+        _ if rotor.rests_falsely() => '0',
         Moving::Stopped => '0',
         Moving::Clockwise => '1',
         Moving::CounterClockwise => '2',

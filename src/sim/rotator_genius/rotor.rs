@@ -39,6 +39,9 @@ pub(super) struct Rotor {
     has_sensor: bool,
     is_sensor_broken: bool,
     is_stuck: bool,
+    /// What a frozen sensor shows.
+    frozen: Option<WholeDegrees>,
+    rests_falsely: bool,
     travel: Travel,
     /// On the travel; beyond its ends when outside the limits.
     place_deg: f64,
@@ -59,6 +62,8 @@ impl Rotor {
             has_sensor: options.has_sensor,
             is_sensor_broken: false,
             is_stuck: false,
+            frozen: None,
+            rests_falsely: false,
             travel,
             place_deg: travel.place(degrees(options.position)),
             rate_deg_s: 0.0,
@@ -73,7 +78,7 @@ impl Rotor {
 
     /// What the sensor shows.
     pub(super) fn measured(&self) -> Option<WholeDegrees> {
-        self.can_measure().then(|| self.angle())
+        self.can_measure().then(|| self.frozen.unwrap_or_else(|| self.angle()))
     }
 
     /// Without a sensor nothing is known.
@@ -99,8 +104,19 @@ impl Rotor {
         }
     }
 
+    /// Whether its status says that it stands while it may turn.
+    pub(super) fn rests_falsely(&self) -> bool {
+        self.rests_falsely
+    }
+
     pub(super) fn is_turning(&self) -> bool {
         self.rate_deg_s != 0.0
+    }
+
+    pub(super) fn place(&mut self, angle: WholeDegrees) {
+        self.place_deg = self.travel.place(degrees(angle));
+        self.rate_deg_s = 0.0;
+        self.drive = Drive::Off;
     }
 
     pub(super) fn stop(&mut self) {
@@ -161,6 +177,13 @@ impl Rotor {
         if !self.can_measure() {
             self.drive = Drive::Off;
         }
+    }
+
+    /// What its status is to tell wrongly.
+    pub(super) fn set_lies(&mut self, is_frozen: bool, rests_falsely: bool) {
+        let angle = self.frozen.unwrap_or_else(|| self.angle());
+        self.frozen = is_frozen.then_some(angle);
+        self.rests_falsely = rests_falsely;
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {

@@ -8,7 +8,7 @@ use super::command::SHORT_CONFIGURATION_BYTES;
 use super::rotor::Rotor;
 use super::{Fault, Options, Quirk, RotatorState, Snapshot, report};
 use crate::protocol::rotator_genius::{
-    Configuration, Motion, Request, RequestError, RotatorNumber,
+    Configuration, Motion, Request, RequestError, RotatorNumber, WholeDegrees,
 };
 
 /// Time between two steps of the rotators.
@@ -59,7 +59,17 @@ impl Unit {
         for number in RotatorNumber::ALL {
             let has_no_sensor = faults.contains(&Fault::NoSensor(number));
             let is_stuck = faults.contains(&Fault::Stuck(number));
-            number.of_mut(&mut self.rotors).set_faults(has_no_sensor, is_stuck);
+            let rotor = number.of_mut(&mut self.rotors);
+            rotor.set_faults(has_no_sensor, is_stuck);
+            let is_frozen = faults.contains(&Fault::FrozenAngles);
+            rotor.set_lies(is_frozen, faults.contains(&Fault::FalseRest));
+        }
+    }
+
+    /// Puts both rotators somewhere else, as if by hand; they stand there.
+    pub(super) fn place(&mut self, angles: [WholeDegrees; 2]) {
+        for (rotor, angle) in self.rotors.iter_mut().zip(angles) {
+            rotor.place(angle);
         }
     }
 

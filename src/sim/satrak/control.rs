@@ -24,6 +24,8 @@ pub struct Snapshot {
     pub x_deg: f64,
     /// Y angle as reported, degrees.
     pub y_deg: f64,
+    /// Where both axes truly are, whatever is reported, degrees.
+    pub metal_deg: [f64; 2],
     /// Azimuth, degrees, 0 to 360.
     pub az_deg: f64,
     /// Elevation, degrees.
@@ -132,6 +134,12 @@ impl Control {
     pub fn state(&self) -> Snapshot {
         self.live();
         self.lock().unit.snapshot()
+    }
+
+    /// Puts both axes somewhere else, as if by hand, degrees; they stand there.
+    pub fn place(&self, axes_deg: [f64; 2]) {
+        self.live();
+        self.lock().unit.place(axes_deg);
     }
 
     /// Lets the unit live until now.

@@ -21,6 +21,12 @@ impl Mount {
         Self { x: Axis::parked(), y: Axis::parked() }
     }
 
+    /// Both axes stand there at once.
+    pub(super) fn place(&mut self, [x_deg, y_deg]: [f64; 2]) {
+        self.x.place(x_deg);
+        self.y.place(y_deg);
+    }
+
     pub(super) fn stop(&mut self) {
         self.x.stop();
         self.y.stop();

@@ -61,13 +61,17 @@ pub enum Fault {
     /// A command ends the connection instead of being answered; it was carried
     /// out.
     HangUp,
+    /// The angles that are told stay what they were.
+    FrozenAngles,
+    /// Both axes are told to stand, whatever they do.
+    FalseRest,
     /// The unit reports this fault, and suffers from it.
     Unit(FaultKind),
 }
 
 impl Fault {
     /// All faults with their names.
-    pub const ALL: [(Self, &'static str); 21] = [
+    pub const ALL: [(Self, &'static str); 23] = [
         (Self::Unsolicited, "unsolicited"),
         (Self::DropReply, "drop_reply"),
         (Self::Garbage, "garbage"),
@@ -77,6 +81,8 @@ impl Fault {
         (Self::BadChecksum, "bad_checksum"),
         (Self::RefuseSettings, "refuse_settings"),
         (Self::HangUp, "hang_up"),
+        (Self::FrozenAngles, "frozen_angles"),
+        (Self::FalseRest, "false_rest"),
         (Self::Unit(FaultKind::InternalLink), "internal_link"),
         (Self::Unit(FaultKind::TleOutdated), "tle_outdated"),
         (Self::Unit(FaultKind::TleMissing), "tle_missing"),

@@ -44,6 +44,8 @@ pub(super) struct Unit {
     memory: Memory,
     injected: BTreeSet<FaultKind>,
     refuses_settings: bool,
+    has_frozen_angles: bool,
+    rests_falsely: bool,
     /// Faults that the unit found by itself.
     found: BTreeSet<FaultKind>,
     /// Readings that a dead sensor repeats.
@@ -74,6 +76,8 @@ impl Unit {
             memory: Memory::default(),
             injected: BTreeSet::new(),
             refuses_settings: false,
+            has_frozen_angles: false,
+            rests_falsely: false,
             found: BTreeSet::new(),
             last_xy_deg: [0.0; 2],
         };
@@ -125,7 +129,7 @@ impl Unit {
         for ((last, now), sensor) in
             self.last_xy_deg.iter_mut().zip(measured).zip([FaultKind::XSensor, FaultKind::YSensor])
         {
-            if !self.injected.contains(&sensor) {
+            if !self.injected.contains(&sensor) && !self.has_frozen_angles {
                 *last = now;
             }
         }
@@ -138,6 +142,8 @@ impl Unit {
             .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
             .collect();
         self.refuses_settings = faults.contains(&Fault::RefuseSettings);
+        self.has_frozen_angles = faults.contains(&Fault::FrozenAngles);
+        self.rests_falsely = faults.contains(&Fault::FalseRest);
         let has = |kind| self.injected.contains(&kind);
         self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
     }
@@ -148,11 +154,18 @@ impl Unit {
         Snapshot {
             x_deg,
             y_deg,
+            metal_deg: [self.mount.x.angle_deg(), self.mount.y.angle_deg()],
             az_deg: direction.azimuth_deg(),
             el_deg: direction.elevation_deg(),
             is_tracking: self.tracking.is_enabled,
             is_moving: self.mount.is_moving(),
         }
+    }
+
+    /// Puts both axes somewhere else, as if by hand; they stand there.
+    pub(super) fn place(&mut self, axes_deg: [f64; 2]) {
+        self.mount.place(axes_deg);
+        self.last_xy_deg = self.measured_xy_deg();
     }
 
     fn utc(&self) -> Timestamp {

@@ -27,7 +27,7 @@ impl Unit {
     }
 
     pub(super) fn status(&self) -> Status {
-        let counts = self.counts();
+        let counts = self.frozen.unwrap_or_else(|| self.counts());
         let shown = self
             .satellites
             .iter()
@@ -45,15 +45,20 @@ impl Unit {
         Status {
             satellite,
             name_display,
-            azimuth: self.position(&self.azimuth, az_tenths, azimuth_ends),
-            elevation: self.position(&self.elevation, el_tenths, [LimitEnd::Down, LimitEnd::Up]),
+            azimuth: self.position(&self.azimuth, counts[0], az_tenths, azimuth_ends),
+            elevation: self.position(
+                &self.elevation,
+                counts[1],
+                el_tenths,
+                [LimitEnd::Down, LimitEnd::Up],
+            ),
             feed: self.feed.reading(),
             polarization_mode: Some(PolarizationMode {
                 code,
                 is_automatic: self.is_auto_polarization,
             }),
-            azimuth_drive: self.azimuth.drive(),
-            elevation_drive: self.elevation.drive(),
+            azimuth_drive: self.told(self.azimuth.drive()),
+            elevation_drive: self.told(self.elevation.drive()),
             polarization_motion: self.feed.motion(),
             alarm: self.alarm(),
             track: (!is_older).then(|| self.track_report()),
@@ -61,14 +66,24 @@ impl Unit {
         }
     }
 
-    fn position(&self, axis: &Axis, tenths: i16, [least, most]: [LimitEnd; 2]) -> Position {
+    fn told(&self, drive: AxisDrive) -> AxisDrive {
+        if self.faults.contains(&Fault::FalseRest) { AxisDrive::Still } else { drive }
+    }
+
+    fn position(
+        &self,
+        axis: &Axis,
+        counts: u16,
+        tenths: i16,
+        [least, most]: [LimitEnd; 2],
+    ) -> Position {
         let end = match axis.limit() {
             Some(Sense::Negative) => least,
             Some(Sense::Positive) => most,
             None if self.quirks.contains(&Quirk::AngleDisplay) => {
                 return Position::TenthsOfDegree(tenths);
             }
-            None => return Position::Counts(axis.counts()),
+            None => return Position::Counts(counts),
         };
         match end {
             LimitEnd::CounterClockwise if self.has_left_words() => Position::Unknown(*b"CCW  "),

@@ -50,6 +50,12 @@ impl Axis {
         }
     }
 
+    pub(super) fn place(&mut self, angle_deg: f64) {
+        self.angle_deg = angle_deg.clamp(LOWEST_DEG, HIGHEST_DEG);
+        self.rate_deg_s = 0.0;
+        self.goal = Goal::Still;
+    }
+
     pub(super) fn set_drive_scale(&mut self, scale: f64) {
         self.drive_scale = scale;
     }

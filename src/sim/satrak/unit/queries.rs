@@ -2,7 +2,7 @@
 
 use super::Unit;
 use super::memory::USUAL_REDUCTION;
-use crate::protocol::satrak::{FaultKind, Query};
+use crate::protocol::satrak::{AxisMotion, FaultKind, Query};
 use crate::sim::satrak::answer::{Answer, Value};
 
 impl Unit {
@@ -56,12 +56,16 @@ impl Unit {
             Value::text(state.code()),
             Value::flag(self.is_clock_from_gps),
             Value::text(waited.as_secs()),
-            Value::text(x.motion().code()),
-            Value::text(y.motion().code()),
+            Value::text(self.told(x.motion()).code()),
+            Value::text(self.told(y.motion()).code()),
             Value::fixed(x_deg, 1),
             Value::fixed(y_deg, 1),
             Value::flag(self.tracking.is_auto),
         ]
+    }
+
+    fn told(&self, motion: AxisMotion) -> AxisMotion {
+        if self.rests_falsely { AxisMotion::Still } else { motion }
     }
 
     fn fault_value(&self, kind: FaultKind) -> Value {

@@ -1,0 +1,197 @@
+//! What the gate lets through leads nowhere forbidden: random antennas, keep-outs,
+//! positions and motions. `AZEL_CASES` and `AZEL_SEED` as in
+//! `tests/safety_properties.rs`.
+
+use proptest::{
+    prelude::Rng as _,
+    test_runner::{RngAlgorithm, TestRng},
+};
+
+use super::*;
+use crate::station::{Entered, KeepOut, Station};
+
+/// What a way may touch of the edge of a margin, degrees.
+const EDGE_DEG: f64 = 0.05 + 1e-6;
+
+struct Dice(TestRng);
+
+impl Dice {
+    fn new(seed: u64) -> Self {
+        let mut bytes = [0; 32];
+        bytes[..8].copy_from_slice(&seed.to_le_bytes());
+        Self(TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
+    }
+
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn chance(&mut self, share: f64) -> bool {
+        self.between(0.0, 1.0) < share
+    }
+}
+
+fn antenna(dice: &mut Dice) -> Antenna {
+    let mut antenna = match dice.between(0.0, 3.0) as u8 {
+        0 => Antenna::satrak("Dish", ""),
+        1 => Antenna::genius("Dish", ""),
+        _ => Antenna::rc2000c("Dish", ""),
+    };
+    antenna.mount = if matches!(antenna.mount, Mount::Xy { .. }) && dice.chance(0.7) {
+        Mount::Xy {
+            lower_axis_azimuth_deg: dice.between(0.0, 180.0),
+            travel_from_deg: dice.between(0.0, 40.0),
+            travel_to_deg: dice.between(140.0, 180.0),
+        }
+    } else {
+        let azimuth_from_deg = dice.between(-180.0, 90.0);
+        Mount::AzEl {
+            azimuth_from_deg,
+            azimuth_to_deg: azimuth_from_deg + dice.between(90.0, 540.0),
+            elevation_from_deg: dice.between(-5.0, 10.0),
+            elevation_to_deg: dice.between(60.0, 180.0),
+        }
+    };
+    antenna.beam_width_deg = dice.between(0.01, 20.0);
+    antenna.limits.minimum_elevation_deg = dice.between(0.0, 20.0);
+    antenna.limits.maximum_rate_deg_s = dice.between(0.1, 10.0);
+    antenna.limits.maximum_step_deg = dice.between(1.0, 20.0);
+    antenna
+}
+
+fn station(dice: &mut Dice) -> Station {
+    let mut station = Station::default();
+    for number in 0..dice.between(0.0, 4.0) as u8 {
+        let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(-20.0, 70.0));
+        let (width_deg, height_deg) = (dice.between(5.0, 60.0), dice.between(5.0, 60.0));
+        let top_deg = f64::min(el_deg + height_deg, 89.0);
+        let lean_deg = dice.between(-0.2, 0.2) * width_deg;
+        let corners_deg = [
+            (az_deg, el_deg),
+            (az_deg + width_deg, el_deg),
+            (az_deg + width_deg + lean_deg, top_deg),
+            (az_deg + lean_deg, top_deg),
+        ];
+        let margin_deg = dice.between(0.0, 10.0);
+        let Ok(zone) = KeepOut::zone_of(&corners_deg) else { continue };
+        let (name, entered) = (format!("zone {number}"), Entered::Hard);
+        station.keep_outs.push(KeepOut { name, entered, antenna: None, margin_deg, zone });
+    }
+    if dice.chance(0.3) {
+        let (radius_deg, ahead_min) = (dice.between(0.1, 40.0), dice.between(0.0, 30.0));
+        station.sun_avoidance = Some(crate::station::SunAvoidance { radius_deg, ahead_min });
+    }
+    station
+}
+
+fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
+    let can = antenna.connection.make().capabilities;
+    let mut two = |most: f64| {
+        let [x, y] = [dice.between(-most, most), dice.between(-most, most)];
+        match dice.between(0.0, 3.0) as u8 {
+            0 => [x, 0.0],
+            1 => [0.0, y],
+            _ if can.jogs_one_axis => [x, 0.0],
+            _ => [x, y],
+        }
+    };
+    let [x_deg_s, y_deg_s] = two(antenna.limits.maximum_rate_deg_s);
+    let [x_deg, y_deg] = two(antenna.limits.maximum_step_deg);
+    match dice.between(0.0, 3.0) as u8 {
+        0 => (Intent::Manual, Motion::Jog { x_deg_s, y_deg_s }),
+        1 if can.steps => (Intent::Manual, Motion::Step { x_deg, y_deg }),
+        _ => {
+            let azimuth = dice.between(-180.0, 500.0);
+            (Intent::Position, position(azimuth, dice.between(0.0, 180.0)))
+        }
+    }
+}
+
+/// What one case came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Refused,
+    Allowed,
+    LedOut,
+}
+
+fn look_closely(seed: u64) -> Outcome {
+    let mut dice = Dice::new(seed);
+    let (antenna, mut station) = (antenna(&mut dice), station(&mut dice));
+    station.antennas.clear();
+    let (intent, motion) = motion(&mut dice, &antenna);
+    let from_deg = antenna.mount.travel_deg().map(|(from, to)| dice.between(from, to));
+    let utc = add_seconds("2026-06-21T00:00:00Z".parse().unwrap(), dice.between(0.0, 3e7));
+    let bounds = Bounds::of(&station, &antenna);
+    let here = bounds.direction(from_deg);
+    let mut case = Case { antenna: antenna.clone(), ..Case::new(intent) };
+    case.age = Duration::from_millis(dice.between(0.0, 900.0) as u64);
+    let measured = case.state.measured.as_mut().unwrap();
+    measured.pointing = here.into();
+    for (axis, deg) in measured.axes.iter_mut().zip(from_deg) {
+        axis.angle_deg = Some(deg);
+    }
+    let can = antenna.connection.make().capabilities;
+    let metal = Metal { can, state: case.state.clone(), started: Arc::default() };
+    let gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
+    let now = Moment { steady: measured_at(&case) + case.age, utc };
+    if gate.check(motion, intent, now).is_err() {
+        return Outcome::Refused;
+    }
+    let situation = gate.situation(intent, false, now);
+    let (to_deg, is_hand) = match motion {
+        Motion::Jog { x_deg_s, y_deg_s } => {
+            let ahead = situation.turning([x_deg_s, y_deg_s]).map(|it| it * situation.ahead_s);
+            ([from_deg[0] + ahead[0], from_deg[1] + ahead[1]], true)
+        }
+        Motion::Step { x_deg, y_deg } => ([from_deg[0] + x_deg, from_deg[1] + y_deg], true),
+        _ => (gate.ends(motion, now).unwrap().1, false),
+    };
+    for (to_deg, (least_deg, most_deg)) in to_deg.into_iter().zip(antenna.mount.travel_deg()) {
+        assert!((least_deg - 1e-6..=most_deg + 1e-6).contains(&to_deg), "{seed}: {to_deg}");
+    }
+    let floor_deg = f64::min(antenna.limits.minimum_elevation_deg, here.elevation_deg());
+    let clear_deg = |axes_deg: [f64; 2]| {
+        let sky = bounds.above_the_floor();
+        let sky = sky.nearest(bounds.direction(axes_deg), utc);
+        sky.map_or(180.0, |nearest| nearest.angle.degrees())
+    };
+    let start_deg = clear_deg(from_deg);
+    if start_deg < 0.0 && is_hand {
+        let end_deg = clear_deg(to_deg);
+        assert!(end_deg > start_deg, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
+        return Outcome::LedOut;
+    }
+    // Both axes may run at any share of their ways at any time.
+    for first in 0..=10 {
+        for second in 0..=10 {
+            let share = [f64::from(first) / 10.0, f64::from(second) / 10.0];
+            let axes_deg = std::array::from_fn(|axis| {
+                from_deg[axis] + share[axis] * (to_deg[axis] - from_deg[axis])
+            });
+            let clear_deg = clear_deg(axes_deg);
+            assert!(clear_deg > -EDGE_DEG, "{seed}: {motion:?} at {axes_deg:?}: {clear_deg}");
+            let elevation_deg = bounds.direction(axes_deg).elevation_deg();
+            assert!(elevation_deg > floor_deg - EDGE_DEG, "{seed}: {motion:?} {elevation_deg}");
+        }
+    }
+    Outcome::Allowed
+}
+
+fn measured_at(case: &Case) -> Instant {
+    case.state.measured.unwrap().received
+}
+
+#[test]
+#[allow(clippy::print_stdout, reason = "the counts of the long form")]
+fn any_motion_that_is_allowed_sweeps_nothing_forbidden() {
+    let number = |name| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    let seed = number("AZEL_SEED").unwrap_or(20_261_122);
+    // One costs a thousandth of a whole session.
+    let cases = number("AZEL_CASES").map_or(2_000, |cases| cases * 10);
+    let outcomes: Vec<Outcome> = (seed..seed + cases).map(look_closely).collect();
+    let count = |outcome| outcomes.iter().filter(|it| **it == outcome).count();
+    let (allowed, led_out) = (count(Outcome::Allowed), count(Outcome::LedOut));
+    println!("gate: {cases} cases from seed {seed}, {allowed} allowed, {led_out} led out");
+    assert!(allowed > cases as usize / 20 && led_out > 0, "{allowed} allowed, {led_out} led out");
+}

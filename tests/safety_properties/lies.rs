@@ -1,0 +1,122 @@
+//! Angles that freeze, and flags that say that a turning antenna stands.
+
+use std::time::Duration;
+
+use azel::driver::{Command, Event, Safety};
+use tokio::time::Instant;
+
+use super::world::{Dice, Lie, Scene, Unit, Wish, World, for_each_case};
+
+async fn scene(dice: &mut Dice, makes: usize) -> Scene {
+    let least_margin_deg = |world: &World| world.coarse_deg;
+    let wish = Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes };
+    let world = World::random(dice, &wish);
+    Scene::start(world, dice).await
+}
+
+/// Between two looks that prove standstill slower motion of a Satrak may stay within
+/// the tenths of a degree that it tells.
+const SLOWEST_DEG_S: f64 = 0.5;
+
+/// The way of an axis with the longer travel ahead.
+fn long_way(scene: &Scene, axis: usize) -> f64 {
+    let (from_deg, to_deg) = scene.world.antenna.mount.travel_deg()[axis];
+    let at_deg = scene.world.unit.axes_deg()[axis];
+    if at_deg - from_deg > to_deg - at_deg { -1.0 } else { 1.0 }
+}
+
+async fn flags_lie(mut dice: Dice) {
+    let mut scene = scene(&mut dice, 2).await;
+    let axis = dice.below(2);
+    let rate_deg_s = long_way(&scene, axis) * dice.between(SLOWEST_DEG_S, 5.0);
+    scene.world.unit.tell(Lie::FalseRest);
+    scene.seconds(1.0).await;
+    let began = Instant::now();
+    assert!(scene.world.unit.other_client_turns(axis, rate_deg_s).await);
+    scene.trouble(|line| line.ignores_stop = true);
+    let presses = dice.chance(0.6);
+    let press_at = began + Duration::try_from_secs_f64(dice.between(0.0, 6.0)).unwrap();
+    let mut pressed = None;
+    let mut turned_until = began;
+    let mut was_shown = false;
+    while Instant::now() < began + Duration::from_secs(10) {
+        scene.look().await;
+        if presses && pressed.is_none() && Instant::now() >= press_at {
+            pressed = Some(Instant::now());
+            scene.stop();
+        }
+        was_shown |= scene.shown().state.measured.is_some_and(|look| look.moving());
+        if scene.world.unit.is_turning() {
+            turned_until = Instant::now();
+        }
+        let stopped = scene.told(began, |event| matches!(event, Event::Stopped));
+        assert!(
+            stopped.is_none_or(|at| at > turned_until),
+            "stopped while it turns\n{}",
+            scene.report()
+        );
+    }
+    // One that came to its end had no time to be told of.
+    if turned_until < began + Duration::from_millis(9900) {
+        return;
+    }
+    // Of a Genius the angles are held against the flags before anything else sees
+    // them.
+    let is_genius = matches!(scene.world.unit, Unit::Genius(_));
+    if is_genius {
+        let is_told = scene.told(began, |event| matches!(event, Event::StopNotConfirmed));
+        assert!(was_shown || is_told.is_some(), "shown as standing\n{}", scene.report());
+        return;
+    }
+    let is_it = |event: &Event| {
+        let is_told = matches!(event, Event::Safety(Safety::FlagsContradict { .. }));
+        is_told || matches!(event, Event::StopNotConfirmed)
+    };
+    let told = scene.told(began, is_it);
+    assert!(told.is_some(), "not told: {axis} {rate_deg_s} {pressed:?}\n{}", scene.report());
+}
+
+async fn angles_freeze(mut dice: Dice) {
+    let mut scene = scene(&mut dice, 3).await;
+    let axis = dice.below(2);
+    let way = long_way(&scene, axis);
+    let fastest_deg_s = scene.world.antenna.limits.maximum_rate_deg_s;
+    let share = match scene.world.unit {
+        // Its one speed is the fastest.
+        Unit::Genius(_) => 1.0,
+        _ => dice.between(0.3, 1.0),
+    };
+    let mut rates_deg_s = [0.0; 2];
+    rates_deg_s[axis] = way * share * fastest_deg_s;
+    scene.send(Command::Manual);
+    scene.seconds(2.0).await;
+    scene.world.unit.tell(Lie::FrozenAngles);
+    scene.seconds(1.0).await;
+    let began = Instant::now();
+    while Instant::now() < began + Duration::from_millis(6500) {
+        scene.send(Command::Jog { rates_deg_s });
+        scene.seconds(0.1).await;
+    }
+    scene.send(Command::EndJog);
+    let is_it = |event: &Event| matches!(event, Event::Safety(Safety::JogWithoutEffect));
+    let is_refused = |event: &Event| matches!(event, Event::NotSent(_));
+    if scene.told(began, is_refused).is_some() {
+        return;
+    }
+    let told = scene.told(began, is_it);
+    assert!(
+        told.is_some_and(|at| at <= began + Duration::from_secs(6)),
+        "not told: {rates_deg_s:?}\n{}",
+        scene.report()
+    );
+}
+
+#[test]
+fn any_flags_that_lie_prove_no_standstill_and_are_told() {
+    for_each_case("flags lie", 50, flags_lie);
+}
+
+#[test]
+fn any_jog_without_effect_is_told() {
+    for_each_case("angles freeze", 50, angles_freeze);
+}

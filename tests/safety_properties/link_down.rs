@@ -1,0 +1,206 @@
+//! The link fails in the middle of a motion, or STOP is not obeyed.
+
+use std::time::Duration;
+
+use azel::{
+    astro::Angle,
+    driver::{Command, Event, LinkState, Safety},
+};
+use tokio::time::Instant;
+
+use super::world::{Dice, Scene, Unit, Wish, Word, World, for_each_case};
+
+/// How the link fails.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Failure {
+    /// It closes, and nobody answers for a while.
+    Lost,
+    /// What is written vanishes, and so no reply comes.
+    HalfOpen,
+    /// Commands are carried out, replies vanish.
+    Mute,
+    /// Nothing gets through either way, and the link stays open.
+    Stalled,
+    /// Everything but STOP gets through.
+    IgnoresStop,
+}
+
+impl Failure {
+    fn set(self, scene: &Scene, is_on: bool) {
+        match self {
+            Self::Lost => scene.set_off(is_on),
+            Self::HalfOpen => scene.trouble(|line| line.is_deaf = is_on),
+            Self::Mute => scene.trouble(|line| line.is_mute = is_on),
+            Self::Stalled => {
+                scene.trouble(|line| (line.is_deaf, line.is_mute) = (is_on, is_on));
+            }
+            Self::IgnoresStop => scene.trouble(|line| line.ignores_stop = is_on),
+        }
+    }
+}
+
+fn is_alarm(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::LinkLost(_)
+            | Event::JogPositionOld
+            | Event::StopNotConfirmed
+            | Event::StopRefused(_)
+            | Event::Unanswered(_)
+            | Event::Safety(Safety::FlagsContradict { .. })
+    )
+}
+
+/// After the first reply that is missing the operator is told within this, beside a
+/// poll period.
+const ALARM: Duration = Duration::from_secs(1);
+/// A motion that the unit ends by itself is left to it until the link is given up.
+const PATIENCE: Duration = Duration::from_secs(9);
+/// A STOP that is not proved is sent again within this.
+const AGAIN: Duration = Duration::from_millis(1500);
+
+async fn fails(mut dice: Dice) {
+    let least_margin_deg = |world: &World| world.coarse_deg;
+    let wish =
+        Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+    let world = World::random(&mut dice, &wish);
+    let mut scene = Scene::start(world, &mut dice).await;
+    let is_jog = dice.chance(0.6);
+    let failure =
+        [Failure::Lost, Failure::HalfOpen, Failure::Mute, Failure::Stalled, Failure::IgnoresStop]
+            [dice.below(5)];
+    let axis = dice.below(2);
+    let rate_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * dice.between(0.3, 1.0);
+    let mut rates_deg_s = [0.0; 2];
+    rates_deg_s[axis] = if dice.chance(0.5) { rate_deg_s } else { -rate_deg_s };
+    let before_s = dice.between(0.5, 2.5);
+    let down_s = dice.between(3.0, 12.0);
+    let case = format!("{failure:?} {is_jog} {rates_deg_s:?} after {before_s} for {down_s}");
+    if is_jog {
+        scene.send(Command::Manual);
+        scene.seconds(2.0).await;
+        hold(&mut scene, rates_deg_s, before_s).await;
+    } else {
+        let elevation_deg = dice.between(20.0, 80.0);
+        scene.send(Command::Position {
+            azimuth: Some(Angle::from_degrees(dice.between(0.0, 360.0))),
+            elevation: Some(Angle::from_degrees(elevation_deg)),
+        });
+        scene.seconds(before_s).await;
+    }
+    if !scene.world.unit.is_turning() {
+        return;
+    }
+    // An axis at the end of its travel is stopped by the session in the same moment.
+    if is_jog && scene.shown().jog.is_none() {
+        return;
+    }
+    failure.set(&scene, true);
+    let failed = Instant::now();
+    let from_deg = scene.world.unit.axes_deg();
+    let poll = scene.world.antenna.poll.period(true);
+    if failure == Failure::IgnoresStop {
+        return ignores_stop(&mut scene, &case).await;
+    }
+    let mut was_shown = false;
+    while Instant::now() < failed + Duration::try_from_secs_f64(down_s).unwrap() {
+        if is_jog {
+            scene.send(Command::Jog { rates_deg_s });
+        }
+        scene.seconds(0.1).await;
+        was_shown |= Instant::now() <= failed + poll * 3 + ALARM
+            && !matches!(scene.shown().link, LinkState::Up { .. });
+    }
+    scene.send(Command::EndJog);
+    assert!(was_shown, "shown as up: {case}\n{}", scene.report());
+    // The reply that is missing first was asked for within a poll period.
+    let within = if is_jog { poll + ALARM + poll } else { PATIENCE };
+    let last = failed + within + Duration::from_millis(100);
+    // The end of its travel may end it in the same moment.
+    let is_it = |event: &Event| is_alarm(event) || is_jog && matches!(event, Event::NotSent(_));
+    let told = scene.told(failed, is_it);
+    let is_due = Instant::now() >= last;
+    assert!(
+        told.map_or(!is_due, |at| at <= last),
+        "told after {:?}: {case}\n{}",
+        told.map(|at| at - failed),
+        scene.report()
+    );
+    let ends_by_itself = !scene.world.unit.jogs_run_on() || !is_jog;
+    if is_jog && !scene.world.unit.jogs_run_on() {
+        let turned_deg = (scene.world.unit.axes_deg()[axis] - from_deg[axis]).abs();
+        // What was sent before, and the run-out.
+        let most_deg = scene.world.fastest_deg_s * 4.0;
+        assert!(turned_deg <= most_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
+        assert!(!scene.world.unit.is_turning(), "runs on: {case}\n{}", scene.report());
+    }
+    let (back, turned_on) = (Instant::now(), scene.world.unit.is_turning());
+    failure.set(&scene, false);
+    scene.seconds(12.0).await;
+    let words = scene.world.unit.words_since(back);
+    if !ends_by_itself && failure != Failure::Mute {
+        // Only questions may come before it on a link that heals by itself; on a new
+        // one nothing does. Of an antenna that has come to its end looks alone prove
+        // standstill.
+        let first = words.iter().find(|(_, word)| *word != Word::Question);
+        let is_soon = first.map_or(!turned_on, |(at, word)| {
+            *word == Word::Stop && (failure == Failure::Lost || *at <= back + AGAIN)
+        });
+        assert!(is_soon, "{case}\n{words:?}\n{}", scene.report());
+        let dialled = scene.last_dial().filter(|dialled| *dialled >= back);
+        let first = dialled.and_then(|dialled| words.iter().find(|(at, _)| *at >= dialled));
+        assert!(
+            first.is_none_or(|(_, word)| *word == Word::Stop),
+            "{case}\n{words:?}\n{}",
+            scene.report()
+        );
+    }
+    if !ends_by_itself {
+        assert!(!scene.world.unit.is_turning(), "still turns: {case}\n{}", scene.report());
+    }
+}
+
+/// STOP is ignored while everything else works.
+async fn ignores_stop(scene: &mut Scene, case: &str) {
+    let pressed = Instant::now();
+    scene.stop();
+    let mut was_turning = pressed;
+    while Instant::now() < pressed + Duration::from_secs(6) {
+        scene.look().await;
+        if scene.world.unit.is_turning() {
+            was_turning = Instant::now();
+        }
+        let stopped = scene.told(pressed, |event| matches!(event, Event::Stopped));
+        let turned_at = was_turning;
+        assert!(
+            stopped.is_none_or(|at| at > turned_at),
+            "stopped while it turns: {case}\n{}",
+            scene.report()
+        );
+    }
+    // A standstill is told as unproved after three seconds, or where its proof takes
+    // longer.
+    if was_turning >= pressed + Duration::from_millis(4500) {
+        let told = scene.told(pressed, is_alarm);
+        assert!(told.is_some(), "not told: {case}\n{}", scene.report());
+    }
+    scene.trouble(|line| line.ignores_stop = false);
+    scene.seconds(8.0).await;
+    assert!(!scene.world.unit.is_turning(), "still turns: {case}\n{}", scene.report());
+    let is_genius = matches!(scene.world.unit, Unit::Genius(_));
+    let stopped = scene.told(pressed, |event| matches!(event, Event::Stopped));
+    assert!(stopped.is_some() || is_genius, "not proved: {case}\n{}", scene.report());
+}
+
+async fn hold(scene: &mut Scene, rates_deg_s: [f64; 2], seconds: f64) {
+    let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+    while Instant::now() < end {
+        scene.send(Command::Jog { rates_deg_s });
+        scene.seconds(0.1).await;
+    }
+}
+
+#[test]
+fn any_failure_of_the_link_is_told_and_stopped() {
+    for_each_case("link down", 80, fails);
+}

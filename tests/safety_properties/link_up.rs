@@ -1,0 +1,272 @@
+//! The link is up, STOP is obeyed and the angles are true.
+
+use std::time::Duration;
+
+use azel::{
+    astro::{Angle, AzEl},
+    driver::Command,
+    plan::{Follow, Target},
+};
+use tokio::time::Instant;
+
+use super::world::{Dice, Scene, Unit, Wish, World, for_each_case};
+
+/// What the operator does next.
+#[derive(Debug)]
+enum Deed {
+    Hold { rates_deg_s: [f64; 2], seconds: f64 },
+    Step([f64; 2]),
+    GoTo(f64, f64),
+    Follow(f64, f64),
+    Stop,
+    Standby,
+    Hands,
+    Stay,
+    Park,
+}
+
+fn deed(dice: &mut Dice, world: &World) -> Deed {
+    let rate_deg_s = world.antenna.limits.maximum_rate_deg_s;
+    let both = |dice: &mut Dice, most: f64| [(); 2].map(|()| dice.between(-most, most));
+    let direction = |dice: &mut Dice| (dice.between(0.0, 360.0), dice.between(0.0, 90.0));
+    match dice.below(14) {
+        0..5 => {
+            let mut rates_deg_s = both(dice, rate_deg_s);
+            let takes_one = !matches!(world.unit, Unit::Satrak(_));
+            if takes_one || dice.chance(0.5) {
+                rates_deg_s[dice.below(2)] = 0.0;
+            }
+            Deed::Hold { rates_deg_s, seconds: dice.between(0.2, 8.0) }
+        }
+        5 => Deed::Step(both(dice, world.antenna.limits.maximum_step_deg)),
+        6..9 => {
+            let (azimuth_deg, elevation_deg) = direction(dice);
+            Deed::GoTo(azimuth_deg, elevation_deg)
+        }
+        9 => {
+            let (azimuth_deg, elevation_deg) = direction(dice);
+            Deed::Follow(azimuth_deg, elevation_deg)
+        }
+        10 => Deed::Stop,
+        11 => Deed::Standby,
+        12 => Deed::Hands,
+        _ if dice.chance(0.5) => Deed::Stay,
+        _ => Deed::Park,
+    }
+}
+
+fn assert_outside(scene: &Scene, deeds: &[Deed]) {
+    let World { coarse_deg, .. } = scene.world;
+    let zone_deg = scene.world.zone_clearance_deg();
+    assert!(zone_deg >= 0.0, "{} inside a zone\n{deeds:?}\n{}", -zone_deg, scene.report());
+    let beyond_deg = scene.world.beyond_travel_deg();
+    assert!(
+        beyond_deg <= coarse_deg,
+        "{beyond_deg} beyond the travel\n{deeds:?}\n{}",
+        scene.report()
+    );
+    // The Sun has no margin but its own radius.
+    let sun_deg = scene.sun_clearance_deg();
+    assert!(sun_deg > -2.0 * coarse_deg, "{sun_deg} from the Sun\n{deeds:?}\n{}", scene.report());
+}
+
+async fn watched(scene: &mut Scene, seconds: f64, deeds: &[Deed]) {
+    let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+    while Instant::now() < end {
+        scene.look().await;
+        assert_outside(scene, deeds);
+    }
+}
+
+async fn carry_out(scene: &mut Scene, dice: &mut Dice, deeds: &[Deed]) {
+    let position = |azimuth_deg, elevation_deg| Command::Position {
+        azimuth: Some(Angle::from_degrees(azimuth_deg)),
+        elevation: Some(Angle::from_degrees(elevation_deg)),
+    };
+    let mut seconds = dice.between(0.1, 9.0);
+    match *deeds.last().unwrap() {
+        Deed::Hold { rates_deg_s, seconds: held_s } => {
+            scene.send(Command::Manual);
+            let end = Instant::now() + Duration::try_from_secs_f64(held_s).unwrap();
+            while Instant::now() < end {
+                scene.send(Command::Jog { rates_deg_s });
+                watched(scene, 0.1, deeds).await;
+            }
+            scene.send(Command::EndJog);
+            seconds = dice.between(0.0, 2.0);
+        }
+        Deed::Step(steps_deg) => {
+            scene.send(Command::Manual);
+            watched(scene, 1.5, deeds).await;
+            scene.send(Command::Step { steps_deg });
+        }
+        Deed::GoTo(azimuth_deg, elevation_deg) => scene.send(position(azimuth_deg, elevation_deg)),
+        Deed::Follow(azimuth_deg, elevation_deg) => {
+            let target = Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg));
+            let site = scene.world.station.site;
+            scene.send(Command::Follow(Box::new(Follow { target, site, passes: Vec::new() })));
+        }
+        Deed::Stop => scene.stop(),
+        Deed::Standby => scene.send(Command::Standby),
+        Deed::Hands => scene.send(Command::Manual),
+        Deed::Stay => scene.send(Command::Hold),
+        Deed::Park => scene.send(Command::Park),
+    }
+    watched(scene, seconds, deeds).await;
+}
+
+async fn drives(mut dice: Dice) {
+    let keep_outs = dice.below(4);
+    let least_margin_deg = |world: &World| world.coarse_deg;
+    let wish = Wish { keep_outs, least_margin_deg, has_sun: true, starts_inside: false, makes: 3 };
+    let world = World::random(&mut dice, &wish);
+    let mut scene = Scene::start(world, &mut dice).await;
+    let mut deeds = Vec::new();
+    for _ in 0..3 + dice.below(4) {
+        if dice.chance(0.5) {
+            let late_ms = if dice.chance(0.5) { dice.between(0.0, 400.0) } else { 0.0 };
+            let [lost, doubled, damaged] =
+                [(); 3].map(|()| if dice.chance(0.5) { dice.between(0.0, 0.3) } else { 0.0 });
+            let is_split = dice.chance(0.3);
+            scene.trouble(|line| {
+                line.late_ms = late_ms;
+                (line.lost, line.doubled, line.damaged) = (lost, doubled, damaged);
+                line.is_split = is_split;
+            });
+        }
+        deeds.push(deed(&mut dice, &scene.world));
+        carry_out(&mut scene, &mut dice, &deeds).await;
+    }
+    scene.stop();
+    watched(&mut scene, 4.0, &deeds).await;
+}
+
+/// How far a motion of others gets between the look before it began and standstill.
+fn room_deg(world: &World) -> f64 {
+    const POLL_AND_REPLY_S: f64 = 0.6;
+    const RUN_OUT_S: f64 = 1.0;
+    world.fastest_deg_s * (POLL_AND_REPLY_S + RUN_OUT_S) + world.coarse_deg
+}
+
+async fn others_move(mut dice: Dice) {
+    let keep_outs = 1 + dice.below(3);
+    let wish = Wish {
+        keep_outs,
+        least_margin_deg: room_deg,
+        has_sun: false,
+        starts_inside: false,
+        makes: 2,
+    };
+    let world = World::random(&mut dice, &wish);
+    let mut scene = Scene::start(world, &mut dice).await;
+    for _ in 0..2 {
+        let axis = dice.below(2);
+        let way = if dice.chance(0.5) { 1.0 } else { -1.0 };
+        let rate_deg_s = way * dice.between(0.3, scene.world.fastest_deg_s);
+        assert!(scene.world.unit.other_client_turns(axis, rate_deg_s).await);
+        let end = Instant::now() + Duration::from_secs(40);
+        while Instant::now() < end {
+            scene.look().await;
+            let zone_deg = scene.world.zone_clearance_deg();
+            assert!(zone_deg >= 0.0, "{} inside a zone\n{}", -zone_deg, scene.report());
+        }
+        scene.stop();
+        scene.seconds(4.0).await;
+    }
+}
+
+/// The clearance of the true direction from all that is refused but the horizon.
+fn clearance_deg(scene: &Scene) -> f64 {
+    let bounds = scene.world.bounds.above_the_floor();
+    let nearest = bounds.nearest(scene.world.direction(), scene.world.utc_origin);
+    nearest.map_or(90.0, |nearest| nearest.angle.degrees())
+}
+
+/// Whether an axis can turn so that the clearance grows, within its travel and above
+/// the minimum elevation.
+fn has_open_way(scene: &Scene, rate_deg_s: f64) -> bool {
+    /// More than a jog is judged ahead.
+    const AHEAD_S: f64 = 2.5;
+    let World { bounds, antenna, utc_origin, unit, .. } = &scene.world;
+    let ahead_deg = match unit {
+        Unit::Genius(_) => antenna.limits.maximum_rate_deg_s * AHEAD_S,
+        _ => rate_deg_s * AHEAD_S,
+    };
+    let at_deg = unit.axes_deg();
+    let travel_deg = antenna.mount.travel_deg();
+    let sky = bounds.above_the_floor();
+    let clear_deg = |axes_deg| {
+        let nearest = sky.nearest(bounds.direction(axes_deg), *utc_origin);
+        nearest.map_or(90.0, |nearest| nearest.angle.degrees())
+    };
+    (0..2).any(|axis| {
+        [1.0, -1.0].into_iter().any(|way| {
+            let gains = |share: f64| {
+                let mut axes_deg = at_deg;
+                axes_deg[axis] += way * ahead_deg * share;
+                let (from_deg, to_deg) = travel_deg[axis];
+                let elevation_deg = bounds.direction(axes_deg).elevation_deg();
+                (from_deg..=to_deg).contains(&axes_deg[axis])
+                    && elevation_deg >= antenna.limits.minimum_elevation_deg
+                    && clear_deg(axes_deg) > clear_deg(at_deg)
+            };
+            // All the way, however far ahead it is judged.
+            (1..=10).all(|part| gains(f64::from(part) / 10.0))
+        })
+    })
+}
+
+async fn starts_inside(mut dice: Dice) {
+    let least_margin_deg = |world: &World| world.coarse_deg;
+    let wish =
+        Wish { keep_outs: 1, least_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
+    let world = World::random(&mut dice, &wish);
+    let mut scene = Scene::start(world, &mut dice).await;
+    let slow_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * 0.24;
+    let is_open = has_open_way(&scene, slow_deg_s);
+    let mut ways_out = 0;
+    scene.send(Command::Manual);
+    scene.seconds(2.0).await;
+    for axis in 0..2 {
+        for way in [1.0, -1.0] {
+            let before_deg = clearance_deg(&scene);
+            let from_deg = scene.world.unit.axes_deg();
+            let mut rates_deg_s = [0.0; 2];
+            rates_deg_s[axis] = way * slow_deg_s;
+            for _ in 0..8 {
+                scene.send(Command::Jog { rates_deg_s });
+                scene.seconds(0.1).await;
+            }
+            scene.send(Command::EndJog);
+            scene.seconds(5.0).await;
+            let after_deg = clearance_deg(&scene);
+            let to_deg = scene.world.unit.axes_deg();
+            let turned_deg = (to_deg[axis] - from_deg[axis]).abs();
+            if before_deg >= 0.0 {
+                return;
+            }
+            assert!(
+                after_deg >= before_deg - scene.world.coarse_deg,
+                "from {before_deg} to {after_deg} by {rates_deg_s:?}\n{}",
+                scene.report()
+            );
+            ways_out += usize::from(turned_deg > 0.01);
+        }
+    }
+    assert!(ways_out > 0 || !is_open, "no way out\n{}", scene.report());
+}
+
+#[test]
+fn any_drive_stays_outside_and_within_travel() {
+    for_each_case("link up, driven by Azel", 60, drives);
+}
+
+#[test]
+fn any_motion_of_others_is_stopped_before_the_zone() {
+    for_each_case("link up, driven by others", 40, others_move);
+}
+
+#[test]
+fn any_start_inside_has_a_way_out() {
+    for_each_case("link up, from inside", 40, starts_inside);
+}
