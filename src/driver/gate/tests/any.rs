@@ -132,7 +132,9 @@ fn look_closely(seed: u64) -> Outcome {
         axis.angle_deg = Some(deg);
     }
     let can = antenna.connection.make().capabilities;
-    let metal = Metal { can, state: case.state.clone(), started: Arc::default() };
+    let started = Arc::default();
+    let (objection, leads_to) = (None, [None; 2]);
+    let metal = Metal { can, state: case.state.clone(), started, objection, leads_to };
     let gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
     let now = Moment { steady: measured_at(&case) + case.age, utc };
     if gate.check(motion, intent, now).is_err() {
