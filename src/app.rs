@@ -26,6 +26,7 @@ pub mod mask_file;
 mod memory;
 pub mod model;
 pub mod on_board;
+mod owed;
 mod settle;
 pub mod source_tests;
 pub mod sources;

@@ -10,7 +10,7 @@ use crate::{
         Motion, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
-    driver::{Event, FollowProblem, Found, LinkLoss, Safety},
+    driver::{Event, FollowProblem, Found, LinkLoss, Safety, Unit},
     plan::on_board::Ranked,
     protocol::satrak::FaultKind,
     station::{Note, NoteReason},
@@ -76,6 +76,8 @@ pub enum AlarmKind {
     MovesByItself,
     /// A matter of safety.
     Safety(Safety),
+    /// A STOP is owed to a unit of no antenna of the station.
+    Owed(Unit),
     /// The part of the program that talks to the antennas has not responded for
     /// this long.
     DriverStands(Duration),
@@ -139,6 +141,7 @@ impl Alarm {
             | AlarmKind::StopNotConfirmed
             | AlarmKind::StopRefused(_)
             | AlarmKind::Safety(_)
+            | AlarmKind::Owed(_)
             | AlarmKind::DriverStands(_)
             | AlarmKind::LockOutUnproved
             | AlarmKind::LockOuts(_)
@@ -244,6 +247,8 @@ impl AlarmKind {
             self,
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
+                | Self::Safety(Safety::LeftMoving { asks: true, .. })
+                | Self::Owed(_)
                 | Self::DriverStands(_)
                 | Self::BrokeOff(_)
                 | Self::SourceSetAside(_)
@@ -301,8 +306,14 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // Many antennas have an axis without an angle: said where STOP was asked for.
-        Event::Safety(matter) if !matches!(matter, Safety::StoppedByFlags { .. }) => {
+        // The first is said where it was asked for; many antennas have such an axis.
+        // The second stands for as long as the snapshot says so.
+        Event::Safety(matter)
+            if !matches!(
+                matter,
+                Safety::StoppedByFlags { .. } | Safety::LeftMoving { asks: true, .. }
+            ) =>
+        {
             AlarmKind::Safety(matter)
         }
         Event::JogLeaseOver => AlarmKind::JogLeaseOver,

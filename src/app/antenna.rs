@@ -71,6 +71,9 @@ pub struct AntennaModel {
     pub ordered_track: Option<TrackAgain>,
     /// A track that STOP has ended, to be offered again.
     pub track_again: Option<TrackAgain>,
+    /// A jog was refused because no dead-man can be had, and the operator has not
+    /// allowed it since.
+    pub asks_unguarded: bool,
     recent: VecDeque<Measured>,
 }
 
@@ -89,6 +92,7 @@ impl AntennaModel {
             stop_pressed: None,
             ordered_track: None,
             track_again: None,
+            asks_unguarded: false,
             recent: VecDeque::new(),
         }
     }

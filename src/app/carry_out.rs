@@ -121,6 +121,15 @@ impl App {
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
         let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        match command {
+            driver::Command::AllowUnguarded => antenna.asks_unguarded = false,
+            // By the operator's word, whatever the unit says of itself.
+            driver::Command::SeenStanding => {
+                let alarms = &mut self.model.alarms;
+                alarms.clear(Some(index), |kind| *kind == AlarmKind::StopNotConfirmed);
+            }
+            _ => {}
+        }
         let Err(command) = antenna.handle.send(command) else { return };
         tracing::error!(?command, "the session is too busy to take a command");
         // What ends a motion must not get lost: stop instead.

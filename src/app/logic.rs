@@ -7,11 +7,12 @@ use super::{
     alarms::{AlarmKind, Work, alarm_of, is_over},
     demo::Demo,
     model::CatalogState,
+    owed,
     sources::{SourceWork, Task},
 };
 use crate::{
     controller::{AxisMotion, panel::CheckState},
-    driver::{Event, LinkState, Safety, StopState},
+    driver::{Event, LinkState, Refusal, Safety, StopState},
     station::Station,
 };
 
@@ -56,6 +57,9 @@ impl App {
         for index in 0..self.model.antennas.len() {
             self.take_antenna(index);
         }
+        let antennas = self.model.antennas.iter().map(|antenna| &antenna.config);
+        let strangers = owed::strangers(self.driver.debts().units(), antennas);
+        owed::tell(&mut self.model.alarms, strangers, self.model.now);
         self.forget_tracks();
         self.watch_closing();
         self.poll_uploads();
@@ -175,6 +179,9 @@ impl App {
             self.model.alarms.raise(antenna, kind, now);
         }
         if let Some(antenna) = self.model.antennas.get_mut(index) {
+            if event == Event::NotSent(Refusal::Unguarded) {
+                antenna.asks_unguarded = true;
+            }
             if event == Event::Stopped {
                 // The snapshots between press and standstill may all have been missed.
                 antenna.stop_pressed = None;
@@ -192,6 +199,15 @@ impl App {
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
             alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        match snapshot.left_moving {
+            Some(since) => {
+                let matter = Safety::LeftMoving { since, asks: true };
+                alarms.raise(of, AlarmKind::Safety(matter), now);
+            }
+            None => alarms.clear(of, |kind| {
+                matches!(kind, AlarmKind::Safety(Safety::LeftMoving { asks: true, .. }))
+            }),
         }
         if !snapshot.locking {
             alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);

@@ -58,8 +58,8 @@ pub const PAIR: Make = Make {
         steps: false,
         ends_jogs: false,
         waits_for_word: false,
-        // Whole degrees; the slowest rotators it drives take three minutes a turn.
-        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 2.0, run_out_s: 0.8 },
+        // Whole degrees; the slowest rotators it drives take two minutes a turn.
+        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, run_out_s: 0.8 },
         stop_note: Some("STOP stops both rotators."),
     },
     groups: GROUPS,

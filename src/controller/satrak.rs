@@ -52,9 +52,9 @@ pub const MAKE: Make = Make {
         steps: true,
         ends_jogs: false,
         waits_for_word: false,
-        // Hundredths of a degree; below a quarter of a degree a second nothing but
-        // tracking moves, which is switched off with STOP.
-        standstill: Standstill { resolution_deg: 0.01, slowest_deg_s: 0.25, run_out_s: 0.4 },
+        // Tenths of a degree. What is slower than half a degree a second, such as
+        // tracking, shows later, while the antenna is watched at rest.
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, run_out_s: 0.4 },
         stop_note: None,
     },
     groups: GROUPS,

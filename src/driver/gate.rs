@@ -317,10 +317,18 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         let situation = self.situation(intent, stopping, now);
-        self.rules.iter().try_for_each(|rule| match rule.check {
-            Check::Motion(check) => check(&motion, &situation)
-                .inspect_err(|_| tracing::debug!(rule = rule.name, "refused")),
+        self.ask_rules(|check| match check {
+            Check::Motion(check) => check(&motion, &situation),
             Check::Act(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+        })
+    }
+
+    /// The first refusal of a rule.
+    fn ask_rules(&self, ask: impl Fn(Check) -> Result<(), Refusal>) -> Result<(), Refusal> {
+        self.rules.iter().try_for_each(|rule| {
+            ask(rule.check).inspect_err(|refusal| {
+                tracing::debug!(rule = rule.name, ?refusal, "refused");
+            })
         })
     }
 
@@ -351,13 +359,13 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         let situation = self.situation(intent, stopping, now);
-        self.rules.iter().try_for_each(|rule| match rule.check {
+        self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
             Check::Motion(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
         })?;
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
-            self.rules.iter().try_for_each(|rule| match rule.check {
+            self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
                 Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
             })?;

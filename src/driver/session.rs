@@ -28,6 +28,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
@@ -134,6 +135,8 @@ pub struct Session {
     /// Tells this session from others of the same unit.
     number: u64,
     marking: Marking,
+    /// An earlier run may have left it moving, since then, and the operator is asked.
+    left_moving: Option<Timestamp>,
     figures: Figures,
     /// What is done when somebody else drives it into what is forbidden.
     monitor: Monitor,
@@ -232,6 +235,7 @@ impl Session {
             debts,
             number,
             marking: Marking::None,
+            left_moving: None,
             figures: Figures::of(make.capabilities, antenna.sway_deg),
             monitor: antenna.monitor,
             watch: Watch::default(),
@@ -292,6 +296,7 @@ impl Session {
             locking: self.is_being_locked_out(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             unguarded: self.guard.is_missing,
+            left_moving: self.left_moving,
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
             step: self.stepping.map(|stepping| stepping.steps_deg),
             state: self.gate.state().clone(),

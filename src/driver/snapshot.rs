@@ -48,6 +48,8 @@ pub struct Snapshot {
     pub stop: StopState,
     /// No dead-man could be had for the last motion by hand that needed one.
     pub unguarded: bool,
+    /// An earlier run may have left it moving, since then: the operator is asked.
+    pub left_moving: Option<Timestamp>,
     /// Signed rates of a jog that is held, degrees a second.
     pub jog: Option<[f64; 2]>,
     /// Signed amounts of a step that is not known to be over, degrees.
@@ -74,6 +76,7 @@ impl Snapshot {
             locking: false,
             stop: StopState::Ready,
             unguarded: false,
+            left_moving: None,
             jog: None,
             step: None,
             state: AntennaState::default(),

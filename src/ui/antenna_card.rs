@@ -6,6 +6,7 @@ mod drive;
 mod faults;
 mod follow;
 mod header;
+mod holds;
 mod lock_out;
 mod lower;
 mod more;
@@ -27,6 +28,7 @@ use super::{
         beam_bar::{self, BeamModel},
         button,
         go_to::Target,
+        hold_button::HoldState,
         mode_selector::{self, Mode, ModeModel},
         paint,
         sentence::{self, Sentence},
@@ -85,6 +87,8 @@ pub struct CardModel<'a> {
     pub more: MoreModel<'a>,
     /// The unit is locked out for maintenance.
     pub lock_out: Option<LockOutModel<'a>>,
+    /// Why the operator is asked whether the antenna stands.
+    pub asks_standing: Option<&'a str>,
     /// The antennas that have no card now.
     pub others: &'a [OtherAntenna],
 }
@@ -107,6 +111,7 @@ pub struct CardState {
     pub more_open: bool,
     /// The dialog about a lock-out is open.
     pub maintenance: Option<MaintenanceDialog>,
+    standing: HoldState,
     more: MoreState,
 }
 
@@ -118,6 +123,7 @@ impl CardState {
         self.track = TrackState::default();
         self.more = MoreState::default();
         self.maintenance = None;
+        self.standing = HoldState::default();
     }
 
     /// To be called when the card is not shown any more: a jog key that was
@@ -152,6 +158,10 @@ pub enum CardAction {
     },
     /// The jog key is not held any more. Comes once.
     JogReleased,
+    /// It may be moved by hand without a dead-man, for a minute.
+    AllowUnguarded,
+    /// The operator has seen that it stands.
+    SeenStanding,
     /// Turn an axis by an amount, once.
     Step {
         /// Sign of the first axis, −1 to 1.
@@ -247,6 +257,11 @@ fn fill(
     if let Some(lock_out) = &model.lock_out {
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
+    }
+    if let Some(why) = model.asks_standing
+        && holds::show(ui, &mut at, why, holds::SEEN_STANDING, &mut state.standing)
+    {
+        actions.push(CardAction::SeenStanding);
     }
     if model.header.control == Control::Released {
         released::show(ui, &mut at, &model.header, actions);

@@ -19,6 +19,7 @@ mod elements;
 mod extremes;
 mod following;
 mod fourth_make;
+mod holds;
 mod horizon;
 mod keys;
 mod maintenance;

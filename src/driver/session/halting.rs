@@ -151,6 +151,7 @@ impl Session {
         self.halting = None;
         self.urgent.clear();
         self.settle_debt();
+        self.prove_still();
     }
 
     /// Whether the flags of the unit say that both axes are at rest.

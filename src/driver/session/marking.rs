@@ -84,6 +84,7 @@ impl Session {
     /// Standstill is proved: nothing is owed to the unit any more.
     pub(super) fn settle_debt(&mut self) {
         self.debts.settle(&self.unit);
+        self.left_moving = None;
         let before = match std::mem::replace(&mut self.marking, Marking::None) {
             Marking::None => return,
             removing @ Marking::Removing(_) => {
@@ -114,7 +115,10 @@ impl Session {
         let asks =
             self.make.capabilities.waits_for_word || seconds_between(since, now.utc).abs() > OLD_S;
         self.marking = Marking::Marked;
-        if !asks {
+        if asks {
+            self.left_moving = Some(since);
+            self.publish(now);
+        } else {
             self.halt(now);
         }
         self.tell(Event::Safety(Safety::LeftMoving { since, asks }));
@@ -144,3 +148,6 @@ fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
         Poll::Pending => None,
     }
 }
+
+#[cfg(test)]
+mod tests;

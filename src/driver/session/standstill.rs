@@ -19,7 +19,9 @@ impl Figures {
     /// `sway_deg` is how far the antenna may sway while it stands.
     pub(super) fn of(can: Capabilities, sway_deg: f64) -> Self {
         let tolerance_deg = can.standstill.resolution_deg / 2.0 + sway_deg;
-        let gap_s = (can.standstill.resolution_deg + sway_deg) / can.standstill.slowest_deg_s;
+        // Each look may be rounded by half a step.
+        let shows_deg = can.standstill.resolution_deg * 1.5 + sway_deg;
+        let gap_s = shows_deg / can.standstill.slowest_deg_s;
         let gap = Duration::try_from_secs_f64(gap_s).unwrap_or(Duration::from_secs(1));
         Self { tolerance_deg, gap, axes: if can.has_elevation { 2 } else { 1 } }
     }

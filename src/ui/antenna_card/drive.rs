@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::{
-    CardAction, Cursor, speed,
+    CardAction, Cursor, holds, speed,
     steps::{self, StepState},
 };
 use crate::{
@@ -14,6 +14,7 @@ use crate::{
         widgets::{
             button::SMALL_HEIGHT,
             go_to::{self, GoToAction, GoToModel, GoToState},
+            hold_button::HoldState,
             jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
             paint,
         },
@@ -36,6 +37,8 @@ pub struct DriveModel<'a> {
     pub keys: JogKeys,
     /// Why jogging is refused now.
     pub jog_locked: Option<&'a str>,
+    /// Why a jog waits until the operator allows it.
+    pub unguarded: Option<&'a str>,
     /// Why some of the keys do nothing.
     pub jog_note: Option<&'a str>,
     /// Directions in which a limit stops the antenna, or that are not turned.
@@ -76,6 +79,7 @@ pub struct DriveState {
     steps: StepState,
     jog: JogState,
     jogging: bool,
+    unguarded: HoldState,
 }
 
 impl DriveState {
@@ -104,6 +108,7 @@ impl Default for DriveState {
             steps: StepState::default(),
             jog: JogState::default(),
             jogging: false,
+            unguarded: HoldState::default(),
         }
     }
 }
@@ -145,6 +150,11 @@ pub(super) fn show(
         GoToAction::Send(target) => CardAction::GoTo(target),
     }));
     at.skip(6.0);
+    if let Some(why) = model.unguarded
+        && holds::show(ui, at, why, holds::UNGUARDED, &mut state.unguarded)
+    {
+        actions.push(CardAction::AllowUnguarded);
+    }
     // So that nothing moves when a sentence comes.
     let end = at.y + MESSAGES;
     if let Some(most_deg) = model.most_step_deg.filter(|_| model.jog_locked.is_none()) {

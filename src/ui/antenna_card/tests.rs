@@ -87,6 +87,7 @@ fn model() -> CardModel<'static> {
             keys: JogKeys::Xy,
             jog_locked: None,
             jog_note: None,
+            unguarded: None,
             blocked: &[],
             real_deg_s: Some(0.48),
             speeds: JogSpeeds::AnyRate,
@@ -105,6 +106,7 @@ fn model() -> CardModel<'static> {
         faults: Some(FaultsModel { checks: &CHECKS, checked_at: "11:06:08Z" }),
         more: MoreModel::default(),
         lock_out: None,
+        asks_standing: None,
         track_again: None,
         others: &[],
     }

@@ -70,6 +70,7 @@ pub(super) fn show(
     let mode = mode(snapshot.intent);
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
+    let asks_standing = words::asks_standing(snapshot);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -104,6 +105,8 @@ pub(super) fn show(
             drive: DriveModel {
                 keys: axes::keys(antenna),
                 jog_locked: locks.jog,
+                unguarded: (snapshot.unguarded && antenna.asks_unguarded)
+                    .then_some(words::UNGUARDED),
                 jog_note: axes::unseen(antenna),
                 blocked: &blocked,
                 real_deg_s: axes::rate_of_jog(antenna),
@@ -131,6 +134,7 @@ pub(super) fn show(
                 .lock_out
                 .as_ref()
                 .map(|lock_out| LockOutModel { by: &lock_out.by, locking: snapshot.locking }),
+            asks_standing: asks_standing.as_deref(),
             others: &others,
         };
         let mut desk = Desk { model, antenna, question, commands };

@@ -75,6 +75,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         }
         AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
         AlarmKind::Safety(matter) => super::safety(matter, antenna),
+        AlarmKind::Owed(unit) => super::owed(unit),
         AlarmKind::DriverStands(stood) => format!(
             "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \
              Use their local panels.",

@@ -1,7 +1,8 @@
 //! Matters of safety.
 
 use crate::{
-    driver::{Mover, Response, Safety},
+    driver::{Mover, Response, Safety, Snapshot, StopState, Unit},
+    makes,
     plan::Barrier,
     ui::format,
 };
@@ -13,6 +14,34 @@ pub fn forbidden(barrier: &Barrier) -> String {
         Barrier::KeepOut(name) => format!("into the keep-out \u{201c}{name}\u{201d}"),
         Barrier::Sun => "too close to the Sun".to_owned(),
     }
+}
+
+/// Why a jog waits for the operator's word.
+pub const UNGUARDED: &str =
+    "No dead-man can be had: if Azel ended while the key is held, nothing would stop the antenna.";
+
+/// Why the operator is asked whether the antenna stands.
+pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
+    if let StopState::NotConfirmed { .. } = snapshot.stop {
+        let why =
+            "STOP is repeated until it is known to stand. Look at the antenna before you say so.";
+        return Some(why.to_owned());
+    }
+    let since = format::time_z(snapshot.left_moving?);
+    Some(format!(
+        "Azel ended at {since} while it was moved. Look at the antenna before you say so."
+    ))
+}
+
+/// A STOP that is owed to a unit of no antenna.
+pub fn owed(unit: &Unit) -> String {
+    let Unit { make, address } = unit;
+    let known = makes::makes().find(|known| known.key == make);
+    let make = known.map_or(make.as_str(), |known| known.name);
+    format!(
+        "The {make} at {address} may still move: a STOP is owed to it, and no antenna of the \
+         station has it any more. Azel goes on trying. Look at the antenna."
+    )
 }
 
 /// A matter of safety in words; `antenna` is its name.

@@ -79,12 +79,24 @@ fn last_azimuth_deg() -> f64 {
     to_deg
 }
 
-// One line or two for each rule.
-#[allow(clippy::too_many_lines)]
+fn needed(
+    rule: &'static str,
+    case: Case,
+    asked: Asked,
+    is_its_refusal: fn(&Refusal) -> bool,
+) -> Needed {
+    Needed { rule, case, asked, is_its_refusal }
+}
+
 fn table() -> Vec<Needed> {
+    let mut table = motions();
+    table.extend(actions_and_settings());
+    table
+}
+
+fn motions() -> Vec<Needed> {
     use Intent::{Manual, Position, Standby, Track};
     let manual = || Case::new(Manual);
-    let needed = |rule, case, asked, is_its_refusal| Needed { rule, case, asked, is_its_refusal };
     let turn = Asked::Motion(jog(1.0, 0.0));
     vec![
         needed("unit_is_not_locked_out", locked_out(manual()), turn, |it| {
@@ -156,7 +168,13 @@ fn table() -> Vec<Needed> {
             turn,
             |it| matches!(it, Refusal::Controller(_)),
         ),
-        needed("no_action_while_locked_out", locked_out(manual()), Asked::Act, |it| {
+    ]
+}
+
+fn actions_and_settings() -> Vec<Needed> {
+    use Intent::{Manual, Standby};
+    vec![
+        needed("no_action_while_locked_out", locked_out(Case::new(Manual)), Asked::Act, |it| {
             matches!(it, Refusal::LockedOut { .. })
         }),
         needed(

@@ -59,6 +59,8 @@ impl Desk<'_> {
                 Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
             }
             CardAction::JogReleased => Command::EndJog,
+            CardAction::AllowUnguarded => Command::AllowUnguarded,
+            CardAction::SeenStanding => Command::SeenStanding,
             CardAction::Step { x, y, step_deg } => {
                 Command::Step { steps_deg: [f64::from(x) * step_deg, f64::from(y) * step_deg] }
             }

@@ -1,0 +1,131 @@
+//! What an earlier run has left behind.
+
+use std::{path::Path, sync::Arc};
+
+use jiff::{SignedDuration, Timestamp};
+use tokio::time::{Instant, sleep};
+
+use super::*;
+use crate::{
+    astro::time::add_seconds,
+    controller::satrak::Satrak,
+    driver::{AntennaHandle, Clock, Command, Debts, Dial, Stream, Unit, Wires},
+    plan::Bounds,
+    sim::satrak::{Control, Options},
+    station::{Antenna, Station},
+};
+
+const START: Timestamp = Timestamp::UNIX_EPOCH;
+
+fn antenna() -> Antenna {
+    Antenna::satrak("Dish", "in memory")
+}
+
+/// A session with its marks in `folder`, and its unit.
+fn start(folder: &Path) -> (Control, AntennaHandle, Debts) {
+    let antenna = antenna();
+    let control = Control::new(&Options::new(Station::default().site, START));
+    let serve = control.clone();
+    let dial: Dial = Box::new(move || {
+        let (near, far) = tokio::io::duplex(4096);
+        let control = serve.clone();
+        tokio::spawn(async move { control.serve(far).await });
+        Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
+    });
+    let started = Instant::now();
+    let clock = Clock::new(move || add_seconds(START, started.elapsed().as_secs_f64()));
+    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}));
+    let debts = Debts::marked_in(Some(folder.to_owned()));
+    let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
+    let bounds = Bounds::of_antenna(&antenna);
+    let session = Session::over(satrak, &antenna, dial, clock, wires, debts.clone(), bounds);
+    tokio::spawn(session.run());
+    (control, handle, debts)
+}
+
+/// Leaves a mark of that age, as an earlier run.
+fn leave_mark(folder: &Path, age_s: i64) -> Timestamp {
+    let since = START - SignedDuration::from_secs(age_s);
+    Debts::marked_in(Some(folder.to_owned())).mark(&Unit::of(&antenna()), since).unwrap();
+    since
+}
+
+fn stops(control: &Control) -> usize {
+    control.received().iter().filter(|(_, payload)| payload == "STOP=").count()
+}
+
+async fn seconds(seconds: u64) {
+    for _ in 0..seconds * 100 {
+        sleep(Duration::from_millis(10)).await;
+    }
+}
+
+fn told(handle: &mut AntennaHandle) -> Vec<Safety> {
+    let events = std::iter::from_fn(|| handle.next_event());
+    let matters = events.filter_map(|event| match event {
+        Event::Safety(matter) => Some(matter),
+        _ => None,
+    });
+    matters.collect()
+}
+
+#[tokio::test(start_paused = true)]
+async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
+    let folder = tempfile::tempdir().unwrap();
+    let since = leave_mark(folder.path(), 20);
+    let (control, mut handle, debts) = start(folder.path());
+    seconds(5).await;
+    assert_eq!(control.received()[0].1, "STOP=");
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: false }]);
+    assert_eq!(debts.marked(&Unit::of(&antenna())), None, "standstill is proved");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
+    let folder = tempfile::tempdir().unwrap();
+    let since = leave_mark(folder.path(), 3600);
+    let (control, mut handle, debts) = start(folder.path());
+    seconds(20).await;
+    assert_eq!(stops(&control), 0);
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: true }]);
+    assert_eq!(handle.snapshot().left_moving, Some(since));
+    assert_eq!(debts.marked(&Unit::of(&antenna())), Some(since));
+    handle.send(Command::SeenStanding).unwrap();
+    seconds(1).await;
+    assert_eq!(handle.snapshot().left_moving, None);
+    assert_eq!(debts.marked(&Unit::of(&antenna())), None);
+    assert_eq!(stops(&control), 0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_answers_for_an_old_mark_too() {
+    let folder = tempfile::tempdir().unwrap();
+    leave_mark(folder.path(), 3600);
+    let (control, handle, debts) = start(folder.path());
+    seconds(5).await;
+    handle.stop();
+    seconds(5).await;
+    assert!(stops(&control) > 0);
+    assert_eq!(handle.snapshot().left_moving, None);
+    assert_eq!(debts.marked(&Unit::of(&antenna())), None);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_mark_that_cannot_be_written_is_told_and_the_jog_goes_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let no_folder = folder.path().join("file");
+    std::fs::write(&no_folder, "").unwrap();
+    let (control, mut handle, _) = start(&no_folder);
+    seconds(5).await;
+    // What cannot be read is taken for a mark of unknown age.
+    handle.send(Command::SeenStanding).unwrap();
+    told(&mut handle);
+    handle.send(Command::Manual).unwrap();
+    for _ in 0..20 {
+        handle.send(Command::Jog { rates_deg_s: [0.5, 0.0] }).unwrap();
+        sleep(Duration::from_millis(50)).await;
+    }
+    assert_eq!(told(&mut handle), [Safety::NoMark]);
+    let is_moved = control.received().iter().any(|(_, payload)| payload.starts_with("MOVE="));
+    assert!(is_moved, "{:?}", handle.snapshot());
+}
