@@ -130,7 +130,7 @@ impl Unit {
     pub(super) fn tell(&self, lie: Lie) {
         match (self, lie) {
             (Self::Satrak(it), Lie::FrozenAngles) => {
-                it.set_fault(satrak::Fault::FrozenAngles, true)
+                it.set_fault(satrak::Fault::FrozenAngles, true);
             }
             (Self::Satrak(it), Lie::FalseRest) => it.set_fault(satrak::Fault::FalseRest, true),
             (Self::Genius(it), Lie::FrozenAngles) => {

@@ -89,7 +89,7 @@ static MAKE: Make = Make {
 };
 
 /// The order at which the controller breaks down, instead of sending it.
-pub(super) const FRAGILE: &str = "G 13";
+pub(super) const FRAGILE: &str = "G 180 45";
 
 /// Speaks in lines: a code, `P?` answered with a place, `G` and a place, `S`.
 struct Lever {
