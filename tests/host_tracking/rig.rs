@@ -98,9 +98,9 @@ impl Rig {
     }
 
     /// The computer sleeps: UTC goes on meanwhile, the steady clock stands.
-    pub(super) fn sleep_for(&self, seconds: u64) {
-        self.set_by_s.fetch_add(seconds as i64, Ordering::Relaxed);
-        self.asleep_s.fetch_add(seconds, Ordering::Relaxed);
+    pub(super) fn sleep_for(&self, seconds: u32) {
+        self.set_by_s.fetch_add(i64::from(seconds), Ordering::Relaxed);
+        self.asleep_s.fetch_add(u64::from(seconds), Ordering::Relaxed);
     }
 
     pub(super) fn utc(&self) -> Timestamp {
