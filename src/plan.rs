@@ -4,6 +4,7 @@
 mod az_el;
 mod azimuth_route;
 pub mod bounds;
+pub(crate) mod detour;
 pub mod follow;
 pub mod on_board;
 pub mod pass_export;

@@ -15,6 +15,7 @@ mod host_tracking {
     mod sky;
 
     mod genius;
+    mod go_round;
     mod rc2000c;
     mod satrak;
 }

@@ -212,6 +212,24 @@ impl Bounds {
             .collect()
     }
 
+    /// The barriers as they stand at `at`, for many looks.
+    pub(super) fn standing(&self, at: Timestamp) -> Standing<'_> {
+        Standing { bounds: self, suns: self.suns(at) }
+    }
+
+    /// Whether any keep-out is one that ways lead round.
+    pub(super) fn has_way_round(&self) -> bool {
+        self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
+    }
+
+    /// Whether `direction` is in a keep-out that ways lead round, or less than
+    /// `room_deg` beside its margin.
+    pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
+        let room = Angle::from_degrees(room_deg);
+        let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
+        rounded.any(|(it, margin)| it.zone.clearance(direction) < *margin + room)
+    }
+
     fn each<'a>(
         &'a self,
         direction: AzEl,
@@ -231,6 +249,26 @@ impl Bounds {
             .min_by(|a, b| a.degrees().total_cmp(&b.degrees()))
             .map(|angle| (Named::Sun, angle, false));
         floor.into_iter().chain(zones).chain(sun)
+    }
+}
+
+/// The barriers at one time.
+pub(super) struct Standing<'a> {
+    bounds: &'a Bounds,
+    suns: Vec<AzEl>,
+}
+
+impl Standing<'_> {
+    /// Whether `direction` is `room_deg` beside everything that refuses; along the
+    /// minimum elevation an antenna may go without any.
+    pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
+        self.bounds.each(direction, &self.suns).all(|(barrier, angle, warns_only)| {
+            let room_deg = match barrier {
+                Named::MinimumElevation => -FINEST_DEG,
+                Named::KeepOut(_) | Named::Sun => room_deg,
+            };
+            warns_only || angle.degrees() >= room_deg
+        })
     }
 }
 

@@ -6,6 +6,7 @@ mod axis;
 mod drives;
 mod path;
 mod planner;
+mod round;
 mod stats;
 mod swing_rate;
 mod target;

@@ -19,7 +19,7 @@ use super::{
 const LEAD_S: f64 = 180.0;
 
 /// As fast as the simulated rotators are.
-fn antenna(rotators: Rotators) -> Antenna {
+pub(super) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
     antenna.limits.maximum_rate_deg_s = 4.0;
@@ -41,14 +41,18 @@ fn over() -> Antenna {
     antenna
 }
 
-fn options(stop_offset_deg: u8) -> Options {
+pub(super) fn options(stop_offset_deg: u8) -> Options {
     let limit_cw = WholeDegrees::MAX;
     let azimuth = RotatorOptions { stop_offset_deg, limit_cw, ..RotatorOptions::default() };
     let elevation = RotatorOptions { stop_offset_deg, ..RotatorOptions::elevation() };
     Options { rotators: [azimuth, elevation], ..Options::default() }
 }
 
-async fn connected(options: &Options, antenna: &Antenna, scene: &Scene) -> (Rig, Control) {
+pub(super) async fn connected(
+    options: &Options,
+    antenna: &Antenna,
+    scene: &Scene,
+) -> (Rig, Control) {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(options);
     let device = control.clone();

@@ -21,7 +21,7 @@ const COUNTS_S: f64 = 40.0;
 
 /// An antenna whose azimuth axis travels from north to `azimuth_to_deg` on the
 /// 3600 counts of the simulated unit.
-fn antenna(azimuth_to_deg: f64) -> Antenna {
+pub(super) fn antenna(azimuth_to_deg: f64) -> Antenna {
     antenna_to(azimuth_to_deg, 90.0)
 }
 
@@ -50,7 +50,7 @@ async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
     over(&mut rig, scene).await
 }
 
-async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
+pub(super) async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(&Options::default());
     let mut rig = Rig::start(antenna.controller(), antenna, utc_origin, move |far| {

@@ -21,7 +21,7 @@ use super::{
 };
 
 /// A session that has read its unit, `lead_s` seconds before the pass of `scene`.
-async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Control) {
+pub(super) async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Control) {
     let utc_origin = add_seconds(scene.pass.aos.time, -lead_s);
     let control = Control::new(&Options::new(site(), utc_origin));
     let unit = control.clone();
@@ -35,7 +35,7 @@ async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Contr
     (rig, control)
 }
 
-fn antenna() -> Antenna {
+pub(super) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 

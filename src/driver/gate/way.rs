@@ -4,6 +4,7 @@ use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situati
 use crate::{
     astro::{AzEl, xy_mount},
     controller::{JogSpeeds, aimed},
+    plan::detour::{self, Reach},
 };
 
 /// Out of what is forbidden an antenna goes by hand alone, with this share of the
@@ -11,6 +12,9 @@ use crate::{
 const OUT_SHARE: f64 = 0.25;
 /// A way out has to gain at least this much over what it is judged ahead, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
+
+/// Between two places of a detour that are tried as the next position, degrees.
+const DETOUR_STEP_DEG: f64 = 4.0;
 
 /// How a motion to a position gets there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,7 +171,25 @@ impl Gate {
                 return Ok(Route { first, then: Some(motion) });
             }
         }
-        Err(refusal)
+        if intent != Intent::Track {
+            return Err(refusal);
+        }
+        // Positions that follow each other may make any way.
+        let detour = detour::between(&self.bounds, &self.reach(), from_deg, to_deg, now.utc);
+        let places_deg = detour::in_steps(&detour.unwrap_or_default(), DETOUR_STEP_DEG);
+        let farthest = places_deg.into_iter().rev().map(|place| self.to_axes(place));
+        let first = farthest.into_iter().find(|first| self.check(*first, intent, now).is_ok());
+        first.map(|first| Route { first, then: Some(motion) }).ok_or(refusal)
+    }
+
+    fn reach(&self) -> Reach {
+        let mut travel_deg = self.mount.travel_deg();
+        if let Mount::AzEl { .. } = self.mount {
+            travel_deg[1].0 = travel_deg[1].0.max(self.limits.minimum_elevation_deg);
+        }
+        let can = self.controller.capabilities();
+        let rests_within_deg = can.position_step_deg + can.arrives_within_deg;
+        Reach::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
 
     /// Where axes will stand that would turn by `ahead_deg`: an axis on its way to a

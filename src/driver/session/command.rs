@@ -122,7 +122,7 @@ impl Session {
             Command::EndJog => self.release_jog(now),
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
-            Command::Within(bounds) => self.gate.keep_within(*bounds),
+            Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Intent::Standby, now),
             Command::Manual => self.leave_for(Intent::Manual, now),
@@ -297,7 +297,7 @@ impl Session {
             }
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::SeenStanding => self.take_word_for_standstill(),
-            Command::Within(bounds) => self.gate.keep_within(*bounds),
+            Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
             Command::Standby => {
                 self.intent = Intent::Standby;

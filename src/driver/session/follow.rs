@@ -14,7 +14,7 @@ use crate::{
     controller::{Moment, Motion, Pointing},
     driver::{FollowProblem, Intent, Refusal, Safety},
     plan::{
-        Follow, FollowPhase,
+        Bounds, Follow, FollowPhase,
         follow::{AxisNow, Next, Planner},
     },
     station::{AfterPass, Antenna, Resume},
@@ -55,7 +55,8 @@ impl Session {
         let planned = if phase == FollowPhase::Over {
             Err(FollowProblem::NoPass)
         } else {
-            Planner::new(follow, drives, following).map_err(FollowProblem::Orbit)
+            let bounds = self.gate.bounds().clone();
+            Planner::new(follow, drives, following, bounds).map_err(FollowProblem::Orbit)
         };
         // Checked before anything that runs is ended for it.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
@@ -235,6 +236,14 @@ impl Session {
         if let Some(following) = &mut self.following {
             following.lost = 0;
         }
+    }
+
+    /// Other bounds hold for the antenna from now on.
+    pub(super) fn keep_within(&mut self, bounds: Bounds) {
+        if let Some(following) = &mut self.following {
+            following.planner.keep_within(bounds.clone());
+        }
+        self.gate.keep_within(bounds);
     }
 
     /// The device was read anew after it was out of sight for `lost`: what it was told

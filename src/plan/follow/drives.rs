@@ -9,6 +9,7 @@ use crate::{
     plan::{
         Sample,
         az_el::{AzElAxes, Choice, Planned, Start, Way},
+        detour::Reach,
         within_rate::within_rate,
     },
     station::{MotionLimits, Mount},
@@ -29,6 +30,8 @@ pub struct Drives {
     pub rates_deg_s: [f64; 2],
     /// Positions are whole numbers of this many degrees; 0 for any.
     pub step_deg: f64,
+    /// An axis comes to rest this near to where it was told, degrees.
+    pub arrives_within_deg: f64,
     /// There is an elevation to command.
     pub has_elevation: bool,
 }
@@ -143,6 +146,14 @@ impl Drives {
         }
     }
 
+    /// Where the axes may go on a detour.
+    pub(super) fn reach(&self) -> Reach {
+        let [first, second] = self.mount.travel_deg();
+        let second =
+            if matches!(self.mount, Mount::AzEl { .. }) { self.elevations_deg() } else { second };
+        Reach::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
+    }
+
     /// Whether each axis can be told without the other.
     pub(super) fn takes_single_axes(&self) -> bool {
         matches!(self.mount, Mount::AzEl { .. })
@@ -184,6 +195,7 @@ mod tests {
             limits: antenna.limits,
             rates_deg_s: [antenna.limits.maximum_rate_deg_s; 2],
             step_deg,
+            arrives_within_deg: 0.0,
             has_elevation: true,
         }
     }

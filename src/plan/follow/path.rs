@@ -2,11 +2,11 @@
 
 use jiff::Timestamp;
 
-use super::{drives::Drives, target::Course};
+use super::{drives::Drives, round::round, target::Course};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     plan::{
-        Sample,
+        Bounds, Sample,
         az_el::{Choice, Planned, Start, Way},
     },
 };
@@ -36,11 +36,13 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// Along `course` from `from` to `to` as [`Drives::along`] does it, ends early
-    /// where the target decays. `None` where it has done so already.
+    /// Along `course` from `from` to `to` as [`Drives::along`] does it, but round what
+    /// `bounds` have to be gone round. Ends early where the target decays; `None` where
+    /// it has done so already.
     pub(super) fn along(
         course: &Course,
         drives: &Drives,
+        bounds: &Bounds,
         (from, to): (Timestamp, Timestamp),
         start: Start,
         choice: Choice,
@@ -55,7 +57,12 @@ impl Path {
             })
             .collect();
         let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let Planned { way, axes_deg: axes, .. } = drives.along(&samples, step_s, start, choice);
+        let Planned { way, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
+        let axes = if bounds.has_way_round() && drives.has_elevation {
+            round(axes_deg, &samples, step_s, start, drives.reach(), bounds)
+        } else {
+            axes_deg
+        };
         let to = samples.last()?.time;
         Some(Self { from, to, step_s, most_deg, axes, way })
     }

@@ -17,7 +17,10 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     orbit::PropagationError,
-    plan::az_el::{Choice, Start, Way},
+    plan::{
+        Bounds,
+        az_el::{Choice, Start, Way},
+    },
     station::Following,
 };
 
@@ -42,21 +45,30 @@ pub struct Planner {
     course: Course,
     drives: Drives,
     following: Following,
+    bounds: Bounds,
     /// With the end of the pass that it belongs to.
     path: Option<(Path, Timestamp)>,
     axes: [Axis; 2],
 }
 
 impl Planner {
-    /// For `follow`; an error where its elements describe no orbit.
+    /// For `follow`; an error where its elements describe no orbit. The way leads round
+    /// those keep-outs of `bounds` that are gone round.
     pub fn new(
         follow: Follow,
         drives: Drives,
         following: Following,
+        bounds: Bounds,
     ) -> Result<Self, PropagationError> {
         let course = Course::new(&follow.target, follow.site)?;
         let axes = [0, 1].map(|index| Axis::new(index, drives, following));
-        Ok(Self { follow, course, drives, following, path: None, axes })
+        Ok(Self { follow, course, drives, following, bounds, path: None, axes })
+    }
+
+    /// Other keep-outs hold from now on.
+    pub fn keep_within(&mut self, bounds: Bounds) {
+        self.bounds = bounds;
+        self.path = None;
     }
 
     /// What is followed.
@@ -167,7 +179,17 @@ impl Planner {
         let from = aos.max(now);
         let to = los.min(add_seconds(from, PATH_S));
         let start = Start { axes_deg, lead_s: seconds_between(now, from) };
-        Some((Path::along(&self.course, &self.drives, (from, to), start, self.choice(now))?, los))
+        Some((
+            Path::along(
+                &self.course,
+                &self.drives,
+                &self.bounds,
+                (from, to),
+                start,
+                self.choice(now),
+            )?,
+            los,
+        ))
     }
 }
 

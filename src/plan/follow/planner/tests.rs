@@ -8,7 +8,7 @@ use crate::{
     astro::{Angle, Site},
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{FollowStats, Target},
-    station::{AfterPass, Antenna, MotionLimits, Mount},
+    station::{AfterPass, Antenna, Entered, KeepOut, MotionLimits, Mount, Station},
 };
 
 /// How finely the metal is simulated, seconds.
@@ -81,6 +81,7 @@ fn azel(range_deg: (f64, f64), rate_deg_s: f64, step_deg: f64) -> Drives {
         },
         rates_deg_s: [rate_deg_s; 2],
         step_deg,
+        arrives_within_deg: 0.0,
         has_elevation: true,
     }
 }
@@ -136,10 +137,28 @@ fn metal(drives: Drives, following: Following) -> Metal {
     }
 }
 
+/// Nothing is in the way.
+fn free() -> Bounds {
+    let mut antenna = Antenna::rc2000c("", "");
+    antenna.limits.minimum_elevation_deg = 0.0;
+    Bounds::of_antenna(&antenna)
+}
+
 fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, metal: &Metal) -> Run {
     let passes = vec![(pass.aos.time, pass.los.time)];
     let follow = Follow { target, site: site(), passes };
-    let mut planner = Planner::new(follow, drives, following).unwrap();
+    let planner = Planner::new(follow, drives, following, free()).unwrap();
+    run_planner(planner, pass, following, metal, |_, _| {})
+}
+
+/// `look` is shown where the axes are at each time.
+fn run_planner(
+    mut planner: Planner,
+    pass: &Pass,
+    following: Following,
+    metal: &Metal,
+    mut look: impl FnMut(Timestamp, [f64; 2]),
+) -> Run {
     let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
     let started = Instant::now();
@@ -161,6 +180,7 @@ fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, met
             }
         }
         metal.advance(now_s);
+        look(now, metal.axes_deg);
         if now >= pass.aos.time {
             let [azimuth, elevation] = metal.axes_deg;
             let at = AzEl::from_degrees(azimuth, elevation);
@@ -293,7 +313,7 @@ fn a_planner_keeps_the_side_for_the_pass() {
     });
     let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
     let drives = over(azel((0.0, 360.0), 4.0, 0.0));
-    let mut planner = Planner::new(follow, drives, following(1.0, 0.2)).unwrap();
+    let mut planner = Planner::new(follow, drives, following(1.0, 0.2), free()).unwrap();
     let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
     let mut elevation_deg = |at: Timestamp| {
         let next = planner.look(at, axes).unwrap().unwrap();
@@ -303,4 +323,87 @@ fn a_planner_keeps_the_side_for_the_pass() {
     assert!(elevation_deg(add_seconds(pass.aos.time, 1.0)) > 90.0);
     // For what is left, plain would be as good, and another path is due.
     assert!(elevation_deg(add_seconds(pass.los.time, -10.0)) > 90.0);
+}
+
+/// A keep-out to be gone round, from the ground to `above_deg` over where the pass
+/// is halfway and as far to both sides.
+fn mast(target: &Target, pass: &Pass, around_deg: f64) -> (Bounds, KeepOut) {
+    let course = Course::new(target, site()).unwrap();
+    let halfway = course.direction(add_seconds(pass.aos.time, pass.duration_s() / 2.0)).unwrap();
+    let (azimuth, top) = (halfway.azimuth_deg(), halfway.elevation_deg() + around_deg);
+    let sides = [azimuth - around_deg, azimuth + around_deg];
+    let corners = [(sides[0], -2.0), (sides[1], -2.0), (sides[1], top), (sides[0], top)];
+    let mast = KeepOut {
+        name: "mast".to_owned(),
+        entered: Entered::GoRound,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: KeepOut::zone_of(&corners).unwrap(),
+    };
+    let mut antenna = Antenna::rc2000c("", "");
+    antenna.limits.minimum_elevation_deg = 0.0;
+    let station = Station { site: site(), keep_outs: vec![mast.clone()], ..Station::default() };
+    (Bounds::of(&station, &antenna), mast)
+}
+
+#[test]
+fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
+    for (rate_deg_s, step_deg) in [(6.0, 0.0), (1.0, 0.0), (6.0, 1.0)] {
+        let (target, pass) = pass_where(|propagator, pass| {
+            max_deg(pass) > 20.0 && max_deg(pass) < 50.0 && !goes_through_north(propagator, pass)
+        });
+        let (bounds, mast) = mast(&target, &pass, 8.0);
+        let course = Course::new(&target, site()).unwrap();
+        let drives = azel((-180.0, 540.0), rate_deg_s, step_deg);
+        let following = following(0.5, 0.2);
+        let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+        let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
+        let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
+        run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
+            let at = bounds.direction(axes_deg);
+            if now < pass.aos.time {
+                return;
+            }
+            nearest_deg = nearest_deg.min(bounds.nearest(at, now).unwrap().angle.degrees());
+            let target = course.direction(now).unwrap();
+            let off_deg = target.separation(at).degrees();
+            if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
+                behind_s += TICK_S;
+                // Its margin, half a beam and the room are not more than four degrees.
+                worst_deg = worst_deg.max(off_deg);
+            } else if rate_deg_s > 2.0 {
+                assert!(off_deg < 1.5 + step_deg, "{off_deg} {now}");
+            }
+        });
+        assert!(behind_s > 20.0, "{behind_s}");
+        assert!(nearest_deg > -0.05, "{nearest_deg} with {rate_deg_s} in steps of {step_deg}");
+        assert!(worst_deg < 14.0 + step_deg, "{worst_deg}");
+    }
+}
+
+#[test]
+fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
+    let (target, pass) = pass_where(|_, pass| max_deg(pass) > 20.0 && max_deg(pass) < 50.0);
+    let sets = AzEl { elevation: Angle::from_degrees(0.0), ..pass.los.direction };
+    let corners = [-6.0, 6.0].map(|by| sets.azimuth_deg() + by);
+    let corners = [(corners[0], -2.0), (corners[1], -2.0), (corners[1], 8.0), (corners[0], 8.0)];
+    let (_, mast) = mast(&target, &pass, 8.0);
+    let mast = KeepOut { zone: KeepOut::zone_of(&corners).unwrap(), ..mast };
+    let station = Station { site: site(), keep_outs: vec![mast], ..Station::default() };
+    let mut antenna = Antenna::rc2000c("", "");
+    antenna.limits.minimum_elevation_deg = 0.0;
+    let bounds = Bounds::of(&station, &antenna);
+    let drives = azel((-180.0, 540.0), 6.0, 0.0);
+    let following = following(0.5, 0.2);
+    let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
+    let mut last_deg = f64::MAX;
+    run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
+        if now >= pass.aos.time {
+            let clear = bounds.nearest(bounds.direction(axes_deg), now).unwrap();
+            last_deg = bounds.direction(axes_deg).separation(pass.los.direction).degrees();
+            assert!(clear.angle.degrees() > -0.05, "{clear:?}");
+        }
+    });
+    assert!(last_deg < 14.0, "{last_deg}");
 }

@@ -1,0 +1,168 @@
+//! The way of the axes along a pass, led round the keep-outs that are gone round.
+//!
+//! The way is taken as one line. Where the target is behind an edge of a keep-out,
+//! the line leads along the margin; how far along it the antenna is at which time
+//! is chosen so that it points beside the target by the least, and never faster
+//! than the axes turn. A long way round is set out for early and comes in late.
+
+use crate::{
+    astro::AzEl,
+    plan::{
+        Bounds, Sample,
+        az_el::Start,
+        detour::{self, Reach},
+        within_rate::within_rate,
+    },
+};
+
+/// Along a detour the axes turn at this share of their rate: what is made at the
+/// full one counts as a swing, which is told by its end alone.
+const SHARE_OF_RATE: f64 = 0.95;
+/// Between two points of a detour at most, degrees.
+const STEP_DEG: f64 = 0.5;
+
+/// Where both axes have to stand along `samples`, `step_s` seconds apart, when
+/// they are not to enter what is gone round; `axes_deg` as it would be without. A
+/// stretch with no way round stays as it is.
+pub(super) fn round(
+    axes_deg: [Vec<f64>; 2],
+    samples: &[Sample],
+    step_s: f64,
+    start: Start,
+    reach: Reach,
+    bounds: &Bounds,
+) -> [Vec<f64>; 2] {
+    let places_deg = || axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
+    let is_behind: Vec<bool> = places_deg()
+        .map(|axes_deg| bounds.is_gone_round(bounds.direction(axes_deg), reach.room_deg))
+        .collect();
+    if !is_behind.contains(&true) {
+        return axes_deg;
+    }
+    let mut line = Line { points: Vec::new(), reach, most_s: step_s * SHARE_OF_RATE };
+    let mut wanted_s = Vec::with_capacity(samples.len());
+    if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
+        // In the middle of a detour already; before a pass it waits where it comes out.
+        let stands = [first, second];
+        let is_outside = !bounds.is_gone_round(bounds.direction(stands), 0.0);
+        if start.lead_s <= 0.0 && is_outside {
+            line.begin(stands);
+        }
+    }
+    let mut index = 0;
+    let places_deg: Vec<[f64; 2]> = places_deg().collect();
+    while let Some(place_deg) = places_deg.get(index) {
+        let behind = is_behind.iter().skip(index).take_while(|behind| **behind).count();
+        if behind == 0 {
+            line.go_to(*place_deg);
+            wanted_s.push(line.end_s());
+            index += 1;
+            continue;
+        }
+        let stretch = index..index + behind;
+        let targets = samples.get(stretch.clone()).unwrap_or_default();
+        let comes_out = places_deg.get(stretch.end).copied();
+        let detour = match (line.end_deg(), comes_out) {
+            (Some(from), Some(to)) => {
+                let at = targets.get(behind / 2).map(|sample| sample.time);
+                at.and_then(|at| detour::between(bounds, &reach, from, to, at))
+            }
+            // It rises or sets behind it.
+            (Some(one), None) | (None, Some(one)) => Some(vec![one]),
+            (None, None) => None,
+        };
+        if let Some(detour) = detour {
+            wanted_s.extend(line.detour(&detour, targets, bounds));
+        } else {
+            for place_deg in places_deg.get(stretch.clone()).unwrap_or_default() {
+                line.go_to(*place_deg);
+                wanted_s.push(line.end_s());
+            }
+        }
+        index = stretch.end;
+    }
+    let cost = |index: usize, at_s: f64| {
+        let target = samples.get(index).map(|sample| sample.direction);
+        target.map_or(0.0, |target| line.off(target, at_s, bounds))
+    };
+    let way_s = within_rate(&wanted_s, step_s * SHARE_OF_RATE, cost);
+    let [first, second]: [Vec<f64>; 2] =
+        [0, 1].map(|axis| way_s.iter().map(|at_s| line.at(*at_s)[axis]).collect());
+    [first, second]
+}
+
+/// The way of the axes, measured in the seconds that it takes at their full rate.
+struct Line {
+    /// Seconds from the beginning, and degrees as the mount counts.
+    points: Vec<(f64, [f64; 2])>,
+    reach: Reach,
+    /// How much of it is made from one sample to the next at most, seconds.
+    most_s: f64,
+}
+
+impl Line {
+    fn begin(&mut self, at_deg: [f64; 2]) {
+        self.points.push((0.0, at_deg));
+    }
+
+    fn end_s(&self) -> f64 {
+        self.points.last().map_or(0.0, |(at_s, _)| *at_s)
+    }
+
+    fn end_deg(&self) -> Option<[f64; 2]> {
+        self.points.last().map(|(_, at_deg)| *at_deg)
+    }
+
+    fn add(&mut self, to_deg: [f64; 2], most_s: f64) {
+        let Some((before_s, before_deg)) = self.points.last().copied() else {
+            return self.begin(to_deg);
+        };
+        let way_s = self.reach.seconds(before_deg, to_deg).min(most_s);
+        self.points.push((before_s + way_s, to_deg));
+    }
+
+    /// On to the next place of a way that the axes can make as it is.
+    fn go_to(&mut self, to_deg: [f64; 2]) {
+        self.add(to_deg, self.most_s);
+    }
+
+    /// On along a detour. For each of `targets` where on the line it is nearest, never
+    /// going back.
+    fn detour(&mut self, turns_deg: &[[f64; 2]], targets: &[Sample], bounds: &Bounds) -> Vec<f64> {
+        let mut first = self.points.len().saturating_sub(1);
+        let from_deg = self.end_deg().or(turns_deg.first().copied());
+        let turns_deg: Vec<_> = from_deg.into_iter().chain(turns_deg.iter().copied()).collect();
+        for place_deg in detour::in_steps(&turns_deg, STEP_DEG) {
+            self.add(place_deg, f64::INFINITY);
+        }
+        let directions: Vec<_> =
+            self.points.iter().map(|(_, at_deg)| bounds.direction(*at_deg)).collect();
+        let nearest = |sample: &Sample| {
+            let rest = directions.iter().enumerate().skip(first);
+            let off = rest.map(|(index, at)| (index, at.separation(sample.direction).degrees()));
+            let found = off.min_by(|a, b| a.1.total_cmp(&b.1));
+            first = found.map_or(first, |(index, _)| index);
+            self.points.get(first).map_or(0.0, |(at_s, _)| *at_s)
+        };
+        targets.iter().map(nearest).collect()
+    }
+
+    /// Degrees as the mount counts.
+    fn at(&self, at_s: f64) -> [f64; 2] {
+        let after = self.points.partition_point(|(point_s, _)| *point_s < at_s);
+        let end = self.points.get(after).or(self.points.last());
+        let Some((end_s, end_deg)) = end.copied() else { return [0.0; 2] };
+        let before = after.checked_sub(1).and_then(|before| self.points.get(before));
+        let (start_s, start_deg) = before.copied().unwrap_or((end_s, end_deg));
+        if end_s - start_s <= 0.0 {
+            return end_deg;
+        }
+        let share = ((at_s - start_s) / (end_s - start_s)).clamp(0.0, 1.0);
+        [0, 1].map(|axis| start_deg[axis] + (end_deg[axis] - start_deg[axis]) * share)
+    }
+
+    /// What it costs to be there on the line.
+    fn off(&self, target: AzEl, at_s: f64, bounds: &Bounds) -> f64 {
+        1.0 - bounds.direction(self.at(at_s)).separation(target).radians().cos()
+    }
+}

@@ -1,0 +1,118 @@
+//! Keep-outs that are gone round: over whole passes the measured direction stays
+//! outside, and the target is followed again on the other side.
+
+use azel::{
+    astro::{Angle, AzEl},
+    driver::{Command, Event},
+    orbit::Propagator,
+    plan::Bounds,
+    station::{Antenna, Entered, KeepOut, Station},
+};
+
+use super::{
+    genius, rc2000c,
+    rig::Rig,
+    satrak,
+    sky::{self, Scene},
+};
+
+/// From the ground to 8 degrees over where the pass is halfway, 8 degrees to both
+/// sides.
+fn halfway(scene: &Scene, margin_deg: f64) -> KeepOut {
+    let halfway =
+        azel::astro::time::add_seconds(scene.pass.aos.time, scene.pass.duration_s() / 2.0);
+    let propagator = Propagator::new(&scene.elements).unwrap();
+    let at = propagator.look_from(sky::site(), halfway).unwrap().direction;
+    mast(at.azimuth_deg(), at.elevation_deg() + 8.0, margin_deg)
+}
+
+fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
+    let sides = [azimuth_deg - 8.0, azimuth_deg + 8.0];
+    let corners = [(sides[0], -2.0), (sides[1], -2.0), (sides[1], top), (sides[0], top)];
+    KeepOut {
+        name: "mast".to_owned(),
+        entered: Entered::GoRound,
+        antenna: None,
+        margin_deg,
+        zone: KeepOut::zone_of(&corners).unwrap(),
+    }
+}
+
+/// How far outside of all margins the antenna was at least while it followed, and how
+/// far beside the target when it set, degrees.
+async fn follow_round(rig: &mut Rig, antenna: &Antenna, scene: &Scene, mast: KeepOut) -> [f64; 2] {
+    let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
+    let bounds = Bounds::of(&station, antenna);
+    rig.send(Command::Within(Box::new(bounds.clone())));
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    let propagator = Propagator::new(&scene.elements).unwrap();
+    let direction =
+        |rig: &Rig| -> AzEl { rig.shown().state.measured.unwrap().pointing.direction().unwrap() };
+    let (mut least_deg, mut off_deg) = (f64::MAX, f64::MAX);
+    while rig.utc() < scene.pass.los.time {
+        rig.seconds(0.2).await;
+        let at = direction(rig);
+        let clearance = bounds.nearest(at, rig.utc()).unwrap();
+        least_deg = least_deg.min(clearance.angle.degrees());
+        let target = propagator.look_from(sky::site(), rig.utc()).unwrap().direction;
+        off_deg = target.separation(at).degrees();
+    }
+    let told = rig.events();
+    let refused = |event: &Event| matches!(event, Event::NotSent(_) | Event::CannotFollow(..));
+    assert!(!told.iter().any(refused), "{told:?}");
+    [least_deg, off_deg]
+}
+
+#[tokio::test(start_paused = true)]
+async fn by_an_rc2000c() {
+    let scene = sky::usual();
+    let antenna = rc2000c::antenna(360.0);
+    let mut rig = rc2000c::connected(&antenna, &scene).await;
+    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
+    println!("RC2000C: {least_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(least_deg > -0.1, "{least_deg}");
+    assert!(off_deg < 1.0, "{off_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn by_a_genius_that_coasts() {
+    let scene = sky::usual();
+    let antenna = genius::antenna(azel::controller::rotator_genius::Rotators::Pair);
+    let (mut rig, _control) = genius::connected(&genius::options(2), &antenna, &scene).await;
+    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 4.0)).await;
+    println!("Genius: {least_deg:.2} outside, at last {off_deg:.2} beside");
+    // It coasts by up to two degrees, which its margin is wider by.
+    assert!(least_deg > -3.0, "{least_deg}");
+    assert!(off_deg < 3.0, "{off_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn on_the_way_to_where_a_pass_begins() {
+    let scene = sky::usual();
+    let antenna = rc2000c::antenna(360.0);
+    let mut rig = rc2000c::connected(&antenna, &scene).await;
+    let begins = scene.pass.aos.direction.azimuth_deg();
+    let side = if begins < 180.0 { 100.0 } else { -100.0 };
+    rig.send(Command::Position {
+        azimuth: Some(Angle::from_degrees(begins + side)),
+        elevation: Some(Angle::from_degrees(20.0)),
+    });
+    rig.seconds(100.0).await;
+    let between = mast(begins + side / 2.0, 60.0, 1.0);
+    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, between).await;
+    println!("RC2000C, to its AOS: {least_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(least_deg > -0.1, "{least_deg}");
+    assert!(off_deg < 1.0, "{off_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn by_a_satrak_on_crossed_axes() {
+    let scene = sky::usual();
+    let antenna = satrak::antenna();
+    let (mut rig, _control) = satrak::connected(&antenna, &scene, 120.0).await;
+    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
+    println!("Satrak: {least_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(least_deg > -0.1, "{least_deg}");
+    // It stays above its minimum elevation of five degrees.
+    assert!(off_deg < 5.5, "{off_deg}");
+}
