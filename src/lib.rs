@@ -3,7 +3,8 @@
 //! The folders are layers; a lower one never names a higher one. From the
 //! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`station`],
 //! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`app`], [`ui`]; [`secret`] and
-//! `whole_file` stand below them all. The README's architecture section holds the picture and the invariants.
+//! `whole_file` stand below them all. `docs/architecture.md` holds the picture and the
+//! invariants.
 
 pub mod app;
 pub mod astro;
