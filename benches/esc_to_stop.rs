@@ -1,14 +1,15 @@
 //! The time from Esc pressed to `STOP=` on the wire, in the real window on a
-//! virtual screen. Needs Xvfb and xdotool.
+//! virtual screen. Needs Xvfb and xdotool. With the path of another build of the
+//! program in `AZEL_BESIDE` both are measured by turns.
 
 // A bench talks to whoever started it, and ends loudly.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
 use std::{
-    fs,
+    env, fs,
     io::Write as _,
     net::SocketAddr,
-    process::{Child, Command, Stdio},
+    process::{Child, ChildStdin, Command, Stdio},
     thread::sleep,
     time::{Duration, Instant},
 };
@@ -21,10 +22,8 @@ use jiff::Timestamp;
 use tokio::{
     io::{AsyncReadExt as _, AsyncWriteExt as _},
     net::{TcpListener, TcpStream},
+    runtime::Runtime,
 };
-
-const PRESSES: usize = 200;
-const DISPLAY: &str = ":94";
 
 struct Running(Child);
 
@@ -35,26 +34,71 @@ impl Drop for Running {
     }
 }
 
-fn on_screen(program: &str) -> Command {
+fn on_screen(display: &str, program: &str) -> Command {
     let mut command = Command::new(program);
-    command.env("DISPLAY", DISPLAY).env_remove("WAYLAND_DISPLAY").stderr(Stdio::null());
+    command.env("DISPLAY", display).env_remove("WAYLAND_DISPLAY").stderr(Stdio::null());
     command
 }
 
+/// What the antenna does when Esc is pressed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Doing {
+    Nothing,
+    /// A jog key is held.
+    Jogging,
+}
+
+/// One window and its unit, and what was measured of it so far.
+struct Bench {
+    name: String,
+    keys: ChildStdin,
+    control: Control,
+    times: Vec<Duration>,
+    _folder: tempfile::TempDir,
+    _azel: Running,
+    _keyboard: Running,
+    _runtime: Runtime,
+}
+
 fn main() {
+    let ours = ("this", env!("CARGO_BIN_EXE_azel").to_owned());
+    let beside = env::var("AZEL_BESIDE").ok().map(|program| ("beside", program));
+    let programs: Vec<(&str, String)> = std::iter::once(ours).chain(beside).collect();
+    for (what, hz, stall, doing, presses) in [
+        ("poll at 2 Hz", 2.0, Duration::ZERO, Doing::Nothing, 200),
+        ("poll at 10 Hz", 10.0, Duration::ZERO, Doing::Nothing, 200),
+        ("replies stalled by 1.5 s", 10.0, Duration::from_millis(1500), Doing::Nothing, 200),
+        ("in a held jog", 10.0, Duration::ZERO, Doing::Jogging, 60),
+    ] {
+        // Each on a screen of its own, where it keeps the focus.
+        let mut benches: Vec<(Running, Bench)> = programs
+            .iter()
+            .zip(94..)
+            .map(|((name, program), display)| {
+                let (screen, display) = (screen(display), format!(":{display}"));
+                (screen, Bench::start(name, program, &display, hz, stall))
+            })
+            .collect();
+        // By turns, so that all meet the same load.
+        for press in 0..presses {
+            for (_, bench) in &mut benches {
+                bench.press(press, doing);
+            }
+        }
+        for (_, bench) in benches {
+            bench.report(what);
+        }
+    }
+}
+
+fn screen(display: u32) -> Running {
     let screen = Command::new("Xvfb")
-        .args([DISPLAY, "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
+        .args([&format!(":{display}"), "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
         .stderr(Stdio::null())
         .spawn();
-    let _screen = Running(screen.expect("Xvfb is installed"));
+    let screen = Running(screen.expect("Xvfb is installed"));
     sleep(Duration::from_secs(1));
-    for (name, hz, stall) in [
-        ("poll at 2 Hz", 2.0, Duration::ZERO),
-        ("poll at 10 Hz", 10.0, Duration::ZERO),
-        ("poll at 10 Hz, replies stalled by 1.5 s", 10.0, Duration::from_millis(1500)),
-    ] {
-        measure(name, hz, stall);
-    }
+    screen
 }
 
 /// A way to the unit on which every reply takes `stall` longer and every
@@ -93,65 +137,106 @@ async fn stalling_way(unit: SocketAddr, stall: Duration) -> SocketAddr {
     address
 }
 
-fn measure(name: &str, hz: f64, stall: Duration) {
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .worker_threads(1)
-        .enable_all()
-        .build()
-        .expect("a runtime");
-    let options = Options::new(Station::default().site, Timestamp::now());
-    let simulator =
-        runtime.block_on(Simulator::bind(([127, 0, 0, 1], 0).into(), options)).expect("a port");
-    let address = simulator.local_addr().expect("an address");
-    let control = simulator.control();
-    runtime.spawn(simulator.run());
-    let address = runtime.block_on(stalling_way(address, stall));
+impl Bench {
+    fn start(name: &str, program: &str, display: &str, hz: f64, stall: Duration) -> Self {
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(1)
+            .enable_all()
+            .build()
+            .expect("a runtime");
+        let options = Options::new(Station::default().site, Timestamp::now());
+        let simulator =
+            runtime.block_on(Simulator::bind(([127, 0, 0, 1], 0).into(), options)).expect("a port");
+        let address = simulator.local_addr().expect("an address");
+        let control = simulator.control();
+        runtime.spawn(simulator.run());
+        let address = runtime.block_on(stalling_way(address, stall));
 
-    let folder = tempfile::tempdir().expect("a folder");
-    let station = folder.path().join("station.toml");
-    let text = format!(
-        "[[antenna]]\n[antenna.connection]\ncontroller = \"satrak\"\naddress = \"{address}\"\n\
-         [antenna.poll]\nidle_hz = {hz}\nmoving_hz = {hz}\n"
-    );
-    fs::write(&station, text).expect("a station file");
-    let azel = on_screen(env!("CARGO_BIN_EXE_azel")).arg("--station").arg(&station).spawn();
-    let _azel = Running(azel.expect("the program starts"));
-    sleep(Duration::from_secs(4));
-    let window = on_screen("xdotool")
-        .args(["search", "--onlyvisible", "--name", "^Azel$", "windowfocus", "--sync"])
-        .status();
-    assert!(window.expect("xdotool is installed").success(), "no window");
+        let folder = tempfile::tempdir().expect("a folder");
+        let station = folder.path().join("station.toml");
+        let text = format!(
+            "[[antenna]]\n[antenna.connection]\ncontroller = \"satrak\"\naddress = \"{address}\"\n\
+             [antenna.poll]\nidle_hz = {hz}\nmoving_hz = {hz}\n"
+        );
+        fs::write(&station, text).expect("a station file");
+        let azel = on_screen(display, program).arg("--station").arg(&station).spawn();
+        let azel = Running(azel.expect("the program starts"));
+        sleep(Duration::from_secs(4));
+        let window = on_screen(display, "xdotool")
+            .args(["search", "--onlyvisible", "--name", "^Azel$", "windowfocus", "--sync"])
+            .status();
+        assert!(window.expect("xdotool is installed").success(), "no window");
+        let keyboard = on_screen(display, "xdotool").arg("-").stdin(Stdio::piped()).spawn();
+        let mut keyboard = Running(keyboard.expect("xdotool is installed"));
+        let keys = keyboard.0.stdin.take().expect("piped");
+        Self {
+            name: name.to_owned(),
+            keys,
+            control,
+            times: Vec::new(),
+            _folder: folder,
+            _azel: azel,
+            _keyboard: keyboard,
+            _runtime: runtime,
+        }
+    }
 
-    let keyboard = on_screen("xdotool").arg("-").stdin(Stdio::piped()).spawn();
-    let mut keyboard = Running(keyboard.expect("xdotool is installed"));
-    let mut keys = keyboard.0.stdin.take().expect("piped");
-    let mut times: Vec<Duration> = (0..PRESSES)
-        .map(|press| {
-            // Not in step with the polling.
-            sleep(Duration::from_millis(280 + (press as u64 * 37) % 90));
-            let before = stops(&control).len();
-            let pressed = Instant::now();
-            keys.write_all(b"key Escape\n").expect("xdotool takes keys");
-            loop {
-                if let Some(arrived) = stops(&control).get(before) {
-                    break arrived.saturating_duration_since(pressed);
-                }
-                assert!(pressed.elapsed() < Duration::from_secs(5), "no STOP for press {press}");
-                sleep(Duration::from_micros(200));
+    fn press(&mut self, press: u64, doing: Doing) {
+        if doing == Doing::Jogging {
+            // Manual is not to be had before standstill is proved.
+            sleep(Duration::from_millis(2500));
+            let before = self.arrived("MOVE=").len();
+            self.type_in("key m");
+            sleep(Duration::from_millis(500));
+            self.type_in("keydown Right");
+            self.next("MOVE=", before);
+        }
+        // Not in step with the polling.
+        sleep(Duration::from_millis(280 + (press * 37) % 90));
+        let before = self.arrived("STOP=").len();
+        let pressed = Instant::now();
+        self.type_in("key Escape");
+        let arrived = self.next("STOP=", before);
+        self.times.push(arrived.saturating_duration_since(pressed));
+        if doing == Doing::Jogging {
+            self.type_in("keyup Right");
+        }
+    }
+
+    fn type_in(&mut self, line: &str) {
+        writeln!(self.keys, "{line}").expect("xdotool takes keys");
+    }
+
+    /// When the next one came in after the first `before`.
+    fn next(&self, word: &str, before: usize) -> Instant {
+        let start = Instant::now();
+        loop {
+            if let Some(arrived) = self.arrived(word).get(before) {
+                return *arrived;
             }
-        })
-        .collect();
-    times.sort();
-    println!(
-        "{name}: p50 {:.1?}, p99 {:.1?}, slowest {:.1?} of {PRESSES}",
-        times[PRESSES / 2],
-        times[PRESSES * 99 / 100],
-        times[PRESSES - 1]
-    );
-}
+            assert!(start.elapsed() < Duration::from_secs(5), "no {word} of {}", self.name);
+            sleep(Duration::from_micros(200));
+        }
+    }
 
-/// When each STOP came in.
-fn stops(control: &Control) -> Vec<Instant> {
-    let received = control.received().into_iter();
-    received.filter(|(_, payload)| payload == "STOP=").map(|(at, _)| at.into_std()).collect()
+    /// When each frame came in that begins with `word`.
+    fn arrived(&self, word: &str) -> Vec<Instant> {
+        let received = self.control.received().into_iter();
+        received
+            .filter(|(_, payload)| payload.starts_with(word))
+            .map(|(at, _)| at.into_std())
+            .collect()
+    }
+
+    fn report(mut self, what: &str) {
+        self.times.sort();
+        let count = self.times.len();
+        println!(
+            "{what}, {}: p50 {:.1?}, p99 {:.1?}, slowest {:.1?} of {count}",
+            self.name,
+            self.times[count / 2],
+            self.times[count * 99 / 100],
+            self.times[count - 1]
+        );
+    }
 }
