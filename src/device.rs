@@ -25,7 +25,7 @@ pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Progr
 pub use wire::{Direction, Finding, WireLine};
 
 use crate::{astro::Angle, protocol::satrak::Query};
-use panel::Act;
+use panel::{Act, Lead};
 use settings::{Change, Group, SettleError};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
@@ -256,11 +256,9 @@ pub trait Moves: Device {
         None
     }
 
-    /// Where an action leads the axes, degrees as the mount counts, as far as it is
-    /// known.
-    fn axes_of(&self, _act: &Act) -> [Option<f64>; 2] {
-        [None; 2]
-    }
+    /// Where an action leads the axes.
+    fn lead_of(&self, act: &Act) -> Lead;
+
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
     fn prepare(&mut self, target: TrackTarget);

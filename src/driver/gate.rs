@@ -28,6 +28,7 @@ use crate::{
     },
     station::{LockOut, MotionLimits, Mount},
 };
+pub(super) use program::Held;
 use rules::{Check, RULES, Rule};
 
 /// From one side of the zenith to the other.
@@ -129,6 +130,15 @@ pub enum Refusal {
     /// What is special to this controller speaks against it.
     #[error("{0}")]
     Controller(&'static str),
+    /// Where an action leads is known to the unit alone, and the operator has not
+    /// answered for it.
+    #[error("where {} leads is not known: {why}", act.action)]
+    Unseen {
+        /// What was asked for.
+        act: Act,
+        /// Why it is not known.
+        why: &'static str,
+    },
     /// A step needs an antenna that stands.
     #[error("the antenna still moves")]
     StillMoving,
@@ -141,6 +151,12 @@ pub enum Refusal {
     /// The pass that the unit is to track by itself is not known.
     #[error("the pass is not known")]
     PassUnknown,
+    /// The unit holds a satellite whose elements are not known here.
+    #[error("the orbit of {name} is not known")]
+    OrbitUnknown {
+        /// Its name, as the unit tells it.
+        name: String,
+    },
     /// The pass does not get up to where the antenna may point.
     #[error(
         "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
@@ -179,6 +195,8 @@ struct Situation<'a> {
     stopping: bool,
     /// The antenna was told to move, whatever it does.
     may_move: bool,
+    /// The operator answers for an action whose end nobody knows here.
+    is_agreed: bool,
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
@@ -206,6 +224,8 @@ pub(super) struct Gate {
     unproved_since: Option<Instant>,
     /// The pass that the device's own program is started on.
     program: Option<Arc<Judge>>,
+    /// What the device would follow by itself.
+    held: Held,
 }
 
 impl Gate {
@@ -222,6 +242,7 @@ impl Gate {
             lock_out: None,
             unproved_since: None,
             program: None,
+            held: Held::Unread,
         }
     }
 
@@ -340,6 +361,7 @@ impl Gate {
             intent,
             stopping,
             may_move: false,
+            is_agreed: false,
             limits: self.limits,
             mount: self.mount,
             bounds: &self.bounds,
@@ -349,16 +371,18 @@ impl Gate {
         }
     }
 
-    /// Does what only this make can do, or says why not.
+    /// Does what only this make can do, or says why not. `is_agreed` says that the
+    /// operator answers for one that leads nobody here knows where.
     pub(super) fn act(
         &mut self,
         act: Act,
         moves: bool,
+        is_agreed: bool,
         intent: Intent,
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        let situation = self.situation(intent, stopping, now);
+        let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
             Check::Motion(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
@@ -369,6 +393,7 @@ impl Gate {
                 Check::MovingAct(check) => check(&act, &situation),
                 Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
             })?;
+            self.to_deg = self.end_of(&act);
             self.unproved_since = Some(now.steady);
         }
         self.controller.act(act);

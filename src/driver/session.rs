@@ -34,7 +34,7 @@ use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 pub use command::Command;
 
 use super::{
-    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Snapshot, Wake,
+    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Snapshot, Wake,
     WireLog,
     debts::{Debts, Unit},
     gate::Gate,
@@ -69,6 +69,7 @@ pub struct Wires {
     events: mpsc::Sender<Event>,
     wake: Wake,
     wire_log: WireLog,
+    orbit: Orbits,
 }
 
 impl Wires {
@@ -83,8 +84,8 @@ impl Wires {
         let handle =
             AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
         let commands = Arc::new(AsyncMutex::new(commands));
-        let wire_log = handle.wire().clone();
-        (Self { commands, stop, snapshots, events, wake, wire_log }, handle)
+        let (wire_log, orbit) = (handle.wire().clone(), Arc::clone(&handle.orbit));
+        (Self { commands, stop, snapshots, events, wake, wire_log, orbit }, handle)
     }
 
     /// Puts STOP before the next word.
@@ -175,6 +176,9 @@ pub struct Session {
     /// The direction of a hold that ended before its key came up.
     ended_hold: Option<[f64; 2]>,
     guard: Guard,
+    /// An action of its make was asked for from here, and standstill is not proved
+    /// since.
+    acts: bool,
     /// A step that is not known to be over.
     stepping: Option<Stepping>,
     /// Is done as soon as no halt is under way.
@@ -260,6 +264,7 @@ impl Session {
             jog: None,
             ended_hold: None,
             guard: Guard::new(None),
+            acts: false,
             stepping: None,
             waiting: None,
             halting: None,

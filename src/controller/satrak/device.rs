@@ -13,7 +13,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         Question, TrackTarget, WireLine,
-        panel::Act,
+        panel::{Act, Lead},
         settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::satrak::{Decoder, Halt, Request},
@@ -183,6 +183,10 @@ impl Device for Satrak {
 }
 
 impl Moves for Satrak {
+    fn lead_of(&self, _: &Act) -> Lead {
+        Lead::Nowhere
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         // An answer to a step of the former preparation must not move this one.
         if let Some(outstanding) = &mut self.outstanding {

@@ -5,7 +5,11 @@ use std::time::Duration;
 use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
-    controller::{Motion, aimed, panel::Act, settings::Hindrance},
+    controller::{
+        Motion, aimed,
+        panel::{Act, Lead},
+        settings::Hindrance,
+    },
     driver::intent::Intent,
     station::Mount,
 };
@@ -59,8 +63,12 @@ pub(super) const RULES: &[Rule] = rules![
     Motion(within_reach),
     Motion(way_is_clear),
     Motion(program_is_clear),
+    Motion(auto_track_is_clear),
     Motion(controller_agrees),
     Act(no_action_while_locked_out),
+    MovingAct(the_end_of_the_action_can_be_known),
+    MovingAct(the_operator_answers_for_an_unseen_end),
+    MovingAct(end_of_the_action_is_within_reach),
     MovingAct(way_of_the_action_is_clear),
     Setting(no_setting_while_stopping),
     Setting(no_setting_while_the_unit_may_move),
@@ -280,6 +288,13 @@ fn program_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Re
     situation.gate.program_is_clear(situation.now)
 }
 
+fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    if *motion != Motion::EnableAuto {
+        return Ok(());
+    }
+    situation.gate.held_is_clear(situation.now)
+}
+
 fn controller_agrees(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let objection = situation.gate.controller.objection(motion, situation.now);
     objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
@@ -290,9 +305,33 @@ fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), 
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
+/// No word of the operator helps here: nobody knows.
+fn the_end_of_the_action_can_be_known(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    match situation.gate.controller.lead_of(act) {
+        Lead::Unknown(why) => Err(Refusal::Controller(why)),
+        Lead::Nowhere | Lead::To(_) | Lead::Unseen(_) => Ok(()),
+    }
+}
+
+/// The monitor stops it before what is forbidden.
+fn the_operator_answers_for_an_unseen_end(
+    act: &Act,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
+    match situation.gate.controller.lead_of(act) {
+        Lead::Unseen(why) if !situation.is_agreed => Err(Refusal::Unseen { act: act.clone(), why }),
+        _ => Ok(()),
+    }
+}
+
+fn end_of_the_action_is_within_reach(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let motion = situation.gate.motion_of(act);
+    motion.map_or(Ok(()), |motion| within_reach(&motion, situation))
+}
+
 fn way_of_the_action_is_clear(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let gate = situation.gate;
-    gate.check_axes(gate.controller.axes_of(act), situation.now)
+    let motion = situation.gate.motion_of(act);
+    motion.map_or(Ok(()), |motion| way::is_clear(&motion, situation))
 }
 
 fn no_setting_while_stopping(situation: &Situation<'_>) -> Option<Hindrance> {

@@ -113,6 +113,7 @@ impl Session {
             | Command::Resume
             | Command::Within(_)
             | Command::Act(_)
+            | Command::ActUnseen(_)
             | Command::Settle(_)
             | Command::Connect
             | Command::Disconnect

@@ -16,6 +16,7 @@ impl Session {
 
     /// A halt is over: nothing moves. A unit that may start by itself is not done.
     pub(super) fn prove_still(&mut self) {
+        self.acts = false;
         if !self.may_start_by_itself() {
             self.gate.proved_still();
         }
