@@ -35,7 +35,7 @@ pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
-pub use safety::{Mover, Response, Safety};
+pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,

@@ -10,6 +10,7 @@ mod follow;
 mod guard;
 mod halting;
 mod jog;
+mod likeness;
 mod liveness;
 mod lock_out;
 mod marking;
@@ -50,6 +51,7 @@ use follow::{Following, Manner, ResumeRule};
 use guard::Guard;
 use halting::Halting;
 use jog::Jog;
+use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{RunOut, Watch};
@@ -153,6 +155,8 @@ pub struct Session {
     slept: Duration,
     /// Where the antenna was seen last on the link before.
     left_at: Option<Pointing>,
+    /// What its unit was like then.
+    left_as: Likeness,
     /// When the link went away while it had been up before.
     away_since: Option<Instant>,
     /// That the link is lost was told.
@@ -250,6 +254,7 @@ impl Session {
             clocks: None,
             slept: Duration::ZERO,
             left_at: None,
+            left_as: Likeness::default(),
             away_since: None,
             told_lost: false,
             unread: true,

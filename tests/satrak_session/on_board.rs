@@ -235,7 +235,7 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     let number = target.catalog_number;
     rig.until("it is read", 32, |shown| {
         let told = &shown.state.on_board;
-        told.window.is_some()
+        told.window.is_some_and(|(from, _)| from.as_second() == target.from.as_second())
             && told.satellite.as_ref().is_some_and(|held| held.catalog_number == number)
     })
     .await;

@@ -30,6 +30,7 @@ impl Device for Rc2000c {
         self.state.motion_lock = None;
         self.state.checked_at = None;
         self.state.program = None;
+        self.state.identity = None;
         self.status = None;
         self.past = Past::default();
         self.device = None;

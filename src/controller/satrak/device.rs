@@ -28,6 +28,7 @@ impl Device for Satrak {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        self.state.identity = None;
         // What the unit goes by may be another since the last link.
         let unit = &mut self.state.satrak;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);

@@ -87,6 +87,7 @@ impl Session {
             // A link on which nothing was ever said is no new one.
             self.told_lost = false;
         }
+        self.remember_likeness();
         let now = self.now();
         self.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
