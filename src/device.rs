@@ -215,9 +215,8 @@ pub trait Device: Send {
     /// A change that is not sent: the reason stands in [`AntennaState::held`].
     fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment);
 
-    /// While they are locked, changes of settings end with
-    /// [`LockedOut`](settings::SettleError::LockedOut) before anything is sent, also
-    /// those that wait.
+    /// While they are locked, changes of settings that wait end with
+    /// [`LockedOut`](settings::SettleError::LockedOut). The gate lets no new one by.
     fn lock_changes(&mut self, are_locked: bool);
 
     /// Asks this between its own questions. What is no question to this device

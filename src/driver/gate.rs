@@ -45,6 +45,13 @@ pub enum Refusal {
         /// Why.
         reason: String,
     },
+    /// The unit is locked out, and whatever is asked of it would take its panel from
+    /// who works on it.
+    #[error("locked out by {by}, whose panel a connection would take")]
+    PanelLockedOut {
+        /// By whom.
+        by: String,
+    },
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
     PositionUnknown,
@@ -138,6 +145,9 @@ pub enum Refusal {
         act: Act,
         /// Why it is not known.
         why: &'static str,
+        /// Whether its axes tell where they stand, so that it is stopped before what is
+        /// forbidden.
+        is_watched: bool,
     },
     /// A step needs an antenna that stands.
     #[error("the antenna still moves")]
@@ -271,6 +281,11 @@ impl Gate {
         self.unproved_since
     }
 
+    /// Another session has moved it then, and did not prove that it stands.
+    pub(super) fn was_moved(&mut self, since: Option<Instant>) {
+        self.unproved_since = since;
+    }
+
     /// Standstill is proved.
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
@@ -340,7 +355,7 @@ impl Gate {
         let situation = self.situation(intent, stopping, now);
         self.ask_rules(|check| match check {
             Check::Motion(check) => check(&motion, &situation),
-            Check::Act(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+            _ => Ok(()),
         })
     }
 
@@ -385,13 +400,13 @@ impl Gate {
         let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
-            Check::Motion(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+            _ => Ok(()),
         })?;
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
-                Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
+                _ => Ok(()),
             })?;
             self.to_deg = self.end_of(&act);
             self.unproved_since = Some(now.steady);

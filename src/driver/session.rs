@@ -137,6 +137,8 @@ pub struct Session {
     debts: Debts,
     /// Tells this session from others of the same unit.
     number: u64,
+    /// Since when it is kept that the unit was moved and is not proved to stand.
+    kept_unproved: Option<Instant>,
     marking: Marking,
     /// An earlier run may have left it moving, since then, and the operator is asked.
     left_moving: Option<Timestamp>,
@@ -222,13 +224,16 @@ impl Session {
         debts: Debts,
         bounds: Bounds,
     ) -> Self {
-        let gate = Gate::new(controller, antenna.limits, bounds);
+        let mut gate = Gate::new(controller, antenna.limits, bounds);
         let make = antenna.connection.make();
         let (wanted, link) = first_link(antenna);
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());
+        gate.was_moved(debts.unproved_since(&unit));
+        let kept_unproved = gate.unproved_since();
         Self {
             name: antenna.name.clone(),
+            kept_unproved,
             gate,
             make,
             park: antenna.park_direction().into(),
@@ -293,6 +298,7 @@ impl Session {
 
     /// Puts out a new snapshot when anything in it has changed.
     fn publish(&mut self, now: Moment) {
+        self.keep_unproved();
         let snapshot = Snapshot {
             link: self.link.clone(),
             intent: self.intent,

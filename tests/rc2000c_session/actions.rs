@@ -79,8 +79,8 @@ async fn what_leads_where_only_the_unit_knows_needs_the_operators_word() {
     let mut rig = Rig::in_manual().await;
     rig.act("to_satellite", to("GALAXY 5", 0));
     let told = not_sent(&mut rig).await;
-    let Refusal::Unseen { act, why } = told else { panic!("{told:?}") };
-    assert_eq!((act.action, why.contains("names")), ("to_satellite", true));
+    let Refusal::Unseen { act, why, is_watched } = told else { panic!("{told:?}") };
+    assert_eq!((act.action, why.contains("names"), is_watched), ("to_satellite", true, true));
     rig.seconds(2.0).await;
     assert!(rig.orders().is_empty());
     rig.send(Command::ActUnseen(act));
@@ -104,6 +104,24 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
     rig.until_event(5, |event| *event == Event::Stopped).await;
     let azimuth_deg = rig.shown().state.measured.unwrap().direction().unwrap().azimuth_deg();
     assert!((150.0..160.0).contains(&azimuth_deg), "{azimuth_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_cannot_be_watched_is_not_started_unseen() {
+    let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
+    rig.send(Command::Manual);
+    rig.send(Command::Within(mast()));
+    rig.act_unseen("to_satellite", to("GALAXY 5", 0));
+    assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
+    assert!(rig.orders().is_empty());
+    // Where nothing is forbidden the operator's eyes have to do.
+    rig.send(Command::Within(Box::new(Bounds::of_antenna(&uncalibrated()))));
+    rig.act("to_satellite", to("GALAXY 5", 0));
+    let told = not_sent(&mut rig).await;
+    assert!(matches!(told, Refusal::Unseen { is_watched: false, .. }), "{told:?}");
+    rig.act_unseen("to_satellite", to("GALAXY 5", 0));
+    rig.seconds(20.0).await;
+    assert_eq!(rig.counts(), [1100, 640]);
 }
 
 fn to(name: &str, polarity: i64) -> [(&'static str, Value); 2] {
@@ -242,6 +260,6 @@ async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move
     rig.hold([1.0, 0.0], 1.0).await;
     rig.send(Command::EndJog);
     rig.seconds(1.0).await;
-    assert_eq!(rig.events(), [refused], "a key that is held is refused once");
+    assert_eq!(rig.events(), [], "the keys are locked without a link");
     assert_eq!(rig.orders(), before);
 }

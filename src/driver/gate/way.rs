@@ -127,7 +127,7 @@ fn by_hand(
 
 /// Where the axes stand, as the mount counts. Without an elevation axis the second
 /// one may point anywhere; `None` where an axis that counts tells no angle.
-fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
+pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
     let [first, second] = situation.state.measured?.axes.map(|axis| axis.angle_deg);
     let second = if situation.can.has_elevation { second? } else { 0.0 };
     Some([first?, second])

@@ -170,6 +170,10 @@ impl Session {
             Turn::Command(command) => self.turn_down(command, now),
             Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
         }
+        // The link was wanted for a stop alone, and none is owed any more.
+        if self.wanted == Wanted::ForStop && self.let_go_quietly() {
+            return false;
+        }
         self.publish(now);
         true
     }

@@ -68,7 +68,11 @@ impl Likeness {
         has(self.identity.is_some(), now.identity.is_some())
             && has(self.place.is_some(), now.place.is_some())
             && has(self.offsets.is_some(), now.offsets.is_some())
-            && self.travel_deg.iter().zip(now.travel_deg).all(|(a, b)| has(a.is_some(), b.is_some()))
+            && self
+                .travel_deg
+                .iter()
+                .zip(now.travel_deg)
+                .all(|(a, b)| has(a.is_some(), b.is_some()))
     }
 }
 

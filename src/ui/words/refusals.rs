@@ -15,6 +15,10 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::LockedOut { by, reason } => {
             format!("Not sent: in maintenance, locked out by {by}: {reason}.")
         }
+        Refusal::PanelLockedOut { by } => format!(
+            "Not connected: in maintenance by {by}, and even a question would take the panel of \
+             this unit from whoever works on it. STOP still goes out. Take off the lock-out first."
+        ),
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
         }
@@ -67,10 +71,16 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::pointing_at(*at)
         ),
         Refusal::Controller(why) => format!("Not sent: {why}."),
-        Refusal::Unseen { why, .. } => format!(
-            "Not sent: {why}. Hold \u{201c}{UNSEEN}\u{201d} to start it all the same: Azel stops \
-             the antenna before what is forbidden."
-        ),
+        Refusal::Unseen { why, is_watched, .. } => {
+            let watched = if *is_watched {
+                "Azel stops the antenna before what is forbidden"
+            } else {
+                "its angles are not known, so somebody has to look at the antenna"
+            };
+            format!(
+                "Not sent: {why}. Hold \u{201c}{UNSEEN}\u{201d} to start it all the same: {watched}."
+            )
+        }
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }

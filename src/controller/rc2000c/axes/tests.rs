@@ -156,7 +156,8 @@ fn an_axis_moves_while_its_drive_or_its_number_says_so() {
 fn counts_mean_angles_only_where_both_axes_are_calibrated() {
     let [azimuth, elevation] = calibrated().degrees([30, 30]).unwrap();
     assert!((azimuth.unwrap() - 90.0).abs() < 1e-9 && elevation.unwrap().abs() < 1e-9);
-    let azimuth = vec![CountPoint { counts: 30, degrees: 90.0 }, CountPoint { counts: 3630, degrees: 270.0 }];
+    let azimuth =
+        vec![CountPoint { counts: 30, degrees: 90.0 }, CountPoint { counts: 3630, degrees: 270.0 }];
     let half = Axes::new(&Calibration { azimuth, ..Calibration::default() });
     assert_eq!(half.degrees([30, 30]), None);
     assert_eq!(Axes::new(&Calibration::default()).degrees([30, 30]), None);

@@ -16,6 +16,8 @@ enum Asked {
     /// An action that moves nothing.
     Act,
     MovingAct,
+    /// The same with the operator's word.
+    AgreedAct,
     /// A setting that decides where the antenna points.
     Setting,
     /// The same, of an antenna that was told to move.
@@ -44,6 +46,7 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
         Asked::Motion(motion) => gate.start(motion, intent, stopping, now),
         Asked::Act => gate.act(act, false, false, intent, stopping, now),
         Asked::MovingAct => gate.act(act, true, false, intent, stopping, now),
+        Asked::AgreedAct => gate.act(act, true, true, intent, stopping, now),
         Asked::Setting => gate.settle(change(), false, stopping, now),
         Asked::SettingInMotion => gate.settle(change(), true, stopping, now),
     }
@@ -196,6 +199,15 @@ fn actions_and_settings() -> Vec<Needed> {
             |it| matches!(it, Refusal::Unseen { .. }),
         ),
         needed(
+            "an_unseen_way_is_watched",
+            changed(
+                Case { leads_to: Lead::Unseen("names only"), ..beside_a_mast(rc2000c(Manual)) },
+                |case| case.axes()[0].angle_deg = None,
+            ),
+            Asked::AgreedAct,
+            |it| matches!(it, Refusal::AngleUnknown { .. }),
+        ),
+        needed(
             "end_of_the_action_is_within_reach",
             Case {
                 leads_to: Lead::To([Some(last_azimuth_deg() + 1.0), Some(45.0)]),
@@ -213,6 +225,9 @@ fn actions_and_settings() -> Vec<Needed> {
             Asked::MovingAct,
             |it| matches!(it, Refusal::Forbidden { .. }),
         ),
+        needed("no_setting_while_locked_out", locked_out(genius(Standby)), Asked::Setting, |it| {
+            matches!(it, Refusal::LockedOut { .. })
+        }),
         needed(
             "no_setting_while_stopping",
             Case { stopping: true, ..genius(Standby) },
