@@ -224,6 +224,7 @@ impl App {
 
     /// Takes a station into use. Antennas that stay as they are keep their session.
     fn use_station(&mut self, station: Station) {
+        self.keep_rows_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.model.antennas);
         // The antenna may be the same one at a new address: then STOP is owed to both.
         let debts = self.driver.debts().clone();

@@ -25,7 +25,7 @@ pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Progr
 pub use wire::{Direction, Finding, WireLine};
 
 use crate::{astro::Angle, protocol::satrak::Query};
-use panel::Act;
+use panel::{Act, Lead};
 use settings::{Change, Group, SettleError};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
@@ -215,9 +215,8 @@ pub trait Device: Send {
     /// A change that is not sent: the reason stands in [`AntennaState::held`].
     fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment);
 
-    /// While they are locked, changes of settings end with
-    /// [`LockedOut`](settings::SettleError::LockedOut) before anything is sent, also
-    /// those that wait.
+    /// While they are locked, changes of settings that wait end with
+    /// [`LockedOut`](settings::SettleError::LockedOut). The gate lets no new one by.
     fn lock_changes(&mut self, are_locked: bool);
 
     /// Asks this between its own questions. What is no question to this device
@@ -256,11 +255,9 @@ pub trait Moves: Device {
         None
     }
 
-    /// Where an action leads the axes, degrees as the mount counts, as far as it is
-    /// known.
-    fn axes_of(&self, _act: &Act) -> [Option<f64>; 2] {
-        [None; 2]
-    }
+    /// Where an action leads the axes.
+    fn lead_of(&self, act: &Act) -> Lead;
+
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
     fn prepare(&mut self, target: TrackTarget);

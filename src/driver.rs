@@ -35,7 +35,7 @@ pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
-pub use safety::{Mover, Response, Safety};
+pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
@@ -45,7 +45,7 @@ pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use self::pulse::Pulse;
 use crate::{
-    plan::Bounds,
+    plan::{Bounds, on_board::KnownOrbit},
     station::{Antenna, Link, LockOut},
 };
 
@@ -72,7 +72,12 @@ pub struct AntennaHandle {
     snapshots: watch::Receiver<Arc<Snapshot>>,
     events: mpsc::Receiver<Event>,
     wire: WireLog,
+    orbit: Orbits,
 }
+
+/// The orbit of the satellite that the unit holds. It outlives a session that breaks
+/// down, and is no command: a queue that is full does not hold it up.
+type Orbits = Arc<watch::Sender<Option<Arc<KnownOrbit>>>>;
 
 impl AntennaHandle {
     /// The near end of `wires`, without a thread behind it.
@@ -82,7 +87,7 @@ impl AntennaHandle {
         snapshots: watch::Receiver<Arc<Snapshot>>,
         events: mpsc::Receiver<Event>,
     ) -> Self {
-        Self { commands, stop, snapshots, events, wire: WireLog::default() }
+        Self { commands, stop, snapshots, events, wire: WireLog::default(), orbit: Arc::default() }
     }
 
     /// Stops the antenna: past every queue, never refused.
@@ -109,6 +114,11 @@ impl AntennaHandle {
     /// What went over the link.
     pub fn wire(&self) -> &WireLog {
         &self.wire
+    }
+
+    /// Tells by which orbit to judge what the unit does by itself.
+    pub fn know_orbit(&self, orbit: Option<Arc<KnownOrbit>>) {
+        self.orbit.send_replace(orbit);
     }
 
     /// The oldest event that was not read yet.

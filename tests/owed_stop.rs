@@ -161,6 +161,27 @@ mod owed_stop {
     }
 
     #[test]
+    fn that_a_unit_is_not_known_to_stand_outlives_a_change_of_its_settings() {
+        let scene = Scene::start();
+        let handle = scene.open(&scene.antenna());
+        scene.until(&handle, "all is read", |shown| shown.state.motion_lock == Some(false));
+        handle.send(Command::Hold).unwrap();
+        let elevation = Some(azel::astro::Angle::from_degrees(30.0));
+        handle.send(Command::Position { azimuth: None, elevation }).unwrap();
+        scene.until(&handle, "it moves", |shown| {
+            shown.state.measured.is_some_and(|measured| measured.moving())
+        });
+        handle.send(Command::Disconnect).unwrap();
+        scene.until(&handle, "let go of", |shown| shown.link == LinkState::Off);
+        assert!(handle.snapshot().unproved && handle.wants_stop());
+        // Nobody reaches it, so nothing can prove that it stands.
+        scene.is_cut.send(true).unwrap();
+        drop(handle);
+        let handle = scene.open(&Antenna { beam_width_deg: 0.9, ..scene.antenna() });
+        scene.until(&handle, "it is known to the next session", |shown| shown.unproved);
+    }
+
+    #[test]
     fn an_owed_stop_is_paid_to_a_unit_that_was_taken_out_of_the_settings() {
         let scene = Scene::start();
         let handle = scene.open(&scene.antenna());

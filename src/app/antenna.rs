@@ -12,9 +12,9 @@ use jiff::Timestamp;
 use super::{forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
-    controller::{Make, Measured, Phase, settings::Group},
+    controller::{Make, Measured, Phase, panel::Act, settings::Group},
     driver::{AntennaHandle, Event, Intent, Snapshot, StopState},
-    plan::{FollowPhase, Sample},
+    plan::{FollowPhase, Sample, on_board::KnownOrbit},
     station::Antenna,
 };
 
@@ -74,6 +74,11 @@ pub struct AntennaModel {
     /// A jog was refused because no dead-man can be had, and the operator has not
     /// allowed it since.
     pub asks_unguarded: bool,
+    /// An action was refused because nobody here knows where it leads, and nothing
+    /// else was asked for since.
+    pub asks_unseen: Option<Act>,
+    /// By which orbit its session judges what its unit does by itself.
+    pub orbit: Option<Arc<KnownOrbit>>,
     recent: VecDeque<Measured>,
 }
 
@@ -93,6 +98,8 @@ impl AntennaModel {
             ordered_track: None,
             track_again: None,
             asks_unguarded: false,
+            asks_unseen: None,
+            orbit: None,
             recent: VecDeque::new(),
         }
     }
@@ -100,6 +107,7 @@ impl AntennaModel {
     /// Stops the antenna, and shows STOP as pressed from this frame on.
     pub fn press_stop(&mut self) {
         self.handle.stop();
+        self.asks_unseen = None;
         self.stop_pressed = Some(Instant::now());
     }
 

@@ -121,6 +121,9 @@ impl App {
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
         let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        if !matches!(command, driver::Command::ReadGroup(_) | driver::Command::EndJog) {
+            antenna.asks_unseen = None;
+        }
         match command {
             driver::Command::AllowUnguarded => antenna.asks_unguarded = false,
             // By the operator's word, whatever the unit says of itself.

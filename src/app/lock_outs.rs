@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{App, alarms::AlarmKind, uploads::Ask};
 use crate::{
     driver::Command,
-    station::{LOCK_OUTS_FILE, LockOut, LockOuts},
+    station::{Antenna, LOCK_OUTS_FILE, LockOut, LockOuts},
 };
 
 impl App {
@@ -40,6 +40,15 @@ impl App {
         }
         for index in 0..self.model.antennas.len() {
             self.tell_lock_out(index);
+        }
+    }
+
+    /// Other antennas are taken into use: a lock-out stays with its row.
+    pub(super) fn keep_rows_locked_out(&mut self, after: &[Antenna]) {
+        let antennas = self.model.antennas.iter();
+        let before: Vec<Antenna> = antennas.map(|antenna| antenna.config.clone()).collect();
+        if self.lock_outs.stay_with_rows(&before, after) {
+            self.keep_lock_outs();
         }
     }
 

@@ -154,6 +154,7 @@ impl App {
             self.take_event(index, event);
         }
         self.tell_lock_out(index);
+        self.tell_orbit(index);
         self.judge_unit(index);
         self.watch_state(index);
         self.watch_on_board(index);
@@ -181,6 +182,9 @@ impl App {
         if let Some(antenna) = self.model.antennas.get_mut(index) {
             if event == Event::NotSent(Refusal::Unguarded) {
                 antenna.asks_unguarded = true;
+            }
+            if let Event::NotSent(Refusal::Unseen { act, .. }) = &event {
+                antenna.asks_unseen = Some(act.clone());
             }
             if event == Event::Stopped {
                 // The snapshots between press and standstill may all have been missed.

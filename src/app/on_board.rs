@@ -10,6 +10,7 @@ use super::{
     alarms::AlarmKind,
     antenna::AntennaModel,
     forecast::{Forecast, PassKey},
+    model::CatalogState,
 };
 use crate::{
     astro::{Angle, Site, time::add_seconds},
@@ -18,7 +19,7 @@ use crate::{
     orbit::{PassSearch, passes},
     plan::{
         OnBoardPass, Supervision,
-        on_board::{Ability, Judge},
+        on_board::{Ability, Judge, KnownOrbit},
     },
     station::Antenna,
 };
@@ -136,6 +137,27 @@ impl App {
 }
 
 impl App {
+    /// Tells the session of an antenna by which orbit to judge what its unit does by
+    /// itself.
+    pub(super) fn tell_orbit(&mut self, index: usize) {
+        let CatalogState::Ready(catalog) = &self.model.catalog else { return };
+        let Some(antenna) = self.model.antennas.get_mut(index) else { return };
+        let held = antenna.snapshot.state.on_board.satellite.as_ref();
+        let elements = held.and_then(|held| catalog.get(held.catalog_number));
+        let site = self.model.station.site;
+        let is_told = match (elements, &antenna.orbit) {
+            (Some(elements), Some(told)) => told.elements == *elements && told.site == site,
+            (None, None) => true,
+            _ => false,
+        };
+        if is_told {
+            return;
+        }
+        let orbit = elements.map(|it| Arc::new(KnownOrbit { elements: it.clone(), site }));
+        antenna.orbit.clone_from(&orbit);
+        antenna.handle.know_orbit(orbit);
+    }
+
     /// Alarms that follow from how a unit tracks by itself, or would.
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(antenna) = self.model.antennas.get(index) else { return };

@@ -108,6 +108,7 @@ fn chooses_something_else(command: &Command) -> bool {
             | Command::Park
             | Command::Resume
             | Command::Act(_)
+            | Command::ActUnseen(_)
             | Command::LockOut(_)
             | Command::Disconnect
     )

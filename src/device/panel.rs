@@ -97,3 +97,16 @@ pub struct Act {
     /// By the keys of its fields.
     pub values: Values,
 }
+
+/// Where an action leads the axes of the mount.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lead {
+    /// They stay: nothing turns, or something else does.
+    Nowhere,
+    /// There, degrees as the mount counts; `None` stays as it is.
+    To([Option<f64>; 2]),
+    /// Where the unit alone knows, for this reason: the operator answers for it.
+    Unseen(&'static str),
+    /// Nobody knows where as long as this is so; it is not sent.
+    Unknown(&'static str),
+}

@@ -42,6 +42,8 @@ pub struct AntennaState {
     pub held: Arc<Held>,
     /// What answers is another device, or wants to be told a code first.
     pub is_other_device: bool,
+    /// Who it says that it is, with its firmware or names, as told on this link.
+    pub identity: Option<String>,
     /// What went over the link.
     pub traffic: Traffic,
 }

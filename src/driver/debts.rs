@@ -7,6 +7,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Instant,
 };
 
 use jiff::Timestamp;
@@ -69,6 +70,8 @@ struct Ledger {
     /// The newest session of each unit, and its STOP.
     sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
     owed: BTreeSet<Unit>,
+    /// Units that were moved from here since then, and are not known to stand since.
+    unproved: BTreeMap<Unit, Instant>,
 }
 
 impl Debts {
@@ -114,6 +117,24 @@ impl Debts {
             stop.notify_one();
         }
         newer.is_some()
+    }
+
+    /// Keeps since when `unit` was moved without proof that it stands; `session` is the
+    /// one that says so, and an older one is not heard.
+    pub(super) fn keep_unproved(&self, unit: &Unit, session: u64, since: Option<Instant>) {
+        let mut ledger = self.ledger();
+        if ledger.sessions.get(unit).is_none_or(|(newest, _)| *newest != session) {
+            return;
+        }
+        match since {
+            Some(since) => drop(ledger.unproved.insert(unit.clone(), since)),
+            None => drop(ledger.unproved.remove(unit)),
+        }
+    }
+
+    /// Since when `unit` was moved without proof that it stands.
+    pub(super) fn unproved_since(&self, unit: &Unit) -> Option<Instant> {
+        self.ledger().unproved.get(unit).copied()
     }
 
     /// Whether a STOP is owed to `unit`.
@@ -203,6 +224,20 @@ mod tests {
         assert!(is_notified(&new), "STOP is its first word");
         debts.settle(&unit);
         assert_eq!(debts.units(), []);
+    }
+
+    #[test]
+    fn that_a_unit_is_not_known_to_stand_outlives_its_session() {
+        let (debts, unit) = (Debts::default(), unit("a:1"));
+        let first = debts.begin(&unit, Arc::default());
+        let since = Instant::now();
+        debts.keep_unproved(&unit, first, Some(since));
+        let second = debts.begin(&unit, Arc::default());
+        assert_eq!(debts.unproved_since(&unit), Some(since));
+        debts.keep_unproved(&unit, first, None);
+        assert_eq!(debts.unproved_since(&unit), Some(since), "the older one knows no better");
+        debts.keep_unproved(&unit, second, None);
+        assert_eq!(debts.unproved_since(&unit), None);
     }
 
     /// Whether a permit waits.

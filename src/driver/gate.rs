@@ -28,6 +28,7 @@ use crate::{
     },
     station::{LockOut, MotionLimits, Mount},
 };
+pub(super) use program::Held;
 use rules::{Check, RULES, Rule};
 
 /// From one side of the zenith to the other.
@@ -43,6 +44,13 @@ pub enum Refusal {
         by: String,
         /// Why.
         reason: String,
+    },
+    /// The unit is locked out, and whatever is asked of it would take its panel from
+    /// who works on it.
+    #[error("locked out by {by}, whose panel a connection would take")]
+    PanelLockedOut {
+        /// By whom.
+        by: String,
     },
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
@@ -129,6 +137,18 @@ pub enum Refusal {
     /// What is special to this controller speaks against it.
     #[error("{0}")]
     Controller(&'static str),
+    /// Where an action leads is known to the unit alone, and the operator has not
+    /// answered for it.
+    #[error("where {} leads is not known: {why}", act.action)]
+    Unseen {
+        /// What was asked for.
+        act: Act,
+        /// Why it is not known.
+        why: &'static str,
+        /// Whether its axes tell where they stand, so that it is stopped before what is
+        /// forbidden.
+        is_watched: bool,
+    },
     /// A step needs an antenna that stands.
     #[error("the antenna still moves")]
     StillMoving,
@@ -141,6 +161,12 @@ pub enum Refusal {
     /// The pass that the unit is to track by itself is not known.
     #[error("the pass is not known")]
     PassUnknown,
+    /// The unit holds a satellite whose elements are not known here.
+    #[error("the orbit of {name} is not known")]
+    OrbitUnknown {
+        /// Its name, as the unit tells it.
+        name: String,
+    },
     /// The pass does not get up to where the antenna may point.
     #[error(
         "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
@@ -179,6 +205,8 @@ struct Situation<'a> {
     stopping: bool,
     /// The antenna was told to move, whatever it does.
     may_move: bool,
+    /// The operator answers for an action whose end nobody knows here.
+    is_agreed: bool,
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
@@ -206,6 +234,8 @@ pub(super) struct Gate {
     unproved_since: Option<Instant>,
     /// The pass that the device's own program is started on.
     program: Option<Arc<Judge>>,
+    /// What the device would follow by itself.
+    held: Held,
 }
 
 impl Gate {
@@ -222,6 +252,7 @@ impl Gate {
             lock_out: None,
             unproved_since: None,
             program: None,
+            held: Held::Unread,
         }
     }
 
@@ -248,6 +279,11 @@ impl Gate {
     /// When the last motion passed after which standstill was not proved.
     pub(super) fn unproved_since(&self) -> Option<Instant> {
         self.unproved_since
+    }
+
+    /// Another session has moved it then, and did not prove that it stands.
+    pub(super) fn was_moved(&mut self, since: Option<Instant>) {
+        self.unproved_since = since;
     }
 
     /// Standstill is proved.
@@ -319,7 +355,7 @@ impl Gate {
         let situation = self.situation(intent, stopping, now);
         self.ask_rules(|check| match check {
             Check::Motion(check) => check(&motion, &situation),
-            Check::Act(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+            _ => Ok(()),
         })
     }
 
@@ -340,6 +376,7 @@ impl Gate {
             intent,
             stopping,
             may_move: false,
+            is_agreed: false,
             limits: self.limits,
             mount: self.mount,
             bounds: &self.bounds,
@@ -349,26 +386,29 @@ impl Gate {
         }
     }
 
-    /// Does what only this make can do, or says why not.
+    /// Does what only this make can do, or says why not. `is_agreed` says that the
+    /// operator answers for one that leads nobody here knows where.
     pub(super) fn act(
         &mut self,
         act: Act,
         moves: bool,
+        is_agreed: bool,
         intent: Intent,
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        let situation = self.situation(intent, stopping, now);
+        let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
-            Check::Motion(_) | Check::MovingAct(_) | Check::Setting(_) => Ok(()),
+            _ => Ok(()),
         })?;
         if moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
-                Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
+                _ => Ok(()),
             })?;
+            self.to_deg = self.end_of(&act);
             self.unproved_since = Some(now.steady);
         }
         self.controller.act(act);

@@ -54,6 +54,9 @@ pub enum Safety {
         name: String,
         /// For how long.
         lost: Duration,
+        /// How its unit differs from what it was before; `None` where that is not why
+        /// it asks.
+        unlike: Option<Unlike>,
     },
     /// The antenna was about to enter, or is inside, what is forbidden.
     Forbidden {
@@ -64,6 +67,21 @@ pub enum Safety {
         /// What was done about it.
         response: Response,
     },
+}
+
+/// In what a unit differs from what it was before it was out of sight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unlike {
+    /// It gives another name or firmware.
+    Identity,
+    /// Its own limits are others.
+    Limits,
+    /// It takes itself to stand elsewhere.
+    Place,
+    /// It adds something else to its path.
+    Offsets,
+    /// It does not tell again what it told before.
+    Unread,
 }
 
 /// Who moves an antenna.

@@ -10,6 +10,7 @@ mod follow;
 mod guard;
 mod halting;
 mod jog;
+mod likeness;
 mod liveness;
 mod lock_out;
 mod marking;
@@ -34,7 +35,7 @@ use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 pub use command::Command;
 
 use super::{
-    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Snapshot, Wake,
+    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Snapshot, Wake,
     WireLog,
     debts::{Debts, Unit},
     gate::Gate,
@@ -50,6 +51,7 @@ use follow::{Following, Manner, ResumeRule};
 use guard::Guard;
 use halting::Halting;
 use jog::Jog;
+use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{RunOut, Watch};
@@ -69,6 +71,7 @@ pub struct Wires {
     events: mpsc::Sender<Event>,
     wake: Wake,
     wire_log: WireLog,
+    orbit: Orbits,
 }
 
 impl Wires {
@@ -83,8 +86,8 @@ impl Wires {
         let handle =
             AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
         let commands = Arc::new(AsyncMutex::new(commands));
-        let wire_log = handle.wire().clone();
-        (Self { commands, stop, snapshots, events, wake, wire_log }, handle)
+        let (wire_log, orbit) = (handle.wire().clone(), Arc::clone(&handle.orbit));
+        (Self { commands, stop, snapshots, events, wake, wire_log, orbit }, handle)
     }
 
     /// Puts STOP before the next word.
@@ -134,6 +137,8 @@ pub struct Session {
     debts: Debts,
     /// Tells this session from others of the same unit.
     number: u64,
+    /// Since when it is kept that the unit was moved and is not proved to stand.
+    kept_unproved: Option<Instant>,
     marking: Marking,
     /// An earlier run may have left it moving, since then, and the operator is asked.
     left_moving: Option<Timestamp>,
@@ -152,6 +157,8 @@ pub struct Session {
     slept: Duration,
     /// Where the antenna was seen last on the link before.
     left_at: Option<Pointing>,
+    /// What its unit was like then.
+    left_as: Likeness,
     /// When the link went away while it had been up before.
     away_since: Option<Instant>,
     /// That the link is lost was told.
@@ -175,6 +182,9 @@ pub struct Session {
     /// The direction of a hold that ended before its key came up.
     ended_hold: Option<[f64; 2]>,
     guard: Guard,
+    /// An action of its make was asked for from here, and standstill is not proved
+    /// since.
+    acts: bool,
     /// A step that is not known to be over.
     stepping: Option<Stepping>,
     /// Is done as soon as no halt is under way.
@@ -214,13 +224,16 @@ impl Session {
         debts: Debts,
         bounds: Bounds,
     ) -> Self {
-        let gate = Gate::new(controller, antenna.limits, bounds);
+        let mut gate = Gate::new(controller, antenna.limits, bounds);
         let make = antenna.connection.make();
         let (wanted, link) = first_link(antenna);
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());
+        gate.was_moved(debts.unproved_since(&unit));
+        let kept_unproved = gate.unproved_since();
         Self {
             name: antenna.name.clone(),
+            kept_unproved,
             gate,
             make,
             park: antenna.park_direction().into(),
@@ -246,6 +259,7 @@ impl Session {
             clocks: None,
             slept: Duration::ZERO,
             left_at: None,
+            left_as: Likeness::default(),
             away_since: None,
             told_lost: false,
             unread: true,
@@ -260,6 +274,7 @@ impl Session {
             jog: None,
             ended_hold: None,
             guard: Guard::new(None),
+            acts: false,
             stepping: None,
             waiting: None,
             halting: None,
@@ -283,6 +298,7 @@ impl Session {
 
     /// Puts out a new snapshot when anything in it has changed.
     fn publish(&mut self, now: Moment) {
+        self.keep_unproved();
         let snapshot = Snapshot {
             link: self.link.clone(),
             intent: self.intent,

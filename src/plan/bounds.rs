@@ -153,6 +153,11 @@ impl Bounds {
             .min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()))
     }
 
+    /// Whether there is any keep-out or the Sun that is refused.
+    pub fn forbid_anything(&self) -> bool {
+        self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
+    }
+
     /// The keep-out or the surroundings of the Sun that a direction is in.
     pub fn forbids(&self, direction: AzEl, at: Timestamp) -> Option<Barrier> {
         self.above_the_floor()

@@ -33,6 +33,36 @@ pub struct OnBoardPass {
     pub is_agreed: bool,
 }
 
+/// An orbit as well as we know it, and from where it is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KnownOrbit {
+    /// Where the satellite is.
+    pub elements: Elements,
+    /// Where the antenna stands.
+    pub site: Site,
+}
+
+impl KnownOrbit {
+    /// What a device does by itself that tells `told`, in its own window; `None` where
+    /// it holds another satellite, or tells no window.
+    pub fn pass_of(&self, told: &OnBoard) -> Option<OnBoardPass> {
+        let held = told.satellite.as_ref()?;
+        let (from, until) = told.window?;
+        let is_this = held.catalog_number == self.elements.catalog_number();
+        is_this.then(|| OnBoardPass {
+            target: TrackTarget {
+                catalog_number: held.catalog_number,
+                name: held.name.clone(),
+                from,
+                until,
+            },
+            elements: self.elements.clone(),
+            site: self.site,
+            is_agreed: true,
+        })
+    }
+}
+
 /// What an antenna that is to track by itself must keep to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ability {

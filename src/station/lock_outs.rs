@@ -8,7 +8,7 @@ use std::{collections::BTreeMap, fs, io, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Connection, SaveError};
+use super::{Antenna, Connection, SaveError};
 use crate::whole_file;
 
 /// The name of the file, beside the station file.
@@ -127,6 +127,26 @@ impl LockOuts {
         }
     }
 
+    /// The antennas of the station are others now. What is locked out stays so with
+    /// the row of its antenna too, also at a new address or of a new make: whoever
+    /// works on it may be at either. Tells whether that adds anything.
+    pub fn stay_with_rows(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
+        let known = self.units.len();
+        for (row, old) in before.iter().enumerate() {
+            let Some(lock_out) = self.units.get(&Unit::of(&old.connection)).cloned() else {
+                continue;
+            };
+            let same_name = after.iter().find(|antenna| antenna.name == old.name);
+            let is_new = |antenna: &&Antenna| before.iter().all(|it| it.name != antenna.name);
+            // Renamed and moved at once.
+            let same_row = || after.get(row).filter(is_new).filter(|_| before.len() == after.len());
+            if let Some(antenna) = same_name.or_else(same_row) {
+                self.units.entry(Unit::of(&antenna.connection)).or_insert(lock_out);
+            }
+        }
+        self.units.len() > known
+    }
+
     /// Replaces the file at `path` as a whole; the one before is kept.
     pub fn save(&self, path: &Path) -> Result<(), SaveError> {
         let line = |(unit, lock_out): (&Unit, &LockOut)| {
@@ -144,7 +164,6 @@ impl LockOuts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::station::Antenna;
 
     fn lock_out(reason: &str) -> LockOut {
         LockOut {
@@ -217,5 +236,34 @@ mod tests {
         // What a folder is cannot be read either.
         let (lock_outs, problem) = LockOuts::load(folder.path(), now());
         assert!(problem.is_some() && lock_outs.of(&dish).is_some());
+    }
+
+    #[test]
+    fn a_lock_out_stays_with_the_row_whose_address_make_or_name_is_changed() {
+        let (dish, mast) = (Antenna::satrak("Dish", "a:1"), Antenna::genius("Mast", "m:1"));
+        let locked = || {
+            let mut lock_outs = LockOuts::default();
+            lock_outs.set(&dish.connection, Some(lock_out("gear")), std::iter::empty());
+            lock_outs
+        };
+        let before = [dish.clone(), mast.clone()];
+        for changed in [
+            Antenna::satrak("Dish", "a:2"),
+            Antenna::rc2000c("Dish", "COM3"),
+            Antenna::satrak("North dish", "a:2"),
+        ] {
+            let mut lock_outs = locked();
+            assert!(lock_outs.stay_with_rows(&before, &[changed.clone(), mast.clone()]));
+            assert_eq!(lock_outs.of(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
+            assert!(lock_outs.of(&dish.connection).is_some(), "the unit itself stays so");
+            assert_eq!(lock_outs.of(&mast.connection), None);
+            // It is taken off by a hold, each by itself.
+            lock_outs.set(&changed.connection, None, std::iter::empty());
+            assert_eq!(lock_outs.of(&changed.connection), None);
+        }
+        let mut lock_outs = locked();
+        assert!(!lock_outs.stay_with_rows(&before, std::slice::from_ref(&mast)), "deleted");
+        assert_eq!(lock_outs.of(&mast.connection), None);
+        assert!(!lock_outs.stay_with_rows(&before, &before));
     }
 }

@@ -6,9 +6,9 @@ use std::time::Duration;
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety},
+    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety, Unlike},
     plan::{Follow, FollowPhase, Target},
-    protocol::satrak::{FaultKind, Goto, Motion, Request},
+    protocol::satrak::{FaultKind, Goto, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},
     station::{AfterPass, Antenna, Resume},
 };
@@ -194,6 +194,38 @@ async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
         rig.seconds(20.0).await;
         assert_eq!(gotos(&control) > sent, !is_moved, "moved: {is_moved}");
         assert_eq!(rig.events().iter().any(asks), is_moved);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_comes_back_with_other_settings_is_not_followed_on_with() {
+    let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
+    for (setting, unlike) in [
+        (Some("SETTINGS=,?,?,?,1.0,?,?,?,?,?,?,?"), Some(Unlike::Offsets)),
+        (Some("GPS_SETTINGS=,0,12.50N,40.10E"), Some(Unlike::Place)),
+        (None, None),
+    ] {
+        let (mut rig, control, _) = following(&goes_on).await;
+        rig.until("its place", 60.0, |shown| shown.state.on_board.place.is_some()).await;
+        rig.set_off(true);
+        rig.seconds(2.0).await;
+        if let Some(setting) = setting {
+            let (mut near, far) = tokio::io::duplex(4096);
+            let unit = control.clone();
+            tokio::spawn(async move { unit.serve(far).await });
+            near.write_all(&encode(setting)).await.unwrap();
+        }
+        rig.seconds(8.0).await;
+        let sent = gotos(&control);
+        rig.set_off(false);
+        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.seconds(20.0).await;
+        let asked = rig.events().into_iter().find_map(|event| match event {
+            Event::Safety(Safety::AsksToResume { unlike, .. }) => unlike,
+            _ => None,
+        });
+        assert_eq!(asked, unlike, "{setting:?}");
+        assert_eq!(gotos(&control) > sent, unlike.is_none(), "{setting:?}");
     }
 }
 

@@ -2,18 +2,126 @@
 
 use azel::{
     controller::{Motion, panel::CheckState, rc2000c::MAKE, settings::Value},
-    driver::{Command, Event, Intent, Refusal},
+    driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
+    plan::Bounds,
     protocol::rc2000c::SatelliteName,
     sim::rc2000c::{Options, StoredSatellite},
-    station::LockOut,
+    station::{Antenna, Entered, KeepOut, LockOut, Monitor, Station},
 };
 
-use super::rig::{Rig, antenna, check, reading};
+use super::rig::{Rig, antenna, check, reading, uncalibrated};
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
     let Event::Refused(Motion::Action(_), reason) = event else { panic!("{event:?}") };
     reason
+}
+
+async fn not_sent(rig: &mut Rig) -> Refusal {
+    let event = rig.until_event(2, |event| matches!(event, Event::NotSent(..))).await;
+    let Event::NotSent(refusal) = event else { panic!("{event:?}") };
+    refusal
+}
+
+/// A mast before the azimuths from 140 to 150 degrees, up to 60.
+fn mast() -> Box<Bounds> {
+    let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
+    let mast = KeepOut {
+        name: "mast".to_owned(),
+        entered: Entered::Hard,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    };
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    Box::new(Bounds::of(&station, &antenna()))
+}
+
+#[tokio::test(start_paused = true)]
+async fn counts_are_judged_by_the_way_of_the_angles_that_they_mean() {
+    let mut rig = Rig::in_manual().await;
+    rig.send(Command::Within(mast()));
+    let counts = |az, el| [("az_counts", Value::Integer(az)), ("el_counts", Value::Integer(el))];
+    // From 164.75 degrees to 110, with the mast between.
+    rig.act("to_counts", counts(430, 750));
+    let told = not_sent(&mut rig).await;
+    assert!(matches!(told, Refusal::Forbidden { .. }), "{told:?}");
+    rig.act_unseen("to_counts", counts(430, 750));
+    assert_eq!(not_sent(&mut rig).await, told, "no word of the operator opens it");
+    assert!(rig.orders().is_empty());
+    rig.act("to_counts", counts(1530, 1500));
+    rig.seconds(15.0).await;
+    rig.act("to_counts", counts(430, 1500));
+    rig.seconds(30.0).await;
+    assert_eq!(rig.counts(), [430, 1500], "over it");
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn counts_that_mean_no_angle_are_refused_whatever_the_operator_says() {
+    let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
+    rig.send(Command::Manual);
+    let counts = [("az_counts", Value::Integer(1600)), ("el_counts", Value::Integer(700))];
+    for is_agreed in [false, true] {
+        match is_agreed {
+            false => rig.act("to_counts", counts.clone()),
+            true => rig.act_unseen("to_counts", counts.clone()),
+        }
+        let told = not_sent(&mut rig).await;
+        let Refusal::Controller(why) = told else { panic!("{told:?}") };
+        assert!(why.contains("enter two points"), "{why}");
+    }
+    assert!(rig.orders().is_empty());
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_leads_where_only_the_unit_knows_needs_the_operators_word() {
+    let mut rig = Rig::in_manual().await;
+    rig.act("to_satellite", to("GALAXY 5", 0));
+    let told = not_sent(&mut rig).await;
+    let Refusal::Unseen { act, why, is_watched } = told else { panic!("{told:?}") };
+    assert_eq!((act.action, why.contains("names"), is_watched), ("to_satellite", true, true));
+    rig.seconds(2.0).await;
+    assert!(rig.orders().is_empty());
+    rig.send(Command::ActUnseen(act));
+    rig.seconds(20.0).await;
+    assert_eq!(rig.counts(), [1100, 640]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_station_says_of_others()
+{
+    let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
+    let mut rig = Rig::connected(&Options::default(), &alarm_alone).await;
+    rig.send(Command::Manual);
+    rig.send(Command::Within(mast()));
+    // It is stored at 122.75 degrees, behind the mast.
+    rig.act_unseen("to_satellite", to("SATCOM C3", 0));
+    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
+    let told = rig.until_event(30, is_told).await;
+    let Event::Safety(Safety::Forbidden { driver, response, .. }) = told else { panic!() };
+    assert_eq!((driver, response), (Mover::Azel, Response::Stopped));
+    rig.until_event(5, |event| *event == Event::Stopped).await;
+    let azimuth_deg = rig.shown().state.measured.unwrap().direction().unwrap().azimuth_deg();
+    assert!((150.0..160.0).contains(&azimuth_deg), "{azimuth_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_cannot_be_watched_is_not_started_unseen() {
+    let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
+    rig.send(Command::Manual);
+    rig.send(Command::Within(mast()));
+    rig.act_unseen("to_satellite", to("GALAXY 5", 0));
+    assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
+    assert!(rig.orders().is_empty());
+    // Where nothing is forbidden the operator's eyes have to do.
+    rig.send(Command::Within(Box::new(Bounds::of_antenna(&uncalibrated()))));
+    rig.act("to_satellite", to("GALAXY 5", 0));
+    let told = not_sent(&mut rig).await;
+    assert!(matches!(told, Refusal::Unseen { is_watched: false, .. }), "{told:?}");
+    rig.act_unseen("to_satellite", to("GALAXY 5", 0));
+    rig.seconds(20.0).await;
+    assert_eq!(rig.counts(), [1100, 640]);
 }
 
 fn to(name: &str, polarity: i64) -> [(&'static str, Value); 2] {
@@ -23,15 +131,15 @@ fn to(name: &str, polarity: i64) -> [(&'static str, Value); 2] {
 #[tokio::test(start_paused = true)]
 async fn a_stored_satellite_is_gone_to_by_its_name_and_polarity() {
     let mut rig = Rig::in_manual().await;
-    rig.act("to_satellite", to(" galaxy 5 ", 0));
+    rig.act_unseen("to_satellite", to(" galaxy 5 ", 0));
     rig.seconds(20.0).await;
     assert_eq!(rig.counts(), [1100, 640]);
     assert_eq!(reading(&rig.shown(), "Satellite").as_deref(), Some("GALAXY 5"));
-    rig.act("to_satellite", to("SBS 6", 1));
+    rig.act_unseen("to_satellite", to("SBS 6", 1));
     rig.seconds(0.5).await;
     assert!(rig.shown().state.measured.unwrap().moving());
     rig.seconds(20.0).await;
-    rig.act("to_satellite", to("SBS 6", 2));
+    rig.act_unseen("to_satellite", to("SBS 6", 2));
     rig.seconds(1.0).await;
     let frames = rig.control.received();
     let moves: Vec<_> = frames.iter().filter(|(_, frame)| frame.code() == b'2').collect();
@@ -43,7 +151,7 @@ async fn a_stored_satellite_is_gone_to_by_its_name_and_polarity() {
 #[tokio::test(start_paused = true)]
 async fn a_name_that_is_not_in_the_list_is_not_sent() {
     let mut rig = Rig::in_manual().await;
-    rig.act("to_satellite", to("GALAXY", 0));
+    rig.act_unseen("to_satellite", to("GALAXY", 0));
     assert_eq!(refused(&mut rig).await, "no satellite \"GALAXY\" is stored");
     assert!(rig.orders().is_empty());
 }
@@ -59,10 +167,10 @@ async fn names_with_blanks_before_them_and_of_ten_digits_are_handled() {
     options.satellites.extend(odd);
     let mut rig = Rig::connected(&options, &antenna()).await;
     rig.send(Command::Manual);
-    rig.act("to_satellite", to("left", 0));
+    rig.act_unseen("to_satellite", to("left", 0));
     rig.seconds(1.0).await;
     assert_eq!(rig.orders(), ["2   LEFT    "]);
-    rig.act("to_satellite", to("0123456789", 0));
+    rig.act_unseen("to_satellite", to("0123456789", 0));
     assert_eq!(refused(&mut rig).await, "a name of ten digits means a position");
 }
 
@@ -90,8 +198,12 @@ async fn counts_are_gone_to_within_the_travel_of_the_mount() {
     assert_eq!(rig.counts(), [1600, 700]);
     assert_eq!(rig.orders(), ["2 0160000700"]);
     rig.act("to_counts", counts(4000, 700));
-    let reason = refused(&mut rig).await;
-    assert!(reason.contains("azimuth") && reason.contains("270"), "{reason}");
+    let told = not_sent(&mut rig).await;
+    assert!(matches!(told, Refusal::Travel { axis: "Az", to_deg: 270.0, .. }), "{told:?}");
+    // Within the travel and below the lowest elevation.
+    rig.act_unseen("to_counts", counts(1600, 70));
+    let told = not_sent(&mut rig).await;
+    assert!(matches!(told, Refusal::Elevation { lowest_deg: 5.0, .. }), "{told:?}");
     rig.act("to_counts", [("az_counts", Value::Integer(1600))]);
     assert_eq!(refused(&mut rig).await, "el_counts is missing");
     assert_eq!(rig.times("2").len(), 1);
@@ -148,6 +260,6 @@ async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move
     rig.hold([1.0, 0.0], 1.0).await;
     rig.send(Command::EndJog);
     rig.seconds(1.0).await;
-    assert_eq!(rig.events(), [refused], "a key that is held is refused once");
+    assert_eq!(rig.events(), [], "the keys are locked without a link");
     assert_eq!(rig.orders(), before);
 }

@@ -6,6 +6,7 @@ use azel::{
     controller::panel::CheckState,
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
+    station::LockOut,
 };
 
 use super::rig::{Rig, antenna, check, reading, uncalibrated};
@@ -149,4 +150,66 @@ async fn an_older_unit_and_one_with_a_wrong_code_are_understood() {
     assert_eq!(reading(&shown, "Unit").as_deref(), Some("RC2K 1.4"));
     assert_eq!((reading(&shown, "TRACK"), reading(&shown, "Signal")), (None, None));
     assert_eq!(check(&shown, "Kind of unit"), Some(CheckState::Caution));
+}
+
+fn lock_out() -> LockOut {
+    LockOut {
+        by: "Ada".to_owned(),
+        reason: "feed off".to_owned(),
+        since: "2026-11-22T10:00:00Z".parse().unwrap(),
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_lock_out_gives_the_panel_to_who_works_there_and_stop_alone_takes_it() {
+    let mut rig = Rig::in_manual().await;
+    rig.send(Command::LockOut(lock_out()));
+    rig.until("let go of", 5, |shown| shown.link == LinkState::Off).await;
+    assert_eq!(rig.shown().lock_out, Some(lock_out()));
+    rig.events();
+    let (dials, said) = (rig.dials(), rig.received().len());
+    rig.send(Command::Connect);
+    rig.seconds(30.0).await;
+    let refused = Event::NotSent(Refusal::PanelLockedOut { by: "Ada".to_owned() });
+    assert_eq!(rig.events(), [refused]);
+    assert_eq!((rig.dials(), rig.received().len()), (dials, said), "not even a question");
+
+    rig.stop();
+    rig.until_event(10, |event| *event == Event::Stopped).await;
+    assert!(rig.orders().iter().any(|order| order.starts_with("3X")), "{:?}", rig.orders());
+    rig.until("let go of again", 5, |shown| shown.link == LinkState::Off).await;
+    rig.events();
+
+    rig.send(Command::Unlock);
+    rig.send(Command::Connect);
+    rig.until_event(5, |event| *event == Event::Connected(Found::Still)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_lock_out_stops_what_moves_before_it_lets_go() {
+    let mut rig = Rig::in_manual().await;
+    rig.send(Command::Hold);
+    let azimuth = Some(azel::astro::Angle::from_degrees(220.0));
+    rig.send(Command::Position { azimuth, elevation: None });
+    rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
+    rig.send(Command::LockOut(lock_out()));
+    rig.until_event(10, |event| *event == Event::Stopped).await;
+    rig.until("let go of", 5, |shown| shown.link == LinkState::Off).await;
+    let there = rig.counts();
+    rig.seconds(5.0).await;
+    assert_eq!(rig.counts(), there);
+    assert!(!rig.shown().unproved);
+}
+
+#[tokio::test(start_paused = true)]
+async fn without_a_link_a_lock_out_ends_the_dialling() {
+    let mut rig = Rig::in_manual().await;
+    rig.set_off(true);
+    rig.until("lost", 10, |shown| matches!(shown.link, LinkState::Lost { .. })).await;
+    rig.send(Command::LockOut(lock_out()));
+    rig.until("off", 5, |shown| shown.link == LinkState::Off).await;
+    let dials = rig.dials();
+    rig.set_off(false);
+    rig.seconds(30.0).await;
+    assert_eq!(rig.dials(), dials);
 }

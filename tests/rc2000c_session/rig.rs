@@ -150,6 +150,15 @@ impl Rig {
         self.send(Command::Act(Act { action, values: values.into_iter().collect() }));
     }
 
+    /// The same, with the operator's word that it may lead anywhere.
+    pub(super) fn act_unseen<const N: usize>(
+        &self,
+        action: &'static str,
+        values: [(&'static str, Value); N],
+    ) {
+        self.send(Command::ActUnseen(Act { action, values: values.into_iter().collect() }));
+    }
+
     pub(super) fn stop(&self) {
         self.handle.as_ref().unwrap().stop();
     }

@@ -15,7 +15,7 @@ fn named(name: &str) -> [(&'static str, Value); 1] {
 /// A unit that tracks an inclined satellite, searching or peaking.
 async fn tracking() -> Rig {
     let mut rig = Rig::in_manual().await;
-    rig.act("to_satellite", named("GSTAR 3"));
+    rig.act_unseen("to_satellite", named("GSTAR 3"));
     rig.until("TRACK", 30, |shown| {
         reading(shown, "TRACK").is_some_and(|text| !text.starts_with("off"))
     })
@@ -43,7 +43,7 @@ async fn a_move_by_name_may_lead_to_track_which_is_told_and_shown() {
 #[tokio::test(start_paused = true)]
 async fn a_move_out_of_track_needs_to_be_told_so() {
     let mut rig = tracking().await;
-    rig.act("to_satellite", named("SBS 6"));
+    rig.act_unseen("to_satellite", named("SBS 6"));
     assert_eq!(refused(&mut rig).await, "TRACK is active on the unit");
     let counts = [("az_counts", Value::Integer(1525)), ("el_counts", Value::Integer(750))];
     rig.act("to_counts", counts.clone());
@@ -100,7 +100,7 @@ async fn the_band_and_the_reset_go_out_only_while_track_is_active() {
     assert_eq!(check(&rig.shown(), "TRACK"), Some(CheckState::Fault));
     assert_eq!(reading(&rig.shown(), "TRACK").as_deref(), Some("error: no peak, C band"));
     rig.control.set_fault(Fault::PeakLimit, false);
-    rig.act("restart_track", []);
+    rig.act_unseen("restart_track", []);
     rig.seconds(1.0).await;
     assert_eq!(check(&rig.shown(), "TRACK"), None);
     let sent: Vec<String> = rig.orders().into_iter().filter(|text| text.starts_with('6')).collect();
@@ -118,7 +118,7 @@ async fn a_band_that_the_satellite_does_not_have_is_explained() {
     }
     let mut rig = Rig::connected(&options, &antenna()).await;
     rig.send(Command::Manual);
-    rig.act("to_satellite", named("GSTAR 3"));
+    rig.act_unseen("to_satellite", named("GSTAR 3"));
     rig.until("TRACK", 30, |shown| shown.state.program.is_some()).await;
     rig.act("track_c_band", []);
     assert_eq!(refused(&mut rig).await, "the satellite has one band only");

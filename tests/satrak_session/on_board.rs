@@ -3,19 +3,20 @@
 
 use azel::{
     astro::{Angle, AzEl, time},
-    controller::{TrackTarget, settings::Value},
+    controller::{Phase, TrackTarget, settings::Value},
     driver::{Command, Event, Refusal},
     orbit::{PassSearch, Propagator, passes},
     plan::{
-        OnBoardPass, Supervision,
+        Bounds, OnBoardPass, Supervision,
         on_board::{Cause, OffLimits, Trespass},
     },
     protocol::satrak::encode,
+    station::{Entered, KeepOut, Station},
 };
 use tokio::io::AsyncWriteExt as _;
 
 use super::{
-    rig::{Rig, antenna, iss, options, track},
+    rig::{Rig, antenna, iss, options, track, twin},
     scene,
     settings::{change, settle},
 };
@@ -220,4 +221,139 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
         }
     }
     assert!((29.9..31.0).contains(&lowest.elevation_deg()), "{lowest:?}");
+}
+
+/// Another client puts `target` on the unit, with its window.
+async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
+    by_another(rig, &format!("SATELLITE=,{},{},1,0", scene::FILE, target.name)).await;
+    let text = |time| {
+        let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
+        civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
+    };
+    let window = format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until));
+    by_another(rig, &window).await;
+    let number = target.catalog_number;
+    rig.until("it is read", 32, |shown| {
+        let told = &shown.state.on_board;
+        told.window.is_some_and(|(from, _)| from.as_second() == target.from.as_second())
+            && told.satellite.as_ref().is_some_and(|held| held.catalog_number == number)
+    })
+    .await;
+    rig.events();
+}
+
+/// A mast from 20 to 60 degrees of elevation about where the satellite is highest.
+fn in_the_way() -> Box<Bounds> {
+    let highest_deg = scene::pass().tca.direction.azimuth_deg();
+    let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];
+    let corners_deg = [(from_deg, 20.0), (to_deg, 20.0), (to_deg, 80.0), (from_deg, 80.0)];
+    let mast = KeepOut {
+        name: "mast".to_owned(),
+        entered: Entered::Hard,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    };
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    Box::new(Bounds::of(&station, &antenna()))
+}
+
+async fn auto_track_refused(rig: &mut Rig) -> Refusal {
+    rig.send(Command::AutoTrack(true));
+    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
+    rig.seconds(2.0).await;
+    assert!(rig.sent("TRACK_AUTO_ENABLE=").is_empty());
+    let Event::NotSent(refusal) = told else { panic!("{told:?}") };
+    refusal
+}
+
+#[tokio::test(start_paused = true)]
+async fn auto_track_is_judged_by_where_the_unit_would_go_when_it_takes_over() {
+    let mut rig = read().await;
+    chosen_by_another(&mut rig, &iss()).await;
+    rig.send(Command::Within(in_the_way()));
+    let told = auto_track_refused(&mut rig).await;
+    assert!(matches!(told, Refusal::Path(_) | Refusal::Forbidden { .. }), "{told:?}");
+    rig.send(Command::Within(Box::new(Bounds::of_antenna(&antenna()))));
+    rig.send(Command::AutoTrack(true));
+    rig.seconds(1.0).await;
+    assert_eq!(rig.sent("TRACK_AUTO_ENABLE=").len(), 1);
+    assert_eq!(rig.shown().state.program.unwrap().auto, Some(true));
+}
+
+#[tokio::test(start_paused = true)]
+async fn auto_track_of_a_satellite_that_is_not_known_here_is_refused_by_its_name() {
+    let mut rig = read().await;
+    chosen_by_another(&mut rig, &twin()).await;
+    let told = auto_track_refused(&mut rig).await;
+    assert_eq!(told, Refusal::OrbitUnknown { name: "TWIN".to_owned() });
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_window_that_is_over_leads_nowhere() {
+    let mut rig = read().await;
+    let hours = jiff::SignedDuration::from_hours(-3);
+    let over = TrackTarget { from: iss().from + hours, until: iss().until + hours, ..twin() };
+    chosen_by_another(&mut rig, &over).await;
+    rig.send(Command::AutoTrack(true));
+    rig.seconds(1.0).await;
+    assert_eq!(rig.shown().state.program.unwrap().auto, Some(true));
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_the_unit_tracks_unasked_is_watched_like_what_it_was_asked_to() {
+    let mut rig = read().await;
+    chosen_by_another(&mut rig, &iss()).await;
+    by_another(&rig, "TRACK=,1").await;
+    rig.until_event(5, |event| *event == Event::StartedByItself).await;
+    rig.until("it is watched", 2, |shown| shown.on_board.is_some()).await;
+    let tracks =
+        |shown: &azel::driver::Snapshot| shown.state.program.unwrap().phase == Phase::Tracking;
+    rig.until("in the pass", 120, tracks).await;
+    rig.seconds(20.0).await;
+    let shown = rig.shown();
+    let view = shown.on_board.as_ref().unwrap();
+    assert_eq!((view.missing, view.found.causes.clone()), (None, vec![]));
+    assert_eq!(shown.target, None, "nobody asked for it from here");
+
+    by_another(&rig, "SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?").await;
+    rig.until("missed", 45, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
+    })
+    .await;
+    let shown = rig.shown();
+    let view = shown.on_board.as_ref().unwrap();
+    assert!(view.missing.unwrap() > Angle::from_degrees(7.0), "{view:?}");
+    rig.until("its cause", 30, |shown| !shown.on_board.as_ref().unwrap().found.causes.is_empty())
+        .await;
+    assert_eq!(first(&rig.shown().on_board.as_ref().unwrap().found), Cause::ElevationOffset(8.0));
+    assert!(rig.control.state().is_tracking, "it is told, not ended");
+
+    rig.know_orbit(None);
+    rig.until("nothing to compare with", 2, |shown| shown.on_board.is_none()).await;
+    rig.know_orbit(Some(scene::orbit(25_544)));
+    rig.until("watched again", 2, |shown| shown.on_board.is_some()).await;
+    by_another(&rig, "TRACK=,0").await;
+    rig.until("over", 5, |shown| shown.on_board.is_none()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_found_tracking_that_stands_elsewhere_is_told_with_the_cause() {
+    let mut rig = read().await;
+    stand_elsewhere(&mut rig).await;
+    general(&mut rig, "minimum_elevation_deg", Value::Decimal(5.0)).await;
+    chosen_by_another(&mut rig, &iss()).await;
+    by_another(&rig, "TRACK=,1").await;
+    rig.send(Command::Disconnect);
+    rig.seconds(60.0).await;
+    rig.events();
+    rig.send(Command::Connect);
+    let found = |event: &Event| matches!(event, Event::Connected(azel::driver::Found::Tracking));
+    rig.until_event(10, found).await;
+    rig.until("missed", 150, |shown| {
+        shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
+    })
+    .await;
+    assert!(matches!(first(&rig.shown().on_board.as_ref().unwrap().found), Cause::Place { .. }));
 }

@@ -11,13 +11,14 @@ use std::{
 
 use azel::{
     driver::{AntennaHandle, Command, Dial, Event, LinkState, Snapshot, Stream, WireLog},
+    plan::on_board::KnownOrbit,
     sim::satrak::{Control, Options},
     station::{Antenna, LockOut},
 };
 use tokio::time::{Instant, sleep};
 
-use super::scene::session;
 pub(super) use super::scene::{antenna, iss, options, track, twin};
+use super::scene::{orbit, session};
 
 /// How finely the operator looks.
 const LOOK: Duration = Duration::from_millis(10);
@@ -65,6 +66,7 @@ impl Rig {
         let utc_origin = options.utc_origin;
         let clock_readings = Arc::default();
         let (session, handle) = session(antenna, dial, utc_origin, Arc::clone(&clock_readings));
+        handle.know_orbit(Some(orbit(25_544)));
         Self {
             control,
             handle: Some(handle),
@@ -100,6 +102,11 @@ impl Rig {
 
     pub(super) fn send(&self, command: Command) {
         self.handle.as_ref().unwrap().send(command).unwrap();
+    }
+
+    /// By which orbit the session judges what the unit does by itself.
+    pub(super) fn know_orbit(&self, orbit: Option<Arc<KnownOrbit>>) {
+        self.handle.as_ref().unwrap().know_orbit(orbit);
     }
 
     pub(super) fn stop(&self) {

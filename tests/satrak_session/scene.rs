@@ -13,7 +13,7 @@ use azel::{
     controller::{TrackTarget, satrak::Satrak},
     driver::{AntennaHandle, Clock, Command, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
-    plan::OnBoardPass,
+    plan::{OnBoardPass, on_board::KnownOrbit},
     sim::satrak::Options,
     station::Antenna,
 };
@@ -75,6 +75,12 @@ pub(super) fn track(target: TrackTarget) -> Command {
 pub(super) fn on_board(target: TrackTarget) -> OnBoardPass {
     let elements = elements().swap_remove(usize::from(target.catalog_number == 25_545));
     OnBoardPass { target, elements, site: site(), is_agreed: false }
+}
+
+/// The orbit of both.
+pub(super) fn orbit(catalog_number: u32) -> Arc<KnownOrbit> {
+    let elements = elements().swap_remove(usize::from(catalog_number == 25_545));
+    Arc::new(KnownOrbit { elements, site: site() })
 }
 
 /// The other satellite on the same orbit.

@@ -4,7 +4,7 @@ use super::{Order, Rc2000c, refusal::is_tracking};
 use crate::{
     controller::{
         Device, Happening, Motion,
-        panel::{Act, Action},
+        panel::{Act, Action, Lead},
         settings::{Field, Kind, Unfit, Value},
     },
     protocol::rc2000c::{
@@ -44,6 +44,15 @@ const EL_COUNTS: Field = Field::write("el_counts", "Elevation", COUNTS).in_unit(
 const COUNTS: Kind = Kind::Integer { least: 0, most: 65_535 };
 const UNITS: Field = Field::write("units", "Polarization", Kind::Integer { least: 0, most: 1023 })
     .about("0 to 661 with a polarotor, 0 to 1023 with a rotating feed; more is further CCW.");
+
+const NAMES_ONLY: &str = "the unit tells the names of its satellites and not their places, so \
+                          where it runs to is known to it alone";
+const OWN_SEARCH: &str = "the unit searches for the signal by itself, so where it runs to is known \
+                          to it alone";
+const NOT_CALIBRATED: &str = "what these counts mean is not known, so nobody can tell where the \
+                              antenna would point: enter two points or more for azimuth and \
+                              elevation in Preferences";
+const UNHEARD_OF: &str = "where this leads is not known";
 
 /// In the order of the panel.
 pub(super) const ACTIONS: &[Action] = &[
@@ -169,6 +178,27 @@ impl Rc2000c {
         }
     }
 
+    /// Where an action leads the axes.
+    pub(super) fn lead(&self, act: &Act) -> Lead {
+        // What cannot be sent leads nowhere; why it is not sent is told with it.
+        if self.request_of(act).is_err() {
+            return Lead::Nowhere;
+        }
+        match act.action {
+            TO_SATELLITE => Lead::Unseen(NAMES_ONLY),
+            RESTART_TRACK => Lead::Unseen(OWN_SEARCH),
+            TO_COUNTS => match Self::counts_of(act) {
+                Ok(counts) => {
+                    self.axes.degrees(counts).map_or(Lead::Unknown(NOT_CALIBRATED), Lead::To)
+                }
+                Err(_) => Lead::Nowhere,
+            },
+            TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW | POLARITY_H | POLARITY_V
+            | AUTO_POLARIZATION_ON => Lead::Nowhere,
+            _ => Lead::Unknown(UNHEARD_OF),
+        }
+    }
+
     fn to_satellite(&self, act: &Act) -> Result<AutoMove, String> {
         self.check_track(act)?;
         let Some(Value::Text(typed)) = act.values.get(SATELLITE.key) else {
@@ -189,9 +219,12 @@ impl Rc2000c {
 
     fn to_counts(&self, act: &Act) -> Result<AutoMove, String> {
         self.check_track(act)?;
-        let [az_counts, el_counts] = [integer(act, AZ_COUNTS.key)?, integer(act, EL_COUNTS.key)?];
-        self.axes.check_travel(&self.mount, [az_counts, el_counts])?;
+        let [az_counts, el_counts] = Self::counts_of(act)?;
         Ok(AutoMove::position(az_counts, el_counts))
+    }
+
+    fn counts_of(act: &Act) -> Result<[u16; 2], String> {
+        Ok([integer(act, AZ_COUNTS.key)?, integer(act, EL_COUNTS.key)?])
     }
 
     /// A move would take the antenna out of the hands of the unit.

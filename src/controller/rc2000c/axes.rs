@@ -110,24 +110,11 @@ impl Axes {
         Ok(AutoMove::position(az_counts, el_counts))
     }
 
-    /// Whether counts lie within the travel of the mount, as far as an axis is
-    /// calibrated.
-    pub(super) fn check_travel(&self, mount: &Mount, counts: [u16; 2]) -> Result<(), String> {
-        let names = ["azimuth", "elevation"];
-        let axes = self.lines.iter().zip(counts).zip(mount.travel_deg()).zip(names);
-        for (((line, counts), (from_deg, to_deg)), name) in axes {
-            let Some(line) = line else { continue };
-            let degrees = line.degrees(counts);
-            // Counts are rounded from degrees: allow for it.
-            let step_deg = (line.degrees(1) - line.degrees(0)).abs();
-            if degrees < from_deg - step_deg || degrees > to_deg + step_deg {
-                return Err(format!(
-                    "the {name} would have to go to {degrees:.1}°, it travels {from_deg}° to \
-                     {to_deg}°"
-                ));
-            }
-        }
-        Ok(())
+    /// Where the axes stand at these counts, degrees as the mount counts; `None`
+    /// unless both are calibrated.
+    pub(super) fn degrees(&self, counts: [u16; 2]) -> Option<[Option<f64>; 2]> {
+        let [azimuth, elevation] = self.lines;
+        Some([Some(azimuth?.degrees(counts[0])), Some(elevation?.degrees(counts[1]))])
     }
 }
 

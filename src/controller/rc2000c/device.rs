@@ -11,7 +11,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Extent, Finding, Happening, Moment, Motion, Moves,
         PrepareError, Question, TrackTarget, WireLine,
-        panel::Act,
+        panel::{Act, Lead},
         settings::{Change, Group, SettleError},
     },
     protocol::rc2000c::{
@@ -30,6 +30,7 @@ impl Device for Rc2000c {
         self.state.motion_lock = None;
         self.state.checked_at = None;
         self.state.program = None;
+        self.state.identity = None;
         self.status = None;
         self.past = Past::default();
         self.device = None;
@@ -184,6 +185,10 @@ impl Rc2000c {
 }
 
 impl Moves for Rc2000c {
+    fn lead_of(&self, act: &Act) -> Lead {
+        self.lead(act)
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));

@@ -131,6 +131,7 @@ impl Rc2000c {
             Reply::DeviceType(device) => {
                 self.wants_device = false;
                 self.device = Some(*device);
+                self.state.identity = Some(device.to_string());
             }
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {

@@ -12,7 +12,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         Question, TrackTarget, WireLine,
-        panel::Act,
+        panel::{Act, Lead},
         settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::rotator_genius::{Decoder, Request},
@@ -156,6 +156,11 @@ impl Device for Genius {
 }
 
 impl Moves for Genius {
+    /// What it can do beyond turns a rotator that is not this antenna's.
+    fn lead_of(&self, _: &Act) -> Lead {
+        Lead::Nowhere
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));

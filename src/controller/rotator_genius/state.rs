@@ -42,6 +42,8 @@ impl Genius {
         });
         self.state.travel_deg = roles.travel_deg(&status);
         self.state.motion_lock = Some(false);
+        let names = RotatorNumber::ALL.map(|number| status.rotator(number).name.as_str());
+        self.state.identity = Some(names.join(", "));
         for number in RotatorNumber::ALL {
             let state = self.state.group(settings::group_of(number).key);
             let values = settings::values(&status, number);

@@ -13,7 +13,7 @@ use crate::{
     controller::{
         AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         Question, TrackTarget, WireLine,
-        panel::Act,
+        panel::{Act, Lead},
         settings::{Change, Group, SettleError, SettleStep},
     },
     protocol::satrak::{Decoder, Halt, Request},
@@ -28,6 +28,7 @@ impl Device for Satrak {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
+        self.state.identity = None;
         // What the unit goes by may be another since the last link.
         let unit = &mut self.state.satrak;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
@@ -183,6 +184,10 @@ impl Device for Satrak {
 }
 
 impl Moves for Satrak {
+    fn lead_of(&self, _: &Act) -> Lead {
+        Lead::Nowhere
+    }
+
     fn prepare(&mut self, target: TrackTarget) {
         // An answer to a step of the former preparation must not move this one.
         if let Some(outstanding) = &mut self.outstanding {

@@ -30,7 +30,13 @@ impl AntennaState {
         self.take_values(&reply, now);
         let unit = &mut self.satrak;
         match reply {
-            Reply::Version(version) => unit.version = Some(version),
+            Reply::Version(version) => {
+                let firmware = [Some(version.control_unit.as_str()), version.drive_unit.as_deref()];
+                let others = version.others.iter().map(String::as_str);
+                let words: Vec<&str> = firmware.into_iter().flatten().chain(others).collect();
+                self.identity = Some(words.join(", "));
+                unit.version = Some(version);
+            }
             Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
             Reply::Faults(faults) => {
                 unit.faults = Some((faults, now.utc));

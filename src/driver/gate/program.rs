@@ -9,7 +9,38 @@ use crate::{
     plan::on_board::Judge,
 };
 
+/// What a device would follow by itself.
+#[derive(Debug, Clone)]
+pub(in crate::driver) enum Held {
+    /// It was not read yet.
+    Unread,
+    /// Nothing: it holds no satellite, or its window is over.
+    Nothing,
+    /// This, from now on.
+    Pass(Arc<Judge>),
+    /// A satellite whose orbit is not known here.
+    Unknown {
+        /// Its name.
+        name: String,
+    },
+}
+
 impl Gate {
+    /// What [`Motion::EnableAuto`] is checked by from here on.
+    pub(in crate::driver) fn will_hold(&mut self, held: Held) {
+        self.held = held;
+    }
+
+    /// Whether the device may follow by itself what it holds.
+    pub(super) fn held_is_clear(&self, now: Moment) -> Result<(), Refusal> {
+        match &self.held {
+            Held::Nothing => Ok(()),
+            Held::Pass(judge) => self.path_is_clear(judge, now),
+            Held::Unread => Err(Refusal::PassUnknown),
+            Held::Unknown { name } => Err(Refusal::OrbitUnknown { name: name.clone() }),
+        }
+    }
+
     /// Whether the device may track the pass of `judge` by itself. If so, that pass
     /// is what [`Motion::StartProgram`] is checked by from here on.
     pub(in crate::driver) fn check_pass(
@@ -29,7 +60,10 @@ impl Gate {
     /// itself now, is where the antenna may point.
     /// So is all that its axes can sweep on the way to where the pass begins.
     pub(super) fn program_is_clear(&self, now: Moment) -> Result<(), Refusal> {
-        let judge = self.program.as_ref().ok_or(Refusal::PassUnknown)?;
+        self.path_is_clear(self.program.as_ref().ok_or(Refusal::PassUnknown)?, now)
+    }
+
+    fn path_is_clear(&self, judge: &Judge, now: Moment) -> Result<(), Refusal> {
         let unit = &self.state().on_board;
         judge.is_clear(unit, &self.bounds).map_err(Refusal::Path)?;
         judge.start(unit).map_or(Ok(()), |start| self.slew_is_clear(start, now))

@@ -5,7 +5,11 @@ use std::time::Duration;
 use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
-    controller::{Motion, aimed, panel::Act, settings::Hindrance},
+    controller::{
+        Motion, aimed,
+        panel::{Act, Lead},
+        settings::Hindrance,
+    },
     driver::intent::Intent,
     station::Mount,
 };
@@ -32,6 +36,8 @@ pub(super) enum Check {
     Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
     /// An action that moves, after the rules of motions.
     MovingAct(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
+    /// Any setting.
+    AnySetting(fn(&Situation<'_>) -> Result<(), Refusal>),
     /// A setting that decides where the antenna points.
     Setting(fn(&Situation<'_>) -> Option<Hindrance>),
 }
@@ -59,9 +65,15 @@ pub(super) const RULES: &[Rule] = rules![
     Motion(within_reach),
     Motion(way_is_clear),
     Motion(program_is_clear),
+    Motion(auto_track_is_clear),
     Motion(controller_agrees),
     Act(no_action_while_locked_out),
+    MovingAct(the_end_of_the_action_can_be_known),
+    MovingAct(the_operator_answers_for_an_unseen_end),
+    MovingAct(an_unseen_way_is_watched),
+    MovingAct(end_of_the_action_is_within_reach),
     MovingAct(way_of_the_action_is_clear),
+    AnySetting(no_setting_while_locked_out),
     Setting(no_setting_while_stopping),
     Setting(no_setting_while_the_unit_may_move),
     Setting(no_setting_after_a_motion_was_asked_for),
@@ -280,6 +292,13 @@ fn program_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Re
     situation.gate.program_is_clear(situation.now)
 }
 
+fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    if *motion != Motion::EnableAuto {
+        return Ok(());
+    }
+    situation.gate.held_is_clear(situation.now)
+}
+
 fn controller_agrees(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let objection = situation.gate.controller.objection(motion, situation.now);
     objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
@@ -290,9 +309,56 @@ fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), 
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
+/// No word of the operator helps here: nobody knows.
+fn the_end_of_the_action_can_be_known(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    match situation.gate.controller.lead_of(act) {
+        Lead::Unknown(why) => Err(Refusal::Controller(why)),
+        Lead::Nowhere | Lead::To(_) | Lead::Unseen(_) => Ok(()),
+    }
+}
+
+fn the_operator_answers_for_an_unseen_end(
+    act: &Act,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
+    match situation.gate.controller.lead_of(act) {
+        Lead::Unseen(why) if !situation.is_agreed => {
+            let is_watched = way::axes(situation).is_some();
+            Err(Refusal::Unseen { act: act.clone(), why, is_watched })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Nobody would stop it before what is forbidden.
+fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let is_unseen = matches!(situation.gate.controller.lead_of(act), Lead::Unseen(_));
+    if !is_unseen || !situation.bounds.forbid_anything() {
+        return Ok(());
+    }
+    let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
+    let count = if situation.can.has_elevation { 2 } else { 1 };
+    let axes = measured.axes.into_iter().zip(situation.can.axes).take(count);
+    for (axis, name) in axes {
+        if axis.angle_deg.is_none() {
+            return Err(Refusal::AngleUnknown { axis: name });
+        }
+    }
+    Ok(())
+}
+
+fn end_of_the_action_is_within_reach(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let motion = situation.gate.motion_of(act);
+    motion.map_or(Ok(()), |motion| within_reach(&motion, situation))
+}
+
 fn way_of_the_action_is_clear(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let gate = situation.gate;
-    gate.check_axes(gate.controller.axes_of(act), situation.now)
+    let motion = situation.gate.motion_of(act);
+    motion.map_or(Ok(()), |motion| way::is_clear(&motion, situation))
+}
+
+fn no_setting_while_locked_out(situation: &Situation<'_>) -> Result<(), Refusal> {
+    situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
 fn no_setting_while_stopping(situation: &Situation<'_>) -> Option<Hindrance> {

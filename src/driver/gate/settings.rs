@@ -22,6 +22,15 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
+        let situation = self.situation(Intent::Standby, stopping, now);
+        let allowed = self.ask_rules(|check| match check {
+            Check::AnySetting(check) => check(&situation),
+            _ => Ok(()),
+        });
+        if let Err(refusal) = allowed {
+            self.controller.refuse_change(change, SettleError::LockedOut, now);
+            return Err(refusal);
+        }
         let groups = self.controller.groups();
         let group = groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
@@ -30,7 +39,7 @@ impl Gate {
             let situation = Situation { may_move, ..asked };
             self.rules.iter().find_map(|rule| match rule.check {
                 Check::Setting(check) => check(&situation),
-                Check::Motion(_) | Check::Act(_) | Check::MovingAct(_) => None,
+                _ => None,
             })
         };
         let Some((field, why)) = field.and_then(|field| Some((field, hindrance()?))) else {

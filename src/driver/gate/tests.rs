@@ -16,7 +16,9 @@ use crate::{
     astro::{AzEl, Site, time::add_seconds},
     controller::{
         Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
-        WireLine, satrak,
+        WireLine,
+        panel::Lead,
+        satrak,
         settings::{Change, Group, SettleError},
     },
     orbit::{PassSearch, Propagator, passes},
@@ -30,7 +32,7 @@ struct Metal {
     state: AntennaState,
     started: Arc<Mutex<Vec<Motion>>>,
     objection: Option<&'static str>,
-    leads_to: [Option<f64>; 2],
+    leads_to: Lead,
 }
 
 impl Metal {
@@ -103,7 +105,7 @@ impl Moves for Metal {
         self.objection
     }
 
-    fn axes_of(&self, _: &Act) -> [Option<f64>; 2] {
+    fn lead_of(&self, _: &Act) -> Lead {
         self.leads_to
     }
 
@@ -148,11 +150,13 @@ struct Case {
     keep_outs: Vec<KeepOut>,
     /// The unit's program is started on [`PROGRAM`].
     pass_is_known: bool,
+    /// What the unit would follow by itself.
+    held: Held,
     lock_out: Option<LockOut>,
     /// What the controller has against any motion.
     objection: Option<&'static str>,
-    /// Where any action brings the axes, degrees.
-    leads_to: [Option<f64>; 2],
+    /// Where any action leads.
+    leads_to: Lead,
 }
 
 impl Case {
@@ -184,9 +188,10 @@ impl Case {
             antenna: Antenna::satrak("Dish", ""),
             keep_outs: Vec::new(),
             pass_is_known: true,
+            held: Held::Nothing,
             lock_out: None,
             objection: None,
-            leads_to: [None; 2],
+            leads_to: Lead::Nowhere,
         }
     }
 
@@ -208,6 +213,7 @@ impl Case {
         let station = Station { keep_outs: self.keep_outs.clone(), ..Station::default() };
         let bounds = Bounds::of(&station, &self.antenna);
         let mut gate = Gate::new(Box::new(metal), self.antenna.limits, bounds);
+        gate.held = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
         gate

@@ -3,7 +3,10 @@
 use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
-    controller::{JogSpeeds, aimed},
+    controller::{
+        JogSpeeds, aimed,
+        panel::{Act, Lead},
+    },
     plan::detour::{self, Reach},
 };
 
@@ -27,6 +30,9 @@ pub(in crate::driver) struct Route {
 
 /// Refuses what may lead into a barrier.
 pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+    if let Motion::Position { azimuth, elevation } = *motion {
+        return to_position(azimuth, elevation, situation);
+    }
     let Some(axes_deg) = axes(situation) else { return Ok(()) };
     match *motion {
         Motion::Jog { x_deg_s, y_deg_s } => {
@@ -35,16 +41,40 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
             by_hand(axes_deg, ahead_deg, Some(rates), situation)
         }
         Motion::Step { x_deg, y_deg } => by_hand(axes_deg, [x_deg, y_deg], None, situation),
-        Motion::Position { azimuth, elevation } => {
-            let Some(to_deg) = target(azimuth, elevation, axes_deg, situation) else {
-                return Ok(());
-            };
-            let sweep = sweep_between(axes_deg, to_deg, situation);
-            blocked(sweep, axes_deg, situation.bounds, situation.now)
-        }
         // The way of the unit's own program is judged by itself.
-        Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => Ok(()),
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
+            Ok(())
+        }
     }
+}
+
+/// An axis that tells no angle, such as one at its limit, may come from anywhere in
+/// its travel.
+fn to_position(
+    azimuth: Option<Angle>,
+    elevation: Option<Angle>,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
+    if let Some(axes_deg) = axes(situation) {
+        let Some(to_deg) = target(azimuth, elevation, axes_deg, situation) else {
+            return Ok(());
+        };
+        let sweep = sweep_between(axes_deg, to_deg, situation);
+        return blocked(sweep, axes_deg, situation.bounds, situation.now);
+    }
+    let Some(measured) = situation.state.measured else { return Ok(()) };
+    let [first, second] = [0, 1].map(|axis| {
+        let angle_deg = measured.axes.get(axis).and_then(|axis| axis.angle_deg);
+        let whole = situation.mount.travel_deg().get(axis).copied();
+        angle_deg.map(|deg| (deg, deg)).or(whole).unwrap_or_default()
+    });
+    let lowest_deg = [first.0, second.0];
+    let Some(to_deg) = target(azimuth, elevation, lowest_deg, situation) else { return Ok(()) };
+    let reach = |(from, to): (f64, f64), end: f64| (from.min(end), to.max(end));
+    let second = if situation.can.has_elevation { reach(second, to_deg[1]) } else { (0.0, 90.0) };
+    let sweep = Sweep([reach(first, to_deg[0]), second]);
+    // Its end is judged by its reach; where it begins may be below the floor.
+    blocked(sweep, to_deg, &situation.bounds.above_the_floor(), situation.now)
 }
 
 impl Situation<'_> {
@@ -101,7 +131,7 @@ fn by_hand(
 
 /// Where the axes stand, as the mount counts. Without an elevation axis the second
 /// one may point anywhere; `None` where an axis that counts tells no angle.
-fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
+pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
     let [first, second] = situation.state.measured?.axes.map(|axis| axis.angle_deg);
     let second = if situation.can.has_elevation { second? } else { 0.0 };
     Some([first?, second])
@@ -244,15 +274,23 @@ impl Gate {
         blocked(sweep, from_deg, &self.bounds.above_the_floor(), now)
     }
 
-    /// Refuses an action that brings the axes through what is forbidden; an axis
-    /// whose end is not known stays as it is.
-    pub(super) fn check_axes(&self, to_deg: [Option<f64>; 2], now: Moment) -> Result<(), Refusal> {
-        let situation = self.situation(Intent::Position, false, now);
-        let Some(from_deg) = axes(&situation) else { return Ok(()) };
-        if to_deg == [None, None] {
-            return Ok(());
+    /// Where an action leads, as a motion to a position; `None` where it leads
+    /// nowhere, or nobody knows.
+    pub(super) fn motion_of(&self, act: &Act) -> Option<Motion> {
+        let Lead::To(to_deg) = self.controller.lead_of(act) else { return None };
+        if let Mount::AzEl { .. } = self.mount {
+            let [azimuth, elevation] = to_deg.map(|deg| deg.map(Angle::from_degrees));
+            return Some(Motion::Position { azimuth, elevation });
         }
-        let to_deg = [to_deg[0].unwrap_or(from_deg[0]), to_deg[1].unwrap_or(from_deg[1])];
-        blocked(sweep_between(from_deg, to_deg, &situation), from_deg, &self.bounds, now)
+        let stands = self.state().measured.map(|measured| measured.axes);
+        let angle_deg = |axis: usize| stands.and_then(|axes| axes.get(axis)?.angle_deg);
+        let [first, second] = to_deg;
+        Some(self.to_axes([first.or(angle_deg(0))?, second.or(angle_deg(1))?]))
+    }
+
+    /// The axes at the end of an action, as far as it is known.
+    pub(super) fn end_of(&self, act: &Act) -> Option<[f64; 2]> {
+        let Lead::To([first, second]) = self.controller.lead_of(act) else { return None };
+        Some([first?, second?])
     }
 }

@@ -64,6 +64,9 @@ pub enum Command {
     Disconnect,
     /// Do what only this make of controller can do.
     Act(Act),
+    /// The same, where the gate does not know where it leads and the operator answers
+    /// for that.
+    ActUnseen(Act),
     /// The device may start to follow by itself.
     AutoTrack(bool),
     /// Read the group of settings with this key anew.
@@ -142,13 +145,16 @@ impl Session {
             Command::Track(pass) => self.track(*pass, now),
             Command::Follow(follow) => self.follow(*follow, now),
             Command::AutoTrack(true) => {
+                let held = self.held(now);
+                self.gate.will_hold(held);
                 self.start(Motion::EnableAuto, now);
             }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
             Command::Settle(change) => self.settle(change, now),
             Command::Ask(question) => self.gate.device().ask(question),
-            Command::Act(act) => self.act(act, now),
+            Command::Act(act) => self.act(act, false, now),
+            Command::ActUnseen(act) => self.act(act, true, now),
             Command::Connect => self.wanted = Wanted::Yes,
             // The loop's.
             Command::Disconnect => {}
@@ -159,13 +165,16 @@ impl Session {
         }
     }
 
-    fn act(&mut self, act: Act, now: Moment) {
+    fn act(&mut self, act: Act, is_agreed: bool, now: Moment) {
         let Some(action) = self.make.action(act.action) else {
             return self.tell(Event::NotSent(Refusal::NotOffered));
         };
         let stopping = self.halting.is_some();
-        match self.gate.act(act, action.moves, self.intent, stopping, now) {
-            Ok(()) if action.moves => self.stopped_at = None,
+        match self.gate.act(act, action.moves, is_agreed, self.intent, stopping, now) {
+            Ok(()) if action.moves => {
+                self.stopped_at = None;
+                self.acts = true;
+            }
             Ok(()) => {}
             Err(refusal) => self.tell(Event::NotSent(refusal)),
         }

@@ -87,6 +87,7 @@ impl Session {
             // A link on which nothing was ever said is no new one.
             self.told_lost = false;
         }
+        self.remember_likeness();
         let now = self.now();
         self.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
@@ -168,6 +169,10 @@ impl Session {
             Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
             Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+        }
+        // The link was wanted for a stop alone, and none is owed any more.
+        if self.wanted == Wanted::ForStop && self.let_go_quietly() {
+            return false;
         }
         self.publish(now);
         true

@@ -8,11 +8,11 @@ use std::time::{Duration, Instant};
 
 pub(super) use following::{Following, Manner};
 
-use super::{Command, Event, Session};
+use super::{Command, Event, Session, likeness::Recheck};
 use crate::{
     astro::Angle,
     controller::{Moment, Motion, Pointing},
-    driver::{FollowProblem, Intent, Refusal, Safety},
+    driver::{FollowProblem, Intent, Refusal, Safety, Unlike},
     plan::{
         Bounds, Follow, FollowPhase,
         follow::{AxisNow, Next, Planner},
@@ -159,7 +159,7 @@ impl Session {
         if now.steady < following.next_look {
             return;
         }
-        if following.awaits_word {
+        if following.awaits_word || following.recheck.is_some() {
             following.next_look = now.steady + self.manner.following.period();
             return;
         }
@@ -248,10 +248,11 @@ impl Session {
 
     /// The device was read anew after it was out of sight for `lost`: what it was told
     /// on another link may be gone, and somebody may have gone to the antenna.
-    pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing) {
+    pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing, now: Moment) {
         let Some(following) = &mut self.following else { return };
         following.planner.forget_sent();
         following.sent = None;
+        following.recheck = None;
         if lost <= self.rule.after {
             return;
         }
@@ -261,7 +262,10 @@ impl Session {
             place.separation(at).is_some_and(|off| off <= self.rule.half_beam + self.coast())
         });
         if self.rule.resume == Resume::Ask || !is_where_it_was {
-            self.await_word(lost);
+            return self.await_word(lost, None);
+        }
+        if let Some(following) = &mut self.following {
+            following.recheck = Some(Recheck { since: now.steady, lost });
         }
     }
 
@@ -270,11 +274,11 @@ impl Session {
         Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.run_out_s)
     }
 
-    fn await_word(&mut self, lost: Duration) {
+    pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {
         let Some(following) = &mut self.following else { return };
         following.awaits_word = true;
         let name = following.name();
-        self.tell(Event::Safety(Safety::AsksToResume { name, lost }));
+        self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
     }
 
     /// Stops the antenna and keeps its target until the operator's word.
@@ -285,13 +289,14 @@ impl Session {
         let following = self.following.take();
         self.halt_quietly(now);
         self.following = following;
-        self.await_word(lost);
+        self.await_word(lost, None);
     }
 
     /// The operator lets it go on.
     pub(super) fn resume(&mut self) {
         if let Some(following) = &mut self.following {
             following.awaits_word = false;
+            following.recheck = None;
             following.planner.forget_sent();
         }
     }

@@ -62,8 +62,17 @@ impl Session {
         self.aim = None;
         self.pending = None;
         self.put_lock_out(lock_out, now);
+        self.leave_panel();
         if self.make.capabilities.has_program && !self.link.is_open() {
             self.tell_unproved();
+        }
+    }
+
+    /// Where a question takes the panel of the unit from who works on it, nothing but
+    /// STOP is said to it from now on.
+    fn leave_panel(&mut self) {
+        if self.make.capabilities.waits_for_word && self.wanted == Wanted::Yes {
+            self.wanted = Wanted::ForStop;
         }
     }
 
@@ -96,6 +105,14 @@ impl Session {
     /// each where its refusal is shown.
     pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
         let Some(lock_out) = self.gate.lock_out() else { return false };
+        if *command == Command::Connect {
+            let takes_panel = self.make.capabilities.waits_for_word;
+            if takes_panel {
+                let refusal = Refusal::PanelLockedOut { by: lock_out.by.clone() };
+                self.tell(Event::NotSent(refusal));
+            }
+            return takes_panel;
+        }
         let is_refused = match command {
             Command::Manual
             | Command::Hold
@@ -105,16 +122,17 @@ impl Session {
             | Command::Follow(_)
             | Command::Park
             | Command::AutoTrack(_) => true,
+            // With a link the gate refuses these.
+            Command::Act(_) | Command::ActUnseen(_) => !self.link.is_open(),
             Command::Standby
+            | Command::Connect
             | Command::Jog { .. }
             | Command::EndJog
             | Command::AllowUnguarded
             | Command::SeenStanding
             | Command::Resume
             | Command::Within(_)
-            | Command::Act(_)
             | Command::Settle(_)
-            | Command::Connect
             | Command::Disconnect
             | Command::ReadGroup(_)
             | Command::Ask(_)

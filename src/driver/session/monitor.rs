@@ -100,6 +100,7 @@ impl Session {
         let state = self.gate.state();
         let by_azel = self.jog.is_some()
             || self.stepping.is_some()
+            || self.acts
             || self.follows()
             || matches!(self.intent, Intent::Position | Intent::Park) && self.pending.is_some();
         if by_azel {

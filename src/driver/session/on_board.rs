@@ -8,9 +8,9 @@ use std::{
 
 use super::{Event, Session};
 use crate::{
-    astro::Angle,
+    astro::{Angle, time::add_seconds},
     controller::{Moment, OnBoard},
-    driver::{FollowProblem, OnBoardView},
+    driver::{FollowProblem, OnBoardView, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
@@ -102,10 +102,49 @@ impl Session {
         watch.objection()
     }
 
+    /// What the unit would do by itself from now on.
+    pub(super) fn held(&self, now: Moment) -> Held {
+        let unit = &self.gate.state().on_board;
+        let Some(satellite) = &unit.satellite else { return Held::Unread };
+        if satellite.catalog_number == 0 {
+            return Held::Nothing;
+        }
+        let own_now = add_seconds(now.utc, unit.clock_ahead_s.unwrap_or_default());
+        let Some((start, stop)) = unit.window.filter(|(_, stop)| own_now < *stop) else {
+            return Held::Nothing;
+        };
+        let from_now_on = OnBoard { window: Some((start.max(own_now), stop)), ..unit.clone() };
+        let orbit = self.wires.orbit.borrow().clone();
+        let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
+        let judge = pass.and_then(|pass| Judge::new(pass, self.ability).ok());
+        judge.map_or_else(
+            || Held::Unknown { name: satellite.name.clone() },
+            |judge| Held::Pass(Arc::new(judge)),
+        )
+    }
+
+    /// Takes up or ends the watch over what the unit tracks without having been asked
+    /// from here.
+    fn watch_unasked(&mut self) {
+        let state = self.gate.state();
+        let is_on = !self.unread && state.program.is_some_and(|program| program.enabled);
+        let orbit = self.wires.orbit.borrow().clone().filter(|_| is_on && !self.follows());
+        let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
+            self.on_board = None;
+            return;
+        };
+        if self.on_board.as_ref().is_some_and(|watch| *watch.judge.pass() == pass) {
+            return;
+        }
+        // Elements that describe no orbit tell of no place to compare with.
+        let judge = Judge::new(pass, self.ability).ok();
+        self.on_board = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+    }
+
     /// Looks whether the unit is where it should be.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
         if self.target.is_none() || self.follows() {
-            self.on_board = None;
+            self.watch_unasked();
         }
         let Some(watch) = &mut self.on_board else { return };
         let state = self.gate.state();

@@ -32,6 +32,7 @@ impl Session {
             self.take(happening, now);
         }
         self.greet(now);
+        self.watch_likeness(now);
         self.watch_program();
         self.resolve_doubt(now);
         self.watch_jog(now);
@@ -162,7 +163,7 @@ impl Session {
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.slept);
-        self.follow_on(lost, measured.pointing);
+        self.follow_on(lost, measured.pointing, now);
         let by_device = self.intent == Intent::Track && !self.follows();
         if by_device && found != Found::Tracking {
             self.intent = Intent::Standby;

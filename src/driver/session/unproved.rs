@@ -14,8 +14,19 @@ impl Session {
         self.gate.unproved_since().is_some() || self.halting.is_some()
     }
 
+    /// Keeps it for the next session of the unit too, whose antenna may be changed in
+    /// the settings meanwhile.
+    pub(super) fn keep_unproved(&mut self) {
+        let since = self.gate.unproved_since();
+        if since != self.kept_unproved {
+            self.kept_unproved = since;
+            self.debts.keep_unproved(&self.unit, self.number, since);
+        }
+    }
+
     /// A halt is over: nothing moves. A unit that may start by itself is not done.
     pub(super) fn prove_still(&mut self) {
+        self.acts = false;
         if !self.may_start_by_itself() {
             self.gate.proved_still();
         }

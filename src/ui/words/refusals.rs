@@ -6,12 +6,19 @@ use crate::{
     ui::format,
 };
 
+/// On the key that is held to start what leads nobody here knows where.
+pub const UNSEEN: &str = "Start it, its end is not known";
+
 /// Why a motion was not sent.
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
         Refusal::LockedOut { by, reason } => {
             format!("Not sent: in maintenance, locked out by {by}: {reason}.")
         }
+        Refusal::PanelLockedOut { by } => format!(
+            "Not connected: in maintenance by {by}, and even a question would take the panel of \
+             this unit from whoever works on it. STOP still goes out. Take off the lock-out first."
+        ),
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
         }
@@ -64,6 +71,16 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::pointing_at(*at)
         ),
         Refusal::Controller(why) => format!("Not sent: {why}."),
+        Refusal::Unseen { why, is_watched, .. } => {
+            let watched = if *is_watched {
+                "Azel stops the antenna before what is forbidden"
+            } else {
+                "its angles are not known, so somebody has to look at the antenna"
+            };
+            format!(
+                "Not sent: {why}. Hold \u{201c}{UNSEEN}\u{201d} to start it all the same: {watched}."
+            )
+        }
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
@@ -72,6 +89,10 @@ pub fn refusal(refusal: &Refusal) -> String {
             .to_owned(),
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
         Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
+        Refusal::OrbitUnknown { name } => format!(
+            "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
+             is not known. Load its elements, or choose another satellite."
+        ),
         Refusal::TooLow { highest_deg, lowest_deg } => format!(
             "Not sent: what is left of the pass is not above the {} of this antenna; the pass \
              reaches {}.",

@@ -1,7 +1,7 @@
 //! Matters of safety.
 
 use crate::{
-    driver::{Mover, Response, Safety, Snapshot, StopState, Unit},
+    driver::{Mover, Response, Safety, Snapshot, StopState, Unit, Unlike},
     makes,
     plan::Barrier,
     ui::format,
@@ -42,6 +42,20 @@ pub fn owed(unit: &Unit) -> String {
         "The {make} at {address} may still move: a STOP is owed to it, and no antenna of the \
          station has it any more. Azel goes on trying. Look at the antenna."
     )
+}
+
+/// In what a unit differs from what it was before, as a sentence after a blank.
+fn unlike(unlike: Unlike) -> &'static str {
+    match unlike {
+        Unlike::Identity => {
+            " It answers with another name or firmware than before: look whether it is the same \
+             unit."
+        }
+        Unlike::Limits => " Its limits are not those of before: look at its settings.",
+        Unlike::Place => " The place that it tells is not that of before: look at its settings.",
+        Unlike::Offsets => " Its offsets are not those of before: look at its settings.",
+        Unlike::Unread => " It does not tell again what it told of itself before.",
+    }
 }
 
 /// A matter of safety in words; `antenna` is its name.
@@ -96,10 +110,11 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
             "This computer slept for {}. {antenna} is read anew.",
             format::age(lasted.as_secs_f64())
         ),
-        Safety::AsksToResume { name, lost } => format!(
-            "{antenna} was tracking {name} and was out of sight for {}. It stands until you track \
-             it again.",
-            format::age(lost.as_secs_f64())
+        Safety::AsksToResume { name, lost, unlike } => format!(
+            "{antenna} was tracking {name} and was out of sight for {}.{} It stands until you \
+             track it again.",
+            format::age(lost.as_secs_f64()),
+            unlike.map(self::unlike).unwrap_or_default()
         ),
         Safety::SessionBroke => format!(
             "The connection to {antenna} broke down inside Azel and was started again with STOP."

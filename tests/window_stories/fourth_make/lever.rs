@@ -14,7 +14,7 @@ use azel::{
     controller::{
         AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, Happening, JogSpeeds, Make,
         Measured, Moment, Motion, Moves, Question, Standstill, TrackTarget, WireLine, aimed,
-        panel::Act,
+        panel::{Act, Lead},
         satrak,
         settings::{Change, Group, SettleError},
     },
@@ -226,6 +226,10 @@ impl Device for Lever {
 }
 
 impl Moves for Lever {
+    fn lead_of(&self, _: &Act) -> Lead {
+        Lead::Nowhere
+    }
+
     fn prepare(&mut self, _: TrackTarget) {}
 
     fn settle(&mut self, _: Change, _: Moment) {}

@@ -153,16 +153,12 @@ fn an_axis_moves_while_its_drive_or_its_number_says_so() {
 }
 
 #[test]
-fn counts_beyond_the_travel_of_the_mount_are_told() {
-    let mount = Mount::AzEl {
-        azimuth_from_deg: 90.0,
-        azimuth_to_deg: 540.0,
-        elevation_from_deg: 0.0,
-        elevation_to_deg: 85.0,
-    };
-    assert_eq!(calibrated().check_travel(&mount, [30, 30]), Ok(()));
-    let refused = calibrated().check_travel(&mount, [30, 1830]).unwrap_err();
-    assert!(refused.contains("elevation") && refused.contains("85"), "{refused}");
-    let unknown = Axes::new(&Calibration::default());
-    assert_eq!(unknown.check_travel(&mount, [0, 65_535]), Ok(()), "nothing is known");
+fn counts_mean_angles_only_where_both_axes_are_calibrated() {
+    let [azimuth, elevation] = calibrated().degrees([30, 30]).unwrap();
+    assert!((azimuth.unwrap() - 90.0).abs() < 1e-9 && elevation.unwrap().abs() < 1e-9);
+    let azimuth =
+        vec![CountPoint { counts: 30, degrees: 90.0 }, CountPoint { counts: 3630, degrees: 270.0 }];
+    let half = Axes::new(&Calibration { azimuth, ..Calibration::default() });
+    assert_eq!(half.degrees([30, 30]), None);
+    assert_eq!(Axes::new(&Calibration::default()).degrees([30, 30]), None);
 }

@@ -133,7 +133,7 @@ fn look_closely(seed: u64) -> Outcome {
     }
     let can = antenna.connection.make().capabilities;
     let started = Arc::default();
-    let (objection, leads_to) = (None, [None; 2]);
+    let (objection, leads_to) = (None, Lead::Nowhere);
     let metal = Metal { can, state: case.state.clone(), started, objection, leads_to };
     let gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
     let now = Moment { steady: measured_at(&case) + case.age, utc };

@@ -16,6 +16,8 @@ enum Asked {
     /// An action that moves nothing.
     Act,
     MovingAct,
+    /// The same with the operator's word.
+    AgreedAct,
     /// A setting that decides where the antenna points.
     Setting,
     /// The same, of an antenna that was told to move.
@@ -42,8 +44,9 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
     };
     match asked {
         Asked::Motion(motion) => gate.start(motion, intent, stopping, now),
-        Asked::Act => gate.act(act, false, intent, stopping, now),
-        Asked::MovingAct => gate.act(act, true, intent, stopping, now),
+        Asked::Act => gate.act(act, false, false, intent, stopping, now),
+        Asked::MovingAct => gate.act(act, true, false, intent, stopping, now),
+        Asked::AgreedAct => gate.act(act, true, true, intent, stopping, now),
         Asked::Setting => gate.settle(change(), false, stopping, now),
         Asked::SettingInMotion => gate.settle(change(), true, stopping, now),
     }
@@ -56,7 +59,7 @@ fn locked_out(case: Case) -> Case {
 }
 
 /// A mast stands between 100 and 120 degrees, up to 40.
-fn beside_a_mast(case: Case) -> Case {
+pub(super) fn beside_a_mast(case: Case) -> Case {
     let corners_deg = [(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)];
     let mast = KeepOut {
         name: "mast".to_owned(),
@@ -163,6 +166,12 @@ fn motions() -> Vec<Needed> {
             |it| *it == Refusal::PassUnknown,
         ),
         needed(
+            "auto_track_is_clear",
+            Case { held: Held::Unknown { name: "TWIN".to_owned() }, ..Case::new(Standby) },
+            Asked::Motion(Motion::EnableAuto),
+            |it| matches!(it, Refusal::OrbitUnknown { .. }),
+        ),
+        needed(
             "controller_agrees",
             Case { objection: Some("one rotator at a time"), ..manual() },
             turn,
@@ -178,11 +187,47 @@ fn actions_and_settings() -> Vec<Needed> {
             matches!(it, Refusal::LockedOut { .. })
         }),
         needed(
+            "the_end_of_the_action_can_be_known",
+            Case { leads_to: Lead::Unknown("not calibrated"), ..rc2000c(Manual) },
+            Asked::MovingAct,
+            |it| *it == Refusal::Controller("not calibrated"),
+        ),
+        needed(
+            "the_operator_answers_for_an_unseen_end",
+            Case { leads_to: Lead::Unseen("names only"), ..rc2000c(Manual) },
+            Asked::MovingAct,
+            |it| matches!(it, Refusal::Unseen { .. }),
+        ),
+        needed(
+            "an_unseen_way_is_watched",
+            changed(
+                Case { leads_to: Lead::Unseen("names only"), ..beside_a_mast(rc2000c(Manual)) },
+                |case| case.axes()[0].angle_deg = None,
+            ),
+            Asked::AgreedAct,
+            |it| matches!(it, Refusal::AngleUnknown { .. }),
+        ),
+        needed(
+            "end_of_the_action_is_within_reach",
+            Case {
+                leads_to: Lead::To([Some(last_azimuth_deg() + 1.0), Some(45.0)]),
+                ..rc2000c(Manual)
+            },
+            Asked::MovingAct,
+            |it| matches!(it, Refusal::Travel { .. }),
+        ),
+        needed(
             "way_of_the_action_is_clear",
-            Case { leads_to: [Some(160.0), Some(20.0)], ..beside_a_mast(rc2000c(Manual)) },
+            Case {
+                leads_to: Lead::To([Some(160.0), Some(20.0)]),
+                ..beside_a_mast(rc2000c(Manual))
+            },
             Asked::MovingAct,
             |it| matches!(it, Refusal::Forbidden { .. }),
         ),
+        needed("no_setting_while_locked_out", locked_out(genius(Standby)), Asked::Setting, |it| {
+            matches!(it, Refusal::LockedOut { .. })
+        }),
         needed(
             "no_setting_while_stopping",
             Case { stopping: true, ..genius(Standby) },

@@ -183,3 +183,28 @@ fn a_motion_over_the_zenith_ends_on_the_other_side() {
         assert!(off.degrees() < 1e-9, "{motion:?} {aim:?}");
     }
 }
+
+#[test]
+fn an_axis_at_its_limit_may_come_from_anywhere_in_its_travel() {
+    let mut case = each_rule::beside_a_mast(rc2000c(Intent::Position));
+    assert_eq!(case.ask(position(60.0, 20.0)), Ok(()));
+    // It tells its end by a word instead of an angle.
+    case.axes()[0].angle_deg = None;
+    assert!(matches!(case.ask(position(60.0, 20.0)), Err(Refusal::Forbidden { .. })));
+    case.axes()[1].angle_deg = Some(60.0);
+    assert_eq!(case.ask(position(60.0, None)), Ok(()), "over the mast");
+    assert!(matches!(case.ask(position(60.0, 20.0)), Err(Refusal::Forbidden { .. })));
+}
+
+#[test]
+fn an_action_ends_where_it_leads_and_not_where_the_motion_before_did() {
+    let mut case = rc2000c(Intent::Position);
+    case.leads_to = Lead::To([Some(200.0), Some(45.0)]);
+    let mut gate = case.gate(&Arc::default());
+    gate.start(position(50.0, 45.0), Intent::Position, false, case.now()).unwrap();
+    assert_eq!(gate.ahead_of([48.0, 45.0], [6.0, 0.0]), [50.0, 45.0]);
+    let act = Act { action: "turn", values: [].into() };
+    gate.act(act, true, false, Intent::Position, false, case.now()).unwrap();
+    assert_eq!(gate.ahead_of([48.0, 45.0], [6.0, 0.0]), [54.0, 45.0], "it passes on");
+    assert_eq!(gate.ahead_of([198.0, 45.0], [6.0, 0.0]), [200.0, 45.0]);
+}

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::{
     controller::{AxisMotion, Capabilities, Measured, Pointing},
-    driver::FollowView,
+    driver::{FollowView, session::likeness::Recheck},
     plan::{
         FollowPhase, FollowStats, Sample,
         follow::{AxisNow, Drives, Planner},
@@ -50,6 +50,8 @@ pub(in crate::driver::session) struct Following {
     pub(super) predicted: Option<Sample>,
     /// It waits for the operator's word.
     pub(super) awaits_word: bool,
+    /// The unit is still to tell that it is as before.
+    pub(in crate::driver::session) recheck: Option<Recheck>,
     /// That a barrier is in the way was told.
     pub(super) told_barrier: bool,
     /// Where the last position leads.
@@ -70,6 +72,7 @@ impl Following {
             compared: None,
             predicted: None,
             awaits_word: false,
+            recheck: None,
             told_barrier: false,
             commanded: None,
         }

@@ -1,0 +1,109 @@
+//! Whether a unit that was out of sight answers as before: it may have been
+//! exchanged, set anew or lost its memory meanwhile.
+
+use std::time::{Duration, Instant};
+
+use super::Session;
+use crate::{
+    controller::{AntennaState, Moment, Offsets, Place},
+    driver::Unlike,
+};
+
+/// So long a unit may take to tell again what it told before.
+const READ_AGAIN: Duration = Duration::from_secs(15);
+
+/// What a unit tells of itself, as far as it does.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Likeness {
+    identity: Option<String>,
+    place: Option<Place>,
+    offsets: Option<Offsets>,
+    travel_deg: [Option<(f64, f64)>; 2],
+}
+
+/// A unit that is compared before a target is followed on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Recheck {
+    pub(super) since: Instant,
+    /// For how long it was out of sight.
+    pub(super) lost: Duration,
+}
+
+impl Likeness {
+    pub(super) fn of(state: &AntennaState) -> Self {
+        Self {
+            identity: state.identity.clone(),
+            place: state.on_board.place,
+            offsets: state.on_board.offsets,
+            travel_deg: state.travel_deg,
+        }
+    }
+
+    /// How `now` differs; what was not told before cannot.
+    fn differs(&self, now: &Self) -> Option<Unlike> {
+        let moved = |(before, now): (Place, Place)| {
+            let step_deg = before.step_deg + 1e-9;
+            (before.latitude_deg - now.latitude_deg).abs() > step_deg
+                || (before.longitude_deg - now.longitude_deg).abs() > step_deg
+        };
+        let other = |(before, now): (Option<(f64, f64)>, Option<(f64, f64)>)| {
+            before.zip(now).is_some_and(|(before, now)| before != now)
+        };
+        if self.identity.as_ref().zip(now.identity.as_ref()).is_some_and(|(a, b)| a != b) {
+            Some(Unlike::Identity)
+        } else if self.travel_deg.into_iter().zip(now.travel_deg).any(other) {
+            Some(Unlike::Limits)
+        } else if self.place.zip(now.place).is_some_and(moved) {
+            Some(Unlike::Place)
+        } else if self.offsets.zip(now.offsets).is_some_and(|(a, b)| a != b) {
+            Some(Unlike::Offsets)
+        } else {
+            None
+        }
+    }
+
+    /// Whether `now` tells all that was told before.
+    fn is_told(&self, now: &Self) -> bool {
+        let has = |before: bool, now: bool| !before || now;
+        has(self.identity.is_some(), now.identity.is_some())
+            && has(self.place.is_some(), now.place.is_some())
+            && has(self.offsets.is_some(), now.offsets.is_some())
+            && self
+                .travel_deg
+                .iter()
+                .zip(now.travel_deg)
+                .all(|(a, b)| has(a.is_some(), b.is_some()))
+    }
+}
+
+impl Session {
+    /// The link goes: keeps what the unit was like, unless it is still compared with
+    /// what it was like before.
+    pub(super) fn remember_likeness(&mut self) {
+        if !self.unread && self.following.as_ref().is_none_or(|it| it.recheck.is_none()) {
+            self.left_as = Likeness::of(self.gate.state());
+        }
+    }
+
+    /// Lets a target be followed on once the unit has told that it is as before, and
+    /// asks the operator where it is not.
+    pub(super) fn watch_likeness(&mut self, now: Moment) {
+        let Some(following) = &mut self.following else { return };
+        let Some(Recheck { since, lost }) = following.recheck.filter(|_| !self.unread) else {
+            return;
+        };
+        let told = Likeness::of(self.gate.state());
+        let is_late = now.steady.saturating_duration_since(since) >= READ_AGAIN;
+        let unlike = match self.left_as.differs(&told) {
+            None if self.left_as.is_told(&told) => {
+                following.recheck = None;
+                return;
+            }
+            None if is_late => Unlike::Unread,
+            None => return,
+            Some(unlike) => unlike,
+        };
+        following.recheck = None;
+        self.await_word(lost, Some(unlike));
+    }
+}
