@@ -37,6 +37,9 @@ pub struct Moment {
     pub utc: Timestamp,
 }
 
+/// A reply that has not come after this long is missing while metal moves.
+pub const PROMPT: Duration = Duration::from_millis(600);
+
 /// What makes metal move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
@@ -204,6 +207,16 @@ pub trait Device: Send {
 
     /// Asks for the position without waiting for its turn.
     fn look(&mut self, now: Moment);
+
+    /// While `is_watched`, metal moves on this program's word: a position that is not
+    /// told within [`Self::prompt`] is asked for again at once, and a reply that takes
+    /// longer holds up no question for the position.
+    fn watch_closely(&mut self, is_watched: bool);
+
+    /// How long a reply takes at most while all is well.
+    fn prompt(&self) -> Duration {
+        PROMPT
+    }
 
     /// What the device remembers and can be told: the same for its whole life.
     fn groups(&self) -> &'static [&'static Group];

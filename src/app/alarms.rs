@@ -247,7 +247,7 @@ impl AlarmKind {
             self,
             Self::LinkLost(_)
                 | Self::StopNotConfirmed
-                | Self::Safety(Safety::LeftMoving { asks: true, .. })
+                | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
                 | Self::Owed(_)
                 | Self::DriverStands(_)
                 | Self::BrokeOff(_)
@@ -284,13 +284,23 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
 
 /// Whether `cause` says all that `effect` says, and why.
 fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
-    matches!((cause, effect), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(LinkLoss::Unreadable)))
+    matches!(
+        (cause, effect),
+        (AlarmKind::DecimalCommas, AlarmKind::LinkLost(LinkLoss::Unreadable))
+            | (AlarmKind::Safety(Safety::SilentInMotion), AlarmKind::LinkLost(_))
+    )
 }
 
 /// Whether `news` says more than what stands: a unit that writes decimal commas
-/// does answer.
+/// does answer, and one that moves matters more than its link.
 fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
-    matches!((news, standing), (AlarmKind::DecimalCommas, AlarmKind::LinkLost(_)))
+    matches!(
+        (news, standing),
+        (
+            AlarmKind::DecimalCommas | AlarmKind::Safety(Safety::SilentInMotion),
+            AlarmKind::LinkLost(_)
+        )
+    )
 }
 
 /// Whether what was raised of a check is over by now: it is good, or something
@@ -307,11 +317,13 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
         // The first is said where it was asked for; many antennas have such an axis.
-        // The second stands for as long as the snapshot says so.
+        // The others stand for as long as the snapshot says so.
         Event::Safety(matter)
             if !matches!(
                 matter,
-                Safety::StoppedByFlags { .. } | Safety::LeftMoving { asks: true, .. }
+                Safety::StoppedByFlags { .. }
+                    | Safety::LeftMoving { asks: true, .. }
+                    | Safety::SilentInMotion
             ) =>
         {
             AlarmKind::Safety(matter)

@@ -213,6 +213,12 @@ impl App {
                 matches!(kind, AlarmKind::Safety(Safety::LeftMoving { asks: true, .. }))
             }),
         }
+        let silent = AlarmKind::Safety(Safety::SilentInMotion);
+        if snapshot.silent {
+            alarms.raise(of, silent, now);
+        } else {
+            alarms.clear(of, |kind| *kind == silent);
+        }
         if !snapshot.locking {
             alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);
         }

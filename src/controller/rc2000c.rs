@@ -98,6 +98,10 @@ pub struct Rc2000c {
     /// Nothing but a halt goes out before this.
     quiet_until: Option<Instant>,
     outstanding: Option<Outstanding>,
+    /// When the first status was asked for that has not come.
+    missing_since: Option<Moment>,
+    /// Metal moves on this program's word.
+    is_watched: bool,
     /// A halt that was sent past everything and not answered yet.
     halt: Option<Outstanding>,
     /// What was asked for and not sent yet.
@@ -155,6 +159,8 @@ impl Rc2000c {
             poll_at: None,
             quiet_until: None,
             outstanding: None,
+            missing_since: None,
+            is_watched: false,
             halt: None,
             orders: VecDeque::new(),
             jog: None,

@@ -110,6 +110,8 @@ pub struct Genius {
     /// When the first status was asked for that has not come.
     missing_since: Option<Instant>,
     drain_until: Option<Instant>,
+    /// Metal moves on this program's word.
+    is_watched: bool,
     /// Until when an answer is expected to each STOP that was sent.
     halts: VecDeque<Instant>,
     orders: VecDeque<Order>,
@@ -143,6 +145,7 @@ impl Genius {
             outstanding: None,
             missing_since: None,
             drain_until: None,
+            is_watched: false,
             halts: VecDeque::new(),
             orders: VecDeque::new(),
             is_rescue_wanted: false,

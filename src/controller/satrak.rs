@@ -81,6 +81,12 @@ pub struct Satrak {
     schedule: Option<Schedule>,
     outstanding: Option<Outstanding>,
     drain_until: Option<Instant>,
+    /// Asks for the position while something else waits for its reply.
+    probe: Option<Outstanding>,
+    /// When the first status was asked for that has not come.
+    missing_since: Option<Moment>,
+    /// Metal moves on this program's word.
+    is_watched: bool,
     /// When tracking or auto-track was last switched on by us.
     program_switched_on: Option<Instant>,
     /// Halts that were sent past the queue and not answered yet.
@@ -117,6 +123,9 @@ impl Satrak {
             schedule: None,
             outstanding: None,
             drain_until: None,
+            probe: None,
+            missing_since: None,
+            is_watched: false,
             program_switched_on: None,
             halts: VecDeque::new(),
             motions: VecDeque::new(),

@@ -35,6 +35,9 @@ pub enum Safety {
         /// By how much it has turned, degrees.
         turned_deg: f64,
     },
+    /// It does not answer while it moves on this program's word. The snapshot says
+    /// until when.
+    SilentInMotion,
     /// A held jog does not turn the axis.
     JogWithoutEffect,
     /// The clock of this computer was set.

@@ -17,6 +17,7 @@ mod marking;
 mod monitor;
 mod on_board;
 mod settle;
+mod silence;
 mod standstill;
 mod step;
 mod supervise;
@@ -55,6 +56,7 @@ use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{RunOut, Watch};
+use silence::Silence;
 use standstill::{Figures, Rest};
 use step::Stepping;
 use supervise::Doubt;
@@ -151,6 +153,7 @@ pub struct Session {
     /// When the look came in that the rest was watched by last.
     looked: Option<Instant>,
     link: LinkState,
+    silence: Silence,
     /// The clocks when they were compared last.
     clocks: Option<Clocks>,
     /// For how long the computer has slept since the link was up last.
@@ -256,6 +259,7 @@ impl Session {
             rest: Rest::default(),
             looked: None,
             link,
+            silence: Silence::default(),
             clocks: None,
             slept: Duration::ZERO,
             left_at: None,
@@ -301,6 +305,7 @@ impl Session {
         self.keep_unproved();
         let snapshot = Snapshot {
             link: self.link.clone(),
+            silent: self.is_silent(),
             intent: self.intent,
             pending: self.pending.is_some(),
             aim: self.aim,

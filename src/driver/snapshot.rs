@@ -24,6 +24,8 @@ use crate::{
 pub struct Snapshot {
     /// The link.
     pub link: LinkState,
+    /// It has moved on this program's word when it answered last, and does not answer.
+    pub silent: bool,
     /// What the operator wants.
     pub intent: Intent,
     /// The intent is asked for but not yet proved by the device.
@@ -65,6 +67,7 @@ impl Snapshot {
     pub fn before_anything(link: LinkState) -> Self {
         Self {
             link,
+            silent: false,
             intent: Intent::Standby,
             pending: false,
             aim: None,

@@ -6,6 +6,8 @@
 //! direction does, so one look at the middle of a range of axis angles judges all
 //! of it, or says which halves to look at.
 
+mod way_out;
+
 use jiff::{SignedDuration, Timestamp};
 use smol_str::SmolStr;
 

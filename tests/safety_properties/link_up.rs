@@ -65,6 +65,13 @@ fn assert_outside(scene: &Scene, deeds: &[Deed]) {
         "{beyond_deg} beyond the travel\n{deeds:?}\n{}",
         scene.report()
     );
+    let floor_deg = scene.world.floor_clearance_deg();
+    assert!(
+        floor_deg >= -coarse_deg,
+        "{} below the floor\n{deeds:?}\n{}",
+        -floor_deg,
+        scene.report()
+    );
     // The Sun has no margin but its own radius.
     let sun_deg = scene.sun_clearance_deg();
     assert!(sun_deg > -2.0 * coarse_deg, "{sun_deg} from the Sun\n{deeds:?}\n{}", scene.report());
@@ -175,16 +182,51 @@ async fn others_move(mut dice: Dice) {
     }
 }
 
-/// The clearance of the true direction from all that is refused but the horizon.
-fn clearance_deg(scene: &Scene) -> f64 {
-    let bounds = scene.world.bounds.above_the_floor();
-    let nearest = bounds.nearest(scene.world.direction(), scene.world.utc_origin);
-    nearest.map_or(90.0, |nearest| nearest.angle.degrees())
+/// How far an axis turns one way until the true direction is free, degrees; looked for in
+/// small steps. `None` where the floor, the end of the travel or another zone comes first.
+fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Option<f64> {
+    const STEP_DEG: f64 = 0.02;
+    let World { bounds, antenna, utc_origin, .. } = &scene.world;
+    let clear_deg = |axes_deg| {
+        let clearances = bounds.clearances(bounds.direction(axes_deg), *utc_origin);
+        clearances.into_iter().map(|it| it.angle.degrees()).collect::<Vec<_>>()
+    };
+    let before_deg = clear_deg(axes_deg);
+    let (from_deg, to_deg) = antenna.mount.travel_deg()[axis];
+    for step in 0_u32..20_000 {
+        let turn_deg = f64::from(step) * STEP_DEG;
+        let mut there_deg = axes_deg;
+        there_deg[axis] += way * turn_deg;
+        let here_deg = clear_deg(there_deg);
+        let enters = before_deg.iter().zip(&here_deg).any(|(a, b)| *a >= 0.0 && *b < 0.0);
+        if enters || !(from_deg..=to_deg).contains(&there_deg[axis]) {
+            return None;
+        }
+        if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
+            return Some(turn_deg);
+        }
+    }
+    None
 }
 
-/// Whether an axis can turn so that the clearance grows, within its travel and above
-/// the minimum elevation.
-fn has_open_way(scene: &Scene, rate_deg_s: f64) -> bool {
+/// How far in the sky it is to where the antenna may point, by the shortest turn of one
+/// axis, which axis that is and which way.
+fn way_out(scene: &Scene, axes_deg: [f64; 2]) -> Option<(f64, usize, f64)> {
+    let bounds = &scene.world.bounds;
+    let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
+    let lengths = ways.into_iter().filter_map(|(axis, way)| {
+        let turn_deg = turn_out_deg(scene, axes_deg, axis, way)?;
+        let mut on_deg = axes_deg;
+        on_deg[axis] += 0.01;
+        let moved = bounds.direction(axes_deg).separation(bounds.direction(on_deg));
+        Some((turn_deg * moved.degrees() / 0.01, axis, way))
+    });
+    lengths.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// Whether a jog along the shortest way is free for as far as it is judged ahead, which
+/// at the one speed of a Genius may be beyond what lies behind the zone.
+fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64) -> bool {
     /// More than a jog is judged ahead.
     const AHEAD_S: f64 = 2.5;
     let World { bounds, antenna, utc_origin, unit, .. } = &scene.world;
@@ -193,44 +235,34 @@ fn has_open_way(scene: &Scene, rate_deg_s: f64) -> bool {
         _ => rate_deg_s * AHEAD_S,
     };
     let at_deg = unit.axes_deg();
-    let travel_deg = antenna.mount.travel_deg();
-    let sky = bounds.above_the_floor();
-    let clear_deg = |axes_deg| {
-        let nearest = sky.nearest(bounds.direction(axes_deg), *utc_origin);
-        nearest.map_or(90.0, |nearest| nearest.angle.degrees())
-    };
-    (0..2).any(|axis| {
-        [1.0, -1.0].into_iter().any(|way| {
-            let gains = |share: f64| {
-                let mut axes_deg = at_deg;
-                axes_deg[axis] += way * ahead_deg * share;
-                let (from_deg, to_deg) = travel_deg[axis];
-                let elevation_deg = bounds.direction(axes_deg).elevation_deg();
-                (from_deg..=to_deg).contains(&axes_deg[axis])
-                    && elevation_deg >= antenna.limits.minimum_elevation_deg
-                    && clear_deg(axes_deg) > clear_deg(at_deg)
-            };
-            // All the way, however far ahead it is judged.
-            (1..=10).all(|part| gains(f64::from(part) / 10.0))
-        })
+    let Some(turn_deg) = turn_out_deg(scene, at_deg, axis, way) else { return false };
+    let (from_deg, to_deg) = antenna.mount.travel_deg()[axis];
+    (1..=10).map(|part| ahead_deg * f64::from(part) / 10.0).all(|ahead_deg| {
+        let mut axes_deg = at_deg;
+        axes_deg[axis] += way * ahead_deg;
+        let nearest = bounds.nearest(bounds.direction(axes_deg), *utc_origin);
+        let is_free = nearest.is_none_or(|nearest| nearest.angle.degrees() >= 0.0);
+        (from_deg..=to_deg).contains(&axes_deg[axis]) && (ahead_deg < turn_deg || is_free)
     })
 }
 
 async fn starts_inside(mut dice: Dice) {
     let least_margin_deg = |world: &World| world.coarse_deg;
-    let wish =
-        Wish { keep_outs: 1, least_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
+    let keep_outs = 1 + dice.below(2);
+    let wish = Wish { keep_outs, least_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let slow_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * 0.24;
-    let is_open = has_open_way(&scene, slow_deg_s);
+    let out = way_out(&scene, scene.world.unit.axes_deg());
+    let is_open = out.is_some_and(|out| is_way_wide(&scene, out, slow_deg_s));
     let mut ways_out = 0;
     scene.send(Command::Manual);
     scene.seconds(2.0).await;
     for axis in 0..2 {
         for way in [1.0, -1.0] {
-            let before_deg = clearance_deg(&scene);
             let from_deg = scene.world.unit.axes_deg();
+            let before = way_out(&scene, from_deg);
+            let before_zone_deg = scene.world.zone_clearance_deg();
             let mut rates_deg_s = [0.0; 2];
             rates_deg_s[axis] = way * slow_deg_s;
             for _ in 0..8 {
@@ -239,21 +271,31 @@ async fn starts_inside(mut dice: Dice) {
             }
             scene.send(Command::EndJog);
             scene.seconds(5.0).await;
-            let after_deg = clearance_deg(&scene);
             let to_deg = scene.world.unit.axes_deg();
+            let after = way_out(&scene, to_deg);
             let turned_deg = (to_deg[axis] - from_deg[axis]).abs();
-            if before_deg >= 0.0 {
+            if before.is_some_and(|(length_deg, ..)| length_deg == 0.0) {
                 return;
             }
-            assert!(
-                after_deg >= before_deg - scene.world.coarse_deg,
-                "from {before_deg} to {after_deg} by {rates_deg_s:?}\n{}",
-                scene.report()
-            );
+            let case = || format!("{before:?} to {after:?} by {rates_deg_s:?}\n{}", scene.report());
+            let coarse_deg = scene.world.coarse_deg;
+            match before.zip(after) {
+                Some(((before_deg, ..), (after_deg, ..))) => {
+                    assert!(after_deg <= before_deg + coarse_deg, "deeper: {}", case());
+                }
+                // No axis gets out by itself.
+                None => assert!(
+                    scene.world.zone_clearance_deg() >= before_zone_deg - coarse_deg,
+                    "deeper: {}",
+                    case()
+                ),
+            }
+            let floor_deg = scene.world.floor_clearance_deg();
+            assert!(floor_deg >= -coarse_deg, "{} below the floor: {}", -floor_deg, case());
             ways_out += usize::from(turned_deg > 0.01);
         }
     }
-    assert!(ways_out > 0 || !is_open, "no way out\n{}", scene.report());
+    assert!(ways_out > 0 || !is_open, "no way out: {out:?}\n{}", scene.report());
 }
 
 #[test]

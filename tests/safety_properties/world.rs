@@ -226,6 +226,8 @@ pub(super) enum Word {
 pub(super) struct Line {
     pub(super) late_ms: f64,
     pub(super) lost: f64,
+    /// The next reply is lost.
+    pub(super) loses_next: bool,
     pub(super) doubled: f64,
     pub(super) damaged: f64,
     pub(super) is_split: bool,
@@ -421,6 +423,11 @@ impl World {
         clear_deg.fold(f64::INFINITY, f64::min)
     }
 
+    /// How far the true direction is above the minimum elevation, degrees.
+    pub(super) fn floor_clearance_deg(&self) -> f64 {
+        self.direction().elevation_deg() - self.antenna.limits.minimum_elevation_deg
+    }
+
     pub(super) fn direction(&self) -> AzEl {
         self.bounds.direction(self.unit.axes_deg())
     }
@@ -560,6 +567,11 @@ impl Scene {
         events.find(|(_, event)| is_it(event)).map(|(at, _)| *at)
     }
 
+    /// How many events that `is_it` have come from `since` on.
+    pub(super) fn count(&self, since: Instant, is_it: impl Fn(&Event) -> bool) -> usize {
+        self.events.iter().filter(|(at, event)| *at >= since && is_it(event)).count()
+    }
+
     /// How far the true direction is from the Sun's surroundings, degrees.
     pub(super) fn sun_clearance_deg(&self) -> f64 {
         let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.at);
@@ -638,7 +650,13 @@ async fn carry(
                 if bytes.is_empty() {
                     return Ok(());
                 }
-                let line = line.lock().unwrap().clone();
+                let line = {
+                    let mut line = line.lock().unwrap();
+                    if std::mem::take(&mut line.loses_next) {
+                        continue;
+                    }
+                    line.clone()
+                };
                 if line.is_mute || dice.chance(line.lost) {
                     continue;
                 }

@@ -48,6 +48,7 @@ impl Device for Rc2000c {
         self.poll_at = None;
         self.quiet_until = None;
         self.outstanding = None;
+        self.missing_since = None;
         self.halt = None;
         self.orders.clear();
         self.jog = None;
@@ -87,14 +88,14 @@ impl Device for Rc2000c {
         }
         self.quiet_until = None;
         let (request, purpose) = self.next_request(now)?;
-        self.outstanding = Some(Outstanding::new(request, purpose, self.line, now));
+        self.outstanding = Some(self.outstanding_of(request, purpose, now));
         Some(request.to_bytes(self.address))
     }
 
     fn due(&self, now: Moment) -> Instant {
         let far = now.steady + Duration::from_hours(1);
         let waits = self.halt.as_ref().or(self.outstanding.as_ref());
-        let deadline = waits.map(|sent| sent.deadline);
+        let deadline = waits.map(|sent| self.deadline(sent));
         let next = self.is_free().then(|| self.next_due(now)).flatten();
         deadline.into_iter().chain(self.silent_at()).chain(next).min().unwrap_or(far)
     }
@@ -124,6 +125,14 @@ impl Device for Rc2000c {
 
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
+    }
+
+    fn watch_closely(&mut self, is_watched: bool) {
+        self.is_watched = is_watched;
+    }
+
+    fn prompt(&self) -> Duration {
+        self.line.longest_prompt()
     }
 
     fn groups(&self) -> &'static [&'static Group] {

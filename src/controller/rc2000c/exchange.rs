@@ -39,7 +39,7 @@ pub(super) struct Outstanding {
     /// When the question is repeated, its answer may be to the first one.
     first_sent: Moment,
     tries: u8,
-    pub(super) deadline: Instant,
+    deadline: Instant,
 }
 
 impl Outstanding {
@@ -111,6 +111,9 @@ impl Rc2000c {
         self.state.traffic.last_reply = Some(now.steady);
         // The answers to all that was asked may come: each is waited for, or the
         // next question would be taken for answered by an older state.
+        if answered.purpose == Purpose::Poll {
+            self.missing_since = None;
+        }
         let quiet = if answered.tries > 1 { self.line.longest_wait() } else { GAP };
         self.quiet_until = Some(now.steady + quiet);
         self.take_reply(&answered, reply, now);
@@ -234,7 +237,8 @@ impl Rc2000c {
         if self.halt.is_some() {
             return None;
         }
-        let mut late = self.outstanding.take_if(|sent| now.steady >= sent.deadline)?;
+        let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
+        let mut late = self.outstanding.take_if(|_| is_late)?;
         let is_repeated =
             matches!(late.purpose, Purpose::Poll | Purpose::Question) && late.tries < MOST_TRIES;
         self.miss(&late, is_repeated, now);
@@ -247,7 +251,11 @@ impl Rc2000c {
             return Some(bytes);
         }
         match late.purpose {
-            Purpose::Poll | Purpose::Question => self.question_failed(&late.request, now),
+            Purpose::Poll => {
+                self.missing_since.get_or_insert(late.first_sent);
+                self.question_failed(&late.request, now);
+            }
+            Purpose::Question => self.question_failed(&late.request, now),
             Purpose::Order(motion) => {
                 self.orders.clear();
                 self.happenings.extend(motion.map(Happening::Unanswered));
@@ -256,6 +264,30 @@ impl Rc2000c {
             Purpose::Halt | Purpose::Disowned => self.look_soon(now),
         }
         None
+    }
+
+    /// When the reply to `sent` is missing.
+    pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
+        let is_question = matches!(sent.purpose, Purpose::Poll | Purpose::Question);
+        if self.is_watched && is_question {
+            sent.sent.steady + self.line.prompt(&sent.request)
+        } else {
+            sent.deadline
+        }
+    }
+
+    /// A status may be answered by what an earlier question has brought about.
+    pub(super) fn outstanding_of(
+        &self,
+        request: Request,
+        purpose: Purpose,
+        now: Moment,
+    ) -> Outstanding {
+        let mut outstanding = Outstanding::new(request, purpose, self.line, now);
+        if let Some(missing) = self.missing_since.filter(|_| purpose == Purpose::Poll) {
+            (outstanding.first_sent, outstanding.tries) = (missing, MOST_TRIES);
+        }
+        outstanding
     }
 
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {

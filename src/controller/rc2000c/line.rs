@@ -3,7 +3,10 @@
 
 use std::time::Duration;
 
-use crate::protocol::rc2000c::{Address, MAX_COMMAND_BYTES, MAX_FRAME_BYTES, Request};
+use crate::{
+    device::PROMPT,
+    protocol::rc2000c::{Address, MAX_COMMAND_BYTES, MAX_FRAME_BYTES, Request},
+};
 
 /// Start, seven data bits, parity, stop.
 const BITS_PER_CHARACTER: u32 = 10;
@@ -32,6 +35,16 @@ impl Line {
     pub(super) fn reply_wait(self, request: &Request) -> Duration {
         let characters = request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes();
         LATENCY + self.time_of(characters)
+    }
+
+    /// The same while metal moves.
+    pub(super) fn prompt(self, request: &Request) -> Duration {
+        self.reply_wait(request) - LATENCY + PROMPT
+    }
+
+    /// How long any reply takes at most while all is well.
+    pub(super) fn longest_prompt(self) -> Duration {
+        PROMPT + self.exchange()
     }
 
     /// How long any reply may take.

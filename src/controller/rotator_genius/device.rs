@@ -85,7 +85,7 @@ impl Device for Genius {
 
     fn due(&self, now: Moment) -> Instant {
         let next = match (&self.outstanding, self.drain_until) {
-            (Some(outstanding), _) => Some(outstanding.deadline()),
+            (Some(outstanding), _) => Some(self.deadline(outstanding)),
             (None, Some(until)) => Some(until),
             (None, None) if self.has_something_to_send() => Some(now.steady),
             (None, None) => self.next_poll,
@@ -109,6 +109,10 @@ impl Device for Genius {
 
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
+    }
+
+    fn watch_closely(&mut self, is_watched: bool) {
+        self.is_watched = is_watched;
     }
 
     fn groups(&self) -> &'static [&'static Group] {

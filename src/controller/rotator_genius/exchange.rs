@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
-    controller::{Happening, Moment, Motion},
+    controller::{Happening, Moment, Motion, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },
@@ -42,7 +42,7 @@ impl Outstanding {
         Self { request, purpose, sent, patience }
     }
 
-    pub(super) fn deadline(&self) -> Instant {
+    fn deadline(&self) -> Instant {
         self.sent + self.patience
     }
 
@@ -213,9 +213,11 @@ impl Genius {
     /// A status is asked for again; anything else never: the status tells whether
     /// it came through. Gives what must be sent at once.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
-        let late = self.outstanding.take_if(|sent| now.steady >= sent.deadline())?;
+        let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
+        let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
-        self.record_no_reply(late.patience, late.is_read(), now);
+        let waited = now.steady.saturating_duration_since(late.sent);
+        self.record_no_reply(waited, late.is_read(), now);
         if late.is_read() {
             self.missing_since.get_or_insert(late.sent);
         }
@@ -231,6 +233,12 @@ impl Genius {
         // Outside the limits a motion goes on for ever when the link is gone.
         let is_blind_rescue = self.is_rescue_armed(now.steady) && self.moving();
         is_blind_rescue.then(|| self.stop_both(now))
+    }
+
+    /// When the reply to `sent` is missing.
+    pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
+        let is_hurried = self.is_watched && sent.is_read();
+        if is_hurried { sent.deadline().min(sent.sent + PROMPT) } else { sent.deadline() }
     }
 
     /// The bytes that stop both rotators.

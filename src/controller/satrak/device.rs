@@ -44,6 +44,8 @@ impl Device for Satrak {
         self.schedule = None;
         self.outstanding = None;
         self.drain_until = None;
+        self.probe = None;
+        self.missing_since = None;
         self.halts.clear();
         self.motions.clear();
         self.calm.clear();
@@ -77,19 +79,22 @@ impl Device for Satrak {
         }
         self.expire_slow(now);
         self.begin_change(now);
-        if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
+        if let Some(probe) = self.begin_probe(now) {
+            return Some(probe);
+        }
+        if self.is_waiting() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
         self.drain_until = None;
         let (request, purpose) = self.next_request(now)?;
         let bytes = request.to_bytes();
-        self.outstanding = Some(Outstanding::new(request, purpose, now));
+        self.outstanding = Some(self.outstanding_of(request, purpose, now));
         Some(bytes)
     }
 
     fn due(&self, now: Moment) -> Instant {
-        if let Some(outstanding) = &self.outstanding {
-            return outstanding.deadline();
+        if let Some(deadline) = self.reply_due() {
+            return deadline;
         }
         if let Some(until) = self.drain_until {
             return until;
@@ -132,6 +137,10 @@ impl Device for Satrak {
 
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
+    }
+
+    fn watch_closely(&mut self, is_watched: bool) {
+        self.is_watched = is_watched;
     }
 
     fn groups(&self) -> &'static [&'static Group] {

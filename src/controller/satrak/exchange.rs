@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome};
 use crate::{
     astro::Angle,
-    controller::{Happening, Moment, Motion, PrepareError, settings::ReadFailure},
+    controller::{Happening, Moment, Motion, PROMPT, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
         ValueError, Verb, Word,
@@ -53,6 +53,11 @@ impl Outstanding {
         self.sent.steady + self.patience
     }
 
+    /// When its reply is missing while metal moves.
+    fn prompt_deadline(&self) -> Instant {
+        self.sent.steady + PROMPT
+    }
+
     /// A setting for which the unit may fetch or read a file before it answers.
     fn is_slow(&self) -> bool {
         let word = self.request.word();
@@ -63,6 +68,10 @@ impl Outstanding {
                 Word::Satellite | Word::SatelliteHttp | Word::SatelliteFtp | Word::LoadImage
             )
             && self.purpose == Purpose::Settle
+    }
+
+    pub(super) fn is_status(&self) -> bool {
+        self.request == Request::Query(Query::Status)
     }
 
     pub(super) fn is_motion(&self) -> bool {
@@ -116,6 +125,10 @@ impl Satrak {
             self.slow.take_if(|slow| command.is_some_and(|it| slow.answers(it)))
         {
             self.take_reply(&slow, Reply::parse(&frame), now);
+        } else if let Some(probe) =
+            self.probe.take_if(|probe| command.is_some_and(|it| probe.answers(it)))
+        {
+            self.take_reply(&probe, Reply::parse(&frame), now);
         } else if let Some(halt) = self.answered_halt(command) {
             self.take_halt_reply(halt, &frame, now);
         } else {
@@ -173,6 +186,9 @@ impl Satrak {
         self.count_reply(now);
         if outstanding.again {
             self.drain_until = Some(now.steady + DRAIN);
+        }
+        if outstanding.is_status() {
+            self.missing_since = None;
         }
         if !parsed.notes.is_empty() {
             self.state.traffic.odd += 1;
@@ -268,7 +284,11 @@ impl Satrak {
     /// A question is repeated once; anything else never: the state tells
     /// whether it came through.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
-        if self.outstanding.as_ref().is_none_or(|sent| now.steady < sent.deadline()) {
+        let is_late = |sent: &mut Outstanding| now.steady >= sent.prompt_deadline();
+        if let Some(late) = self.probe.take_if(is_late) {
+            self.missed(&late, false, now);
+        }
+        if self.outstanding.as_ref().is_none_or(|sent| now.steady < self.deadline(sent)) {
             return None;
         }
         let mut late = self.outstanding.take()?;
@@ -277,9 +297,8 @@ impl Satrak {
             self.slow = Some(late);
             return None;
         }
-        self.state.traffic.unanswered += 1;
         let is_repeated = late.request.verb() == Verb::Query && !late.again;
-        self.record_no_reply(REPLY, is_repeated, now);
+        self.missed(&late, is_repeated, now);
         if is_repeated {
             late.again = true;
             late.sent = now;
@@ -289,6 +308,68 @@ impl Satrak {
         }
         self.give_up(late.purpose, now);
         None
+    }
+
+    fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
+        self.state.traffic.unanswered += 1;
+        let waited = now.steady.saturating_duration_since(late.sent.steady);
+        self.record_no_reply(waited, is_repeated, now);
+        if late.is_status() && !is_repeated {
+            self.missing_since.get_or_insert(late.first_sent);
+        }
+    }
+
+    /// A status may be answered by what an earlier question has brought about.
+    pub(super) fn outstanding_of(
+        &self,
+        request: Request,
+        purpose: Purpose,
+        now: Moment,
+    ) -> Outstanding {
+        let mut outstanding = Outstanding::new(request, purpose, now);
+        if let Some(missing) = self.missing_since.filter(|_| outstanding.is_status()) {
+            (outstanding.first_sent, outstanding.again) = (missing, true);
+        }
+        outstanding
+    }
+
+    /// While metal moves, a reply that takes its time keeps nobody from asking where it
+    /// is.
+    pub(super) fn begin_probe(&mut self, now: Moment) -> Option<Vec<u8>> {
+        let waits = self.probe_due().is_some_and(|at| now.steady >= at);
+        let drains = self.drain_until.is_some_and(|until| now.steady < until);
+        if !waits || drains || self.probe.is_some() {
+            return None;
+        }
+        let request = Request::Query(Query::Status);
+        let bytes = request.to_bytes();
+        self.probe = Some(self.outstanding_of(request, Purpose::Poll(Query::Status), now));
+        Some(bytes)
+    }
+
+    fn probe_due(&self) -> Option<Instant> {
+        let outstanding = self.outstanding.as_ref().filter(|sent| !sent.is_status())?;
+        let is_due = self.is_watched && self.schedule.is_some();
+        is_due.then(|| outstanding.prompt_deadline())
+    }
+
+    fn deadline(&self, sent: &Outstanding) -> Instant {
+        if self.is_watched && sent.is_status() { sent.prompt_deadline() } else { sent.deadline() }
+    }
+
+    /// Nothing else is to be asked before the reply to what was sent.
+    pub(super) fn is_waiting(&self) -> bool {
+        self.outstanding.is_some() || self.probe.is_some()
+    }
+
+    /// When a reply counts as missing, or the position is asked for beside it.
+    pub(super) fn reply_due(&self) -> Option<Instant> {
+        let deadline = self.outstanding.as_ref().map(|sent| self.deadline(sent));
+        let probe = match &self.probe {
+            Some(probe) => Some(probe.prompt_deadline()),
+            None => self.probe_due().map(|at| self.drain_until.map_or(at, |until| at.max(until))),
+        };
+        deadline.into_iter().chain(probe).min()
     }
 
     fn give_up(&mut self, purpose: Purpose, now: Moment) {

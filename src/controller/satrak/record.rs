@@ -71,7 +71,7 @@ impl Satrak {
 
     fn reply_after(&self, line: &Line, now: Moment) -> Option<Duration> {
         let command = command(line)?;
-        let requests = [&self.outstanding, &self.slow].into_iter().flatten();
+        let requests = [&self.outstanding, &self.slow, &self.probe].into_iter().flatten();
         let request = requests.into_iter().find(|sent| sent.answers(command));
         let asked = request.map(Outstanding::first_sent).or_else(|| self.halted(command))?;
         Some(now.steady.saturating_duration_since(asked))

@@ -74,6 +74,7 @@ impl Device for Metal {
         Vec::new()
     }
     fn look(&mut self, _: Moment) {}
+    fn watch_closely(&mut self, _: bool) {}
     fn motion_under_way(&self) -> bool {
         false
     }

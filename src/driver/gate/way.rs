@@ -109,10 +109,16 @@ fn by_hand(
         let sweep = sweep_between(axes_deg, to_deg, situation);
         return blocked(sweep, axes_deg, bounds, situation.now);
     }
+    let ways_deg = [axes_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc));
     for (before, after) in before.iter().zip(&after).filter(|(it, _)| !it.warns_only) {
-        let leads_out = after.angle.degrees() > before.angle.degrees() + OUT_GAIN_DEG;
-        let stays_out = before.angle >= Angle::ZERO && after.angle >= Angle::ZERO;
-        if !leads_out && !stays_out {
+        let leaves = before.angle < Angle::ZERO;
+        let leads_out = match ways_deg {
+            [Some(before_deg), Some(after_deg)] => after_deg < before_deg - OUT_GAIN_DEG,
+            // No axis gets out by itself: at least it goes no deeper.
+            _ => after.angle.degrees() > before.angle.degrees() + OUT_GAIN_DEG,
+        };
+        let is_allowed = if leaves { leads_out } else { after.angle >= Angle::ZERO };
+        if !is_allowed {
             let barrier = after.barrier.clone();
             return Err(Refusal::Forbidden { barrier, at: there });
         }

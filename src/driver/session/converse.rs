@@ -123,6 +123,7 @@ impl Session {
     /// Waits between two attempts; `None` when the session is to end.
     async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
         let now = self.now();
+        self.tell_silence_of_lost_link();
         if let Some(jog) = self.jog.take() {
             self.ended_hold = Some(jog.rates_deg_s);
             if jog.started {
@@ -274,11 +275,13 @@ impl Session {
         if !urgent.is_empty() {
             write(writer, &urgent).await?;
             let now = self.now();
+            self.wrote(now);
             self.gate.device().sent(&urgent, now);
         }
         let now = self.now();
         while let Some(bytes) = self.gate.device().poll(now) {
             write(writer, &bytes).await?;
+            self.wrote(now);
             self.gate.device().sent(&bytes, now);
         }
         self.record();
@@ -293,6 +296,7 @@ impl Session {
             .into_iter()
             .chain(self.marking_due(now.steady))
             .chain(self.link_due())
+            .chain(self.silence_due())
             .chain([due])
             .min();
         // A deadline that brings about nothing must not spin.

@@ -99,6 +99,12 @@ impl Session {
         self.intent == Intent::Track && self.following.is_some()
     }
 
+    /// Whether the target is up and the antenna is kept on it.
+    pub(super) fn follows_now(&self) -> bool {
+        let following = self.following.as_ref().filter(|_| self.follows());
+        following.is_some_and(|it| it.phase == FollowPhase::Following && !it.awaits_word)
+    }
+
     /// When the antenna is looked at next by the clock.
     pub(super) fn follow_due(&self) -> Option<Instant> {
         let following = self.following.as_ref().filter(|_| self.follows())?;

@@ -56,12 +56,26 @@ impl Session {
         let ahead = bounds.direction(ahead_deg);
         let here = bounds.clearances(bounds.direction([first, second]), now.utc);
         let there = bounds.clearances(ahead, now.utc);
+        let ways_deg = [[first, second], ahead_deg].map(|at| bounds.way_out_deg(at, now.utc));
         for (here, there) in here.into_iter().zip(there) {
-            self.judge(here, &there, is_moving, now);
+            // Where no axis gets out by itself, the depth of each barrier counts.
+            let deeper_deg = match ways_deg {
+                [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
+                _ => here.angle.degrees() - there.angle.degrees(),
+            };
+            let goes_deeper = is_moving && deeper_deg > NOISE_DEG;
+            self.judge(here, &there, is_moving, goes_deeper, now);
         }
     }
 
-    fn judge(&mut self, here: Clearance, there: &Clearance, is_moving: bool, now: Moment) {
+    fn judge(
+        &mut self,
+        here: Clearance,
+        there: &Clearance,
+        is_moving: bool,
+        goes_deeper: bool,
+        now: Moment,
+    ) {
         let arrives_within_deg = self.make.capabilities.arrives_within_deg;
         let is_floor = here.barrier == Barrier::MinimumElevation;
         let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
@@ -73,7 +87,7 @@ impl Session {
         // does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
         let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
-        let goes_deeper = is_moving && is_inside && there_deg < here_deg - NOISE_DEG;
+        let goes_deeper = is_inside && goes_deeper;
         let is_told = self.watch.told.contains(&here.barrier);
         if !is_inside && !enters {
             self.watch.told.retain(|barrier| *barrier != here.barrier);

@@ -51,6 +51,7 @@ impl Session {
             Intent::Standby | Intent::Manual => {}
         }
         self.watch_on_board(now);
+        self.watch_silence(now);
     }
 
     /// When [`Self::supervise`] is to be called at the latest.

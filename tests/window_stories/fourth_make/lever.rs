@@ -190,6 +190,8 @@ impl Device for Lever {
 
     fn look(&mut self, _: Moment) {}
 
+    fn watch_closely(&mut self, _: bool) {}
+
     fn groups(&self) -> &'static [&'static Group] {
         MAKE.groups
     }

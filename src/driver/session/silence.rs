@@ -1,0 +1,107 @@
+//! A unit that no longer answers while metal moves on this program's word.
+//!
+//! One reply that is lost or late is no silence: while something moves, the
+//! controllers ask again at once, and the unit is silent when that is not answered
+//! either.
+
+use std::time::{Duration, Instant};
+
+use super::{Event, Session};
+use crate::{
+    controller::Moment,
+    driver::{LinkState, Safety},
+};
+
+/// The operator is told this long after the first reply that is missing at the
+/// latest.
+const TOLD_WITHIN: Duration = Duration::from_secs(1);
+
+/// What was written since the unit was heard last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Silence {
+    replies: u64,
+    first: Option<Instant>,
+    second: Option<Instant>,
+    /// The operator was told, and no reply has come since.
+    is_told: bool,
+}
+
+impl Silence {
+    fn wrote(&mut self, now: Instant) {
+        if self.first.is_none() {
+            self.first = Some(now);
+        } else {
+            self.second.get_or_insert(now);
+        }
+    }
+
+    fn heard(&mut self, replies: u64) {
+        if replies != self.replies {
+            *self = Self { replies, ..Self::default() };
+        }
+    }
+
+    /// When nothing that was asked has been answered in its time.
+    fn due(&self, prompt: Duration) -> Option<Instant> {
+        let first = self.first?;
+        let latest = first + prompt + TOLD_WITHIN;
+        let again = self.second.map(|second| (second + prompt).max(first + prompt * 2));
+        Some(again.map_or(latest, |again| again.min(latest)))
+    }
+}
+
+impl Session {
+    /// Bytes went to the unit.
+    pub(super) fn wrote(&mut self, now: Moment) {
+        self.silence.wrote(now.steady);
+    }
+
+    /// Whether metal moves on this program's word, as far as is known.
+    fn is_in_motion(&mut self) -> bool {
+        self.is_unproved()
+            && (self.follows_now()
+                || self.halting.is_some()
+                || self.turns()
+                || self.gate.state().program.is_some_and(|program| program.enabled)
+                || self.pending.is_some()
+                || self.jog.is_some()
+                || self.stepping.is_some()
+                || self.gate.device().motion_under_way())
+    }
+
+    /// Tells of a unit that does not answer while it moves; once, until it does.
+    pub(super) fn watch_silence(&mut self, now: Moment) {
+        self.silence.heard(self.gate.state().traffic.replies);
+        let is_in_motion = self.is_in_motion();
+        self.gate.device().watch_closely(is_in_motion);
+        let is_due = self.silence_due().is_some_and(|at| now.steady >= at);
+        if is_due && is_in_motion {
+            self.tell_silence();
+        }
+    }
+
+    /// The link is gone in the middle of a motion.
+    pub(super) fn tell_silence_of_lost_link(&mut self) {
+        if self.is_in_motion() {
+            self.tell_silence();
+        }
+    }
+
+    fn tell_silence(&mut self) {
+        if !std::mem::replace(&mut self.silence.is_told, true) {
+            self.tell(Event::Safety(Safety::SilentInMotion));
+        }
+    }
+
+    /// The operator was told that it does not answer, and it has not answered since.
+    pub(super) fn is_silent(&self) -> bool {
+        self.silence.is_told
+    }
+
+    /// When a silence is to be told.
+    pub(super) fn silence_due(&mut self) -> Option<Instant> {
+        let prompt = self.gate.device().prompt();
+        let is_open = matches!(self.link, LinkState::Up { .. } | LinkState::Stale { .. });
+        self.silence.due(prompt).filter(|_| is_open && !self.silence.is_told)
+    }
+}
