@@ -2,6 +2,7 @@
 //! its own. The window sends commands and reads snapshots; it never waits, and
 //! nothing here waits for it.
 
+mod before_sleep;
 mod clock;
 pub mod dead_man;
 mod debts;
@@ -43,7 +44,7 @@ pub use snapshot::{
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
-use self::pulse::Pulse;
+use self::{before_sleep::BeforeSleep, pulse::Pulse};
 use crate::{
     plan::{Bounds, on_board::KnownOrbit},
     station::{Antenna, Link, LockOut},
@@ -154,6 +155,7 @@ pub struct Driver {
     wake: Wake,
     dead_man: Option<PathBuf>,
     debts: Debts,
+    before_sleep: BeforeSleep,
     pulse: Pulse,
     _watchdog: std::sync::mpsc::SyncSender<()>,
 }
@@ -170,6 +172,8 @@ impl Driver {
         let pulse = Pulse::default();
         runtime.spawn(pulse.clone().beat());
         let watchdog = pulse.watch(Arc::clone(&wake))?;
+        let before_sleep = BeforeSleep::default();
+        before_sleep::watch(before_sleep.clone(), handle.clone())?;
         thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
             runtime.block_on(async {
                 // An error means that the near end is gone, which says the same.
@@ -189,6 +193,7 @@ impl Driver {
             wake,
             dead_man: None,
             debts: Debts::default(),
+            before_sleep,
             pulse,
             _watchdog: watchdog,
         })
@@ -230,6 +235,7 @@ impl Driver {
         lock_out: Option<LockOut>,
     ) -> AntennaHandle {
         let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake));
+        let wires = wires.hearing(self.before_sleep.hear());
         let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
         let open = move || {

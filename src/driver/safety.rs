@@ -45,6 +45,8 @@ pub enum Safety {
         /// By this much, seconds; positive ahead.
         by_s: f64,
     },
+    /// A jog was ended because this computer goes to sleep.
+    EndedForSleep,
     /// This computer slept.
     Slept {
         /// For this long.

@@ -21,6 +21,8 @@ mod silence;
 mod standstill;
 mod step;
 mod supervise;
+#[cfg(test)]
+pub(in crate::driver) mod testing;
 mod unproved;
 mod wanted;
 
@@ -38,6 +40,7 @@ pub use command::Command;
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Snapshot, Wake,
     WireLog,
+    before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
 };
@@ -69,6 +72,7 @@ pub struct Wires {
     /// One session at a time reads them.
     commands: Arc<AsyncMutex<mpsc::Receiver<Command>>>,
     stop: Arc<Notify>,
+    before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
     wake: Wake,
@@ -89,7 +93,14 @@ impl Wires {
             AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
         let commands = Arc::new(AsyncMutex::new(commands));
         let (wire_log, orbit) = (handle.wire().clone(), Arc::clone(&handle.orbit));
-        (Self { commands, stop, snapshots, events, wake, wire_log, orbit }, handle)
+        let before_sleep = None;
+        (Self { commands, stop, before_sleep, snapshots, events, wake, wire_log, orbit }, handle)
+    }
+
+    /// Told before this computer sleeps.
+    pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
+        self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
+        self
     }
 
     /// Puts STOP before the next word.
@@ -185,6 +196,8 @@ pub struct Session {
     /// The direction of a hold that ended before its key came up.
     ended_hold: Option<[f64; 2]>,
     guard: Guard,
+    /// Puts off the sleep of this computer until nothing is out that only STOP ends.
+    awake: Option<Awake>,
     /// An action of its make was asked for from here, and standstill is not proved
     /// since.
     acts: bool,
@@ -278,6 +291,7 @@ impl Session {
             jog: None,
             ended_hold: None,
             guard: Guard::new(None),
+            awake: None,
             acts: false,
             stepping: None,
             waiting: None,

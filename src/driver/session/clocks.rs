@@ -6,7 +6,7 @@ use super::{Event, Session};
 use crate::{
     astro::time::seconds_between,
     controller::Moment,
-    driver::{LinkLoss, Safety},
+    driver::{LinkLoss, Safety, before_sleep::Awake},
 };
 
 /// A clock that is kept right moves by less from one look to the next, seconds.
@@ -22,6 +22,24 @@ pub(super) struct Clocks {
 }
 
 impl Session {
+    /// Ends what is moved by hand: while the computer sleeps nothing would.
+    pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
+        if let Some(jog) = self.jog.take() {
+            self.ended_hold = Some(jog.rates_deg_s);
+            self.halt_quietly(now);
+            self.tell(Event::Safety(Safety::EndedForSleep));
+        }
+        self.awake = Some(awake);
+        self.let_sleep();
+    }
+
+    /// Lets the computer sleep once no halt is under way.
+    pub(super) fn let_sleep(&mut self) {
+        if self.halting.is_none() {
+            self.awake = None;
+        }
+    }
+
     /// Compares the clocks with each other. After a sleep the link is opened anew:
     /// what was measured before looks fresh, because the steady clock stood.
     pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {

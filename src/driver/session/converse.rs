@@ -10,7 +10,7 @@ use tokio::{
 use super::{Command, Session, Wires, wanted::Wanted};
 use crate::{
     controller::{Extent, Moment},
-    driver::{LinkLoss, LinkState, Stream},
+    driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
 };
 
 /// A connection that does not come up in this time is given up.
@@ -37,6 +37,8 @@ pub(super) enum Turn {
     Lost(LinkLoss),
     Command(Command),
     Stop,
+    /// This computer is about to sleep.
+    Sleep(Awake),
     Time,
     /// The window is gone: the session ends.
     Over,
@@ -169,7 +171,8 @@ impl Session {
             Turn::Stop => self.halt_and_forget(now),
             Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
-            Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+            // Without a link nothing can be done for it.
+            Turn::Sleep(_) | Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
         }
         // The link was wanted for a stop alone, and none is owed any more.
         if self.wanted == Wanted::ForStop && self.let_go_quietly() {
@@ -246,6 +249,10 @@ impl Session {
                     let now = self.now();
                     self.halt_and_forget(now);
                 }
+                Turn::Sleep(awake) => {
+                    let now = self.now();
+                    self.before_sleep(awake, now);
+                }
                 Turn::Command(Command::Disconnect) => {
                     if self.let_go() {
                         self.say_goodbye(&mut reader, &mut writer).await;
@@ -319,8 +326,18 @@ pub(super) async fn next_word(wires: &Wires) -> Turn {
     tokio::select! {
         biased;
         () = wires.stop.notified() => Turn::Stop,
+        awake = next_sleep(wires) => Turn::Sleep(awake),
         command = next_command(wires) => command.map_or(Turn::Over, Turn::Command),
     }
+}
+
+async fn next_sleep(wires: &Wires) -> Awake {
+    if let Some(before_sleep) = &wires.before_sleep
+        && let Some(awake) = before_sleep.lock().await.recv().await
+    {
+        return awake;
+    }
+    std::future::pending().await
 }
 
 /// `None` when the window is gone: what was asked for just before the end is not

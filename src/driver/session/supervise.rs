@@ -38,6 +38,7 @@ impl Session {
         self.watch_jog(now);
         self.watch_step();
         self.watch_halt(now);
+        self.let_sleep();
         self.watch_rest();
         self.watch_bounds(now);
         self.watch_standstill();

@@ -48,7 +48,7 @@ impl Session {
                     self.wanted = Wanted::ForStop;
                 }
                 Turn::Command(command) => self.turn_down(command, now),
-                Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+                Turn::Sleep(_) | Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
             }
         }
         self.link = LinkState::Connecting { since: self.now().steady };

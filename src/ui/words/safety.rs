@@ -110,6 +110,9 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
              what depends on it.",
             format::signed(*by_s, 1)
         ),
+        Safety::EndedForSleep => format!(
+            "This computer goes to sleep: the jog of {antenna} was ended. Press the key anew to move it."
+        ),
         Safety::Slept { lasted } => format!(
             "This computer slept for {}. {antenna} is read anew.",
             format::age(lasted.as_secs_f64())

@@ -1,45 +1,23 @@
 //! What an earlier run has left behind.
 
-use std::{path::Path, sync::Arc};
+use std::path::Path;
 
 use jiff::{SignedDuration, Timestamp};
-use tokio::time::{Instant, sleep};
+use tokio::time::sleep;
 
 use super::*;
 use crate::{
-    astro::time::add_seconds,
-    controller::satrak::Satrak,
-    driver::{AntennaHandle, Clock, Command, Debts, Dial, Stream, Unit, Wires},
-    plan::Bounds,
-    sim::satrak::{Control, Options},
-    station::{Antenna, Station},
+    driver::{
+        AntennaHandle, Command, Debts, Unit,
+        session::testing::{self, START, antenna},
+    },
+    sim::satrak::Control,
 };
-
-const START: Timestamp = Timestamp::UNIX_EPOCH;
-
-fn antenna() -> Antenna {
-    Antenna::satrak("Dish", "in memory")
-}
 
 /// A session with its marks in `folder`, and its unit.
 fn start(folder: &Path) -> (Control, AntennaHandle, Debts) {
-    let antenna = antenna();
-    let control = Control::new(&Options::new(Station::default().site, START));
-    let serve = control.clone();
-    let dial: Dial = Box::new(move || {
-        let (near, far) = tokio::io::duplex(4096);
-        let control = serve.clone();
-        tokio::spawn(async move { control.serve(far).await });
-        Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
-    });
-    let started = Instant::now();
-    let clock = Clock::new(move || add_seconds(START, started.elapsed().as_secs_f64()));
-    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}));
     let debts = Debts::marked_in(Some(folder.to_owned()));
-    let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
-    let bounds = Bounds::of_antenna(&antenna);
-    let session = Session::over(satrak, &antenna, dial, clock, wires, debts.clone(), bounds);
-    tokio::spawn(session.run());
+    let (control, handle) = testing::start(debts.clone(), |wires| wires);
     (control, handle, debts)
 }
 

@@ -1,0 +1,247 @@
+//! Stops what would not end by itself before this computer sleeps: while it sleeps
+//! nothing sends STOP, and a jog key that is held stays down.
+
+use std::{
+    convert::Infallible,
+    sync::{Arc, Mutex, PoisonError},
+    time::Duration,
+};
+
+use tokio::sync::mpsc;
+
+/// How long a sleep is put off at most. `logind` waits for 5 s unless it is set
+/// otherwise (`InhibitDelayMaxSec`, logind.conf(5)).
+const MOST: Duration = Duration::from_secs(3);
+
+/// Is kept by a session until nothing runs that it alone would end.
+#[derive(Debug)]
+pub(super) struct Awake(
+    #[expect(dead_code, reason = "dropping it says all")] mpsc::Sender<Infallible>,
+);
+
+/// The sessions that are told.
+#[derive(Debug, Clone, Default)]
+pub(super) struct BeforeSleep(Arc<Mutex<Vec<mpsc::Sender<Awake>>>>);
+
+impl BeforeSleep {
+    /// Where a new session hears of it.
+    pub(super) fn hear(&self) -> mpsc::Receiver<Awake> {
+        let (tell, hear) = mpsc::channel(1);
+        let mut sessions = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        sessions.retain(|session| !session.is_closed());
+        sessions.push(tell);
+        hear
+    }
+
+    /// Tells all sessions, and waits within reason until nothing runs any more that
+    /// they alone would end.
+    pub(super) async fn all_quiet(&self) {
+        let (awake, mut all_quiet) = mpsc::channel(1);
+        for session in &*self.0.lock().unwrap_or_else(PoisonError::into_inner) {
+            // A session that has not read the last one yet ends its motion for that.
+            let _ = session.try_send(Awake(awake.clone()));
+        }
+        drop(awake);
+        if tokio::time::timeout(MOST, all_quiet.recv()).await.is_err() {
+            tracing::error!("this computer sleeps before standstill is proved");
+        }
+    }
+}
+
+/// Tells the sessions on `runtime` before each sleep, until the program ends.
+#[cfg(target_os = "linux")]
+pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> std::io::Result<()> {
+    std::thread::Builder::new().name("azel-sleep".to_owned()).spawn(move || {
+        let quiet = || runtime.block_on(sessions.all_quiet());
+        if let Err(error) = logind::system_bus().and_then(|bus| logind::watch(&bus, quiet)) {
+            tracing::debug!(%error, "nobody tells when this computer goes to sleep");
+        }
+    })?;
+    Ok(())
+}
+
+/// Nobody tells on this operating system.
+#[cfg(not(target_os = "linux"))]
+pub(super) fn watch(_: BeforeSleep, _: tokio::runtime::Handle) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// `systemd-logind` tells when the computer is about to sleep, and waits for those
+/// who hold a lock of the kind "delay" (`org.freedesktop.login1(5)`, systemd's
+/// "Inhibitor Locks").
+#[cfg(target_os = "linux")]
+mod logind {
+    use zbus::{
+        Result,
+        blocking::{Connection, Proxy},
+        zvariant::OwnedFd,
+    };
+
+    const SERVICE: &str = "org.freedesktop.login1";
+    const OBJECT: &str = "/org/freedesktop/login1";
+    const MANAGER: &str = "org.freedesktop.login1.Manager";
+
+    pub(super) fn system_bus() -> Result<Connection> {
+        Connection::system()
+    }
+
+    /// Calls `before` ahead of each sleep; returns when the bus is gone.
+    pub(super) fn watch(bus: &Connection, before: impl Fn()) -> Result<()> {
+        let manager = Proxy::new(bus, SERVICE, OBJECT, MANAGER)?;
+        let prepares = manager.receive_signal("PrepareForSleep")?;
+        let mut lock = Some(delay(&manager)?);
+        for signal in prepares {
+            let begins: bool = signal.body().deserialize()?;
+            if begins {
+                before();
+                lock = None;
+            } else if lock.is_none() {
+                lock = Some(delay(&manager)?);
+            }
+        }
+        Ok(())
+    }
+
+    fn delay(manager: &Proxy<'_>) -> Result<OwnedFd> {
+        manager.call(
+            "Inhibit",
+            &("sleep", "Azel", "Antennas that are moved by hand are stopped", "delay"),
+        )
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use std::{
+            io::{ErrorKind, Read as _},
+            os::unix::net::UnixStream,
+            sync::mpsc,
+            thread,
+            time::Duration,
+        };
+
+        use zbus::{
+            Guid, blocking::connection::Builder, object_server::SignalEmitter, zvariant::Fd,
+        };
+
+        use super::*;
+
+        const PATIENCE: Duration = Duration::from_secs(20);
+
+        /// Hands out locks, and the other end of each to the test.
+        struct Manager(mpsc::Sender<UnixStream>);
+
+        #[zbus::interface(name = "org.freedesktop.login1.Manager")]
+        impl Manager {
+            fn inhibit(&self, what: &str, _who: &str, _why: &str, mode: &str) -> Fd<'static> {
+                assert_eq!((what, mode), ("sleep", "delay"));
+                let (near, far) = UnixStream::pair().unwrap();
+                self.0.send(near).unwrap();
+                Fd::from(std::os::fd::OwnedFd::from(far))
+            }
+
+            #[zbus(signal)]
+            async fn prepare_for_sleep(from: &SignalEmitter<'_>, begins: bool) -> Result<()>;
+        }
+
+        fn is_held(lock: &UnixStream) -> bool {
+            lock.set_nonblocking(true).unwrap();
+            match (&*lock).read(&mut [0]) {
+                Ok(0) => false,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => true,
+                other => panic!("{other:?}"),
+            }
+        }
+
+        #[test]
+        fn the_lock_is_held_until_all_is_quiet_and_taken_again_after_the_sleep() {
+            let (near, far) = UnixStream::pair().unwrap();
+            let (locks, handed_out) = mpsc::channel();
+            let serve = move || {
+                let builder = Builder::async_io_unix_stream(far).server(Guid::generate())?.p2p();
+                builder.serve_at(OBJECT, Manager(locks))?.build()
+            };
+            let server = thread::spawn(serve);
+            let client = Builder::async_io_unix_stream(near).p2p().build().unwrap();
+            let server = server.join().unwrap().unwrap();
+            let (told, hears) = mpsc::channel();
+            let (go_on, waits) = mpsc::channel::<()>();
+            let watching = thread::spawn(move || {
+                watch(&client, || {
+                    told.send(()).unwrap();
+                    waits.recv_timeout(PATIENCE).unwrap();
+                })
+            });
+            let lock = handed_out.recv_timeout(PATIENCE).unwrap();
+            assert!(is_held(&lock));
+            let emitter = SignalEmitter::new(server.inner(), OBJECT).unwrap();
+            let tell = |begins| {
+                zbus::block_on(Manager::prepare_for_sleep(&emitter, begins)).unwrap();
+            };
+            tell(true);
+            hears.recv_timeout(PATIENCE).unwrap();
+            assert!(is_held(&lock), "before all is quiet");
+            go_on.send(()).unwrap();
+            // Until the end of the stream.
+            lock.set_nonblocking(false).unwrap();
+            lock.set_read_timeout(Some(PATIENCE)).unwrap();
+            assert_eq!((&lock).read(&mut [0]).unwrap(), 0);
+            tell(false);
+            assert!(is_held(&handed_out.recv_timeout(PATIENCE).unwrap()));
+            drop((emitter, server));
+            let _ = watching.join().unwrap();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tokio::time::{Instant, sleep, timeout};
+
+    use super::*;
+    use crate::driver::{Command, Debts, Event, Safety, session::testing};
+
+    async fn seconds(seconds: f64) {
+        sleep(Duration::try_from_secs_f64(seconds).unwrap()).await;
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn a_held_jog_is_ended_and_the_sleep_waits_for_proved_standstill() {
+        let sleeps = BeforeSleep::default();
+        let hear = sleeps.hear();
+        let (unit, mut handle) = testing::start(Debts::default(), |wires| wires.hearing(hear));
+        seconds(3.0).await;
+        handle.send(Command::Manual).unwrap();
+        let hold = || handle.send(Command::Jog { rates_deg_s: [2.0, 0.0] }).unwrap();
+        for _ in 0..20 {
+            hold();
+            seconds(0.1).await;
+        }
+        assert!(unit.state().is_moving, "{:?}", unit.received());
+        let begun = Instant::now();
+        timeout(MOST, sleeps.all_quiet()).await.unwrap();
+        assert!(begun.elapsed() < MOST, "it did not wait in vain");
+        assert!(!unit.state().is_moving);
+        // The key that stays down does not move it again after the sleep.
+        for _ in 0..10 {
+            hold();
+            seconds(0.1).await;
+        }
+        assert!(!unit.state().is_moving);
+        let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+        assert!(told.contains(&Event::Safety(Safety::EndedForSleep)), "{told:?}");
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn an_antenna_that_nobody_moves_puts_off_nothing() {
+        let sleeps = BeforeSleep::default();
+        let hear = sleeps.hear();
+        let (_unit, _handle) = testing::start(Debts::default(), |wires| wires.hearing(hear));
+        seconds(3.0).await;
+        let begun = Instant::now();
+        sleeps.all_quiet().await;
+        assert!(begun.elapsed() < Duration::from_millis(100));
+        // Nor does one whose session is over.
+        drop(sleeps.hear());
+        sleeps.all_quiet().await;
+    }
+}

@@ -1,0 +1,48 @@
+//! A session with a simulated Satrak at the other end of a stream in memory.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use tokio::time::Instant;
+
+use super::{Session, Wires};
+use crate::{
+    astro::time::add_seconds,
+    controller::satrak::Satrak,
+    driver::{AntennaHandle, Clock, Debts, Dial, Stream},
+    plan::Bounds,
+    sim::satrak::{Control, Options},
+    station::{Antenna, Station},
+};
+
+/// When it begins.
+pub(in crate::driver) const START: Timestamp = Timestamp::UNIX_EPOCH;
+
+pub(in crate::driver) fn antenna() -> Antenna {
+    Antenna::satrak("Dish", "in memory")
+}
+
+/// The unit, and the near end of a running session over what `wired` makes of its
+/// wires.
+pub(in crate::driver) fn start(
+    debts: Debts,
+    wired: impl FnOnce(Wires) -> Wires,
+) -> (Control, AntennaHandle) {
+    let antenna = antenna();
+    let control = Control::new(&Options::new(Station::default().site, START));
+    let serve = control.clone();
+    let dial: Dial = Box::new(move || {
+        let (near, far) = tokio::io::duplex(4096);
+        let control = serve.clone();
+        tokio::spawn(async move { control.serve(far).await });
+        Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
+    });
+    let started = Instant::now();
+    let clock = Clock::new(move || add_seconds(START, started.elapsed().as_secs_f64()));
+    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}));
+    let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
+    let bounds = Bounds::of_antenna(&antenna);
+    let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts, bounds);
+    tokio::spawn(session.run());
+    (control, handle)
+}
