@@ -20,6 +20,8 @@
     reason = "a test may end here"
 )]
 
+#[path = "safety_properties/damage.rs"]
+mod damage;
 #[path = "safety_properties/lies.rs"]
 mod lies;
 #[path = "safety_properties/link_down.rs"]

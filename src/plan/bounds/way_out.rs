@@ -62,7 +62,11 @@ impl Bounds {
     ) -> Option<f64> {
         let axes_at = |turn_deg: f64| {
             let [first, second] = axes_deg;
-            if axis == 0 { [first + way * turn_deg, second] } else { [first, second + way * turn_deg] }
+            if axis == 0 {
+                [first + way * turn_deg, second]
+            } else {
+                [first, second + way * turn_deg]
+            }
         };
         let place = |turn_deg| self.place(axes_at(turn_deg), left, suns);
         let end_deg = self.turn_to_end_deg(axes_deg, axis, way).min(FURTHEST_DEG);
