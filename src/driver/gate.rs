@@ -201,7 +201,7 @@ pub(super) struct Gate {
     /// after any other motion.
     to_deg: Option<[f64; 2]>,
     /// Where the axes stood when the last motion passed, degrees as the mount counts.
-    from_deg: Option<[f64; 2]>,
+    started_from_deg: Option<[f64; 2]>,
     /// Nothing but questions and halts goes to the unit.
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
@@ -221,7 +221,7 @@ impl Gate {
             bounds,
             run_out_s,
             to_deg: None,
-            from_deg: None,
+            started_from_deg: None,
             lock_out: None,
             unproved_since: None,
             program: None,
@@ -259,8 +259,8 @@ impl Gate {
     }
 
     /// Where the axes stood when the last motion passed, degrees as the mount counts.
-    pub(super) fn from_deg(&self) -> Option<[f64; 2]> {
-        self.from_deg
+    pub(super) fn started_from_deg(&self) -> Option<[f64; 2]> {
+        self.started_from_deg
     }
 
     /// Where the axes were measured last, degrees as the mount counts.
@@ -318,7 +318,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         self.examine(motion, intent, stopping, now)?;
         self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
-        self.from_deg = self.axes_deg();
+        self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.controller.start(motion);
         Ok(())
@@ -385,7 +385,7 @@ impl Gate {
                 Check::Motion(_) | Check::Act(_) | Check::Setting(_) => Ok(()),
             })?;
             self.unproved_since = Some(now.steady);
-            self.from_deg = self.axes_deg();
+            self.started_from_deg = self.axes_deg();
         }
         self.controller.act(act);
         Ok(())

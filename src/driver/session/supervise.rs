@@ -92,7 +92,7 @@ impl Session {
                 self.forget_motion(motion, Event::Refused(motion, code), now);
             }
             Happening::Unanswered(motion) => {
-                let before_deg = self.gate.from_deg();
+                let before_deg = self.gate.started_from_deg();
                 self.doubt = Some(Doubt { motion, since: now.steady, before_deg });
             }
             Happening::HaltRefused(code) => self.tell(Event::StopRefused(code)),
