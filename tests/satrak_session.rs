@@ -30,7 +30,11 @@ mod satrak_session {
     mod settings;
     mod settings_moving;
     mod settings_refused;
+    mod silence;
+    mod stalled;
     mod stop;
     mod track;
+    mod two;
+    mod unguarded;
     mod wire;
 }

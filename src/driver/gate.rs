@@ -228,6 +228,8 @@ pub(super) struct Gate {
     /// Where the last motion to a position ends, degrees as the mount counts; `None`
     /// after any other motion.
     to_deg: Option<[f64; 2]>,
+    /// Where the axes stood when the last motion passed, degrees as the mount counts.
+    started_from_deg: Option<[f64; 2]>,
     /// Nothing but questions and halts goes to the unit.
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
@@ -249,6 +251,7 @@ impl Gate {
             bounds,
             run_out_s,
             to_deg: None,
+            started_from_deg: None,
             lock_out: None,
             unproved_since: None,
             program: None,
@@ -289,6 +292,17 @@ impl Gate {
     /// Standstill is proved.
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
+    }
+
+    /// Where the axes stood when the last motion passed, degrees as the mount counts.
+    pub(super) fn started_from_deg(&self) -> Option<[f64; 2]> {
+        self.started_from_deg
+    }
+
+    /// Where the axes were measured last, degrees as the mount counts.
+    pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
+        let [x, y] = self.state().measured?.axes.map(|axis| axis.angle_deg);
+        Some([x?, y?])
     }
 
     /// What the antenna must keep within.
@@ -340,6 +354,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         self.examine(motion, intent, stopping, now)?;
         self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
+        self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.controller.start(motion);
         Ok(())
@@ -410,6 +425,7 @@ impl Gate {
             })?;
             self.to_deg = self.end_of(&act);
             self.unproved_since = Some(now.steady);
+            self.started_from_deg = self.axes_deg();
         }
         self.controller.act(act);
         Ok(())

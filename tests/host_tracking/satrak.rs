@@ -165,6 +165,27 @@ async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn after_a_restart_in_mid_pass_nothing_moves_until_the_operator_asks() {
+    let (rig, control, scene) = following(&antenna()).await;
+    let utc = rig.utc();
+    drop(rig);
+    tokio::time::sleep(Duration::from_secs(5)).await;
+    let (sent, unit) = (gotos(&control), control.clone());
+    let satrak = Satrak::new(antenna().poll, String::new());
+    let utc_origin = add_seconds(utc, 5.0);
+    let mut rig = Rig::start(Box::new(satrak), &antenna(), utc_origin, move |far| {
+        let unit = unit.clone();
+        async move { unit.serve(far).await }
+    });
+    rig.seconds(30.0).await;
+    assert_eq!((rig.shown().intent, gotos(&control)), (Intent::Standby, sent));
+    assert!(!control.state().is_moving);
+    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.seconds(20.0).await;
+    assert!(gotos(&control) > sent && is_followed(&rig, &control));
+}
+
+#[tokio::test(start_paused = true)]
 async fn after_a_short_outage_it_goes_on() {
     let (mut rig, control, _) = following(&antenna()).await;
     rig.set_off(true);

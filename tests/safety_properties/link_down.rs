@@ -58,6 +58,9 @@ fn is_alarm(event: &Event) -> bool {
 const MISSING: Duration = Duration::from_millis(760);
 /// After the first reply that is missing the operator is told within this.
 const ALARM: Duration = Duration::from_secs(1);
+/// A jog of an RC2000C runs on for so long at its rate: what was renewed last, one more
+/// where commands still get through, and the run-out.
+const RUNS_ON_S: f64 = 2.0;
 /// A STOP that is not proved is sent again within this.
 const AGAIN: Duration = Duration::from_millis(1500);
 
@@ -134,8 +137,7 @@ async fn fails(mut dice: Dice) {
     let ends_by_itself = !scene.world.unit.jogs_run_on() || !is_jog;
     if is_jog && !scene.world.unit.jogs_run_on() {
         let turned_deg = (scene.world.unit.axes_deg()[axis] - from_deg[axis]).abs();
-        // What was sent before, and the run-out.
-        let most_deg = scene.world.fastest_deg_s * 4.0;
+        let most_deg = scene.world.fastest_deg_s * RUNS_ON_S;
         assert!(turned_deg <= most_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
         assert!(!scene.world.unit.is_turning(), "runs on: {case}\n{}", scene.report());
     }

@@ -176,10 +176,21 @@ impl Unit {
                 Word::Stop
             }
             Self::Satrak(_) if !text.contains('=') => Word::Question,
+            Self::Satrak(_)
+                if ["GOTO=", "MOVE=", "STEP=", "TRACK="]
+                    .iter()
+                    .any(|word| text.starts_with(word)) =>
+            {
+                Word::Motion
+            }
             Self::Genius(_) if text == "|S" => Word::Stop,
             Self::Genius(_) if text == "|h" => Word::Question,
+            Self::Genius(_) if ["|A", "|P", "|M"].iter().any(|word| text.starts_with(word)) => {
+                Word::Motion
+            }
             Self::Rc2000c(..) if text.starts_with("3X") => Word::Stop,
             Self::Rc2000c(..) if text.starts_with(['0', '1', '5']) => Word::Question,
+            Self::Rc2000c(..) if text.starts_with(['2', '3']) => Word::Motion,
             _ => Word::Other,
         };
         text.into_iter().filter(|(at, _)| *at >= from).map(|(at, it)| (at, word(&it))).collect()
@@ -218,6 +229,8 @@ impl Unit {
 pub(super) enum Word {
     Stop,
     Question,
+    /// Metal is to move.
+    Motion,
     Other,
 }
 

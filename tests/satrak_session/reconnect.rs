@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     controller::PrepareError,
-    driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, StopState},
+    driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState},
     sim::satrak::Fault,
 };
 
@@ -66,7 +66,8 @@ async fn tracking_goes_on_without_the_link_and_is_found_again() {
     let shown = rig.shown();
     assert_eq!((shown.intent, shown.pending), (Intent::Track, false));
     assert_eq!(rig.orders().len(), before, "nothing is sent that the unit does already");
-    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Closed)]);
+    let told = [Event::Safety(Safety::SilentInMotion), Event::LinkLost(LinkLoss::Closed)];
+    assert_eq!(rig.events(), told);
 }
 
 #[tokio::test(start_paused = true)]

@@ -15,6 +15,7 @@ use azel::{
     sim::satrak::{Control, Options},
     station::{Antenna, LockOut},
 };
+use jiff::Timestamp;
 use tokio::time::{Instant, sleep};
 
 pub(super) use super::scene::{antenna, iss, options, track, twin};
@@ -35,6 +36,14 @@ pub(super) struct Rig {
     pub(super) started: Instant,
 }
 
+/// A link that the unit serves.
+pub(super) fn plain_link(control: &Control) -> Box<dyn Stream> {
+    let (near, far) = tokio::io::duplex(4096);
+    let control = control.clone();
+    tokio::spawn(async move { control.serve(far).await });
+    Box::new(near)
+}
+
 impl Rig {
     /// A running session, not connected yet.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
@@ -48,6 +57,17 @@ impl Rig {
         lock_out: Option<LockOut>,
     ) -> Self {
         let control = Control::new(options);
+        Self::start_over(control, options.utc_origin, antenna, lock_out, plain_link)
+    }
+
+    /// The same on a unit that runs already, each link as `link` makes it.
+    pub(super) fn start_over(
+        control: Control,
+        utc_origin: Timestamp,
+        antenna: &Antenna,
+        lock_out: Option<LockOut>,
+        mut link: impl FnMut(&Control) -> Box<dyn Stream> + Send + 'static,
+    ) -> Self {
         let is_off = Arc::new(AtomicBool::new(false));
         let dials = Arc::new(Mutex::new(Vec::new()));
         let dial: Dial = {
@@ -57,13 +77,10 @@ impl Rig {
                 if is_off.load(Ordering::Relaxed) {
                     return Box::pin(async { Err(io::ErrorKind::ConnectionRefused.into()) });
                 }
-                let (near, far) = tokio::io::duplex(4096);
-                let control = control.clone();
-                tokio::spawn(async move { control.serve(far).await });
-                Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
+                let near = link(&control);
+                Box::pin(async { Ok(near) })
             })
         };
-        let utc_origin = options.utc_origin;
         let clock_readings = Arc::default();
         let (session, handle) = session(antenna, dial, utc_origin, Arc::clone(&clock_readings));
         handle.know_orbit(Some(orbit(25_544)));

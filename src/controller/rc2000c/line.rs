@@ -33,13 +33,12 @@ impl Line {
 
     /// How long the reply to `request` may take.
     pub(super) fn reply_wait(self, request: &Request) -> Duration {
-        let characters = request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes();
-        LATENCY + self.time_of(characters)
+        LATENCY + self.exchange_of(request)
     }
 
     /// The same while metal moves.
     pub(super) fn prompt(self, request: &Request) -> Duration {
-        self.reply_wait(request) - LATENCY + PROMPT
+        PROMPT + self.exchange_of(request)
     }
 
     /// How long any reply takes at most while all is well.
@@ -55,6 +54,11 @@ impl Line {
     /// How long a halt and the question after it take with their replies.
     pub(super) fn halt_wait(self) -> Duration {
         LATENCY.max((self.exchange() + GAP) * 2)
+    }
+
+    /// A command and its reply on the wire.
+    fn exchange_of(self, request: &Request) -> Duration {
+        self.time_of(request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes())
     }
 
     /// The longest command and the longest reply on the wire.

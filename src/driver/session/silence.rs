@@ -22,6 +22,8 @@ pub(super) struct Silence {
     replies: u64,
     first: Option<Instant>,
     second: Option<Instant>,
+    /// Metal moves on this program's word.
+    is_watched: bool,
     /// The operator was told, and no reply has come since.
     is_told: bool,
 }
@@ -37,7 +39,7 @@ impl Silence {
 
     fn heard(&mut self, replies: u64) {
         if replies != self.replies {
-            *self = Self { replies, ..Self::default() };
+            *self = Self { replies, is_watched: self.is_watched, ..Self::default() };
         }
     }
 
@@ -72,10 +74,9 @@ impl Session {
     /// Tells of a unit that does not answer while it moves; once, until it does.
     pub(super) fn watch_silence(&mut self, now: Moment) {
         self.silence.heard(self.gate.state().traffic.replies);
-        let is_in_motion = self.is_in_motion();
-        self.gate.device().watch_closely(is_in_motion);
-        let is_due = self.silence_due().is_some_and(|at| now.steady >= at);
-        if is_due && is_in_motion {
+        self.silence.is_watched = self.is_in_motion();
+        self.gate.device().watch_closely(self.silence.is_watched);
+        if self.silence_due().is_some_and(|at| now.steady >= at) {
             self.tell_silence();
         }
     }
@@ -102,6 +103,7 @@ impl Session {
     pub(super) fn silence_due(&mut self) -> Option<Instant> {
         let prompt = self.gate.device().prompt();
         let is_open = matches!(self.link, LinkState::Up { .. } | LinkState::Stale { .. });
-        self.silence.due(prompt).filter(|_| is_open && !self.silence.is_told)
+        let is_watched = self.silence.is_watched && !self.silence.is_told;
+        self.silence.due(prompt).filter(|_| is_open && is_watched)
     }
 }

@@ -94,8 +94,7 @@ impl Session {
                 self.forget_motion(motion, Event::Refused(motion, code), now);
             }
             Happening::Unanswered(motion) => {
-                // Nothing was asked since the motion went out.
-                let before_deg = self.axes_deg();
+                let before_deg = self.gate.started_from_deg();
                 self.doubt = Some(Doubt { motion, since: now.steady, before_deg });
             }
             Happening::HaltRefused(code) => self.tell(Event::StopRefused(code)),
@@ -127,17 +126,12 @@ impl Session {
         }
         self.doubt = None;
         // A short one may be over before it was in doubt.
-        let turned = before_deg.zip(self.axes_deg()).is_some_and(|(before, after)| {
+        let turned = before_deg.zip(self.gate.axes_deg()).is_some_and(|(before, after)| {
             before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
         });
         if !self.active() && !turned && !self.may_send_another() {
             self.forget_motion(motion, Event::Unanswered(motion), now);
         }
-    }
-
-    fn axes_deg(&self) -> Option<[f64; 2]> {
-        let [x, y] = self.gate.state().measured?.axes.map(|axis| axis.angle_deg);
-        Some([x?, y?])
     }
 
     /// Says what the device was found doing when the link came up.

@@ -1,0 +1,97 @@
+//! Replies that are damaged or lost, from one in a hundred to every second one.
+
+use std::time::Duration;
+
+use azel::{
+    astro::Angle,
+    driver::{Command, Event, LinkState},
+};
+use tokio::time::Instant;
+
+use super::world::{Dice, Scene, Unit, Wish, Word, World, for_each_case};
+
+/// Of all replies, percent: first those that are damaged or lost at all.
+const RATES: [u32; 6] = [1, 2, 5, 10, 20, 50];
+
+/// What is shown lies where the axes were when they were asked, or since.
+fn assert_true(scene: &Scene, case: &str) {
+    let Some(look) = scene.shown().state.measured else { return };
+    let age_s = Instant::now().duration_since(look.asked.into()).as_secs_f64();
+    let World { unit, fastest_deg_s, coarse_deg, .. } = &scene.world;
+    for (axis, true_deg) in look.axes.iter().zip(unit.axes_deg()) {
+        let Some(shown_deg) = axis.angle_deg else { continue };
+        let off_deg = (shown_deg - true_deg + 180.0).rem_euclid(360.0) - 180.0;
+        let most_deg = fastest_deg_s * age_s + coarse_deg;
+        assert!(off_deg.abs() <= most_deg, "{off_deg} off: {case}\n{}", scene.report());
+    }
+}
+
+async fn watched(scene: &mut Scene, seconds: f64, case: &str) {
+    let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+    while Instant::now() < end {
+        scene.look().await;
+        assert_true(scene, case);
+    }
+}
+
+async fn damaged(mut dice: Dice, make: usize, percent: u32) {
+    let least_margin_deg = |world: &World| world.coarse_deg;
+    let wish =
+        Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+    let world = loop {
+        let world = World::random(&mut dice, &wish);
+        let is_it = match world.unit {
+            Unit::Satrak(_) => make == 0,
+            Unit::Genius(_) => make == 1,
+            Unit::Rc2000c(..) => make == 2,
+        };
+        if is_it {
+            break world;
+        }
+    };
+    let case = format!("{percent} %");
+    let mut scene = Scene::start(world, &mut dice).await;
+    let share = f64::from(percent) / 200.0;
+    scene.trouble(|line| (line.damaged, line.lost) = (share, share));
+    let began = Instant::now();
+    scene.send(Command::Position {
+        azimuth: Some(Angle::from_degrees(dice.between(0.0, 360.0))),
+        elevation: Some(Angle::from_degrees(dice.between(20.0, 80.0))),
+    });
+    watched(&mut scene, dice.between(1.0, 15.0), &case).await;
+    // A Genius is told one axis after the other.
+    let most = if make == 1 { 2 } else { 1 };
+    let moved = |scene: &Scene| {
+        let words = scene.world.unit.words_since(began);
+        words.iter().filter(|(_, word)| *word == Word::Motion).count()
+    };
+    assert!(moved(&scene) <= most, "sent again: {case}\n{}", scene.report());
+
+    // What moves is stopped, however bad the line is.
+    scene.stop();
+    let pressed = Instant::now();
+    while scene.told(pressed, |event| matches!(event, Event::Stopped)).is_none() {
+        watched(&mut scene, 0.2, &case).await;
+        let waited = pressed.elapsed();
+        assert!(waited < Duration::from_secs(60), "never proved: {case}\n{}", scene.report());
+    }
+    assert!(!scene.world.unit.is_turning(), "stopped while it turns: {case}\n{}", scene.report());
+    assert!(moved(&scene) <= most, "sent after STOP: {case}\n{}", scene.report());
+
+    // A line that is well again is shown so, and by then nothing has begun to move.
+    scene.trouble(|line| (line.damaged, line.lost) = (0.0, 0.0));
+    watched(&mut scene, 15.0, &case).await;
+    let shown = scene.shown();
+    assert!(matches!(shown.link, LinkState::Up { .. }) && !shown.silent, "{}", scene.report());
+    assert!(!scene.world.unit.is_turning(), "{case}\n{}", scene.report());
+}
+
+#[test]
+fn any_rate_of_damage_becomes_no_position_no_motion_and_no_lost_stop() {
+    for (make, name) in ["Satrak", "Genius", "RC2000C"].into_iter().enumerate() {
+        for percent in RATES {
+            let class = format!("{name}, {percent} % damaged");
+            for_each_case(&class, 4, |dice| damaged(dice, make, percent));
+        }
+    }
+}

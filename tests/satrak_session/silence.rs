@@ -1,0 +1,71 @@
+//! A unit that does not answer while it moves.
+
+use azel::{
+    astro::Angle,
+    driver::{Command, Event, Safety},
+    sim::satrak::Fault,
+};
+use tokio::time::Instant;
+
+use super::rig::Rig;
+
+fn is_it(event: &Event) -> bool {
+    matches!(event, Event::Safety(Safety::SilentInMotion))
+}
+
+async fn on_its_way() -> Rig {
+    let mut rig = Rig::usual().await;
+    rig.send(Command::Position {
+        azimuth: Some(Angle::from_degrees(200.0)),
+        elevation: Some(Angle::from_degrees(20.0)),
+    });
+    rig.until("it moves", 3, |shown| shown.state.measured.unwrap().moving()).await;
+    rig.events();
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn it_is_told_once_within_a_second_of_the_first_missing_reply_until_it_answers() {
+    let mut rig = on_its_way().await;
+    rig.control.set_fault(Fault::Silence, true);
+    let began = Instant::now();
+    rig.until_event(3, is_it).await;
+    let told_s = began.elapsed().as_secs_f64();
+    // A poll period, 0.6 s for the reply that is missing first, and a second.
+    assert!((1.0..0.5 + 0.6 + 1.0).contains(&told_s), "{told_s}");
+    assert!(rig.shown().silent);
+    rig.seconds(10.0).await;
+    assert!(!rig.events().iter().any(is_it), "told again");
+    rig.control.set_fault(Fault::Silence, false);
+    rig.until("it answers", 15, |shown| !shown.silent).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn of_one_that_stands_the_link_alone_is_told() {
+    let mut rig = Rig::usual().await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.until_event(10, |event| matches!(event, Event::LinkLost(_))).await;
+    assert!(!rig.events().iter().any(is_it) && !rig.shown().silent);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_link_that_closes_in_the_middle_of_a_motion_is_told_at_once() {
+    let mut rig = on_its_way().await;
+    rig.set_off(true);
+    rig.seconds(0.1).await;
+    let events = rig.events();
+    assert!(
+        matches!(events[..], [Event::Safety(Safety::SilentInMotion), Event::LinkLost(_)]),
+        "{events:?}"
+    );
+    rig.set_off(false);
+    rig.until("it answers", 15, |shown| !shown.silent).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn while_it_moves_one_reply_that_is_lost_is_asked_for_again_at_once() {
+    let mut rig = on_its_way().await;
+    rig.control.set_fault(Fault::DropReply, true);
+    rig.seconds(10.0).await;
+    assert!(!rig.events().iter().any(is_it));
+}
