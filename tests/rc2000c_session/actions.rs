@@ -24,7 +24,7 @@ async fn not_sent(rig: &mut Rig) -> Refusal {
 }
 
 /// A mast before the azimuths from 140 to 150 degrees, up to 60.
-fn mast() -> Box<Bounds> {
+fn mast() -> Bounds {
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = KeepOut {
         name: "mast".to_owned(),
@@ -34,13 +34,13 @@ fn mast() -> Box<Bounds> {
         zone: KeepOut::zone_of(&corners_deg).unwrap(),
     };
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Box::new(Bounds::of(&station, &antenna()))
+    Bounds::of(&station, &antenna())
 }
 
 #[tokio::test(start_paused = true)]
 async fn counts_are_judged_by_the_way_of_the_angles_that_they_mean() {
     let mut rig = Rig::in_manual().await;
-    rig.send(Command::Within(mast()));
+    rig.send(Command::Within(Box::new(mast())));
     let counts = |az, el| [("az_counts", Value::Integer(az)), ("el_counts", Value::Integer(el))];
     // From 164.75 degrees to 110, with the mast between.
     rig.act("to_counts", counts(430, 750));
@@ -63,9 +63,10 @@ async fn counts_that_mean_no_angle_are_refused_whatever_the_operator_says() {
     rig.send(Command::Manual);
     let counts = [("az_counts", Value::Integer(1600)), ("el_counts", Value::Integer(700))];
     for is_agreed in [false, true] {
-        match is_agreed {
-            false => rig.act("to_counts", counts.clone()),
-            true => rig.act_unseen("to_counts", counts.clone()),
+        if is_agreed {
+            rig.act_unseen("to_counts", counts.clone());
+        } else {
+            rig.act("to_counts", counts.clone());
         }
         let told = not_sent(&mut rig).await;
         let Refusal::Controller(why) = told else { panic!("{told:?}") };
@@ -94,7 +95,7 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
     let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
     let mut rig = Rig::connected(&Options::default(), &alarm_alone).await;
     rig.send(Command::Manual);
-    rig.send(Command::Within(mast()));
+    rig.send(Command::Within(Box::new(mast())));
     // It is stored at 122.75 degrees, behind the mast.
     rig.act_unseen("to_satellite", to("SATCOM C3", 0));
     let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
@@ -110,7 +111,7 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
 async fn what_cannot_be_watched_is_not_started_unseen() {
     let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
     rig.send(Command::Manual);
-    rig.send(Command::Within(mast()));
+    rig.send(Command::Within(Box::new(mast())));
     rig.act_unseen("to_satellite", to("GALAXY 5", 0));
     assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
     assert!(rig.orders().is_empty());

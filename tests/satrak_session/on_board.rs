@@ -243,7 +243,7 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
 }
 
 /// A mast from 20 to 60 degrees of elevation about where the satellite is highest.
-fn in_the_way() -> Box<Bounds> {
+fn in_the_way() -> Bounds {
     let highest_deg = scene::pass().tca.direction.azimuth_deg();
     let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];
     let corners_deg = [(from_deg, 20.0), (to_deg, 20.0), (to_deg, 80.0), (from_deg, 80.0)];
@@ -255,7 +255,7 @@ fn in_the_way() -> Box<Bounds> {
         zone: KeepOut::zone_of(&corners_deg).unwrap(),
     };
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Box::new(Bounds::of(&station, &antenna()))
+    Bounds::of(&station, &antenna())
 }
 
 async fn auto_track_refused(rig: &mut Rig) -> Refusal {
@@ -271,7 +271,7 @@ async fn auto_track_refused(rig: &mut Rig) -> Refusal {
 async fn auto_track_is_judged_by_where_the_unit_would_go_when_it_takes_over() {
     let mut rig = read().await;
     chosen_by_another(&mut rig, &iss()).await;
-    rig.send(Command::Within(in_the_way()));
+    rig.send(Command::Within(Box::new(in_the_way())));
     let told = auto_track_refused(&mut rig).await;
     assert!(matches!(told, Refusal::Path(_) | Refusal::Forbidden { .. }), "{told:?}");
     rig.send(Command::Within(Box::new(Bounds::of_antenna(&antenna()))));

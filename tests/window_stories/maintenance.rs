@@ -5,7 +5,7 @@ use azel::{
     driver::{Command, Intent, LinkState, Snapshot},
     station::{self, LockOut},
 };
-use egui::{Event, Key, Role};
+use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{
     Harness,
     kittest::{NodeT as _, Queryable as _},
@@ -184,6 +184,51 @@ fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
         model.antenna().unwrap().snapshot.lock_out.is_none()
     });
     assert!(!std::fs::read_to_string(&file).unwrap().contains("gear box open"));
+}
+
+#[test]
+fn another_address_in_the_settings_is_locked_out_as_well() {
+    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
+    let (unit, other) = (Unit::start(utc), Unit::start(utc));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let mut window = open(&path, clock_from(utc));
+    let is_up = |model: &azel::app::Model| {
+        model.antenna().is_some_and(|of| of.snapshot.state.measured.is_some())
+    };
+    step_until(&mut window, "the antenna is measured", is_up);
+    ask_for_lock_out(&mut window, "Satrak");
+    write(&mut window, "Your name", "Ada");
+    write(&mut window, "Reason", "gear box open");
+    window.run_steps(2);
+    hold(&mut window, HOLD);
+    let is_locked = |model: &azel::app::Model| {
+        model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some())
+    };
+    step_until(&mut window, "it is locked out", is_locked);
+
+    window.get_by_role_and_label(Role::Tab, "Preferences").click();
+    window.run_steps(3);
+    let address = other.address.to_string();
+    let old = unit.address.to_string();
+    let is_field = |node: &egui_kittest::Node<'_>| node.accesskit_node().role() == Role::TextInput;
+    window.get_all_by_value(&old).find(is_field).expect("its address").focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(address.clone()));
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    let is_moved = |model: &azel::app::Model| {
+        model.antenna().is_some_and(|antenna| antenna.config.connection.address == address)
+    };
+    step_until(&mut window, "the new address is used", is_moved);
+    let snapshot = window.state().model().antenna().unwrap().handle.snapshot();
+    let by = snapshot.lock_out.as_ref().map(|lock_out| lock_out.by.as_str());
+    assert!(by.is_none_or(|by| by == "Ada"), "{by:?}");
+    step_until(&mut window, "it is locked out too", is_locked);
+    let file = std::fs::read_to_string(folder.path().join("lock-outs.toml")).unwrap();
+    assert_eq!(file.matches("gear box open").count(), 2, "{file}");
 }
 
 #[test]

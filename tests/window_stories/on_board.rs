@@ -1,24 +1,34 @@
 //! What the operator is told of a unit that tracks by itself.
 
-use std::sync::Arc;
+use std::{
+    io::{BufRead as _, BufReader, Write as _},
+    net::TcpStream,
+    sync::Arc,
+};
 
 use azel::{
     app::{UiCommand, alarms::AlarmKind},
-    astro::Angle,
+    astro::{Angle, time::add_seconds},
     controller::{Place, settings::Value},
     driver::{OnBoardView, Snapshot},
+    orbit::bundled,
     plan::{
         Supervision,
         on_board::{Cause, Error, Ranked, Unknown},
     },
+    protocol::satrak::encode,
+    sim::satrak::BUNDLED_FILE,
+    station,
     ui::words,
 };
+use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
     rig::{self, LARGE, asked},
     settings::settles,
     settings_desk::{apply, desk, hold, press, read, says, state_of, texts},
     states,
+    unit::{Unit, clock_from, open, step_until},
 };
 
 fn elsewhere(off_deg: f64) -> Ranked {
@@ -84,4 +94,35 @@ fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     let unexplained = AlarmKind::OffTarget { off, cause: None };
     let said = words::alarm(&unexplained, "Satrak");
     assert!(said.contains("the age of its elements is not known"), "{said}");
+}
+
+/// Another client tells the unit this, one after the other.
+fn by_another(unit: &Unit, payloads: &[&str]) {
+    let mut stream = TcpStream::connect(unit.address).unwrap();
+    let mut lines = BufReader::new(stream.try_clone().unwrap()).lines();
+    for payload in payloads {
+        stream.write_all(&encode(payload)).unwrap();
+        let line = lines.next().unwrap().unwrap();
+        assert!(line.contains("OK"), "{payload}: {line}");
+    }
+}
+
+#[test]
+fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
+    let utc: Timestamp = "2026-08-12T11:14:30Z".parse().unwrap();
+    let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let catalog = bundled().unwrap();
+    let held = catalog.get(rig::station().favourites[0]).unwrap().name().to_owned();
+    let text = |at| TimeZone::UTC.to_datetime(at).strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string();
+    let (from, until) = (add_seconds(utc, 300.0), add_seconds(utc, 900.0));
+    let satellite = format!("SATELLITE=,{BUNDLED_FILE},{held},1,0");
+    let window = format!("START_STOP_TIME=,{},{}", text(from), text(until));
+    by_another(&unit, &[&satellite, &window, "TRACK=,1"]);
+    let mut window = open(&path, clock_from(utc));
+    step_until(&mut window, "it is compared", |model| {
+        model.antenna().is_some_and(|antenna| antenna.snapshot.on_board.is_some())
+    });
+    assert_eq!(window.state().model().antenna().unwrap().snapshot.target, None);
 }

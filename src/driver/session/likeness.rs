@@ -12,13 +12,16 @@ use crate::{
 /// So long a unit may take to tell again what it told before.
 const READ_AGAIN: Duration = Duration::from_secs(15);
 
+/// Both ends of an axis, degrees; `None` where the unit tells none.
+type Ends = Option<(f64, f64)>;
+
 /// What a unit tells of itself, as far as it does.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Likeness {
     identity: Option<String>,
     place: Option<Place>,
     offsets: Option<Offsets>,
-    travel_deg: [Option<(f64, f64)>; 2],
+    travel_deg: [Ends; 2],
 }
 
 /// A unit that is compared before a target is followed on.
@@ -46,7 +49,7 @@ impl Likeness {
             (before.latitude_deg - now.latitude_deg).abs() > step_deg
                 || (before.longitude_deg - now.longitude_deg).abs() > step_deg
         };
-        let other = |(before, now): (Option<(f64, f64)>, Option<(f64, f64)>)| {
+        let other = |(before, now): (Ends, Ends)| {
             before.zip(now).is_some_and(|(before, now)| before != now)
         };
         if self.identity.as_ref().zip(now.identity.as_ref()).is_some_and(|(a, b)| a != b) {
