@@ -17,8 +17,11 @@ pub(crate) mod rotator_genius;
 pub(crate) mod satrak;
 pub(crate) mod station;
 
+/// Feeds bytes to what is fuzzed.
+pub(crate) type Run = fn(&[u8]);
+
 /// All of them with the names of their targets and folders.
-pub(crate) const ALL: [(&str, fn(&[u8])); 7] = [
+pub(crate) const ALL: [(&str, Run); 7] = [
     ("elements", elements::run),
     ("lists", lists::run),
     ("mask", mask::run),

@@ -38,9 +38,7 @@ fn decode(bytes: &[u8], piece: usize) -> (Vec<Result<Frame, FrameError>>, u64) {
 
 fn stream(bytes: &[u8]) {
     let (seen, skipped) = decode(bytes, 500);
-    for piece in [1, 4, 37] {
-        assert_eq!(decode(bytes, piece), (seen.clone(), skipped));
-    }
+    assert_eq!(decode(bytes, 1 + bytes.len() % 41), (seen.clone(), skipped));
     let framed: usize = seen.iter().flatten().map(|frame| frame.to_bytes().len()).sum();
     assert_eq!(framed as u64 + skipped, bytes.len() as u64);
     for frame in seen.iter().flatten() {

@@ -39,8 +39,7 @@ pub(crate) fn run(bytes: &[u8]) {
 
 fn same(first: &Station, second: &Station) {
     // An angle in radians does not keep the last digit of its degrees.
-    let without_zones =
-        |station: &Station| Station { keep_outs: Vec::new(), ..station.clone() };
+    let without_zones = |station: &Station| Station { keep_outs: Vec::new(), ..station.clone() };
     assert_eq!(without_zones(first), without_zones(second));
     assert_eq!(first.keep_outs.len(), second.keep_outs.len());
     for (one, other) in first.keep_outs.iter().zip(&second.keep_outs) {

@@ -7,6 +7,9 @@ use csv_core::{ReadRecordResult, Reader};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
+/// Fields of a row that are looked at; real ones have some forty. A line without
+/// an end must not take many times its length of memory.
+const MOST_FIELDS: usize = 1000;
 /// Names of fields that a header holds at least: more than the name of an object
 /// has room for, and than the texts of a row are.
 const FEWEST_NAMES: usize = 4;
@@ -65,14 +68,13 @@ struct Row {
 impl Row {
     fn new() -> Self {
         // Not `Reader::default()`, which has no tables and reads nothing.
-        Self { reader: Reader::new(), text: Vec::new(), ends: Vec::new(), len: 0 }
+        Self { reader: Reader::new(), text: Vec::new(), ends: vec![0; MOST_FIELDS], len: 0 }
     }
 
     fn split(&mut self, line: &str) {
         // No field grows when its quotation marks go. One place more says that
         // nothing was full.
         self.text.resize(line.len() + 1, 0);
-        self.ends.resize(line.len() + 2, 0);
         self.reader.reset();
         let (mut read, mut written) = (0, 0);
         self.len = 0;
@@ -168,6 +170,14 @@ mod tests {
             "MEAN_MOTION,ECCENTRICITY,INCLINATION,RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,BSTAR"
         );
         assert_eq!(numbers(&read(&text)), [25_544, 7]);
+    }
+
+    #[test]
+    fn a_row_without_an_end_is_refused_and_costs_no_other() {
+        let report = read(&format!("{HEADER}\n{}\n{ROW}\n", ",".repeat(100_000)));
+        assert_eq!(numbers(&report), [25_544]);
+        let reason = RefusalReason::FieldCount { found: MOST_FIELDS, expected: 17 };
+        assert_eq!(report.refused[0].reason, reason);
     }
 
     #[test]
