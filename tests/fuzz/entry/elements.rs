@@ -18,6 +18,9 @@ const MOST_PASSES: usize = 40;
 /// some hundreds.
 const MOST_EFFORT: u64 = 50_000;
 
+/// Closer to the horizon than this, in degrees, either side is right.
+const LEVEL_DEG: f64 = 1e-3;
+
 pub(crate) fn run(bytes: &[u8]) {
     let report = read_element_bytes(bytes);
     assert!(report.elements.len() + report.refused.len() <= bytes.len());
@@ -69,6 +72,7 @@ fn day(propagator: &Propagator, site: Site, from: Timestamp) {
     assert!(found.len() < MOST_PASSES, "{} passes", found.len());
     assert!(effort < MOST_EFFORT, "{effort} states");
     in_order(&found, from, to);
+    seen_when_up(propagator, &search, &found);
     let mask = HorizonMask::from_degrees([(0.0, 3.0), (90.0, 12.5), (91.0, -2.0), (250.0, 40.0)])
         .expect("a mask");
     for pass in &found {
@@ -91,6 +95,22 @@ fn in_order(found: &[Pass], from: Timestamp, to: Timestamp) {
             assert!(elevation <= pass.max_elevation(), "{pass:?}");
         }
         assert!(pass.duration_s().is_finite());
+    }
+}
+
+/// Between its passes a satellite is down, within them it is up.
+fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
+    for minute in (0..24 * 60).step_by(10) {
+        let at = search.from + SignedDuration::from_mins(minute);
+        let Ok(look) = propagator.look_from(search.site, at) else {
+            // After its epoch, what has come down stays down; before it, the search
+            // ends too.
+            break;
+        };
+        let elevation_deg = look.direction.elevation.degrees();
+        let is_within = found.iter().any(|pass| (pass.aos.time..=pass.los.time).contains(&at));
+        let is_level = elevation_deg.abs() < LEVEL_DEG;
+        assert!(is_level || is_within == (elevation_deg > 0.0), "{elevation_deg} degrees at {at}");
     }
 }
 
