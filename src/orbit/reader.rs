@@ -91,13 +91,12 @@ fn form(text: &str) -> Form {
 /// A text of a source on one line: without blanks around it, and with blanks
 /// for the characters that no screen and no form can show.
 fn clean(text: &str) -> SmolStr {
-    let text = text.trim();
-    if text.contains(char::is_control) {
-        text.replace(char::is_control, " ").into()
-    } else {
-        text.into()
-    }
+    // A form may lose the mark of the byte order, which is no control character.
+    let is_unseen = |letter: char| letter.is_control() || letter == '\u{feff}';
+    let text = text.trim_matches(|letter: char| letter.is_whitespace() || is_unseen(letter));
+    if text.contains(is_unseen) { text.replace(is_unseen, " ").into() } else { text.into() }
 }
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -187,6 +186,10 @@ mod tests {
     fn names_lose_what_no_screen_can_show() {
         let text = FORMS[1].replace("\"A\"", "\" A\\u0007\\nB \"");
         assert_eq!(read_elements(&text).elements[0].name(), "A  B");
+        let text = FORMS[1].replace("\"A\"", "\"\\u0000 \u{feff}A\u{feff}B \\u0000\"");
+        assert_eq!(read_elements(&text).elements[0].name(), "A B");
+        let text = FORMS[1].replace("1998-067A", "\\u0000");
+        assert_eq!(read_elements(&text).elements[0].international_designator(), None);
     }
 
     #[test]

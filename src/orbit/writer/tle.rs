@@ -77,7 +77,8 @@ fn name_line(name: &str) -> String {
     let name: String = letters.take(NAME_COLUMNS).collect();
     let name = name.trim_end();
     // Such names would be read as a remark or another form, or lose their start.
-    let is_odd = !name.starts_with(|letter: char| letter.is_ascii_alphanumeric());
+    let is_odd =
+        !name.starts_with(|letter: char| letter.is_ascii_alphanumeric()) || name.contains('=');
     if is_odd || name.starts_with("0 ") { format!("0 {name}") } else { name.into() }
 }
 
@@ -258,5 +259,6 @@ mod tests {
         assert_eq!(name_line("ŞİLE 1"), "0 ??LE 1");
         assert_eq!(name_line(&"x".repeat(30)).len(), 24);
         assert_eq!((name_line("#1"), name_line("0 G")), ("0 #1".into(), "0 0 G".into()));
+        assert_eq!(name_line("EPOCH = 3"), "0 EPOCH = 3");
     }
 }

@@ -7,10 +7,18 @@ use csv_core::{ReadRecordResult, Reader};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
+/// Fields of a row that are looked at; real ones have some forty. A line without
+/// an end must not take many times its length of memory.
+const MOST_FIELDS: usize = 1000;
+/// Names of fields that a header holds at least: more than the name of an object
+/// has room for, and than the texts of a row are.
+const FEWEST_NAMES: usize = 4;
+
 /// Whether `line` is such a header.
 pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
-    let mut names = line.split(',').map(|name| name.trim().trim_matches('"'));
-    line.contains(',') && names.any(|name| name.eq_ignore_ascii_case("NORAD_CAT_ID"))
+    let mut row = Row::new();
+    row.split(line);
+    row.is_header()
 }
 
 /// Reads all rows of `text`. A header may come again: files are put together.
@@ -28,7 +36,7 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
         if line.is_empty() || (line.starts_with('#') && row.len() != header.len()) {
             continue;
         }
-        if is_header(line) {
+        if row.is_header() {
             header = row.fields().map(|name| Field::named(name.trim())).collect();
             continue;
         }
@@ -60,14 +68,13 @@ struct Row {
 impl Row {
     fn new() -> Self {
         // Not `Reader::default()`, which has no tables and reads nothing.
-        Self { reader: Reader::new(), text: Vec::new(), ends: Vec::new(), len: 0 }
+        Self { reader: Reader::new(), text: Vec::new(), ends: vec![0; MOST_FIELDS], len: 0 }
     }
 
     fn split(&mut self, line: &str) {
         // No field grows when its quotation marks go. One place more says that
         // nothing was full.
         self.text.resize(line.len() + 1, 0);
-        self.ends.resize(line.len() + 2, 0);
         self.reader.reset();
         let (mut read, mut written) = (0, 0);
         self.len = 0;
@@ -88,6 +95,12 @@ impl Row {
 
     fn len(&self) -> usize {
         self.len
+    }
+
+    fn is_header(&self) -> bool {
+        let mut names = self.fields().map(str::trim);
+        names.any(|name| name.eq_ignore_ascii_case("NORAD_CAT_ID"))
+            && self.fields().filter_map(|name| Field::named(name.trim())).count() >= FEWEST_NAMES
     }
 
     fn fields(&self) -> impl Iterator<Item = &str> {
@@ -157,5 +170,23 @@ mod tests {
             "MEAN_MOTION,ECCENTRICITY,INCLINATION,RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,BSTAR"
         );
         assert_eq!(numbers(&read(&text)), [25_544, 7]);
+    }
+
+    #[test]
+    fn a_row_without_an_end_is_refused_and_costs_no_other() {
+        let report = read(&format!("{HEADER}\n{}\n{ROW}\n", ",".repeat(100_000)));
+        assert_eq!(numbers(&report), [25_544]);
+        let reason = RefusalReason::FieldCount { found: MOST_FIELDS, expected: 17 };
+        assert_eq!(report.refused[0].reason, reason);
+    }
+
+    #[test]
+    fn a_name_that_reads_like_a_header_is_a_name() {
+        for name in ["NORAD_CAT_ID", "\"NORAD_CAT_ID,EPOCH,MEAN_MOTION,BSTAR\""] {
+            let text = format!("{HEADER}\n{}\n{ROW}\n", ROW.replace("ISS (ZARYA)", name));
+            let report = read(&text);
+            assert_eq!(numbers(&report), [25_544, 25_544]);
+            assert_eq!(report.elements[0].name(), name.trim_matches('"'));
+        }
     }
 }

@@ -1,0 +1,66 @@
+//! Any bytes where the small files beside the station stand: the lock-outs, the
+//! list of sources, the index of the library and its note of what is unfinished.
+
+use std::{fs, path::Path};
+
+use azel::{
+    library::{Library, Limits, load_sources, save_sources},
+    orbit::{Place, Source},
+    station::{Antenna, LOCK_OUTS_FILE, LockOuts},
+};
+use jiff::Timestamp;
+
+pub(crate) fn run(bytes: &[u8]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let put = |name: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).expect("a place on the disk");
+        path
+    };
+    lock_outs(&put(LOCK_OUTS_FILE));
+    sources(&put("sources.toml"));
+    put("index.toml");
+    put("unfinished.toml");
+    library(folder.path());
+}
+
+/// What cannot be read locks everything, never nothing.
+fn lock_outs(path: &Path) {
+    let now = Timestamp::UNIX_EPOCH;
+    let (mut first, problem) = LockOuts::load(path, now);
+    let unit = Antenna::satrak("Dish", "10.0.0.1:4001").connection;
+    assert!(problem.is_none() || first.of(&unit).is_some());
+    // Names the unit, so that saving ends the lock-out of all.
+    let own = first.of(&unit).cloned();
+    first.set(&unit, own, std::iter::empty());
+    first.save(path).expect("what was loaded can be saved");
+    assert_eq!(LockOuts::load(path, now), (first, None));
+}
+
+fn sources(path: &Path) {
+    match load_sources(path) {
+        Ok(first) => {
+            save_sources(&first, path).expect("what was loaded can be saved");
+            assert_eq!(load_sources(path).expect("what was saved is read"), first);
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Nothing in its notes keeps the library from reading what it was given, or from
+/// telling that it was set aside.
+fn library(folder: &Path) {
+    let own = folder.join("own.tle");
+    fs::write(&own, "").expect("a place on the disk");
+    let sources = [
+        Source { name: "own".to_owned(), place: Place::File(own) },
+        Source { name: "web".to_owned(), place: Place::Web("https://a.example/x".to_owned()) },
+    ];
+    if let Ok(library) = Library::open(folder, Limits::default()) {
+        assert_eq!(library.load(&sources).1.len(), sources.len());
+        let names = sources.each_ref().map(|source| source.name.clone());
+        library.read_again(&sources, &names);
+        let (_, reports) = library.load(&sources);
+        assert!(reports.iter().all(|report| !report.is_set_aside));
+    }
+}

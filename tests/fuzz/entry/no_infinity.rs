@@ -1,0 +1,21 @@
+//! Whether numbers are numbers, whatever holds them.
+
+/// Whether no number in the `Debug` text of a value is infinite or none at all.
+/// Texts within it may say what they like.
+pub(crate) fn is_finite(debug: &str) -> bool {
+    let mut bare = String::with_capacity(debug.len());
+    let (mut is_text, mut is_escaped) = (false, false);
+    for letter in debug.chars() {
+        if is_escaped {
+            is_escaped = false;
+        } else if is_text && letter == '\\' {
+            is_escaped = true;
+        } else if letter == '"' {
+            is_text = !is_text;
+        } else if !is_text {
+            bare.push(letter);
+        }
+    }
+    let words = bare.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+    words.into_iter().all(|word| !matches!(word, "NaN" | "inf"))
+}

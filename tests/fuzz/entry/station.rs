@@ -1,0 +1,51 @@
+//! Any station file: loaded, saved and loaded again, it means the same.
+
+use std::fs;
+
+use azel::{
+    makes,
+    station::{KeepOut, Loaded, Station, load, save},
+};
+
+use super::no_infinity::is_finite;
+
+pub(crate) fn run(bytes: &[u8]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("station.toml");
+    fs::write(&path, bytes).expect("a place on the disk");
+    let kinds = makes::kinds();
+    let first = match load(&path, &kinds) {
+        Ok(Loaded { station, .. }) => station,
+        Err(error) => {
+            assert!(!error.to_string().is_empty());
+            assert_eq!(fs::read(&path).expect("it is there"), bytes);
+            return;
+        }
+    };
+    assert!(is_finite(&format!("{first:?}")), "{first:?}");
+    save(&first, &path).expect("what was loaded can be saved");
+    let old = fs::read(path.with_added_extension("old")).expect("the old file is kept");
+    assert_eq!(old, bytes);
+    let text = fs::read_to_string(&path).expect("it was saved");
+    let Loaded { station: second, notes } = load(&path, &kinds).expect("what was saved is read");
+    assert_eq!(notes, [], "{text}");
+    same(&first, &second);
+    save(&second, &path).expect("what was loaded can be saved");
+    assert_eq!(fs::read_to_string(&path).expect("it was saved"), text);
+    for antenna in &second.antennas {
+        drop(antenna.controller());
+    }
+}
+
+fn same(first: &Station, second: &Station) {
+    // An angle in radians does not keep the last digit of its degrees.
+    let without_zones = |station: &Station| Station { keep_outs: Vec::new(), ..station.clone() };
+    assert_eq!(without_zones(first), without_zones(second));
+    assert_eq!(first.keep_outs.len(), second.keep_outs.len());
+    for (one, other) in first.keep_outs.iter().zip(&second.keep_outs) {
+        assert_eq!(KeepOut::corners_deg(&one.zone), KeepOut::corners_deg(&other.zone));
+        assert_eq!(KeepOut { zone: one.zone.clone(), ..other.clone() }, *one);
+    }
+    assert_eq!(first.loosened_in(second), None);
+    assert_eq!(second.loosened_in(first), None);
+}
