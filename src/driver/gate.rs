@@ -9,6 +9,7 @@ mod program;
 mod rules;
 mod settings;
 mod way;
+mod word;
 
 use std::{
     sync::Arc,
@@ -29,6 +30,7 @@ use crate::{
     station::{LockOut, MotionLimits, Mount},
 };
 use rules::{Check, RULES, Rule};
+use word::Word;
 
 /// From one side of the zenith to the other.
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -126,6 +128,13 @@ pub enum Refusal {
         /// A direction in it on the way.
         at: AzEl,
     },
+    /// It is inside of what is forbidden, and the way out waits for the operator's
+    /// word.
+    #[error("inside of {0:?}")]
+    Inside(Barrier),
+    /// No clear direction was found that it could go to.
+    #[error("there is no clear direction to go to")]
+    NoRefuge,
     /// What is special to this controller speaks against it.
     #[error("{0}")]
     Controller(&'static str),
@@ -162,6 +171,16 @@ pub enum Refusal {
         /// Why not now.
         why: Hindrance,
     },
+}
+
+impl Refusal {
+    /// Where the antenna must not point, where that is why.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Forbidden { barrier, .. } | Self::Inside(barrier) => Some(barrier),
+            _ => None,
+        }
+    }
 }
 
 impl From<&LockOut> for Refusal {
@@ -206,6 +225,8 @@ pub(super) struct Gate {
     unproved_since: Option<Instant>,
     /// The pass that the device's own program is started on.
     program: Option<Arc<Judge>>,
+    /// What the operator has answered for.
+    word: Word,
 }
 
 impl Gate {
@@ -222,6 +243,7 @@ impl Gate {
             lock_out: None,
             unproved_since: None,
             program: None,
+            word: Word::default(),
         }
     }
 
@@ -263,6 +285,12 @@ impl Gate {
     /// Other keep-outs hold from now on.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.bounds = bounds;
+        self.lift_sun(self.lifts_sun());
+    }
+
+    /// For how long the axes run on at their rate after a STOP, seconds.
+    pub(super) fn run_out_s(&self) -> f64 {
+        self.run_out_s
     }
 
     /// The axes were measured to run on for this long after a STOP, seconds.
@@ -342,7 +370,7 @@ impl Gate {
             may_move: false,
             limits: self.limits,
             mount: self.mount,
-            bounds: &self.bounds,
+            bounds: self.bounds_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
             now,

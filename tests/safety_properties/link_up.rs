@@ -229,6 +229,7 @@ async fn starts_inside(mut dice: Dice) {
     scene.seconds(2.0).await;
     for axis in 0..2 {
         for way in [1.0, -1.0] {
+            scene.send(Command::AllowWayOut);
             let before_deg = clearance_deg(&scene);
             let from_deg = scene.world.unit.axes_deg();
             let mut rates_deg_s = [0.0; 2];

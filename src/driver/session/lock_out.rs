@@ -103,12 +103,15 @@ impl Session {
             | Command::Position { .. }
             | Command::Track(_)
             | Command::Follow(_)
+            | Command::FollowIntoSun(_)
+            | Command::MoveAway
             | Command::Park
             | Command::AutoTrack(_) => true,
             Command::Standby
             | Command::Jog { .. }
             | Command::EndJog
             | Command::AllowUnguarded
+            | Command::AllowWayOut
             | Command::SeenStanding
             | Command::Resume
             | Command::Within(_)

@@ -45,7 +45,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 Found::Still => spoken.plain("It stands still and tracks nothing."),
             }
         }
-        Event::NotSent(refusal) => caution.plain(words::refusal(refusal)),
+        Event::NotSent(refusal) => {
+            let reason = refusal.barrier().map(|of| words::reason(of, &model.station));
+            caution.plain(words::refusal(refusal) + &reason.unwrap_or_default())
+        }
         Event::Refused(motion, code) => {
             let answer = words::answer(code);
             caution.plain(format!("{}: the unit answered {answer}.", words::motion(*motion)))

@@ -18,7 +18,10 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
     let after = toll(&effect.after, &effect.question.after);
     let (who, (passes, time_s)) = match (zone, after) {
         (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
-        _ => ("The keep-outs block".to_owned(), (effect.after.touched, effect.after.lost_s)),
+        _ => {
+            let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
+            (format!("The keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
+        }
     };
     let blocks = match passes {
         0 => format!("{who} none of the {of} passes."),
