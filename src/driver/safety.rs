@@ -66,6 +66,16 @@ pub enum Safety {
     },
 }
 
+impl Safety {
+    /// Where the antenna must not point, where it is about that.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Forbidden { barrier, .. } => Some(barrier),
+            _ => None,
+        }
+    }
+}
+
 /// Who moves an antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mover {

@@ -402,6 +402,16 @@ pub enum FollowProblem {
     Refused(#[from] Refusal),
 }
 
+impl FollowProblem {
+    /// Where the antenna must not point, where that is why.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Refused(refusal) => refusal.barrier(),
+            Self::NoPass | Self::Orbit(_) => None,
+        }
+    }
+}
+
 /// What a device was found doing when its link came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Found {

@@ -20,7 +20,7 @@ use crate::{
         antenna::AntennaModel,
     },
     controller::Phase,
-    driver::{Command, FollowProblem, LinkState, Safety, StopState, TimeSync},
+    driver::{Command, LinkState, StopState, TimeSync},
     plan::Barrier,
 };
 
@@ -124,8 +124,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
 /// Where an antenna must not point that an alarm tells of.
 fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
     match kind {
-        AlarmKind::Safety(Safety::Forbidden { barrier, .. }) => Some(barrier),
-        AlarmKind::CannotFollow(_, FollowProblem::Refused(refusal)) => refusal.barrier(),
+        AlarmKind::Safety(matter) => matter.barrier(),
+        AlarmKind::CannotFollow(_, problem) => problem.barrier(),
         _ => None,
     }
 }

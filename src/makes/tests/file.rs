@@ -359,7 +359,7 @@ fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     let (_folder, path) = written(&format!(
         "[[keep_out]]\nname = ' '\nentered = 'maybe'\nantenna = 'Nobody'\nmargin_deg = 45\n\
          margn = 3\n{corners}\n[[keep_out]]\nname = 'mast'\nentered = 'go_round'\n\
-         antenna = 'satrak'\nmargin_deg = 2.5\n{corners}\n\
+         antenna = 'satrak'\nmargin_deg = 2.5\nreason = 'Steel mast, 24 m away'\n{corners}\n\
          [[keep_out]]\nname = 'mast'\nmargin_deg = 'x'\n{corners}\n\
          [sun_avoidance]\nradius_deg = 5\nahead_min = 121\n{SATRAK}"
     ));

@@ -93,6 +93,9 @@ fn asked(
     state: &mut CardState,
     actions: &mut Vec<CardAction>,
 ) {
+    if let Some(words) = model.track.as_ref().and_then(|track| state.track.about_the_sun(track)) {
+        holds::note(ui, at, words);
+    }
     if let Some(why) = model.asks_standing
         && holds::show(ui, at, why, holds::SEEN_STANDING, &mut state.standing)
     {

@@ -95,12 +95,8 @@ pub(super) fn notes(
     state: &TrackState,
     actions: &mut Vec<CardAction>,
 ) {
-    let Some(model) = model else { return };
-    if state.question(model) == Some(Question::Sun)
-        && let Some(words) = model.sun_avoidance()
-    {
-        caution_row(ui, at, "sun avoidance", words);
-    }
+    // What is asked is about something else.
+    let Some(model) = model.filter(|model| state.question(model).is_none()) else { return };
     if let Some(refusal) = model.refusal {
         caution_row(ui, at, "track refusal", refusal);
     }
@@ -129,6 +125,11 @@ impl TrackModel<'_> {
 }
 
 impl TrackState {
+    /// What is to be known before the Sun is followed, while that is asked.
+    pub(super) fn about_the_sun<'a>(&self, model: &'a TrackModel<'_>) -> Option<&'a str> {
+        model.sun_avoidance().filter(|_| self.question(model) == Some(Question::Sun))
+    }
+
     fn question(&self, model: &TrackModel<'_>) -> Option<Question> {
         let sun = (self.asks_sun && model.sun_avoidance().is_some()).then_some(Question::Sun);
         self.parking.then_some(Question::Park).or(sun)
@@ -166,7 +167,10 @@ fn satellite_row(
     hold: &mut HoldState,
     actions: &mut Vec<CardAction>,
 ) {
-    let held = row.with_max_x(row.left() + 0.45 * row.width() - 8.0);
+    let misses = model.misses.is_some() && model.refusal.is_none();
+    // The words on the button that is held are long.
+    let share = if misses { 0.36 } else { 0.45 };
+    let held = row.with_max_x(row.left() + share * row.width() - 8.0);
     two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
     let rest = row.with_min_x(held.right() + 8.0);
     let Some(selected) = model.selected.filter(|_| !model.tracks_selected) else {
@@ -175,7 +179,7 @@ fn satellite_row(
         two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
         return;
     };
-    if model.misses.is_some() && model.refusal.is_none() {
+    if misses {
         if hold_button::show(ui, rest, "Hold 1 s to track anyway", hold) {
             actions.push(CardAction::TrackAnyway);
         }

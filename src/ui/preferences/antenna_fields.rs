@@ -165,7 +165,7 @@ fn outage() -> [Of; 2] {
         .when(takes_positions),
         Of::choice(
             "After a longer one",
-            &["Ask", "Track on"],
+            &["Stand and ask", "Track on"],
             |antenna| RESUME.iter().position(|resume| *resume == antenna.resume),
             |antenna, index| {
                 antenna.resume = RESUME.get(index).copied().unwrap_or(antenna.resume);
@@ -189,7 +189,7 @@ const RESUME: [Resume; 2] = [Resume::Ask, Resume::Continue];
 fn watch() -> [Of; 2] {
     [
         Of::choice(
-            "Moved there by others",
+            "When others drive it in",
             &["STOP and alarm", "Alarm only"],
             |antenna| MONITOR.iter().position(|monitor| *monitor == antenna.monitor),
             |antenna, index| {
@@ -198,7 +198,7 @@ fn watch() -> [Of; 2] {
         )
         .noted(|_| {
             let words = "Into a keep-out or too close to the Sun, by the panel, another program or \
-                         its own. What Azel moves is stopped in any case.";
+                         the unit's own. What Azel moves is stopped in any case.";
             Some(words.to_owned())
         }),
         Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))

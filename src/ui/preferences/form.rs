@@ -30,7 +30,7 @@ const NUMBER: f32 = 112.0;
 /// For a name or an address.
 const WORDS: f32 = 240.0;
 /// For one of a few.
-const CHOICE: f32 = 312.0;
+const CHOICE: f32 = 300.0;
 /// A long text of many lines is scrolled beyond this height.
 const LINES: f32 = 140.0;
 /// Between the two columns.
@@ -118,7 +118,11 @@ fn measured(ui: &mut Ui, label: &str, words: &str) {
             ui.label(RichText::new(label).font(text::body()).color(t.t2));
         });
         let words = RichText::new(words).font(text::small()).color(t.t3);
-        ui.add(Label::new(words).wrap());
+        ui.vertical(|ui| {
+            // On the line of the label.
+            ui.add_space(4.0);
+            ui.add(Label::new(words).wrap());
+        });
     });
 }
 

@@ -78,7 +78,7 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
         ),
         Of::choice(
             "When the window closes",
-            &["Ask", "Stop and hold", "Park", "Let finish"],
+            &["Ask", "Stop and hold", "Park first", "Let finish"],
             |ground| ON_CLOSE.iter().position(|on_close| *on_close == ground.on_close),
             |ground, index| {
                 ground.on_close = ON_CLOSE.get(index).copied().unwrap_or(ground.on_close);

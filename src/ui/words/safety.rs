@@ -47,7 +47,7 @@ pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String 
 /// of that in degrees.
 pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
     format!(
-        "The Sun avoidance keeps {antenna} {} away from the Sun. It is lifted for this track \
+        "The Sun avoidance keeps {antenna} {} away from the Sun. The hold lifts it for this track \
          alone.",
         format::degrees(radius_deg, 1)
     )
@@ -147,7 +147,7 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
                 Response::Stopped => {
                     format!("{antenna} was stopped before it went {into}, {driver}.")
                 }
-                Response::Told => format!("{antenna} is {into}, {driver}."),
+                Response::Told => format!("{antenna} is {}, {driver}.", inside(barrier)),
             }
         }
         Safety::ClockStepped { by_s } => format!(

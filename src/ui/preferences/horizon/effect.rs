@@ -20,14 +20,14 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
         (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
         _ => {
             let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
-            (format!("The keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
+            (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
         }
     };
     let blocks = match passes {
         0 => format!("{who} none of the {of} passes."),
         1 => format!("{who} part of 1 of the {of} passes, {}.", format::duration(time_s)),
         _ => format!(
-            "{who} part of {passes} of the {of} passes, {} of each on average.",
+            "{who} part of {passes} of the {of} passes, about {} each.",
             format::duration(time_s / passes as f64)
         ),
     };
