@@ -61,8 +61,8 @@ fn go_to(at: AzEl) -> Command {
     Command::Position { azimuth: Some(at.azimuth), elevation: Some(at.elevation) }
 }
 
-fn mast(may_leave: bool) -> Option<Inside> {
-    Some(Inside { barrier: Barrier::KeepOut("mast".into()), may_leave })
+fn mast(may_leave: bool) -> Inside {
+    Inside { barrier: Barrier::KeepOut("mast".into()), may_leave }
 }
 
 /// In Manual, in the middle of a mast that has just been drawn.
@@ -72,7 +72,7 @@ async fn in_a_mast() -> Rig {
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     rig.send(Command::Manual);
     rig.send(within(&masted(direction(&rig))));
-    rig.until("inside", 5, |shown| shown.inside == mast(false)).await;
+    rig.until("inside", 5, |shown| shown.inside == Some(mast(false))).await;
     rig.events();
     rig
 }
@@ -103,7 +103,7 @@ async fn out_of_a_keep_out_it_goes_by_hand_slowly_and_by_the_operators_word_alon
     assert_eq!(rig.sent("MOVE="), Vec::<String>::new());
 
     rig.send(Command::AllowWayOut);
-    rig.until("allowed", 2, |shown| shown.inside == mast(true)).await;
+    rig.until("allowed", 2, |shown| shown.inside == Some(mast(true))).await;
     let refused = try_all_keys(&mut rig, 3.0).await;
     assert!(refused.iter().any(|why| matches!(why, Refusal::TooFast { .. })), "{refused:?}");
     assert_eq!(rig.sent("MOVE="), Vec::<String>::new(), "slowly");
@@ -120,9 +120,9 @@ async fn out_of_a_keep_out_it_goes_by_hand_slowly_and_by_the_operators_word_alon
 async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     let mut rig = in_a_mast().await;
     rig.send(Command::AllowWayOut);
-    rig.until("allowed", 2, |shown| shown.inside == mast(true)).await;
+    rig.until("allowed", 2, |shown| shown.inside == Some(mast(true))).await;
     rig.seconds(61.0).await;
-    assert_eq!(rig.shown().inside, mast(false));
+    assert_eq!(rig.shown().inside, Some(mast(false)));
     let refused = try_all_keys(&mut rig, SLOW_DEG_S).await;
     assert_eq!(refused.len(), 4, "{refused:?}");
 
@@ -131,7 +131,7 @@ async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     rig.until("outside", 5, |shown| shown.inside.is_none()).await;
     rig.send(within(&masted(direction(&rig))));
     rig.until("inside again", 5, |shown| shown.inside.is_some()).await;
-    assert_eq!(rig.shown().inside, mast(false), "it may leave, not enter again");
+    assert_eq!(rig.shown().inside, Some(mast(false)), "it may leave, not enter again");
 }
 
 /// Where the Sun stands in a while, and a unit that waits there.

@@ -101,14 +101,12 @@ fn asked(
     {
         actions.push(CardAction::SeenStanding);
     }
-    match model.way_out {
-        Some(WayOutModel { words, is_allowed: true }) => holds::note(ui, at, words),
-        Some(WayOutModel { words, is_allowed: false }) => {
-            if holds::show(ui, at, words, holds::WAY_OUT, &mut state.way_out) {
-                actions.push(CardAction::AllowWayOut);
-            }
+    if let Some(WayOutModel { words, is_allowed }) = model.way_out {
+        if is_allowed {
+            holds::note(ui, at, words);
+        } else if holds::show(ui, at, words, holds::WAY_OUT, &mut state.way_out) {
+            actions.push(CardAction::AllowWayOut);
         }
-        None => {}
     }
     if let Some(why) = model.drive.unguarded
         && holds::show(ui, at, why, holds::UNGUARDED, &mut state.unguarded)

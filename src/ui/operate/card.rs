@@ -31,6 +31,7 @@ use crate::{
             beam_bar::BeamModel,
             button::Button,
             go_to::Target,
+            jog_pad::JogDirection,
             mode_selector::{Mode, ModeModel},
             paint,
         },
@@ -109,24 +110,9 @@ pub(super) fn show(
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
             drive: DriveModel {
-                keys: axes::keys(antenna),
-                jog_locked: locks.jog,
-                unguarded: (snapshot.unguarded && antenna.asks_unguarded)
-                    .then_some(words::UNGUARDED),
-                jog_note: axes::unseen(antenna),
-                blocked: &blocked,
-                real_deg_s: axes::rate_of_jog(antenna),
-                speeds: can.jog,
-                most_deg_s: antenna.config.limits.maximum_rate_deg_s,
-                most_step_deg: can.steps.then_some(antenna.config.limits.maximum_step_deg),
-                go_to_locked: locks.go_to,
-                azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
-                elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals),
-                go_to_refusal: None,
-                go_to_note: None,
-                stop_note: can.stop_note,
+                ..drive(antenna, &locks, &blocked)
             },
             readings: &snapshot.state.readings,
             faults: (!checks.is_empty())
@@ -198,6 +184,35 @@ fn control(snapshot: &Snapshot) -> Control<'static> {
         _ if snapshot.lock_out.is_some() => Control::Other("In maintenance"),
         LinkState::Up { .. } | LinkState::Stale { .. } => Control::You,
         LinkState::Connecting { .. } | LinkState::Lost { .. } => Control::Unknown,
+    }
+}
+
+/// Moving by hand and to a direction.
+fn drive<'a>(
+    antenna: &'a AntennaModel,
+    locks: &Locks,
+    blocked: &'a [JogDirection],
+) -> DriveModel<'a> {
+    let can = antenna.make().capabilities;
+    let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
+    DriveModel {
+        keys: axes::keys(antenna),
+        jog_locked: locks.jog,
+        unguarded: is_unguarded.then_some(words::UNGUARDED),
+        jog_note: axes::unseen(antenna),
+        blocked,
+        real_deg_s: axes::rate_of_jog(antenna),
+        speeds: can.jog,
+        most_deg_s: antenna.config.limits.maximum_rate_deg_s,
+        most_step_deg: can.steps.then_some(antenna.config.limits.maximum_step_deg),
+        go_to_locked: locks.go_to,
+        azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
+        elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
+        commanded_deg: (None, None),
+        commanded_decimals: 0,
+        go_to_refusal: None,
+        go_to_note: None,
+        stop_note: can.stop_note,
     }
 }
 

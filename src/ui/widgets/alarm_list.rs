@@ -267,7 +267,7 @@ fn list_row(
         pressed.accessible_name(format!("{words}: {}", row.text)).clicked()
     };
     if let Some(antenna) = row.moves_away {
-        let apart = (SMALL_HEIGHT + ROW_PADDING) / 2.0;
+        let apart = f32::midpoint(SMALL_HEIGHT, ROW_PADDING);
         if button(centre - apart, "Move away", "move away") {
             actions.push(AlarmAction::MoveAway(antenna));
         }

@@ -16,12 +16,11 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
         tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
     };
     let after = toll(&effect.after, &effect.question.after);
-    let (who, (passes, time_s)) = match (zone, after) {
-        (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
-        _ => {
-            let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
-            (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
-        }
+    let (who, (passes, time_s)) = if let (Some(name), Some(toll)) = (zone, after) {
+        (format!("{name} blocks"), toll)
+    } else {
+        let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
+        (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
     };
     let blocks = match passes {
         0 => format!("{who} none of the {of} passes."),
