@@ -39,7 +39,8 @@ pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, Session, Wires};
 pub use snapshot::{
-    Event, FollowProblem, FollowView, Found, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
+    Event, FollowProblem, FollowView, Found, Inside, LinkLoss, LinkState, OnBoardView, Snapshot,
+    StopState, StoppingWay,
 };
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};

@@ -18,6 +18,7 @@ mod satrak_session {
     mod doubt;
     mod every_command;
     mod idle;
+    mod inside;
     mod jog;
     mod let_go;
     mod lock_out;

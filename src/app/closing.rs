@@ -47,13 +47,14 @@ pub enum Wanted {
     Parked,
 }
 
-/// What becomes of antennas when nobody can be asked, as when the operating system
-/// ends the program.
-fn without_being_asked(station: &Station) -> CloseHow {
-    match station.on_close {
-        None | Some(OnClose::Hold) => CloseHow::Hold,
-        Some(OnClose::Park) => CloseHow::Park,
-        Some(OnClose::Leave) => CloseHow::Leave,
+impl CloseHow {
+    /// What the station says; `None` where the operator is asked.
+    pub fn of(station: &Station) -> Option<Self> {
+        Some(match station.on_close? {
+            OnClose::Hold => Self::Hold,
+            OnClose::Park => Self::Park,
+            OnClose::Leave => Self::Leave,
+        })
     }
 }
 
@@ -143,16 +144,16 @@ impl App {
 
     /// The program ends and nobody can be asked.
     pub(super) fn end_unasked(&mut self) {
-        match without_being_asked(&self.model.station) {
+        match CloseHow::of(&self.model.station) {
             // Parking takes longer than the operating system waits.
-            CloseHow::Hold | CloseHow::Park => {
+            None | Some(CloseHow::Hold | CloseHow::Park) => {
                 for antenna in &self.model.antennas {
                     if antenna.stake().is_some() {
                         antenna.handle.stop();
                     }
                 }
             }
-            CloseHow::Leave => {}
+            Some(CloseHow::Leave) => {}
         }
     }
 }

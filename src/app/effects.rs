@@ -9,15 +9,20 @@ use std::{
 
 use super::{App, forecast::Forecast, job::Job};
 use crate::{
-    astro::{Angle, HorizonMask, time::seconds_between},
+    astro::{
+        Angle, AzEl, HorizonMask, Site, sun_moon,
+        time::{add_seconds, seconds_between},
+    },
     plan::Sample,
-    station::{Entered, KeepOut},
+    station::{Entered, KeepOut, SunAvoidance},
 };
 
 /// So long nothing may change before the work begins.
 pub const DEBOUNCE: Duration = Duration::from_millis(300);
 /// Of the samples of a track, each so many is looked at: every 6 s.
 const EVERY: usize = 3;
+/// The Sun is looked at each so many seconds: it moves a tenth of a degree.
+const SUN_STEP_S: f64 = 24.0;
 
 /// What stands in the way of an antenna.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +31,8 @@ pub struct Obstacles {
     pub mask: Option<HorizonMask>,
     /// Where antennas must not point.
     pub keep_outs: Vec<KeepOut>,
+    /// How far antennas stay away from the Sun.
+    pub sun: Option<SunAvoidance>,
 }
 
 /// What is to be compared.
@@ -39,6 +46,8 @@ pub struct Question {
     pub antenna: Option<String>,
     /// Half of the width of its beam.
     pub half_beam: Angle,
+    /// From where the Sun is seen.
+    pub site: Site,
 }
 
 /// The way of a satellite through one pass.
@@ -64,9 +73,9 @@ pub struct Toll {
 /// What all obstacles together do to the passes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tally {
-    /// Passes that a keep-out touches.
+    /// Passes that a keep-out or the Sun touches.
     pub touched: usize,
-    /// Time lost in keep-outs that do more than warn, seconds.
+    /// Time lost to the Sun, and in keep-outs that do more than warn, seconds.
     pub lost_s: f64,
     /// Passes of which these leave nothing.
     pub impossible: usize,
@@ -74,6 +83,8 @@ pub struct Tally {
     pub masked: usize,
     /// Of each keep-out, in their order.
     pub of_each: Vec<Toll>,
+    /// Of the Sun; `None` where it is not kept away from.
+    pub of_sun: Option<Toll>,
 }
 
 /// The answer.
@@ -180,6 +191,7 @@ pub fn answer(question: Question, ways: &Arc<[Way]>, edition: u64) -> Effect {
 fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
     let mut tally = Tally::default();
     tally.of_each.resize(obstacles.keep_outs.len(), Toll::default());
+    tally.of_sun = obstacles.sun.map(|_| Toll::default());
     for (index, way) in ways.iter().enumerate() {
         let is_masked = |sample: &Sample| {
             let skyline =
@@ -209,10 +221,19 @@ fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
                 continue;
             }
             is_touched = true;
-            toll.passes += 1;
-            toll.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
-            toll.blocked.extend(stretches.into_iter().map(|of| (index, of)));
+            toll.add(index, way, stretches);
             if keep_out.entered != Entered::Warn {
+                for (free, inside) in free.iter_mut().zip(&inside) {
+                    *free &= !inside;
+                }
+            }
+        }
+        if let (Some(sun), Some(toll)) = (obstacles.sun, &mut tally.of_sun) {
+            let inside = near_sun(sun, question.site, way, &seen);
+            let stretches = stretches(&inside);
+            if !stretches.is_empty() {
+                is_touched = true;
+                toll.add(index, way, stretches);
                 for (free, inside) in free.iter_mut().zip(&inside) {
                     *free &= !inside;
                 }
@@ -226,6 +247,35 @@ fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
         tally.impossible += usize::from(lost_s > 0.0 && !free.contains(&true));
     }
     tally
+}
+
+impl Toll {
+    fn add(&mut self, index: usize, way: &Way, stretches: Vec<Range<usize>>) {
+        self.passes += 1;
+        self.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
+        self.blocked.extend(stretches.into_iter().map(|of| (index, of)));
+    }
+}
+
+/// Which of the samples that are `seen` lie too near to the Sun, now or in its time
+/// ahead.
+fn near_sun(sun: SunAvoidance, site: Site, way: &Way, seen: &[bool]) -> Vec<bool> {
+    let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
+        return Vec::new();
+    };
+    let span_s = seconds_between(first.time, last.time) + sun.ahead_min * 60.0;
+    let steps = (span_s / SUN_STEP_S).ceil().max(0.0) as u32;
+    let suns: Vec<AzEl> = (0..=steps)
+        .map(|step| sun_moon::sun(site, add_seconds(first.time, f64::from(step) * SUN_STEP_S)))
+        .collect();
+    let place = |after_s: f64| (after_s / SUN_STEP_S).max(0.0) as usize;
+    let is_near = |(sample, seen): (&Sample, &bool)| {
+        let after_s = seconds_between(first.time, sample.time);
+        let ahead = suns.iter().take(place(after_s + sun.ahead_min * 60.0) + 1);
+        let mut ahead = ahead.skip(place(after_s));
+        *seen && ahead.any(|at| sample.direction.separation(*at).degrees() < sun.radius_deg)
+    };
+    way.samples.iter().zip(seen).map(is_near).collect()
 }
 
 /// Where `inside` holds without a break.
@@ -258,8 +308,6 @@ mod tests {
     use jiff::Timestamp;
 
     use super::*;
-    use crate::astro::{AzEl, time::add_seconds};
-
     /// At 20 degrees of elevation from north over east to south, a degree each 6 s.
     fn way() -> Way {
         let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
@@ -274,6 +322,7 @@ mod tests {
         let corners = [(from_deg, 0.0), (from_deg, 30.0), (to_deg, 30.0), (to_deg, 0.0)];
         KeepOut {
             name: from_deg.to_string(),
+            reason: String::new(),
             entered,
             antenna: None,
             margin_deg: 0.0,
@@ -282,13 +331,55 @@ mod tests {
     }
 
     fn effect(keep_outs: Vec<KeepOut>, mask: &str) -> Tally {
-        let before = Obstacles { mask: None, keep_outs: Vec::new() };
-        let after = Obstacles { mask: HorizonMask::parse(mask).ok(), keep_outs };
-        let antenna = Some("Satrak".to_owned());
-        let question = Question { before, after, antenna, half_beam: Angle::ZERO };
+        let after = Obstacles { mask: HorizonMask::parse(mask).ok(), keep_outs, sun: None };
+        let question = question(after);
         let effect = answer(question, &[way()].into(), 0);
         assert_eq!(effect.before, Tally::default());
         effect.after
+    }
+
+    fn question(after: Obstacles) -> Question {
+        Question {
+            before: Obstacles { mask: None, keep_outs: Vec::new(), sun: None },
+            after,
+            antenna: Some("Satrak".to_owned()),
+            half_beam: Angle::ZERO,
+            site: Site::new(41.0, 29.0, 100.0).unwrap(),
+        }
+    }
+
+    #[test]
+    fn a_pass_through_the_surroundings_of_the_sun_is_counted() {
+        let site = Site::new(41.0, 29.0, 100.0).unwrap();
+        let start: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
+        let through = |place: AzEl| {
+            // From 20 degrees below to 20 above it, a degree each 6 s.
+            let samples = (-20..=20).map(|step| Sample {
+                time: add_seconds(start, f64::from(step + 20) * 6.0),
+                direction: AzEl {
+                    elevation: place.elevation + Angle::from_degrees(f64::from(step)),
+                    ..place
+                },
+            });
+            Way { number: 1, samples: samples.collect() }
+        };
+        let tally = |way: &Way, sun| {
+            let after = Obstacles { mask: None, keep_outs: Vec::new(), sun };
+            answer(question(after), &[way.clone()].into(), 0).after
+        };
+        let radius_deg = 5.5;
+        let now = Some(SunAvoidance { radius_deg, ahead_min: 0.0 });
+        let way = through(sun_moon::sun(site, start));
+        assert_eq!(tally(&way, None), Tally::default());
+        let held = tally(&way, now);
+        let toll = held.of_sun.clone().unwrap();
+        assert_eq!((held.touched, toll.passes, held.impossible), (1, 1, 0));
+        assert!((held.lost_s - 66.0).abs() < 7.0, "{held:?}");
+
+        let later = through(sun_moon::sun(site, add_seconds(start, 50.0 * 60.0)));
+        assert_eq!(tally(&later, now).touched, 0);
+        let ahead = Some(SunAvoidance { radius_deg, ahead_min: 60.0 });
+        assert_eq!(tally(&later, ahead).touched, 1, "where it will be");
     }
 
     #[test]

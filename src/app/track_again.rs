@@ -104,6 +104,8 @@ fn chooses_something_else(command: &Command) -> bool {
             | Command::Jog { .. }
             | Command::Step { .. }
             | Command::Position { .. }
+            | Command::MoveAway
+            | Command::FollowIntoSun(_)
             | Command::Track(_)
             | Command::Park
             | Command::Resume

@@ -70,6 +70,19 @@ impl AzEl {
         }
     }
 
+    /// The direction that is `distance_deg` away, on the great circle that leaves at
+    /// `bearing_deg`: 0 towards the zenith, 90 clockwise.
+    #[must_use]
+    pub fn towards(self, bearing_deg: f64, distance_deg: f64) -> Self {
+        let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
+        let at = self.to_enu();
+        let clockwise = DVec3::new(cos_az, -sin_az, 0.0);
+        let up = clockwise.cross(at);
+        let (sin, cos) = bearing_deg.to_radians().sin_cos();
+        let (far, near) = distance_deg.to_radians().sin_cos();
+        Self::from_enu(at * near + (up * cos + clockwise * sin) * far)
+    }
+
     /// The angle between two directions, 0 to 180 degrees.
     pub fn separation(self, other: Self) -> Angle {
         let (a, b) = (self.to_enu(), other.to_enu());
@@ -106,6 +119,23 @@ mod tests {
                 assert!(plain.separation(tipped).degrees() < 1e-9, "also as they count");
                 assert_eq!(AzEl::of_axes(plain.azimuth, plain.elevation), plain);
             }
+        }
+    }
+
+    #[test]
+    fn a_bearing_leads_up_and_clockwise_and_so_far() {
+        let from = AzEl::from_degrees(120.0, 40.0);
+        assert!(
+            from.towards(0.0, 10.0).separation(AzEl::from_degrees(120.0, 50.0)).degrees() < 1e-9
+        );
+        assert!(
+            from.towards(180.0, 10.0).separation(AzEl::from_degrees(120.0, 30.0)).degrees() < 1e-9
+        );
+        let clockwise = from.towards(90.0, 10.0);
+        assert!(clockwise.azimuth_deg() > 130.0 && clockwise.elevation_deg() < 40.0);
+        for bearing in (0..360).step_by(20) {
+            let away = from.separation(from.towards(f64::from(bearing), 7.0));
+            assert!((away.degrees() - 7.0).abs() < 1e-9);
         }
     }
 

@@ -9,6 +9,7 @@ mod program;
 mod rules;
 mod settings;
 mod way;
+mod word;
 
 use std::{
     sync::Arc,
@@ -30,6 +31,7 @@ use crate::{
 };
 pub(super) use program::Held;
 use rules::{Check, RULES, Rule};
+use word::Word;
 
 /// From one side of the zenith to the other.
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -134,6 +136,13 @@ pub enum Refusal {
         /// A direction in it on the way.
         at: AzEl,
     },
+    /// It is inside of what is forbidden, and the way out waits for the operator's
+    /// word.
+    #[error("inside of {0:?}")]
+    Inside(Barrier),
+    /// No clear direction was found that it could go to.
+    #[error("there is no clear direction to go to")]
+    NoRefuge,
     /// What is special to this controller speaks against it.
     #[error("{0}")]
     Controller(&'static str),
@@ -190,6 +199,16 @@ pub enum Refusal {
     },
 }
 
+impl Refusal {
+    /// Where the antenna must not point, where that is why.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Forbidden { barrier, .. } | Self::Inside(barrier) => Some(barrier),
+            _ => None,
+        }
+    }
+}
+
 impl From<&LockOut> for Refusal {
     fn from(LockOut { by, reason, .. }: &LockOut) -> Self {
         Self::LockedOut { by: by.clone(), reason: reason.clone() }
@@ -238,6 +257,8 @@ pub(super) struct Gate {
     program: Option<Arc<Judge>>,
     /// What the device would follow by itself.
     held: Held,
+    /// What the operator has answered for.
+    word: Word,
 }
 
 impl Gate {
@@ -256,6 +277,7 @@ impl Gate {
             unproved_since: None,
             program: None,
             held: Held::Unread,
+            word: Word::default(),
         }
     }
 
@@ -313,6 +335,12 @@ impl Gate {
     /// Other keep-outs hold from now on.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.bounds = bounds;
+        self.lift_sun(self.lifts_sun());
+    }
+
+    /// For how long the axes run on at their rate after a STOP, seconds.
+    pub(super) fn run_out_s(&self) -> f64 {
+        self.run_out_s
     }
 
     /// The axes were measured to run on for this long after a STOP, seconds.
@@ -394,7 +422,7 @@ impl Gate {
             is_agreed: false,
             limits: self.limits,
             mount: self.mount,
-            bounds: &self.bounds,
+            bounds: self.bounds_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
             now,

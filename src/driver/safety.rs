@@ -89,6 +89,16 @@ pub enum Unlike {
     Unread,
 }
 
+impl Safety {
+    /// Where the antenna must not point, where it is about that.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Forbidden { barrier, .. } => Some(barrier),
+            _ => None,
+        }
+    }
+}
+
 /// Who moves an antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mover {

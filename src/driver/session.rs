@@ -9,6 +9,7 @@ mod farewell;
 mod follow;
 mod guard;
 mod halting;
+mod inside;
 mod jog;
 mod likeness;
 mod liveness;
@@ -159,6 +160,7 @@ pub struct Session {
     /// What is done when somebody else drives it into what is forbidden.
     monitor: Monitor,
     watch: Watch,
+    place: inside::Place,
     run_out: RunOut,
     rest: Rest,
     /// When the look came in that the rest was watched by last.
@@ -268,6 +270,7 @@ impl Session {
             figures: Figures::of(make.capabilities, antenna.sway_deg),
             monitor: antenna.monitor,
             watch: Watch::default(),
+            place: inside::Place::default(),
             run_out: RunOut::default(),
             rest: Rest::default(),
             looked: None,
@@ -331,8 +334,11 @@ impl Session {
             locking: self.is_being_locked_out(),
             stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
             unguarded: self.guard.is_missing,
+            inside: self.inside(now),
+            sun_lifted: self.follows() && self.gate.lifts_sun(),
             left_moving: self.left_moving,
             jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
+            stopping_way: self.stopping_way(),
             step: self.stepping.map(|stepping| stepping.steps_deg),
             state: self.gate.state().clone(),
             poll_period: self.gate.device().poll_period(),

@@ -15,7 +15,7 @@ use crate::{
         settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
-    plan::{FollowPhase, FollowStats, Sample, Supervision},
+    plan::{Barrier, FollowPhase, FollowStats, Sample, Supervision},
     station::LockOut,
 };
 
@@ -50,10 +50,16 @@ pub struct Snapshot {
     pub stop: StopState,
     /// No dead-man could be had for the last motion by hand that needed one.
     pub unguarded: bool,
+    /// It is where it must not point.
+    pub inside: Option<Inside>,
+    /// What is followed may lead to the Sun, by the operator's word.
+    pub sun_lifted: bool,
     /// An earlier run may have left it moving, since then: the operator is asked.
     pub left_moving: Option<Timestamp>,
     /// Signed rates of a jog that is held, degrees a second.
     pub jog: Option<[f64; 2]>,
+    /// How long it runs on after a STOP.
+    pub stopping_way: StoppingWay,
     /// Signed amounts of a step that is not known to be over, degrees.
     pub step: Option<[f64; 2]>,
     /// What the device reported.
@@ -79,8 +85,11 @@ impl Snapshot {
             locking: false,
             stop: StopState::Ready,
             unguarded: false,
+            inside: None,
+            sun_lifted: false,
             left_moving: None,
             jog: None,
+            stopping_way: StoppingWay::default(),
             step: None,
             state: AntennaState::default(),
             poll_period: Duration::from_millis(500),
@@ -155,6 +164,31 @@ fn same_settings(old: &Held, new: &Held) -> bool {
         (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
+}
+
+/// How long the axes run on at their rate after a STOP.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StoppingWay {
+    /// That is reckoned with, seconds.
+    pub run_out_s: f64,
+    /// In so many STOPs it was seen.
+    pub stops: u32,
+    /// It was measured; until then it is the figure of the make.
+    pub is_learned: bool,
+}
+
+impl StoppingWay {
+    /// So many STOPs have to be seen before they replace the figure of the make.
+    pub const ENOUGH: u32 = 3;
+}
+
+/// What an antenna is inside of that is forbidden.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inside {
+    /// What it is.
+    pub barrier: Barrier,
+    /// By the operator's word it may be moved out by hand now.
+    pub may_leave: bool,
 }
 
 /// What the unit tracks by itself, and how well.
@@ -369,6 +403,16 @@ pub enum FollowProblem {
     /// The gate does not let the antenna go where it has to.
     #[error(transparent)]
     Refused(#[from] Refusal),
+}
+
+impl FollowProblem {
+    /// Where the antenna must not point, where that is why.
+    pub fn barrier(&self) -> Option<&Barrier> {
+        match self {
+            Self::Refused(refusal) => refusal.barrier(),
+            Self::NoPass | Self::Orbit(_) => None,
+        }
+    }
 }
 
 /// What a device was found doing when its link came back.

@@ -22,6 +22,13 @@ const FINEST_DEG: f64 = 0.05;
 /// The Sun is looked at again after this long, seconds: it moves a tenth of a
 /// degree.
 const SUN_STEP_S: i64 = 24;
+/// A refuge from the Sun is looked for in rings around the antenna, so far apart,
+/// degrees.
+const RING_DEG: f64 = 0.5;
+/// In so many directions of each ring.
+const BEARINGS: u32 = 24;
+/// And as far as the Sun may have moved, degrees.
+const BEYOND_DEG: f64 = 30.0;
 
 /// What an antenna must not point into.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -174,6 +181,45 @@ impl Bounds {
         Self { minimum_elevation: None, ..self.clone() }
     }
 
+    /// The same without the Sun, for who means to point at it.
+    #[must_use]
+    pub fn without_the_sun(&self) -> Self {
+        Self { sun: None, ..self.clone() }
+    }
+
+    /// For a way out of the surroundings of the Sun, which leads no nearer to it than
+    /// `start` is; `None` where `start` is outside.
+    pub fn away_from_the_sun(&self, start: AzEl, at: Timestamp) -> Option<Self> {
+        let sun = self.sun?;
+        let separations = self.suns(at).into_iter().map(|sun| start.separation(sun).degrees());
+        let nearest_deg = separations.min_by(f64::total_cmp)?;
+        let is_inside = nearest_deg < sun.radius_deg + FINEST_DEG;
+        let radius_deg = nearest_deg - FINEST_DEG;
+        is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
+    }
+
+    /// Whether nothing is in the way in `direction`, and the Sun is not for its time
+    /// ahead either.
+    pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
+        let ahead_min = self.sun.map_or(0.0, |sun| sun.ahead_min);
+        let later = at.checked_add(SignedDuration::from_secs((ahead_min * 60.0) as i64));
+        std::iter::once(at).chain(later).all(|at| {
+            self.nearest(direction, at).is_none_or(|nearest| nearest.angle >= Angle::ZERO)
+        })
+    }
+
+    /// Directions that stay clear, the nearest to `from` first, as far as they are
+    /// looked for.
+    pub fn refuges(&self, from: AzEl, at: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
+        let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
+        let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
+        let around = rings.flat_map(move |ring| {
+            let bearings = (0..BEARINGS).map(|part| f64::from(part) / f64::from(BEARINGS) * 360.0);
+            bearings.map(move |bearing_deg| from.towards(bearing_deg, ring * RING_DEG))
+        });
+        around.filter(move |direction| self.stays_clear(*direction, at))
+    }
+
     /// The first barrier that the axes may come into within `sweep`, and a
     /// direction in it. From a `start` below the minimum elevation nothing may lead
     /// lower than that.
@@ -307,6 +353,7 @@ mod tests {
     fn keep_out(corners_deg: &[(f64, f64)]) -> KeepOut {
         KeepOut {
             name: "mast".to_owned(),
+            reason: String::new(),
             entered: Entered::Hard,
             antenna: None,
             margin_deg: 1.0,

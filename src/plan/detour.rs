@@ -206,6 +206,7 @@ mod tests {
         KeepOut {
             name: "mast".to_owned(),
             entered: Entered::GoRound,
+            reason: String::new(),
             antenna: None,
             margin_deg: 1.0,
             zone: KeepOut::zone_of(corners_deg).unwrap(),

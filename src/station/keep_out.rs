@@ -10,6 +10,9 @@ use crate::astro::{Angle, AzEl, Zone};
 pub struct KeepOut {
     /// Not empty, and no other keep-out of the station has it.
     pub name: String,
+    /// Why it is there, in the operator's words; may be empty.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub reason: String,
     /// What happens when an antenna comes in.
     pub entered: Entered,
     /// The antenna it holds for, by name; `None` for the whole site.
@@ -121,6 +124,7 @@ mod tests {
     fn keep_out(corners: &[(f64, f64)]) -> KeepOut {
         KeepOut {
             name: "mast".to_owned(),
+            reason: String::new(),
             entered: Entered::Hard,
             antenna: None,
             margin_deg: 2.0,

@@ -40,6 +40,7 @@ pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
 pub use header::{Control, HeaderModel};
+pub use holds::WayOutModel;
 pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
@@ -89,6 +90,8 @@ pub struct CardModel<'a> {
     pub lock_out: Option<LockOutModel<'a>>,
     /// Why the operator is asked whether the antenna stands.
     pub asks_standing: Option<&'a str>,
+    /// It stands where it must not point.
+    pub way_out: Option<WayOutModel<'a>>,
     /// The antennas that have no card now.
     pub others: &'a [OtherAntenna],
 }
@@ -112,6 +115,8 @@ pub struct CardState {
     /// The dialog about a lock-out is open.
     pub maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
+    way_out: HoldState,
+    unguarded: HoldState,
     more: MoreState,
 }
 
@@ -124,6 +129,8 @@ impl CardState {
         self.more = MoreState::default();
         self.maintenance = None;
         self.standing = HoldState::default();
+        self.way_out = HoldState::default();
+        self.unguarded = HoldState::default();
     }
 
     /// To be called when the card is not shown any more: a jog key that was
@@ -160,6 +167,8 @@ pub enum CardAction {
     JogReleased,
     /// It may be moved by hand without a dead-man, for a minute.
     AllowUnguarded,
+    /// It may be moved by hand out of where it must not point, for a minute.
+    AllowWayOut,
     /// The operator has seen that it stands.
     SeenStanding,
     /// Turn an axis by an amount, once.
@@ -258,11 +267,6 @@ fn fill(
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
     }
-    if let Some(why) = model.asks_standing
-        && holds::show(ui, &mut at, why, holds::SEEN_STANDING, &mut state.standing)
-    {
-        actions.push(CardAction::SeenStanding);
-    }
     if model.header.control == Control::Released {
         released::show(ui, &mut at, &model.header, actions);
     }
@@ -277,7 +281,7 @@ fn fill(
         lower::travel(ui, &mut at, model.travel, true);
     }
 
-    at.skip(if short { 8.0 } else { 12.0 });
+    at.skip(if short { 6.0 } else { 12.0 });
     if !short {
         let head = at.take(20.0);
         paint::text(ui, head.left_top(), Align2::LEFT_TOP, "Mode", text::caption(), t.t3);

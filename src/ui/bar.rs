@@ -14,9 +14,14 @@ use super::{
     words,
 };
 use crate::{
-    app::{Model, UiCommand, View, alarms::Priority, antenna::AntennaModel},
+    app::{
+        Model, UiCommand, View,
+        alarms::{AlarmKind, Priority},
+        antenna::AntennaModel,
+    },
     controller::Phase,
-    driver::{LinkState, StopState, TimeSync},
+    driver::{Command, LinkState, StopState, TimeSync},
+    plan::Barrier,
 };
 
 /// Shows the bar in `rect`.
@@ -52,7 +57,9 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         .map(|alarm| {
             let antenna = alarm.antenna.and_then(|index| model.antennas.get(index));
             let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
-            (words::alarm(&alarm.kind, name), format::time_z(alarm.time))
+            let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
+            let text = words::alarm(&alarm.kind, name) + &reason.unwrap_or_default();
+            (text, format::time_z(alarm.time))
         })
         .collect();
     let rows: Vec<AlarmRow<'_>> = model
@@ -74,6 +81,10 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             },
             text,
             time,
+            moves_away: alarm.antenna.filter(|index| {
+                let antenna = model.antennas.get(*index);
+                !alarm.cleared && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
+            }),
         })
         .collect();
 
@@ -100,11 +111,32 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             TopBarAction::Stop => UiCommand::Stop,
             TopBarAction::SelectAntenna(index) => UiCommand::SelectAntenna(index),
             TopBarAction::Alarm(AlarmAction::Opened) => UiCommand::OpenedAlarms,
+            TopBarAction::Alarm(AlarmAction::MoveAway(antenna)) => {
+                UiCommand::Antenna(antenna, Command::MoveAway)
+            }
             TopBarAction::Alarm(AlarmAction::Acknowledge(id)) => UiCommand::AcknowledgeAlarm(id),
             TopBarAction::OpenStationSettings => UiCommand::Show(View::Preferences),
             TopBarAction::SetTheme(name) => UiCommand::SetTheme(name),
         });
     }
+}
+
+/// Where an antenna must not point that an alarm tells of.
+fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
+    match kind {
+        AlarmKind::Safety(matter) => matter.barrier(),
+        AlarmKind::CannotFollow(_, problem) => problem.barrier(),
+        _ => None,
+    }
+}
+
+/// Whether the alarm is about the Sun that comes to an antenna, which stands there and
+/// can be sent away.
+fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
+    let is_about = barrier_of(kind) == Some(&Barrier::Sun);
+    let snapshot = &antenna.snapshot;
+    let is_there = snapshot.inside.as_ref().is_some_and(|inside| inside.barrier == Barrier::Sun);
+    is_about && is_there && antenna.can_park() && !antenna.is_busy()
 }
 
 /// What STOP does, with what it does beyond that for some of the antennas.

@@ -137,7 +137,7 @@ pub fn show(
                 ui.set_clip_rect(page);
                 ui.label(RichText::new("Station settings").font(text::title()));
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    form::show(ui, &mut draft, page.width() >= TWO_COLUMNS_FROM);
+                    form::show(ui, model, &mut draft, page.width() >= TWO_COLUMNS_FROM);
                 });
             });
         }

@@ -21,7 +21,7 @@ use super::{
     upload::{self, UploadState},
 };
 use crate::{
-    app::{Model, UiCommand, View, mask_file::MaskNews},
+    app::{Model, UiCommand, View, closing::CloseHow, mask_file::MaskNews},
     driver::Command,
 };
 
@@ -169,7 +169,10 @@ impl Views {
         }
         self.operate.leave_card(commands);
         self.question = None;
-        self.closing = Some(ClosingDialog { lost });
+        match CloseHow::of(&model.station) {
+            Some(how) if lost.is_empty() => commands.push(UiCommand::CloseAfter(how)),
+            _ => self.closing = Some(ClosingDialog { lost }),
+        }
         true
     }
 

@@ -32,6 +32,7 @@ fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
     KeepOut {
         name: "mast".to_owned(),
         entered: Entered::GoRound,
+        reason: String::new(),
         antenna: None,
         margin_deg,
         zone: KeepOut::zone_of(&corners).unwrap(),

@@ -260,6 +260,7 @@ async fn starts_inside(mut dice: Dice) {
     scene.seconds(2.0).await;
     for axis in 0..2 {
         for way in [1.0, -1.0] {
+            scene.send(Command::AllowWayOut);
             let from_deg = scene.world.unit.axes_deg();
             let before = way_out(&scene, from_deg);
             let before_zone_deg = scene.world.zone_clearance_deg();

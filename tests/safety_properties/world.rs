@@ -479,7 +479,8 @@ fn keep_out(dice: &mut Dice, number: usize, margin_deg: f64) -> Option<KeepOut> 
     ];
     let zone = KeepOut::zone_of(&corners_deg).ok()?;
     let name = format!("zone {number}");
-    Some(KeepOut { name, entered: Entered::Hard, antenna: None, margin_deg, zone })
+    let (reason, entered) = (String::new(), Entered::Hard);
+    Some(KeepOut { name, reason, entered, antenna: None, margin_deg, zone })
 }
 
 /// An operator in front of a session, and the metal.

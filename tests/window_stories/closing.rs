@@ -5,14 +5,15 @@ use std::path::Path;
 use azel::{
     app::{Model, UiCommand, View, closing::CloseHow},
     driver::{Clock, Intent, LinkState, Snapshot, StopState},
-    station,
+    station::{self, OnClose},
 };
 use egui::{Event, Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::{
     makes,
-    rig::{self, NOAA_20, SIZES, Window},
+    preferences::write,
+    rig::{self, LARGE, NOAA_20, SIZES, Window},
     settings_desk::{press, says},
     states,
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
@@ -120,6 +121,29 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
         assert_eq!(rig::asked(&mut window), []);
         assert!(!rig::says(&window, "Close Azel?"));
     }
+}
+
+#[test]
+fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_lost() {
+    for (on_close, how) in [
+        (OnClose::Hold, CloseHow::Hold),
+        (OnClose::Park, CloseHow::Park),
+        (OnClose::Leave, CloseHow::Leave),
+    ] {
+        let mut model = rig::model(states::tracking(0.1));
+        model.station.on_close = Some(on_close);
+        let mut window = asked_about(LARGE, model);
+        assert!(!rig::says(&window, "Close Azel?"));
+        assert_eq!(rig::asked(&mut window), [UiCommand::CloseAfter(how)]);
+    }
+    let mut model = rig::model(states::tracking(0.1));
+    (model.station.on_close, model.view) = (Some(OnClose::Hold), View::Preferences);
+    let mut window = rig::window(LARGE, model);
+    write(&mut window, "Latitude", "40");
+    let story = window.state_mut();
+    assert!(story.views.ask_before_closing(&story.model, &mut story.commands));
+    rig::settle(&mut window);
+    assert!(rig::says(&window, "The station settings are not saved."));
 }
 
 #[test]

@@ -1,13 +1,18 @@
 //! What the operator answers for by a hold.
 
 use azel::{
-    app::{Model, UiCommand},
-    driver::{Command, Intent, Snapshot, StopState},
+    app::{Model, UiCommand, alarms::AlarmKind},
+    astro::AzEl,
+    driver::{
+        Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
+    },
+    plan::{Barrier, Target},
+    station::{Entered, KeepOut, SunAvoidance},
 };
 use egui_kittest::kittest::Queryable as _;
 
 use crate::{
-    rig::{self, LARGE, SIZES, asked, says},
+    rig::{self, LARGE, SIZES, Window, asked, says},
     settings_desk::hold,
     states,
 };
@@ -64,4 +69,121 @@ fn who_sees_an_antenna_stand_says_so_by_holding() {
         let window = rig::window(size, rig::model(states::moving()));
         assert!(window.query_by_label(STANDS).is_none());
     }
+}
+
+const OUT: &str = "Hold 1 s to move out by hand";
+const INTO_SUN: &str = "Hold 1 s to follow the Sun";
+
+fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
+    Snapshot { inside: Some(Inside { barrier, may_leave }), ..states::manual() }
+}
+
+#[test]
+fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
+    let mast = || Barrier::KeepOut("mast".into());
+    for size in SIZES {
+        let words = "Satrak stands inside “mast” now. It may leave it, not enter it again.";
+        let mut window = rig::window(size, shows(inside(mast(), false)));
+        assert!(says(&window, words));
+        window.get_by_label(OUT).click();
+        assert_eq!(asked(&mut window), [], "a click is no hold");
+        hold(&mut window, OUT);
+        assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::AllowWayOut)]);
+
+        let window = rig::window(size, shows(inside(mast(), true)));
+        assert!(says(&window, "By your word it may be moved out by hand for a minute"));
+        assert!(window.query_by_label(OUT).is_none());
+        let window = rig::window(size, shows(states::manual()));
+        assert!(window.query_by_label(OUT).is_none());
+    }
+}
+
+#[test]
+fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
+    for size in SIZES {
+        let choose_the_sun = |model: Model| {
+            let mut window = rig::window(size, model);
+            window.get_by_label("Follow something else").click();
+            rig::settle(&mut window);
+            window.get_by_label("Follow the Sun").click();
+            rig::settle(&mut window);
+            window
+        };
+        let follow = |window: &mut Window| match &asked(window)[..] {
+            [UiCommand::Antenna(0, Command::Follow(follow))] => (follow.target.clone(), false),
+            [UiCommand::Antenna(0, Command::FollowIntoSun(follow))] => {
+                (follow.target.clone(), true)
+            }
+            other => panic!("{other:?}"),
+        };
+        let mut window = choose_the_sun(shows(states::holding()));
+        assert_eq!(follow(&mut window), (Target::Sun, false));
+
+        let mut model = shows(states::holding());
+        model.station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
+        let mut window = choose_the_sun(model);
+        assert_eq!(asked(&mut window), [], "it is asked for first");
+        assert!(says(&window, "The Sun avoidance keeps Satrak 5.0° away from the Sun."));
+        window.get_by_label(INTO_SUN).click();
+        assert_eq!(asked(&mut window), [], "a click is no hold");
+        hold(&mut window, INTO_SUN);
+        assert_eq!(follow(&mut window), (Target::Sun, true));
+        assert!(window.query_by_label(INTO_SUN).is_none());
+    }
+}
+
+#[test]
+fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
+    let near = "Move away: Satrak is too close to the Sun, and not driven by Azel.";
+    let told = Safety::Forbidden {
+        barrier: Barrier::Sun,
+        driver: Mover::Somebody,
+        response: Response::Told,
+    };
+    for size in SIZES {
+        let alarmed = |snapshot: Snapshot| {
+            let mut model = shows(snapshot);
+            model.alarms.raise(Some(0), AlarmKind::Safety(told.clone()), rig::now());
+            let mut window = rig::window(size, model);
+            window.get_by_label_contains("1 alarm").click();
+            rig::settle(&mut window);
+            assert_eq!(asked(&mut window), [UiCommand::OpenedAlarms]);
+            window
+        };
+        let mut window = alarmed(inside(Barrier::Sun, false));
+        window.get_by_label(near).click();
+        assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::MoveAway)]);
+        let moving = Snapshot { inside: inside(Barrier::Sun, false).inside, ..states::moving() };
+        for other in [moving, states::manual()] {
+            assert!(alarmed(other).query_by_label(near).is_none());
+        }
+    }
+}
+
+#[test]
+fn a_keep_out_is_told_of_with_its_reason() {
+    let mut model = shows(states::manual());
+    let zone = KeepOut::zone_of(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]);
+    model.station.keep_outs = vec![KeepOut {
+        name: "mast".to_owned(),
+        reason: "Steel mast, 24 m away".to_owned(),
+        entered: Entered::Hard,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: zone.unwrap(),
+    }];
+    let barrier = || Barrier::KeepOut("mast".into());
+    let refusal = Refusal::Forbidden { barrier: barrier(), at: AzEl::from_degrees(90.0, 20.0) };
+    model.antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
+    let told = Safety::Forbidden {
+        barrier: barrier(),
+        driver: Mover::Somebody,
+        response: Response::Stopped,
+    };
+    model.alarms.raise(Some(0), AlarmKind::Safety(told), rig::now());
+    let mut window = rig::window(LARGE, model);
+    assert!(says(&window, "at 90.0°, 20.0°. “mast”: Steel mast, 24 m away."));
+    window.get_by_label_contains("1 alarm").click();
+    rig::settle(&mut window);
+    assert!(says(&window, "not driven by Azel. “mast”: Steel mast, 24 m away."));
 }

@@ -6,7 +6,7 @@ use azel::{
     app::{Model, UiCommand, View, effects},
     astro::{Angle, HorizonMask},
     device::AxisMotion,
-    driver::{Intent, Snapshot},
+    driver::{Intent, Snapshot, StoppingWay},
     makes,
     station::{self, Entered, KeepOut, Station, SunAvoidance},
 };
@@ -43,6 +43,7 @@ pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
 fn mast() -> KeepOut {
     KeepOut {
         name: "mast".to_owned(),
+        reason: String::new(),
         entered: Entered::Hard,
         antenna: None,
         margin_deg: 1.0,
@@ -136,6 +137,7 @@ fn a_zone_is_added_named_and_saved_to_the_file() {
         window.get_by_role_and_label(Role::Button, "Add zone").click();
         settle(&mut window);
         field(&mut window, "Name of the keep-out", "roof");
+        field(&mut window, "Reason of the keep-out", "New air conditioning");
         field(&mut window, "Safety margin", "2,5");
         window.get_by_role_and_label(Role::RadioButton, "Go round").click();
         settle(&mut window);
@@ -143,6 +145,7 @@ fn a_zone_is_added_named_and_saved_to_the_file() {
         let [roof] = &station.keep_outs[..] else { panic!("{:?}", station.keep_outs) };
         assert_eq!((&*roof.name, roof.entered, &roof.antenna), ("roof", Entered::GoRound, &None));
         assert!((roof.margin_deg - 2.5).abs() < 1e-12);
+        assert_eq!(roof.reason, "New air conditioning");
         assert_eq!(corners(&station, 0).len(), 4);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
@@ -465,4 +468,25 @@ fn what_holds_is_drawn_in_the_sky_plot() {
         model.station.keep_outs = vec![mast(), overhead];
         rig::window(size, model);
     }
+}
+
+#[test]
+fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
+    let stopping_way = StoppingWay { run_out_s: 0.4, stops: 0, is_learned: false };
+    let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
+    model.station.keep_outs = vec![mast()];
+    let mut window = page_of(LARGE, model);
+    choose(&mut window, "mast");
+    // A Satrak of 3° a second.
+    window.get_by_label("°   beam 0.44° + overshoot 1.2° + 1.0°");
+}
+
+#[test]
+fn the_reason_of_a_keep_out_is_shown_where_the_pointer_rests() {
+    let mut model = rig::model(states::holding());
+    model.station.keep_outs = vec![KeepOut { reason: "Steel mast".to_owned(), ..mast() }];
+    let mut window = page_of(LARGE, model);
+    window.get_by_label_contains("mast, Keep-out, hard").hover();
+    window.run_steps(8);
+    window.get_by_label("Steel mast");
 }

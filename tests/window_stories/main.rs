@@ -33,6 +33,7 @@ mod passes;
 mod popups;
 mod preferences;
 mod preferences_makes;
+mod preferences_watch;
 mod rig;
 mod running;
 mod sentences;

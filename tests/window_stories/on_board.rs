@@ -37,7 +37,7 @@ fn elsewhere(off_deg: f64) -> Ranked {
     Ranked { cause: Cause::Place { place, away_km: 1596.1 }, off }
 }
 
-fn found(off_deg: f64) -> Supervision {
+pub(crate) fn found(off_deg: f64) -> Supervision {
     Supervision {
         worst: Error { off: Angle::from_degrees(off_deg), at: rig::now() },
         is_within_beam: off_deg < 0.44,
@@ -47,7 +47,7 @@ fn found(off_deg: f64) -> Supervision {
     }
 }
 
-fn told(found: Supervision) -> Snapshot {
+pub(crate) fn told(found: Supervision) -> Snapshot {
     let mut snapshot = states::holding();
     snapshot.on_board = Some(OnBoardView { found: Arc::new(found), missing: None });
     snapshot

@@ -1,7 +1,10 @@
 //! The card of every make fits every window in every theme.
 
 use azel::{
-    driver::{Intent, Snapshot},
+    app::{Model, UiCommand, track_again::TrackAgain},
+    astro::AzEl,
+    driver::{Command, Event, Inside, Intent, Refusal, Snapshot, StopState},
+    plan::Barrier,
     station::Antenna,
     ui::{theme, tokens::ThemeName},
 };
@@ -10,8 +13,9 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::{
     extremes::nothing_overlaps,
-    maintenance, makes,
+    maintenance, makes, on_board,
     rig::{self, SIZES, Window, settle},
+    states,
 };
 
 /// What stands at the end of the card may have to be scrolled to.
@@ -104,5 +108,64 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
         window.get_by_label_contains(fold).click();
         settle(&mut window);
         assert!(line(&window).top() >= open.top(), "{fold}");
+    }
+}
+
+/// Where the jog keys are that lead up and to the left.
+fn jog_keys(model: Model, size: [f32; 2]) -> [Rect; 2] {
+    let window = rig::window(size, model);
+    ["Jog Y+", "Jog X−"].map(|key| window.get_by_label(key).rect())
+}
+
+fn told(refusal: Refusal) -> Model {
+    let mut model = rig::model(states::manual());
+    model.antennas[0].news = Some((Event::NotSent(refusal), rig::now()));
+    model
+}
+
+fn offered_again() -> Model {
+    let mut model = rig::model(states::manual());
+    let command = UiCommand::Antenna(0, Command::Resume);
+    let name = "NOAA 20 (JPSS-1)".to_owned();
+    model.antennas[0].track_again = Some(TrackAgain { name, command, until: rig::now() });
+    model
+}
+
+fn unguarded() -> Model {
+    let mut model = rig::model(Snapshot { unguarded: true, ..states::manual() });
+    model.antennas[0].asks_unguarded = true;
+    model
+}
+
+/// What comes and goes around the jog keys.
+fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
+    let since = states::moving().state.measured.unwrap().received;
+    let stop = StopState::NotConfirmed { since };
+    let inside = Some(Inside { barrier: Barrier::KeepOut("mast".into()), may_leave: false });
+    let barrier = Barrier::KeepOut("the mast of the neighbours".into());
+    let at = AzEl::from_degrees(103.0, 24.0);
+    vec![
+        ("holding", rig::model(states::holding())),
+        ("tracking", rig::model(states::tracking(0.1))),
+        ("moving", rig::model(states::moving())),
+        ("would miss", rig::model(on_board::told(on_board::found(23.0)))),
+        ("a little off", rig::model(on_board::told(on_board::found(0.2)))),
+        ("stop", rig::model(Snapshot { stop, ..states::manual() })),
+        ("left moving", rig::model(Snapshot { left_moving: Some(rig::now()), ..states::manual() })),
+        ("inside", rig::model(Snapshot { inside, ..states::manual() })),
+        ("unguarded", unguarded()),
+        ("track again", offered_again()),
+        ("news", told(Refusal::NoRefuge)),
+        ("long news", told(Refusal::Forbidden { barrier, at })),
+    ]
+}
+
+#[test]
+fn nothing_that_comes_and_goes_moves_the_jog_keys() {
+    for size in [rig::SMALL, rig::LARGE, [1920.0, 1080.0]] {
+        let usual = jog_keys(rig::model(states::manual()), size);
+        for (what, model) in around_the_jog_keys() {
+            assert_eq!(jog_keys(model, size), usual, "{what} at {size:?}");
+        }
     }
 }

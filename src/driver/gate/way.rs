@@ -60,7 +60,8 @@ fn to_position(
             return Ok(());
         };
         let sweep = sweep_between(axes_deg, to_deg, situation);
-        return blocked(sweep, axes_deg, situation.bounds, situation.now);
+        return away_from_the_sun(sweep, axes_deg, to_deg, situation)
+            .unwrap_or_else(|| blocked(sweep, axes_deg, situation.bounds, situation.now));
     }
     let Some(measured) = situation.state.measured else { return Ok(()) };
     let [first, second] = [0, 1].map(|axis| {
@@ -90,6 +91,22 @@ impl Situation<'_> {
     }
 }
 
+/// Out of the surroundings of the Sun the operator sends an antenna by a go-to that
+/// leads no nearer to it and ends outside. `None` where it does not begin in there.
+fn away_from_the_sun(
+    sweep: Sweep,
+    from_deg: [f64; 2],
+    to_deg: [f64; 2],
+    situation: &Situation<'_>,
+) -> Option<Result<(), Refusal>> {
+    let (bounds, now) = (situation.bounds, situation.now);
+    let is_sent = matches!(situation.intent, Intent::Position | Intent::Park);
+    let leaving = bounds
+        .away_from_the_sun(bounds.direction(from_deg), now.utc)
+        .filter(|_| is_sent && bounds.forbids(bounds.direction(to_deg), now.utc).is_none())?;
+    Some(blocked(sweep, from_deg, &leaving, now))
+}
+
 fn by_hand(
     axes_deg: [f64; 2],
     ahead_deg: [f64; 2],
@@ -100,15 +117,15 @@ fn by_hand(
     let to_deg = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
     let (here, there) = (bounds.direction(axes_deg), bounds.direction(to_deg));
     let (before, after) = (bounds.clearances(here, utc), bounds.clearances(there, utc));
-    let is_inside = before.iter().any(|clearance| {
+    let inside = before.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != crate::plan::Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
     });
-    if !is_inside {
+    let Some(inside) = inside else {
         let sweep = sweep_between(axes_deg, to_deg, situation);
         return blocked(sweep, axes_deg, bounds, situation.now);
-    }
+    };
     let ways_deg = [axes_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc));
     for (before, after) in before.iter().zip(&after).filter(|(it, _)| !it.warns_only) {
         let leaves = before.angle < Angle::ZERO;
@@ -132,7 +149,10 @@ fn by_hand(
     if fastest > allowed_deg_s {
         return Err(Refusal::TooFast { asked_deg_s: fastest, allowed_deg_s });
     }
-    Ok(())
+    if situation.gate.lets_out(situation.now) {
+        return Ok(());
+    }
+    Err(Refusal::Inside(inside.barrier.clone()))
 }
 
 /// Where the axes stand, as the mount counts. Without an elevation axis the second

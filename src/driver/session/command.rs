@@ -32,6 +32,10 @@ pub enum Command {
     EndJog,
     /// For a minute, move by hand although no dead-man can be had.
     AllowUnguarded,
+    /// For a minute, move by hand out of where the antenna must not point.
+    AllowWayOut,
+    /// Go to the nearest direction that stays clear of the Sun.
+    MoveAway,
     /// One step of the two axes.
     Step {
         /// Signed, degrees.
@@ -49,6 +53,9 @@ pub enum Command {
     /// Follow a target position by position, also where the device could track by
     /// itself.
     Follow(Box<Follow>),
+    /// Follow a target that leads to the Sun, by the operator's word: the avoidance of
+    /// it is lifted for that alone.
+    FollowIntoSun(Box<Follow>),
     /// Follow on, where that waits for the operator's word.
     Resume,
     /// Keep within these bounds from now on.
@@ -111,6 +118,7 @@ impl Session {
             Command::Jog { .. }
                 | Command::Settle(_)
                 | Command::Follow(_)
+                | Command::FollowIntoSun(_)
                 | Command::Track(_)
                 | Command::Within(_)
         );
@@ -124,6 +132,8 @@ impl Session {
             Command::Jog { rates_deg_s } => self.hold_jog(rates_deg_s, now),
             Command::EndJog => self.release_jog(now),
             Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::AllowWayOut => self.allow_way_out(now),
+            Command::MoveAway => self.move_away(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
@@ -143,7 +153,8 @@ impl Session {
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Track(pass) => self.track(*pass, now),
-            Command::Follow(follow) => self.follow(*follow, now),
+            Command::Follow(follow) => self.follow_as_agreed(*follow, false, now),
+            Command::FollowIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
             Command::AutoTrack(true) => {
                 let held = self.held(now);
                 self.gate.will_hold(held);
@@ -207,7 +218,7 @@ impl Session {
     }
 
     /// Checked before anything that runs is ended for it.
-    fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
+    pub(super) fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
         let checked = self.gate.nearest(motion).and_then(|motion| {
             let route = self.gate.route(motion, intent, now)?;
             Ok((motion, route))
@@ -305,6 +316,7 @@ impl Session {
                 self.ended_hold = None;
             }
             Command::AllowUnguarded => self.allow_unguarded(now),
+            Command::AllowWayOut => self.allow_way_out(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),

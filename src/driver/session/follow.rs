@@ -44,7 +44,8 @@ impl ResumeRule {
 
 impl Session {
     /// Takes up a target. What moves for another reason is stopped first.
-    pub(super) fn follow(&mut self, follow: Follow, now: Moment) {
+    /// Returns whether it was taken up; if not, the reason was told.
+    pub(super) fn follow(&mut self, follow: Follow, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
         let Manner { mut drives, following } = self.manner;
@@ -62,7 +63,10 @@ impl Session {
         let checked = planned.and_then(|planner| self.check_first(planner, now));
         let planner = match checked {
             Ok(planner) => planner,
-            Err(problem) => return self.tell(Event::CannotFollow(name, problem)),
+            Err(problem) => {
+                self.tell(Event::CannotFollow(name, problem));
+                return false;
+            }
         };
         // From one target to another there is no need to stop.
         if self.following.is_none() && self.may_move() {
@@ -73,6 +77,7 @@ impl Session {
         self.target = None;
         self.following = Some(Following::new(planner, phase, now.steady));
         self.tell_phase(phase, name);
+        true
     }
 
     /// Whether the first position may be sent.

@@ -120,6 +120,8 @@ impl Session {
             | Command::Position { .. }
             | Command::Track(_)
             | Command::Follow(_)
+            | Command::FollowIntoSun(_)
+            | Command::MoveAway
             | Command::Park
             | Command::AutoTrack(_) => true,
             // With a link the gate refuses these.
@@ -129,6 +131,7 @@ impl Session {
             | Command::Jog { .. }
             | Command::EndJog
             | Command::AllowUnguarded
+            | Command::AllowWayOut
             | Command::SeenStanding
             | Command::Resume
             | Command::Within(_)

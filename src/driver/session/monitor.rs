@@ -11,7 +11,7 @@ use crate::{
     astro::Angle,
     controller::{Measured, Moment},
     driver::{
-        Safety,
+        Safety, StoppingWay,
         safety::{Mover, Response},
     },
     plan::{Barrier, Clearance},
@@ -51,7 +51,7 @@ impl Session {
         let rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
-        let bounds = self.gate.bounds();
+        let bounds = self.bounds_now();
         let ahead_deg = self.gate.ahead_of([first, second], rates.map(|rate| rate * ahead_s));
         let ahead = bounds.direction(ahead_deg);
         let here = bounds.clearances(bounds.direction([first, second]), now.utc);
@@ -152,10 +152,12 @@ pub(super) struct RunOut {
     before: Option<(Measured, [f64; 2], Instant)>,
     /// The last ones, seconds.
     seen_s: VecDeque<f64>,
+    /// How many were seen in all.
+    stops: u32,
 }
 
 /// So many STOPs have to be seen before they replace the usual figure.
-const ENOUGH: usize = 3;
+const ENOUGH: usize = StoppingWay::ENOUGH as usize;
 /// The slowest rate from which a run-out can be told, degrees a second.
 const TELLING_DEG_S: f64 = 0.3;
 
@@ -182,6 +184,7 @@ impl RunOut {
             self.seen_s.pop_front();
         }
         self.seen_s.push_back(run_out_s.clamp(0.0, 10.0));
+        self.stops = self.stops.saturating_add(1);
         let worst_s = self.seen_s.iter().copied().fold(0.0, f64::max);
         (self.seen_s.len() >= ENOUGH).then_some(worst_s)
     }
@@ -197,6 +200,16 @@ impl Session {
 
     fn rates_now(&self) -> Option<[f64; 2]> {
         self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s)
+    }
+
+    /// How long the axes run on after a STOP, as far as that is known.
+    pub(super) fn stopping_way(&self) -> StoppingWay {
+        let RunOut { stops, seen_s, .. } = &self.run_out;
+        StoppingWay {
+            run_out_s: self.gate.run_out_s(),
+            stops: *stops,
+            is_learned: seen_s.len() >= ENOUGH,
+        }
     }
 
     /// Learns how long the axes ran on.

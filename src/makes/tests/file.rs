@@ -270,6 +270,7 @@ fn the_file_is_what_it_always_was() {
 fn mast() -> KeepOut {
     KeepOut {
         name: "mast".to_owned(),
+        reason: "Steel mast, 24 m away".to_owned(),
         entered: Entered::GoRound,
         antenna: Some("Satrak".to_owned()),
         margin_deg: 2.5,
@@ -287,6 +288,7 @@ fn keep_outs_and_what_is_done_by_itself_come_back_as_they_were_saved() {
     let cap = KeepOut::zone_of(&[(0.0, 85.0), (180.0, 85.0), (360.0, 85.0)]).unwrap();
     let overhead = KeepOut {
         name: "overhead".to_owned(),
+        reason: String::new(),
         entered: Entered::Warn,
         antenna: None,
         margin_deg: 0.0,
@@ -357,13 +359,14 @@ fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     let (_folder, path) = written(&format!(
         "[[keep_out]]\nname = ' '\nentered = 'maybe'\nantenna = 'Nobody'\nmargin_deg = 45\n\
          margn = 3\n{corners}\n[[keep_out]]\nname = 'mast'\nentered = 'go_round'\n\
-         antenna = 'satrak'\nmargin_deg = 2.5\n{corners}\n\
+         antenna = 'satrak'\nmargin_deg = 2.5\nreason = 'Steel mast, 24 m away'\n{corners}\n\
          [[keep_out]]\nname = 'mast'\nmargin_deg = 'x'\n{corners}\n\
          [sun_avoidance]\nradius_deg = 5\nahead_min = 121\n{SATRAK}"
     ));
     let Loaded { station, notes } = load(&path).unwrap();
     let strict = |name: &str, margin_deg| KeepOut {
         name: name.to_owned(),
+        reason: String::new(),
         entered: Entered::Hard,
         antenna: None,
         margin_deg,

@@ -145,6 +145,7 @@ mod tests {
         let keep_out = KeepOut {
             name: "roof".to_owned(),
             entered: Entered::Hard,
+            reason: String::new(),
             antenna: None,
             margin_deg: 0.0,
             zone: KeepOut::zone_of(&corners_deg).unwrap(),

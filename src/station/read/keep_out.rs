@@ -59,6 +59,7 @@ impl Fields<'_> {
         let entered =
             [("hard", Entered::Hard), ("warn", Entered::Warn), ("go_round", Entered::GoRound)];
         let entered = self.one_of("entered", &entered, Entered::Hard);
+        let reason = self.text("reason", "");
         let antenna = self.antenna_of_keep_out(antennas);
         let margin_deg = self.margin_deg();
         let corners = self.table.remove("corners").ok_or("it has no corners")?;
@@ -66,7 +67,7 @@ impl Fields<'_> {
             .try_into()
             .map_err(|_| "corners must be a list of pairs of azimuth and elevation".to_owned())?;
         let zone = KeepOut::zone_of(&corners).map_err(|error| error.to_string())?;
-        Ok(KeepOut { name, entered, antenna, margin_deg, zone })
+        Ok(KeepOut { name, reason, entered, antenna, margin_deg, zone })
     }
 
     /// A margin that is too large is the largest one, not the usual one.

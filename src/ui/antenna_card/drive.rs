@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::{
-    CardAction, Cursor, holds, speed,
+    CardAction, Cursor, speed,
     steps::{self, StepState},
 };
 use crate::{
@@ -12,9 +12,7 @@ use crate::{
         icons::{self, Icon},
         text, theme,
         widgets::{
-            button::SMALL_HEIGHT,
             go_to::{self, GoToAction, GoToModel, GoToState},
-            hold_button::HoldState,
             jog_pad::{self, JogDirection, JogKeys, JogModel, JogState},
             paint,
         },
@@ -25,8 +23,6 @@ use crate::{
 const FIRST_RATE_DEG_S: f64 = 0.5;
 /// Below the row of steps.
 const STEPS_GAP: f32 = 4.0;
-/// Kept free below the pad: for the row of steps and one line, or two lines.
-const MESSAGES: f32 = SMALL_HEIGHT + STEPS_GAP + MESSAGE;
 /// A sentence of one line.
 const MESSAGE: f32 = 17.0;
 
@@ -79,7 +75,6 @@ pub struct DriveState {
     steps: StepState,
     jog: JogState,
     jogging: bool,
-    unguarded: HoldState,
 }
 
 impl DriveState {
@@ -108,7 +103,6 @@ impl Default for DriveState {
             steps: StepState::default(),
             jog: JogState::default(),
             jogging: false,
-            unguarded: HoldState::default(),
         }
     }
 }
@@ -150,19 +144,10 @@ pub(super) fn show(
         GoToAction::Send(target) => CardAction::GoTo(target),
     }));
     at.skip(6.0);
-    if let Some(why) = model.unguarded
-        && holds::show(ui, at, why, holds::UNGUARDED, &mut state.unguarded)
-    {
-        actions.push(CardAction::AllowUnguarded);
-    }
-    // So that nothing moves when a sentence comes.
-    let end = at.y + MESSAGES;
     if let Some(most_deg) = model.most_step_deg.filter(|_| model.jog_locked.is_none()) {
         steps::show(ui, at, model, most_deg, &mut state.steps, state.jog, actions);
         at.skip(STEPS_GAP);
     }
-    messages(ui, at, model, state);
-    at.y = at.y.max(end);
 }
 
 fn jog(
@@ -191,8 +176,10 @@ fn jog(
 }
 
 /// Says why something is refused, below the controls that it is about.
-fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
+pub(super) fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
     let t = theme::tokens(ui);
+    // So that little moves when a sentence comes.
+    let end = at.y + MESSAGE;
     let refusal = state.go_to.refusal().or(model.go_to_refusal);
     let step = model.most_step_deg.and_then(|most_deg| state.steps.size_deg(most_deg).err());
     let step = step.as_deref().filter(|_| model.jog_locked.is_none());
@@ -217,4 +204,5 @@ fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState
         paint::name_text(ui, ("message", index), taken, words);
         at.y = taken.bottom() + 1.0;
     }
+    at.y = at.y.max(end);
 }

@@ -22,6 +22,8 @@ pub struct FollowModel<'a> {
     pub here: Option<Target>,
     /// Of the numbers that are shown for it.
     pub here_decimals: usize,
+    /// What following the Sun lifts; it is followed only by holding then.
+    pub sun_avoidance: Option<&'a str>,
 }
 
 /// What this program is to follow.
@@ -31,18 +33,22 @@ pub enum FollowChoice {
     Selected,
     /// The Sun.
     Sun,
+    /// The Sun, with the avoidance of it lifted.
+    IntoSun,
     /// The Moon.
     Moon,
     /// A direction that does not move.
     Direction(Target),
 }
 
-/// Shows the key in `rect`. `typed` is a direction that stands in the fields.
+/// Shows the key in `rect`. `typed` is a direction that stands in the fields;
+/// `asks_sun` is set where the Sun was chosen and has to be held for.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     model: &FollowModel<'_>,
     typed: Option<Target>,
+    asks_sun: &mut bool,
     actions: &mut Vec<CardAction>,
 ) {
     let t = theme::tokens(ui);
@@ -70,7 +76,11 @@ pub(super) fn show(
             choices.insert(0, (words, FollowChoice::Selected));
         }
         for (words, choice) in choices {
-            if ui.button(words).clicked() {
+            if !ui.button(words).clicked() {
+                continue;
+            }
+            *asks_sun = choice == FollowChoice::Sun && model.sun_avoidance.is_some();
+            if !*asks_sun {
                 actions.push(CardAction::Follow(choice));
             }
         }

@@ -5,7 +5,8 @@
 use egui::{Align2, Rect, Ui};
 
 use super::{
-    CardAction, CardModel, CardState, Cursor, drive, faults, more, others, readings, track,
+    CardAction, CardModel, CardState, Cursor, WayOutModel, drive, faults, holds, more, others,
+    readings, track,
 };
 use crate::ui::{
     text, theme,
@@ -26,11 +27,17 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
     short: bool,
 ) {
+    // What comes and goes stands below the jog keys: they have a fixed place.
     let typed = state.drive.go_to.previewed();
-    track::show(ui, at, model.track.as_ref(), typed, &mut state.track, actions);
-    at.skip(if short { 8.0 } else { 12.0 });
+    track::row(ui, at, model.track.as_ref(), typed, &mut state.track, actions);
+    at.skip(if short { 6.0 } else { 12.0 });
     drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
-    at.skip(4.0);
+    asked(ui, at, model, state, actions);
+    drive::messages(ui, at, &model.drive, &state.drive);
+    track::notes(ui, at, model.track.as_ref(), &state.track, actions);
+    if !short {
+        at.skip(4.0);
+    }
     if short && !model.travel.is_empty() {
         let value = travel_in_words(model.travel);
         let travel_line = FoldModel { title: "Travel", value: &value, mark: None };
@@ -75,6 +82,36 @@ pub(super) fn show(
             more::show(ui, at, &model.more, &mut state.more, actions);
         }
         bring_into_sight(ui, at, opened);
+    }
+}
+
+/// What the operator is asked to answer for.
+fn asked(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: &CardModel<'_>,
+    state: &mut CardState,
+    actions: &mut Vec<CardAction>,
+) {
+    if let Some(words) = model.track.as_ref().and_then(|track| state.track.about_the_sun(track)) {
+        holds::note(ui, at, words);
+    }
+    if let Some(why) = model.asks_standing
+        && holds::show(ui, at, why, holds::SEEN_STANDING, &mut state.standing)
+    {
+        actions.push(CardAction::SeenStanding);
+    }
+    if let Some(WayOutModel { words, is_allowed }) = model.way_out {
+        if is_allowed {
+            holds::note(ui, at, words);
+        } else if holds::show(ui, at, words, holds::WAY_OUT, &mut state.way_out) {
+            actions.push(CardAction::AllowWayOut);
+        }
+    }
+    if let Some(why) = model.drive.unguarded
+        && holds::show(ui, at, why, holds::UNGUARDED, &mut state.unguarded)
+    {
+        actions.push(CardAction::AllowUnguarded);
     }
 }
 

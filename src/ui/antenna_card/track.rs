@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{
     CardAction, Cursor,
-    follow::{self, FollowModel},
+    follow::{self, FollowChoice, FollowModel},
 };
 use crate::ui::{
     icons::{self, Icon},
@@ -47,6 +47,8 @@ pub struct TrackModel<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrackState {
     parking: bool,
+    /// The Sun was chosen, and has to be held for.
+    asks_sun: bool,
     hold: HoldState,
     tracking: HoldState,
 }
@@ -54,13 +56,15 @@ pub struct TrackState {
 /// A mode goes out at once, except for Park, which has to be held.
 pub(super) fn mode_clicked(mode: Mode, state: &mut TrackState, actions: &mut Vec<CardAction>) {
     state.parking = mode == Mode::Park;
+    state.asks_sun = false;
     state.hold = HoldState::default();
     if mode != Mode::Park {
         actions.push(CardAction::SetMode(mode));
     }
 }
 
-pub(super) fn show(
+/// What is tracked and what could be, or a question in its place.
+pub(super) fn row(
     ui: &Ui,
     at: &mut Cursor,
     model: Option<&TrackModel<'_>>,
@@ -68,18 +72,31 @@ pub(super) fn show(
     state: &mut TrackState,
     actions: &mut Vec<CardAction>,
 ) {
-    if state.parking {
-        at.skip(8.0);
-        park_row(ui, at.take(button::HEIGHT), state, actions);
-    }
     let Some(model) = model else { return };
     at.skip(8.0);
     let mut row = at.take(button::HEIGHT);
+    if let Some(question) = state.question(model) {
+        return question_row(ui, row, question, state, actions);
+    }
     if let Some(follow) = model.follow.as_ref().filter(|_| model.refusal.is_none()) {
-        follow::show(ui, row.with_min_x(row.right() - follow::WIDTH), follow, typed, actions);
+        let key = row.with_min_x(row.right() - follow::WIDTH);
+        follow::show(ui, key, follow, typed, &mut state.asks_sun, actions);
         row.max.x -= follow::WIDTH + 4.0;
     }
     satellite_row(ui, row, model, &mut state.tracking, actions);
+}
+
+/// What is to be known before something is tracked, and whether the unit begins by
+/// itself.
+pub(super) fn notes(
+    ui: &Ui,
+    at: &mut Cursor,
+    model: Option<&TrackModel<'_>>,
+    state: &TrackState,
+    actions: &mut Vec<CardAction>,
+) {
+    // What is asked is about something else.
+    let Some(model) = model.filter(|model| state.question(model).is_none()) else { return };
     if let Some(refusal) = model.refusal {
         caution_row(ui, at, "track refusal", refusal);
     }
@@ -94,15 +111,50 @@ pub(super) fn show(
     }
 }
 
-fn park_row(ui: &Ui, row: Rect, state: &mut TrackState, actions: &mut Vec<CardAction>) {
+/// What has to be held for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Question {
+    Park,
+    Sun,
+}
+
+impl TrackModel<'_> {
+    fn sun_avoidance(&self) -> Option<&str> {
+        self.follow.as_ref().filter(|_| self.refusal.is_none())?.sun_avoidance
+    }
+}
+
+impl TrackState {
+    /// What is to be known before the Sun is followed, while that is asked.
+    pub(super) fn about_the_sun<'a>(&self, model: &'a TrackModel<'_>) -> Option<&'a str> {
+        model.sun_avoidance().filter(|_| self.question(model) == Some(Question::Sun))
+    }
+
+    fn question(&self, model: &TrackModel<'_>) -> Option<Question> {
+        let sun = (self.asks_sun && model.sun_avoidance().is_some()).then_some(Question::Sun);
+        self.parking.then_some(Question::Park).or(sun)
+    }
+}
+
+fn question_row(
+    ui: &Ui,
+    row: Rect,
+    question: Question,
+    state: &mut TrackState,
+    actions: &mut Vec<CardAction>,
+) {
+    let (words, action) = match question {
+        Question::Park => ("Hold 1 s to park", CardAction::SetMode(Mode::Park)),
+        Question::Sun => ("Hold 1 s to follow the Sun", CardAction::Follow(FollowChoice::IntoSun)),
+    };
     let cancel = Button::quiet("Cancel");
     let split = row.right() - cancel.width(ui);
     let hold = row.with_max_x(split - 8.0);
-    if hold_button::show(ui, hold, "Hold 1 s to park", &mut state.hold) {
-        actions.push(CardAction::SetMode(Mode::Park));
+    if hold_button::show(ui, hold, words, &mut state.hold) {
+        actions.push(action);
         *state = TrackState::default();
     }
-    if cancel.show(ui, "cancel park", row.with_min_x(split)).clicked() {
+    if cancel.show(ui, "cancel question", row.with_min_x(split)).clicked() {
         *state = TrackState::default();
     }
 }
@@ -115,7 +167,10 @@ fn satellite_row(
     hold: &mut HoldState,
     actions: &mut Vec<CardAction>,
 ) {
-    let held = row.with_max_x(row.left() + 0.45 * row.width() - 8.0);
+    let misses = model.misses.is_some() && model.refusal.is_none();
+    // The words on the button that is held are long.
+    let share = if misses { 0.36 } else { 0.45 };
+    let held = row.with_max_x(row.left() + share * row.width() - 8.0);
     two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
     let rest = row.with_min_x(held.right() + 8.0);
     let Some(selected) = model.selected.filter(|_| !model.tracks_selected) else {
@@ -124,7 +179,7 @@ fn satellite_row(
         two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
         return;
     };
-    if model.misses.is_some() && model.refusal.is_none() {
+    if misses {
         if hold_button::show(ui, rest, "Hold 1 s to track anyway", hold) {
             actions.push(CardAction::TrackAnyway);
         }

@@ -10,7 +10,7 @@ use egui::{Align2, Rect, Ui};
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel,
-    HeaderModel, LockOutModel, MoreModel, OtherAntenna, TrackModel,
+    HeaderModel, LockOutModel, MoreModel, OtherAntenna, TrackModel, WayOutModel,
 };
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
@@ -31,6 +31,7 @@ use crate::{
             beam_bar::BeamModel,
             button::Button,
             go_to::Target,
+            jog_pad::JogDirection,
             mode_selector::{Mode, ModeModel},
             paint,
         },
@@ -70,7 +71,13 @@ pub(super) fn show(
     let mode = mode(snapshot.intent);
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
+    let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
     let asks_standing = words::asks_standing(snapshot);
+    let way_out = way_out(antenna);
+    let sun_avoidance = model
+        .station
+        .sun_avoidance
+        .map(|sun| words::sun_lifted(&antenna.config.name, sun.radius_deg));
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -100,27 +107,12 @@ pub(super) fn show(
             track: modes.contains(&Mode::Track).then(|| TrackModel {
                 misses: misses.as_deref(),
                 note: note.as_deref(),
-                ..track(model, antenna, &locks)
+                ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
             drive: DriveModel {
-                keys: axes::keys(antenna),
-                jog_locked: locks.jog,
-                unguarded: (snapshot.unguarded && antenna.asks_unguarded)
-                    .then_some(words::UNGUARDED),
-                jog_note: axes::unseen(antenna),
-                blocked: &blocked,
-                real_deg_s: axes::rate_of_jog(antenna),
-                speeds: can.jog,
-                most_deg_s: antenna.config.limits.maximum_rate_deg_s,
-                most_step_deg: can.steps.then_some(antenna.config.limits.maximum_step_deg),
-                go_to_locked: locks.go_to,
-                azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
-                elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals),
-                go_to_refusal: None,
-                go_to_note: None,
-                stop_note: can.stop_note,
+                ..drive(antenna, &locks, &blocked)
             },
             readings: &snapshot.state.readings,
             faults: (!checks.is_empty())
@@ -135,6 +127,9 @@ pub(super) fn show(
                 .as_ref()
                 .map(|lock_out| LockOutModel { by: &lock_out.by, locking: snapshot.locking }),
             asks_standing: asks_standing.as_deref(),
+            way_out: way_out
+                .as_ref()
+                .map(|(words, is_allowed)| WayOutModel { words, is_allowed: *is_allowed }),
             others: &others,
         };
         let mut desk = Desk { model, antenna, question, commands };
@@ -192,8 +187,52 @@ fn control(snapshot: &Snapshot) -> Control<'static> {
     }
 }
 
+/// Moving by hand and to a direction.
+fn drive<'a>(
+    antenna: &'a AntennaModel,
+    locks: &Locks,
+    blocked: &'a [JogDirection],
+) -> DriveModel<'a> {
+    let can = antenna.make().capabilities;
+    let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
+    DriveModel {
+        keys: axes::keys(antenna),
+        jog_locked: locks.jog,
+        unguarded: is_unguarded.then_some(words::UNGUARDED),
+        jog_note: axes::unseen(antenna),
+        blocked,
+        real_deg_s: axes::rate_of_jog(antenna),
+        speeds: can.jog,
+        most_deg_s: antenna.config.limits.maximum_rate_deg_s,
+        most_step_deg: can.steps.then_some(antenna.config.limits.maximum_step_deg),
+        go_to_locked: locks.go_to,
+        azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
+        elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
+        commanded_deg: (None, None),
+        commanded_decimals: 0,
+        go_to_refusal: None,
+        go_to_note: None,
+        stop_note: can.stop_note,
+    }
+}
+
+/// What an antenna may do that stands where it must not point, and whether it may by
+/// the operator's word.
+fn way_out(antenna: &AntennaModel) -> Option<(String, bool)> {
+    let snapshot = &antenna.snapshot;
+    let can_be_asked =
+        snapshot.link.is_open() && snapshot.lock_out.is_none() && snapshot.intent != Intent::Track;
+    let inside = snapshot.inside.as_ref().filter(|_| can_be_asked)?;
+    Some((words::way_out(&antenna.config.name, inside), inside.may_leave))
+}
+
 /// What is tracked, and what could be.
-fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> TrackModel<'a> {
+fn track<'a>(
+    model: &'a Model,
+    antenna: &'a AntennaModel,
+    locks: &Locks,
+    sun_avoidance: Option<&'a str>,
+) -> TrackModel<'a> {
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass();
     let number = selected.map(|forecast| forecast.satellite.elements.catalog_number());
@@ -229,6 +268,7 @@ fn track<'a>(model: &'a Model, antenna: &'a AntennaModel, locks: &Locks) -> Trac
                 .map(|forecast| forecast.satellite.short_name()),
             here: state.measured.and_then(|measured| target(measured.pointing)),
             here_decimals: format::decimals(antenna.make().capabilities).min(1),
+            sun_avoidance,
         }),
     }
 }

@@ -5,7 +5,7 @@ use super::{
     connection_fields,
     fields::{Description, Placed},
 };
-use crate::station::{AfterPass, Antenna, Kind, Mount, ranges};
+use crate::station::{AfterPass, Antenna, Kind, Monitor, Mount, Resume, ranges};
 
 type Of = Description<Antenna>;
 
@@ -16,6 +16,8 @@ pub(super) fn all(kind: &'static Kind) -> Vec<Placed<Antenna>> {
         placed("Limits", limits()),
         placed("Questions to the unit", poll()),
         placed("Tracking by this program", follow()),
+        placed("After an outage", outage()),
+        placed("Watch over the antenna", watch()),
     ];
     let mut all = connection_fields::unit(kind);
     all.extend(placed("Mount", mount()));
@@ -154,6 +156,64 @@ fn follow() -> [Of; 4] {
 }
 
 const AFTER: [AfterPass; 3] = [AfterPass::Hold, AfterPass::Park, AfterPass::Next];
+
+fn outage() -> [Of; 2] {
+    [
+        Of::number("Tracks on after up to", ranges::RESUME_AFTER_S, "s", |antenna| {
+            Some(&mut antenna.resume_after_s)
+        })
+        .when(takes_positions),
+        Of::choice(
+            "After a longer one",
+            &["Stand and ask", "Track on"],
+            |antenna| RESUME.iter().position(|resume| *resume == antenna.resume),
+            |antenna, index| {
+                antenna.resume = RESUME.get(index).copied().unwrap_or(antenna.resume);
+            },
+        )
+        .when(takes_positions)
+        .noted(|antenna| {
+            let words = match antenna.resume {
+                Resume::Ask => "The antenna stands until you let it go on.",
+                Resume::Continue => {
+                    "By itself, where the antenna stands as it was left. Else it asks."
+                }
+            };
+            Some(words.to_owned())
+        }),
+    ]
+}
+
+const RESUME: [Resume; 2] = [Resume::Ask, Resume::Continue];
+
+fn watch() -> [Of; 2] {
+    [
+        Of::choice(
+            "When others drive it in",
+            &["STOP and alarm", "Alarm only"],
+            |antenna| MONITOR.iter().position(|monitor| *monitor == antenna.monitor),
+            |antenna, index| {
+                antenna.monitor = MONITOR.get(index).copied().unwrap_or(antenna.monitor);
+            },
+        )
+        .noted(|_| {
+            let words = "Into a keep-out or too close to the Sun, by the panel, another program or \
+                         the unit's own. What Azel moves is stopped in any case.";
+            Some(words.to_owned())
+        }),
+        Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
+            .noted(|_| {
+                Some("So far it may sway between two looks and still count as standing.".to_owned())
+            }),
+    ]
+}
+
+const MONITOR: [Monitor; 2] = [Monitor::Stop, Monitor::Alarm];
+
+/// This program can follow a target with it.
+fn takes_positions(antenna: &Antenna) -> bool {
+    antenna.connection.make().capabilities.takes_positions
+}
 
 /// The antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {

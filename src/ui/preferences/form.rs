@@ -10,6 +10,7 @@ use super::{
     fields::{Field, Look, Standing},
 };
 use crate::{
+    app::Model,
     makes,
     ui::{
         text, theme,
@@ -18,6 +19,7 @@ use crate::{
             card as card_frame,
             segmented::{self, Segment},
         },
+        words,
     },
 };
 
@@ -28,7 +30,7 @@ const NUMBER: f32 = 112.0;
 /// For a name or an address.
 const WORDS: f32 = 240.0;
 /// For one of a few.
-const CHOICE: f32 = 312.0;
+const CHOICE: f32 = 300.0;
 /// A long text of many lines is scrolled beyond this height.
 const LINES: f32 = 140.0;
 /// Between the two columns.
@@ -37,10 +39,10 @@ const GAP: f32 = 16.0;
 const COLUMN: f32 = 560.0;
 
 /// Shows all fields, in two columns where there is room.
-pub(super) fn show(ui: &mut Ui, draft: &mut Draft, two_columns: bool) {
+pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
     if !two_columns {
         site(ui, draft);
-        antennas(ui, draft);
+        antennas(ui, model, draft);
         return;
     }
     let width = COLUMN.min((ui.available_width() - GAP) / 2.0);
@@ -54,7 +56,7 @@ pub(super) fn show(ui: &mut Ui, draft: &mut Draft, two_columns: bool) {
             });
         };
         column(ui, &mut |ui| site(ui, draft));
-        column(ui, &mut |ui| antennas(ui, draft));
+        column(ui, &mut |ui| antennas(ui, model, draft));
     });
 }
 
@@ -65,7 +67,7 @@ fn site(ui: &mut Ui, draft: &mut Draft) {
     });
 }
 
-fn antennas(ui: &mut Ui, draft: &mut Draft) {
+fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
     let mut removed = None;
     for index in 0..draft.antennas.len() {
         let standings = draft.antenna_standings(index);
@@ -73,6 +75,11 @@ fn antennas(ui: &mut Ui, draft: &mut Draft) {
         let make = antenna.before().connection.make().name;
         card(ui, &format!("Antenna {}: {make}", index + 1), |ui| {
             fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
+            let before = antenna.before();
+            if let Some(known) = model.antennas.iter().find(|of| of.config == *before) {
+                let words = words::stopping_way(known.snapshot.stopping_way);
+                measured(ui, "Way after STOP", &words);
+            }
             ui.add_space(4.0);
             if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
                 removed = Some(index);
@@ -98,6 +105,24 @@ fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     card_frame::show(ui, COLUMN, |ui| {
         ui.label(RichText::new(title).font(text::value()));
         content(ui);
+    });
+}
+
+/// What is measured and cannot be typed.
+fn measured(ui: &mut Ui, label: &str, words: &str) {
+    let t = theme::tokens(ui);
+    ui.horizontal_top(|ui| {
+        let left = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
+            ui.set_min_width(LABEL);
+            ui.label(RichText::new(label).font(text::body()).color(t.t2));
+        });
+        let words = RichText::new(words).font(text::small()).color(t.t3);
+        ui.vertical(|ui| {
+            // On the line of the label.
+            ui.add_space(4.0);
+            ui.add(Label::new(words).wrap());
+        });
     });
 }
 

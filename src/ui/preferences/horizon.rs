@@ -413,13 +413,16 @@ fn ask_for_effect(
         before: Obstacles {
             mask: station.horizon_mask.clone(),
             keep_outs: station.keep_outs.clone(),
+            sun: station.sun_avoidance,
         },
         after: Obstacles {
             mask: skies.read_mask().unwrap_or_else(|_| station.horizon_mask.clone()),
             keep_outs: skies.zones.iter().filter_map(draft::ZoneDraft::keep_out).collect(),
+            sun: skies.sun.kept(),
         },
         antenna: config.map(|config| config.name.clone()),
         half_beam: config.map_or(Angle::ZERO, |config| config.beam_width() * 0.5),
+        site: station.site,
     };
     if model.effects.wanted() != Some(&question) {
         ui.ctx().request_repaint_after_for(crate::app::effects::DEBOUNCE, egui::ViewportId::ROOT);

@@ -76,8 +76,35 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
             |ground| Some(favourites(ground)),
             read_favourites,
         ),
+        Of::choice(
+            "When the window closes",
+            &["Ask", "Stop and hold", "Park first", "Let finish"],
+            |ground| ON_CLOSE.iter().position(|on_close| *on_close == ground.on_close),
+            |ground, index| {
+                ground.on_close = ON_CLOSE.get(index).copied().unwrap_or(ground.on_close);
+            },
+        )
+        .noted(|ground| Some(about_closing(ground.on_close).to_owned())),
     ];
     all.into_iter().map(|field| ("", field)).collect()
+}
+
+const ON_CLOSE: [Option<OnClose>; 4] =
+    [None, Some(OnClose::Hold), Some(OnClose::Park), Some(OnClose::Leave)];
+
+fn about_closing(on_close: Option<OnClose>) -> &'static str {
+    match on_close {
+        None => "While an antenna moves or is tracked. Ended by the system, Azel stops them.",
+        Some(OnClose::Hold) => "What moves or is tracked is stopped; the window waits for that.",
+        Some(OnClose::Park) => {
+            "What moves or is tracked is parked first, or stopped where it cannot be. Ended by \
+             the system, Azel stops it."
+        }
+        Some(OnClose::Leave) => {
+            "What a unit tracks by itself goes on, and nobody here watches it. What else moves is \
+             stopped."
+        }
+    }
 }
 
 /// Catalogue numbers, with commas between.

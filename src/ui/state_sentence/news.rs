@@ -20,6 +20,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     let name = &antenna.config.name;
     let can = antenna.make().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
+    let reason = |of| words::reason(of, &model.station);
     Some(match event {
         Event::Back { after, found } => {
             let silent = format::age(after.as_secs_f64());
@@ -45,7 +46,10 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 Found::Still => spoken.plain("It stands still and tracks nothing."),
             }
         }
-        Event::NotSent(refusal) => caution.plain(words::refusal(refusal)),
+        Event::NotSent(refusal) => {
+            let reason = refusal.barrier().map(reason);
+            caution.plain(words::refusal(refusal) + &reason.unwrap_or_default())
+        }
         Event::Refused(motion, code) => {
             let answer = words::answer(code);
             caution.plain(format!("{}: the unit answered {answer}.", words::motion(*motion)))
@@ -66,7 +70,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         Event::CannotFollow(target, problem) => caution
             .plain("Not following ")
             .bold(short(target))
-            .plain(format!(": {}", words::follow_problem(problem))),
+            .plain(format!(": {}", words::follow_problem(problem)))
+            .plain(problem.barrier().map(reason).unwrap_or_default()),
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
         }
@@ -75,7 +80,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             format::pointing(*at, can),
             format::pointing(*aim, can)
         )),
-        Event::Safety(matter) => caution.plain(words::safety(matter, name)),
+        Event::Safety(matter) => caution
+            .plain(words::safety(matter, name))
+            .plain(matter.barrier().map(reason).unwrap_or_default()),
         Event::JogLeaseOver => {
             caution.plain("The jog was stopped: the window did not hold it in time.")
         }

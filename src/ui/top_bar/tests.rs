@@ -8,6 +8,7 @@ use egui::{Modal, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 
 const ALARM: AlarmRow<'_> = AlarmRow {
+    moves_away: None,
     id: 3,
     priority: AlarmPriority::Urgent,
     state: AlarmState::New,

@@ -26,6 +26,8 @@ const ROW_HEIGHT: f32 = 52.0;
 const TIME_GAP: f32 = 1.0;
 /// Height of the line with the time.
 const TIME_HEIGHT: f32 = 16.0;
+/// Width of a button.
+const BUTTON: f32 = 100.0;
 /// Left of the text, for the mark.
 const TEXT_LEFT: f32 = 32.0;
 /// Above the text and below the time.
@@ -71,6 +73,8 @@ pub struct AlarmRow<'a> {
     pub text: &'a str,
     /// When it came, as it is shown.
     pub time: &'a str,
+    /// The antenna, by its index, that may be moved away from where it stands.
+    pub moves_away: Option<usize>,
 }
 
 /// All alarms.
@@ -103,6 +107,8 @@ pub enum AlarmAction {
     Opened,
     /// One alarm was acknowledged.
     Acknowledge(u64),
+    /// The antenna with this index is to move away from the Sun.
+    MoveAway(usize),
 }
 
 /// Shows the button in `rect` and, when it was clicked, the list below it.
@@ -190,14 +196,12 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, actions: &mut Vec<AlarmAction>) {
         for (index, row) in model.rows.iter().enumerate() {
             let words = words_of(ui, row);
             let wanted = words.size().y + TIME_GAP + TIME_HEIGHT + 2.0 * ROW_PADDING;
-            let size = vec2(LIST_WIDTH, wanted.max(ROW_HEIGHT));
+            let size = vec2(LIST_WIDTH, wanted.max(row_height(row)));
             let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
             if index > 0 {
                 ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
             }
-            if list_row(ui, rect, row, words) {
-                actions.push(AlarmAction::Acknowledge(row.id));
-            }
+            list_row(ui, rect, row, words, actions);
         }
     });
 }
@@ -209,27 +213,38 @@ fn words_of(ui: &Ui, row: &AlarmRow<'_>) -> Arc<Galley> {
         AlarmState::New => (Weight::SemiBold, t.t1),
         _ => (Weight::Regular, t.t2),
     };
-    let width = LIST_WIDTH - TEXT_LEFT - right_of_text(row.state);
+    let width = LIST_WIDTH - TEXT_LEFT - right_of_text(row);
     ui.painter().layout(row.text.to_owned(), text::sized(13.0, weight), ink, width)
 }
 
 /// Room at the right for the button or the state.
-fn right_of_text(state: AlarmState<'_>) -> f32 {
-    match state {
-        AlarmState::New => 104.0,
+fn right_of_text(row: &AlarmRow<'_>) -> f32 {
+    match row.state {
+        _ if row.moves_away.is_some() => BUTTON + 4.0,
+        AlarmState::New => BUTTON + 4.0,
         AlarmState::Shelved { .. } => 116.0,
         AlarmState::Seen | AlarmState::Cleared => 60.0,
     }
 }
 
-/// Returns whether the row was acknowledged.
-fn list_row(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, galley: Arc<Galley>) -> bool {
+/// At least: for two buttons, one above the other.
+fn row_height(row: &AlarmRow<'_>) -> f32 {
+    if row.moves_away.is_some() { 2.0 * SMALL_HEIGHT + 3.0 * ROW_PADDING } else { ROW_HEIGHT }
+}
+
+fn list_row(
+    ui: &Ui,
+    rect: Rect,
+    row: &AlarmRow<'_>,
+    galley: Arc<Galley>,
+    actions: &mut Vec<AlarmAction>,
+) {
     let t = theme::tokens(ui);
     let (icon, colour) = mark(row, t);
     let glyph = paint::square(pos2(rect.left() + 12.0, rect.center().y), 18.0);
     icons::paint(ui.painter(), glyph, icon, colour);
     let new = row.state == AlarmState::New;
-    let right = right_of_text(row.state);
+    let right = right_of_text(row);
     let room = rect.with_min_x(rect.left() + TEXT_LEFT).with_max_x(rect.right() - right);
     let height = galley.size().y + TIME_GAP + TIME_HEIGHT;
     let top = pos2(room.left(), room.center().y - height / 2.0);
@@ -244,15 +259,28 @@ fn list_row(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, galley: Arc<Galley>) -> boo
     };
     let name = format!("{}, {}, {words}", row.text, row.time);
     paint::name_text(ui, ("alarm", row.id), room, &name);
-    if new {
-        let size = vec2(100.0, SMALL_HEIGHT);
-        let at = Rect::from_min_size(pos2(rect.right() - 100.0, rect.center().y - 12.0), size);
-        let pressed = Button::normal("Acknowledge").show(ui, ("acknowledge", row.id), at);
-        return pressed.accessible_name(format!("Acknowledge: {}", row.text)).clicked();
+    let mut centre = rect.center().y;
+    let button = |centre: f32, words: &'static str, salt: &'static str| {
+        let min = pos2(rect.right() - BUTTON, centre - SMALL_HEIGHT / 2.0);
+        let at = Rect::from_min_size(min, vec2(BUTTON, SMALL_HEIGHT));
+        let pressed = Button::normal(words).show(ui, (salt, row.id), at);
+        pressed.accessible_name(format!("{words}: {}", row.text)).clicked()
+    };
+    if let Some(antenna) = row.moves_away {
+        let apart = f32::midpoint(SMALL_HEIGHT, ROW_PADDING);
+        if button(centre - apart, "Move away", "move away") {
+            actions.push(AlarmAction::MoveAway(antenna));
+        }
+        centre += apart;
     }
-    let at = pos2(rect.right() - 4.0, rect.center().y);
+    if new {
+        if button(centre, "Acknowledge", "acknowledge") {
+            actions.push(AlarmAction::Acknowledge(row.id));
+        }
+        return;
+    }
+    let at = pos2(rect.right() - 4.0, centre);
     paint::text(ui, at, Align2::RIGHT_CENTER, words, text::small(), t.t2);
-    false
 }
 
 fn mark(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
@@ -277,6 +305,7 @@ mod tests {
             state: AlarmState::New,
             text: "RC2000C does not reply",
             time: "11:05:58Z",
+            moves_away: None,
         },
         AlarmRow {
             id: 5,
@@ -284,6 +313,7 @@ mod tests {
             state: AlarmState::Seen,
             text: "METEOR-M2 3 elements are 9 days old",
             time: "10:41:10Z",
+            moves_away: None,
         },
     ];
 

@@ -17,9 +17,15 @@ use crate::ui::{
 const RADIUS: u8 = 6;
 const BAR: f32 = 3.0;
 const LINE: f32 = 20.0;
-/// Room for so many lines is always kept, so that what stands below does not
-/// move under the hand of the operator when the sentence changes.
-const LEAST_LINES: f32 = 4.0;
+/// Where the lines would need more than the room.
+const DENSE_LINE: f32 = 16.0;
+/// This room is always kept, so that what stands below does not move under the hand of
+/// the operator when the sentence changes: for four lines, or six dense ones.
+const ROOM: f32 = 96.0;
+/// In a small window: for four lines, or five dense ones.
+const SMALL_ROOM: f32 = 88.0;
+/// Narrower blocks are those of a small window.
+const SMALL: f32 = 300.0;
 
 /// What kind of thing the sentence says; it colours the bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -91,17 +97,24 @@ impl Sentence<'_> {
 /// again whenever it changes.
 pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
     let t = theme::tokens(ui);
-    let padding = if width < 300.0 { vec2(13.0, 6.0) } else { vec2(15.0, 10.0) };
-    let mut job = LayoutJob::default();
-    job.wrap.max_width = width - padding.x - 10.0;
-    for span in sentence.spans {
-        let weight = if span.bold { Weight::SemiBold } else { Weight::Regular };
-        let mut format = TextFormat::simple(text::sized(13.0, weight), t.t1);
-        format.line_height = Some(LINE);
-        job.append(span.text, 0.0, format);
+    let (padding, room) =
+        if width < SMALL { (vec2(13.0, 6.0), SMALL_ROOM) } else { (vec2(15.0, 10.0), ROOM) };
+    let lines = |line: f32| {
+        let mut job = LayoutJob::default();
+        job.wrap.max_width = width - padding.x - 10.0;
+        for span in sentence.spans {
+            let weight = if span.bold { Weight::SemiBold } else { Weight::Regular };
+            let mut format = TextFormat::simple(text::sized(13.0, weight), t.t1);
+            format.line_height = Some(line);
+            job.append(span.text, 0.0, format);
+        }
+        ui.painter().layout_job(job)
+    };
+    let mut galley = lines(LINE);
+    if galley.size().y + foot > room {
+        galley = lines(DENSE_LINE);
     }
-    let galley = ui.painter().layout_job(job);
-    let height = (galley.size().y + foot).max(LEAST_LINES * LINE);
+    let height = (galley.size().y + foot).max(room);
     let rect = Rect::from_min_size(at, vec2(width, height + 2.0 * padding.y));
     ui.painter().rect_filled(rect, RADIUS, t.bg2);
     let bar = Rect::from_min_max(rect.min, pos2(rect.left() + BAR, rect.bottom()));
@@ -121,8 +134,8 @@ mod tests {
     use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
     #[test]
-    fn sentences_of_one_and_of_four_lines_take_the_same_room() {
-        let long = "The antenna holds. ".repeat(8);
+    fn sentences_of_one_and_of_six_lines_take_the_same_room() {
+        let long = "The antenna holds. ".repeat(11);
         let heights = vec![0.0; 2];
         let window = testing::window([400.0, 300.0], heights, move |ui, heights| {
             for (height, words) in heights.iter_mut().zip(["It holds.", long.as_str()]) {

@@ -70,6 +70,14 @@ pub fn refusal(refusal: &Refusal) -> String {
             super::forbidden(barrier),
             format::pointing_at(*at)
         ),
+        Refusal::Inside(barrier) => format!(
+            "Not sent: the antenna is {}. Hold \u{201c}Move out by hand\u{201d} to allow it for a \
+             minute.",
+            super::inside(barrier)
+        ),
+        Refusal::NoRefuge => "Not sent: no direction was found that stays clear and that a clear \
+                              way leads to. Move the antenna by hand."
+            .to_owned(),
         Refusal::Controller(why) => format!("Not sent: {why}."),
         Refusal::Unseen { why, is_watched, .. } => {
             let watched = if *is_watched {

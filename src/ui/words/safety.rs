@@ -1,9 +1,10 @@
 //! Matters of safety.
 
 use crate::{
-    driver::{Mover, Response, Safety, Snapshot, StopState, Unit, Unlike},
+    driver::{Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike},
     makes,
     plan::Barrier,
+    station::Station,
     ui::format,
 };
 
@@ -14,6 +15,68 @@ pub fn forbidden(barrier: &Barrier) -> String {
         Barrier::KeepOut(name) => format!("into the keep-out \u{201c}{name}\u{201d}"),
         Barrier::Sun => "too close to the Sun".to_owned(),
     }
+}
+
+/// Where an antenna is that stands inside a barrier.
+pub fn inside(barrier: &Barrier) -> String {
+    match barrier {
+        Barrier::KeepOut(name) => format!("inside \u{201c}{name}\u{201d}"),
+        Barrier::MinimumElevation | Barrier::Sun => forbidden(barrier),
+    }
+}
+
+/// What an antenna may do that stands inside a barrier; `may_leave` by the operator's
+/// word.
+pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String {
+    let place = inside(barrier);
+    match (may_leave, barrier) {
+        (false, Barrier::Sun) => {
+            format!("{antenna} stands {place} now. It may move away from it, not nearer.")
+        }
+        (false, _) => {
+            format!("{antenna} stands {place} now. It may leave it, not enter it again.")
+        }
+        (true, _) => format!(
+            "{antenna} stands {place}. By your word it may be moved out by hand for a minute, \
+             slowly and outwards only."
+        ),
+    }
+}
+
+/// What following the Sun with `antenna` means while it is kept away from; the radius
+/// of that in degrees.
+pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
+    format!(
+        "The Sun avoidance keeps {antenna} {} away from the Sun. The hold lifts it for this track \
+         alone.",
+        format::degrees(radius_deg, 1)
+    )
+}
+
+/// What holds while the Sun is followed.
+pub const SUN_IS_LIFTED: &str =
+    "The Sun avoidance is lifted by your word, for this track alone. STOP ends both.";
+
+/// The operator's reason for a keep-out that something is told of, in a sentence behind
+/// that; empty where there is none.
+pub fn reason(barrier: &Barrier, station: &Station) -> String {
+    let Barrier::KeepOut(name) = barrier else { return String::new() };
+    let keep_out = station.keep_outs.iter().find(|of| of.name == name.as_str());
+    let reason = keep_out.map_or("", |of| of.reason.trim().trim_end_matches('.'));
+    if reason.is_empty() {
+        return String::new();
+    }
+    format!(" \u{201c}{name}\u{201d}: {reason}.")
+}
+
+/// How long an antenna runs on after STOP, and where that is known from.
+pub fn stopping_way(StoppingWay { run_out_s, stops, is_learned }: StoppingWay) -> String {
+    let run_out = format!("Runs on for {} s", format::number(run_out_s, 1));
+    let enough = StoppingWay::ENOUGH;
+    if is_learned {
+        return format!("{run_out}: the longest of the last {enough} of {stops} STOPs.");
+    }
+    format!("{run_out} by its make: {stops} of {enough} STOPs seen.")
 }
 
 /// Why a jog waits for the operator's word.
@@ -102,7 +165,7 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
                 Response::Stopped => {
                     format!("{antenna} was stopped before it went {into}, {driver}.")
                 }
-                Response::Told => format!("{antenna} is {into}, {driver}."),
+                Response::Told => format!("{antenna} is {}, {driver}.", inside(barrier)),
             }
         }
         Safety::ClockStepped { by_s } => format!(

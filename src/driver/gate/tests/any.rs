@@ -78,7 +78,14 @@ fn station(dice: &mut Dice) -> Station {
         let margin_deg = dice.between(0.0, 10.0);
         let Ok(zone) = KeepOut::zone_of(&corners_deg) else { continue };
         let (name, entered) = (format!("zone {number}"), Entered::Hard);
-        station.keep_outs.push(KeepOut { name, entered, antenna: None, margin_deg, zone });
+        station.keep_outs.push(KeepOut {
+            name,
+            reason: String::new(),
+            entered,
+            antenna: None,
+            margin_deg,
+            zone,
+        });
     }
     if dice.chance(0.3) {
         let (radius_deg, ahead_min) = (dice.between(0.1, 40.0), dice.between(0.0, 30.0));
@@ -153,6 +160,13 @@ enum Outcome {
     LedOut,
 }
 
+/// How far a direction is from the surroundings of the Sun, degrees.
+fn sun_clear_deg(station: &Station, direction: AzEl, utc: Timestamp) -> f64 {
+    let bare = Station { keep_outs: Vec::new(), ..station.clone() };
+    let bounds = Bounds::of(&bare, &Antenna::genius("Yagi", "memory:1")).above_the_floor();
+    bounds.nearest(direction, utc).map_or(180.0, |nearest| nearest.angle.degrees())
+}
+
 fn look_closely(seed: u64) -> Outcome {
     let mut dice = Dice::new(seed);
     let (antenna, mut station) = (antenna(&mut dice), station(&mut dice));
@@ -173,8 +187,9 @@ fn look_closely(seed: u64) -> Outcome {
     let started = Arc::default();
     let (objection, leads_to) = (None, Lead::Nowhere);
     let metal = Metal { can, state: case.state.clone(), started, objection, leads_to };
-    let gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
+    let mut gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
     let now = Moment { steady: measured_at(&case) + case.age, utc };
+    gate.let_out(Some(now.steady + Duration::from_secs(1)));
     if gate.check(motion, intent, now).is_err() {
         return Outcome::Refused;
     }
@@ -208,6 +223,13 @@ fn look_closely(seed: u64) -> Outcome {
         }
         return Outcome::LedOut;
     }
+    // Only out of the surroundings of the Sun a go-to begins inside: it gets no nearer.
+    let least_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
+    assert!(clear_deg(to_deg) > -EDGE_DEG, "{seed}: {motion:?} ends inside");
+    assert!(
+        start_deg > -EDGE_DEG || sun_clear_deg(&station, here, utc) < 0.0,
+        "{seed}: {motion:?}"
+    );
     // Both axes may run at any share of their ways at any time.
     for first in 0..=10 {
         for second in 0..=10 {
@@ -216,7 +238,7 @@ fn look_closely(seed: u64) -> Outcome {
                 from_deg[axis] + share[axis] * (to_deg[axis] - from_deg[axis])
             });
             let clear_deg = clear_deg(axes_deg);
-            assert!(clear_deg > -EDGE_DEG, "{seed}: {motion:?} at {axes_deg:?}: {clear_deg}");
+            assert!(clear_deg > least_clear_deg, "{seed}: {motion:?} at {axes_deg:?}: {clear_deg}");
             let elevation_deg = bounds.direction(axes_deg).elevation_deg();
             assert!(elevation_deg > floor_deg - EDGE_DEG, "{seed}: {motion:?} {elevation_deg}");
         }

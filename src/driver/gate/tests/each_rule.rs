@@ -63,6 +63,7 @@ pub(super) fn beside_a_mast(case: Case) -> Case {
     let corners_deg = [(100.0, -5.0), (120.0, -5.0), (120.0, 40.0), (100.0, 40.0)];
     let mast = KeepOut {
         name: "mast".to_owned(),
+        reason: String::new(),
         entered: crate::station::Entered::Hard,
         antenna: None,
         margin_deg: 1.0,

@@ -336,6 +336,7 @@ fn mast(target: &Target, pass: &Pass, around_deg: f64) -> (Bounds, KeepOut) {
     let mast = KeepOut {
         name: "mast".to_owned(),
         entered: Entered::GoRound,
+        reason: String::new(),
         antenna: None,
         margin_deg: 1.0,
         zone: KeepOut::zone_of(&corners).unwrap(),

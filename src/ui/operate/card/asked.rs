@@ -34,9 +34,10 @@ impl Desk<'_> {
             CardAction::Select(index) => {
                 return self.commands.push(UiCommand::SelectAntenna(index));
             }
-            CardAction::Follow(choice) => match self.follow(choice) {
-                Some(follow) => Command::Follow(Box::new(follow)),
-                None => return,
+            CardAction::Follow(choice) => match (choice, self.follow(choice)) {
+                (FollowChoice::IntoSun, Some(follow)) => Command::FollowIntoSun(Box::new(follow)),
+                (_, Some(follow)) => Command::Follow(Box::new(follow)),
+                (_, None) => return,
             },
             CardAction::SetMode(Mode::Standby) => Command::Standby,
             CardAction::SetMode(Mode::Manual) => Command::Manual,
@@ -60,6 +61,7 @@ impl Desk<'_> {
             }
             CardAction::JogReleased => Command::EndJog,
             CardAction::AllowUnguarded => Command::AllowUnguarded,
+            CardAction::AllowWayOut => Command::AllowWayOut,
             CardAction::SeenStanding => Command::SeenStanding,
             CardAction::Step { x, y, step_deg } => {
                 Command::Step { steps_deg: [f64::from(x) * step_deg, f64::from(y) * step_deg] }
@@ -84,7 +86,7 @@ impl Desk<'_> {
             FollowChoice::Selected => {
                 return self.model.selected_pass().map(|forecast| self.model.follow_of(forecast));
             }
-            FollowChoice::Sun => plan::Target::Sun,
+            FollowChoice::Sun | FollowChoice::IntoSun => plan::Target::Sun,
             FollowChoice::Moon => plan::Target::Moon,
             FollowChoice::Direction(Target { azimuth_deg, elevation_deg }) => {
                 let elevation_deg = elevation_deg.unwrap_or_default();

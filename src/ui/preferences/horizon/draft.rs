@@ -26,6 +26,7 @@ pub(in crate::ui::preferences) struct Skies {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ZoneDraft {
     pub(super) name: String,
+    pub(super) reason: String,
     pub(super) antenna: Option<String>,
     pub(super) entered: Entered,
     pub(super) margin: Cell,
@@ -157,6 +158,7 @@ impl ZoneDraft {
         let margin_deg = keep_out.margin_deg;
         Self {
             name: keep_out.name.clone(),
+            reason: keep_out.reason.clone(),
             antenna: keep_out.antenna.clone(),
             entered: keep_out.entered,
             margin: Cell::new(margin_deg, Some(margin_deg), &ranges::MARGIN_DEG),
@@ -169,6 +171,7 @@ impl ZoneDraft {
     pub(super) fn added(name: String, corners: &[(f64, f64)]) -> Self {
         Self {
             name,
+            reason: String::new(),
             antenna: None,
             entered: Entered::Hard,
             margin: Cell::new(KeepOut::USUAL_MARGIN_DEG, None, &ranges::MARGIN_DEG),
@@ -182,7 +185,8 @@ impl ZoneDraft {
         let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::at).collect();
         let mut copy = Self::added(name, &corners);
         copy.margin.set(self.margin.kept);
-        Self { antenna: self.antenna.clone(), entered: self.entered, ..copy }
+        let (reason, antenna) = (self.reason.clone(), self.antenna.clone());
+        Self { reason, antenna, entered: self.entered, ..copy }
     }
 
     /// The corners as the plot shows them.
@@ -200,6 +204,7 @@ impl ZoneDraft {
     pub(super) fn keep_out(&self) -> Option<KeepOut> {
         Some(KeepOut {
             name: self.name.trim().to_owned(),
+            reason: self.reason.trim().to_owned(),
             entered: self.entered,
             antenna: self.antenna.clone(),
             margin_deg: self.margin.kept,
@@ -218,6 +223,7 @@ impl ZoneDraft {
         let corners = self.corners.iter().flat_map(|of| [&of.azimuth, &of.elevation]);
         corners.chain([&self.margin]).filter(|cell| cell.is_edited()).count()
             + usize::from(was.name != self.name)
+            + usize::from(was.reason != self.reason)
             + usize::from(was.antenna != self.antenna)
             + usize::from(was.entered != self.entered)
             + gone
@@ -366,6 +372,7 @@ mod tests {
     pub(in crate::ui::preferences) fn mast() -> KeepOut {
         KeepOut {
             name: "mast".to_owned(),
+            reason: String::new(),
             entered: Entered::Hard,
             antenna: None,
             margin_deg: 2.25,

@@ -16,15 +16,17 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
         tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
     };
     let after = toll(&effect.after, &effect.question.after);
-    let (who, (passes, time_s)) = match (zone, after) {
-        (Some(name), Some(toll)) => (format!("{name} blocks"), toll),
-        _ => ("The keep-outs block".to_owned(), (effect.after.touched, effect.after.lost_s)),
+    let (who, (passes, time_s)) = if let (Some(name), Some(toll)) = (zone, after) {
+        (format!("{name} blocks"), toll)
+    } else {
+        let sun = if effect.after.of_sun.is_some() { " and the Sun" } else { "" };
+        (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
     };
     let blocks = match passes {
         0 => format!("{who} none of the {of} passes."),
         1 => format!("{who} part of 1 of the {of} passes, {}.", format::duration(time_s)),
         _ => format!(
-            "{who} part of {passes} of the {of} passes, {} of each on average.",
+            "{who} part of {passes} of the {of} passes, about {} each.",
             format::duration(time_s / passes as f64)
         ),
     };

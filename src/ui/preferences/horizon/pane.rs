@@ -11,7 +11,7 @@ use super::{
     edit, skyline,
 };
 use crate::{
-    app::Model,
+    app::{Model, antenna::AntennaModel},
     station::{Entered, Mount},
     ui::{
         format,
@@ -24,6 +24,7 @@ use crate::{
             paint,
             segmented::{self, Segment},
         },
+        words,
     },
 };
 
@@ -100,7 +101,7 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
         dash(),
         masked,
     ];
-    choice(ui, skyline, Chosen::Skyline, state, t);
+    choice(ui, skyline, Chosen::Skyline, "", state, t);
     for index in 0..skies.zones.len() {
         let Some(zone) = skies.zones.get(index) else { continue };
         let toll = effect.and_then(|effect| {
@@ -120,13 +121,15 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
             format::degrees(zone.margin.kept(), 1),
             toll.map_or_else(dash, |toll| toll.passes.to_string()),
         ];
-        choice(ui, cells, Chosen::Zone(index), state, t);
+        choice(ui, cells, Chosen::Zone(index), &zone.reason, state, t);
     }
     let kind = match skies.sun.kept() {
         Some(sun) => format!("Keep away, {}", format::degrees(sun.radius_deg, 1)),
         None => "Off".to_owned(),
     };
-    choice(ui, ["Sun".to_owned(), kind, dash(), dash(), dash()], Chosen::Sun, state, t);
+    let toll = effect.filter(|_| skies.sun.is_on).and_then(|effect| effect.after.of_sun.as_ref());
+    let touched = toll.map_or_else(dash, |toll| toll.passes.to_string());
+    choice(ui, ["Sun".to_owned(), kind, dash(), dash(), touched], Chosen::Sun, "", state, t);
     if let Some(antenna) = state.shown(model) {
         let (name, words) = match antenna.config.mount {
             Mount::Xy { travel_from_deg, travel_to_deg, .. } => {
@@ -151,8 +154,17 @@ fn dash() -> String {
 }
 
 /// A row that can be chosen.
-fn choice(ui: &mut Ui, cells: [String; 5], of: Chosen, state: &mut HorizonState, t: &Tokens) {
+fn choice(
+    ui: &mut Ui,
+    cells: [String; 5],
+    of: Chosen,
+    reason: &str,
+    state: &mut HorizonState,
+    t: &Tokens,
+) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    let response =
+        if reason.is_empty() { response } else { response.on_hover_text(reason.to_owned()) };
     let is_chosen = state.chosen == of;
     let [name, kind, points, margin, blocks] = &cells;
     let words = format!("{name}, {kind}, {points} points, margin {margin}, blocks {blocks}");
@@ -210,6 +222,25 @@ fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> boo
         cell.take();
     }
     changed
+}
+
+/// What the margin is made of, in short and in sentences.
+fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) {
+    let own = format::degrees(own_deg, 1);
+    let Some(antenna) = antenna else { return (format!("°   {own}"), String::new()) };
+    let half_deg = antenna.config.beam_width_deg / 2.0;
+    let stopping_way = antenna.snapshot.stopping_way;
+    let fastest_deg_s = antenna.config.limits.maximum_rate_deg_s;
+    let overshoot = format::degrees(stopping_way.run_out_s * fastest_deg_s, 1);
+    let words =
+        format!("°   beam {} + overshoot {overshoot} + {own}", format::degrees(half_deg, 2));
+    let about = format!(
+        "A standing antenna is kept {} away: half of the beam and what you add. A moving one is \
+         stopped earlier by what it runs on after STOP, {overshoot} at its fastest. {}",
+        format::degrees(half_deg + own_deg, 2),
+        words::stopping_way(stopping_way)
+    );
+    (words, about)
 }
 
 /// What stands behind a value.
@@ -296,24 +327,21 @@ fn zone(
             zone.antenna = Some(other).filter(|name| name != WHOLE_SITE);
         }
     });
+    labelled(ui, "Reason", |ui, place| {
+        let input = Input { rect: place, name: "Reason of the keep-out", border: None };
+        input.text(ui, &mut zone.reason, false);
+    });
     labelled(ui, "Safety margin", |ui, place| {
         let rect = place.with_max_x(place.left() + 72.0);
         cell(ui, rect, "Safety margin", &mut zone.margin, t);
-        let half_deg =
-            state.shown(model).map_or(0.0, |antenna| antenna.config.beam_width_deg / 2.0);
         let behind = place.with_min_x(rect.right() + 8.0);
         if let Some(why) = zone.margin.problem() {
             standing(ui, behind, "margin", &Standing::Wrong(why), t);
             return;
         }
-        let own = zone.margin.kept();
-        let words = format!(
-            "°   half beam {} + {} = {}",
-            format::degrees(half_deg, 2),
-            format::degrees(own, 1),
-            format::degrees(half_deg + own, 2)
-        );
+        let (words, about) = margin_sum(state.shown(model), zone.margin.kept());
         paint::text_in(ui, behind, Align2::LEFT_CENTER, &words, text::small(), t.t3);
+        paint::name_text(ui, "margin sum", behind, &words).on_hover_text(about);
     });
     labelled(ui, "When entered", |ui, place| {
         let all = [

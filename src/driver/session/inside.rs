@@ -1,0 +1,117 @@
+//! An antenna that is where it must not point: how it gets out of there, and how it
+//! gets to point at the Sun where that is meant.
+
+use std::time::{Duration, Instant};
+
+use super::{Event, Intent, Session};
+use crate::{
+    astro::AzEl,
+    controller::{Moment, Motion},
+    driver::{Inside, Refusal},
+    plan::{Barrier, Bounds, Follow},
+};
+
+/// For so long the operator's word lets it out.
+const ALLOWED: Duration = Duration::from_mins(1);
+/// So many ways to a refuge are tried.
+const MOST_REFUGES: usize = 64;
+
+/// What the antenna is inside of, by the last look.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Place {
+    looked: Option<Instant>,
+    barrier: Option<Barrier>,
+}
+
+impl Session {
+    /// Looks what the antenna is inside of. The word that lets it out ends outside.
+    pub(super) fn watch_place(&mut self, now: Moment) {
+        let Some(look) = self.gate.state().measured else { return };
+        if self.place.looked.replace(look.received) == Some(look.received) {
+            return;
+        }
+        let Some(at) = self.direction() else { return };
+        self.place.barrier = self.bounds_now().forbids(at, now.utc);
+        if self.place.barrier.is_none() {
+            self.gate.let_out(None);
+        }
+    }
+
+    /// What it is inside of, as it is shown.
+    pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
+        let barrier = self.place.barrier.clone()?;
+        Some(Inside { barrier, may_leave: self.gate.lets_out(now) })
+    }
+
+    /// What it keeps within by what is wanted of it now.
+    pub(super) fn bounds_now(&self) -> &Bounds {
+        // Only what this program follows may lead to the Sun.
+        let intent = if self.follows() { Intent::Track } else { Intent::Standby };
+        self.gate.bounds_in(intent)
+    }
+
+    /// Where it points, as its bounds see it.
+    fn direction(&self) -> Option<AzEl> {
+        let [first, second] = self.gate.state().measured?.axes.map(|axis| axis.angle_deg);
+        let has_elevation = self.make.capabilities.has_elevation;
+        let second = second.or((!has_elevation).then_some(0.0))?;
+        Some(self.gate.bounds().direction([first?, second]))
+    }
+
+    /// The operator lets it be moved out by hand, for a minute.
+    pub(super) fn allow_way_out(&mut self, now: Moment) {
+        self.gate.let_out(Some(now.steady + ALLOWED));
+    }
+
+    /// Takes up a target. Only by the operator's word it may lead to the Sun.
+    pub(super) fn follow_as_agreed(&mut self, follow: Follow, leads_to_sun: bool, now: Moment) {
+        let before = self.gate.lift_sun(leads_to_sun);
+        if !self.follow(follow, now) {
+            // What is followed already goes on as it was agreed.
+            self.gate.lift_sun(before);
+        }
+    }
+
+    /// Away from the Sun, the shortest way that stays clear of it for its time ahead;
+    /// to the park position where that is nearer.
+    pub(super) fn move_away(&mut self, now: Moment) {
+        let has_elevation = self.make.capabilities.has_elevation;
+        let to = |direction: AzEl| Motion::Position {
+            azimuth: Some(direction.azimuth),
+            elevation: has_elevation.then_some(direction.elevation),
+        };
+        let Some(here) = self.direction() else {
+            return self.tell(Event::NotSent(Refusal::PositionUnknown));
+        };
+        let bounds = self.gate.bounds();
+        // Whether it gets there, and on a way without a corner.
+        let way = |direction: AzEl, intent: Intent| {
+            let motion = self.gate.nearest(to(direction));
+            let route = motion.and_then(|motion| self.gate.route(motion, intent, now)).ok()?;
+            Some((direction, route.then.is_none()))
+        };
+        // Without an elevation axis it gets to its own elevation alone.
+        let is_reached =
+            |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
+        let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MOST_REFUGES);
+        let mut round_a_corner = None;
+        let refuge = refuges
+            .filter_map(|refuge| way(refuge, Intent::Position))
+            .find(|(refuge, is_direct)| {
+                round_a_corner = round_a_corner.or(Some(*refuge));
+                *is_direct
+            })
+            .map(|(refuge, _)| refuge)
+            .or(round_a_corner);
+        let park = self.park.direction().filter(|park| {
+            let is_nearer =
+                refuge.is_none_or(|refuge| here.separation(*park) <= here.separation(refuge));
+            is_nearer && bounds.stays_clear(*park, now.utc) && way(*park, Intent::Park).is_some()
+        });
+        match (park, refuge) {
+            (Some(park), _) => self.go_to(to(park), Intent::Park, now),
+            (None, Some(refuge)) => self.go_to(to(refuge), Intent::Position, now),
+            (None, None) => self.tell(Event::NotSent(Refusal::NoRefuge)),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What is drawn on the sky itself: points of the skyline and new zones.
+
+use egui::{Pos2, Response, Stroke, StrokeKind, Ui};
+
+use super::{
+    super::{
+        Chosen, HorizonState, Tool,
+        draft::{Skies, ZoneDraft},
+        edit::{self, place},
+    },
+    HANDLE,
+    scene::holds_for,
+};
+use crate::{
+    astro::AzEl,
+    station::Antenna,
+    ui::{
+        sky_plot::geometry::{Dome, dashed},
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+/// What a click or a drag on the sky itself does.
+pub(super) fn draw_on_canvas(
+    ui: &Ui,
+    canvas: &Response,
+    dome: Dome,
+    skies: &mut Skies,
+    state: &mut HorizonState,
+    antenna: Option<&Antenna>,
+) {
+    let Some(at) = canvas.interact_pointer_pos() else { return };
+    let is_alt = ui.input(|input| input.modifiers.alt);
+    let coarse = state.snaps;
+    let direction = edit::snapped(edit::under(dome, at, 180.0), coarse);
+    match state.tool {
+        Tool::Select if canvas.clicked() => {
+            if let (Chosen::Zone(index), true) = (state.chosen, is_alt)
+                && let Some(zone) = skies.zones.get_mut(index)
+                && let Some(edge) = zone.nearest_edge(dome, at)
+                && let Some(added) = zone.split(edge)
+            {
+                let near = zone.corners.get(edge).map_or(180.0, |of| of.azimuth.kept());
+                zone.put(added, edit::snapped(edit::under(dome, at, near), coarse));
+                state.corner = Some(added);
+                return;
+            }
+            let (azimuth_deg, elevation_deg) = edit::under(dome, at, 180.0);
+            let direction = AzEl::from_degrees(azimuth_deg, elevation_deg);
+            if let Some(found) = skies.zone_at(direction, |zone| holds_for(zone, antenna)) {
+                state.choose(Chosen::Zone(found));
+            }
+        }
+        Tool::Point if canvas.clicked() => {
+            let mut points = skies.skyline();
+            points.push(direction);
+            if skies.set_skyline(points) {
+                state.choose(Chosen::Skyline);
+            }
+        }
+        Tool::Polygon => {
+            let is_round = state.drawing.len() >= edit::FEWEST
+                && state.drawing.first().is_some_and(|of| place(dome, *of).distance(at) < HANDLE);
+            if canvas.double_clicked() || (canvas.clicked() && is_round) {
+                let corners = std::mem::take(&mut state.drawing);
+                add_zone(skies, state, &corners);
+            } else if canvas.clicked() {
+                let near = state.drawing.last().map_or(180.0, |last| last.0);
+                state.drawing.push(edit::snapped(edit::under(dome, at, near), coarse));
+                // Both clicks of a double click fall on one place.
+                state.drawing.dedup();
+            }
+        }
+        Tool::Rectangle => {
+            if canvas.drag_started() {
+                let press = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
+                let from = edit::snapped(edit::under(dome, press, 180.0), coarse);
+                state.drawing = vec![from, from];
+            }
+            if let Some(from) = state.drawing.first().copied() {
+                let to = edit::snapped(edit::under(dome, at, from.0), coarse);
+                state.drawing = vec![from, to];
+                if canvas.drag_stopped() {
+                    state.drawing.clear();
+                    if let Some(corners) = edit::rectangle(from, to) {
+                        add_zone(skies, state, &corners);
+                    }
+                }
+            }
+        }
+        Tool::Select | Tool::Point => {}
+    }
+}
+
+/// A new keep-out of at least three corners, chosen at once.
+fn add_zone(skies: &mut Skies, state: &mut HorizonState, corners: &[(f64, f64)]) {
+    if corners.len() < edit::FEWEST {
+        return;
+    }
+    let name = skies.free_name("Keep-out");
+    skies.zones.push(ZoneDraft::added(name, corners));
+    state.choose(Chosen::Zone(skies.zones.len().saturating_sub(1)));
+    state.tool = Tool::Select;
+}
+
+pub(super) fn paint_drawing(ui: &Ui, dome: Dome, state: &HorizonState, t: &Tokens) {
+    let corners = match (state.tool, &state.drawing[..]) {
+        (Tool::Rectangle, [from, to]) => edit::rectangle(*from, *to).map(Vec::from),
+        (Tool::Polygon, corners) => Some(corners.to_vec()),
+        _ => None,
+    };
+    let mut path: Vec<Pos2> = corners.iter().flatten().map(|corner| place(dome, *corner)).collect();
+    if state.tool == Tool::Rectangle {
+        path.extend(path.first().copied());
+    }
+    for at in &path {
+        let stroke = Stroke::new(1.5, t.sat);
+        ui.painter().rect(paint::square(*at, HANDLE), 0.0, t.bg0, stroke, StrokeKind::Inside);
+    }
+    ui.painter().extend(dashed(&path, 4.0, 3.0, Stroke::new(1.5, t.sat)));
+}

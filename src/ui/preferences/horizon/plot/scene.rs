@@ -1,0 +1,214 @@
+//! What the plot shows: the sky with what blocks it, the passes, the Sun and the
+//! antenna.
+
+use std::ops::Range;
+
+use egui::{Align2, Pos2, Rect, Shape, Stroke, Ui, vec2};
+
+use super::{
+    super::{
+        Chosen, HorizonState,
+        draft::{Skies, ZoneDraft},
+        edit::place,
+    },
+    label,
+};
+use crate::{
+    app::{
+        Model,
+        antenna::AntennaModel,
+        effects::{Effect, Toll},
+    },
+    astro::{Angle, Zone},
+    station::{Antenna, Mount},
+    ui::{
+        format,
+        sky_plot::{
+            KeepOutMark, Keyholes,
+            geometry::{Dome, dashed, outward},
+            grid, keep_outs, marks, mask,
+        },
+        theme,
+        tokens::Tokens,
+    },
+};
+
+pub(super) fn paint_sky(
+    ui: &Ui,
+    rect: Rect,
+    dome: Dome,
+    model: &Model,
+    skies: &Skies,
+    state: &mut HorizonState,
+    antenna: Option<&AntennaModel>,
+) {
+    let t = theme::tokens(ui);
+    let painter = ui.painter();
+    grid::disc(painter, dome, t);
+    let mask = skies.read_mask().ok().flatten();
+    if let Some(mask) = &mask {
+        mask::paint(painter, dome, mask, t);
+    }
+    grid::rings(painter, dome, t);
+    let config = antenna.map(|antenna| &antenna.config);
+    let minimum_deg = config.map_or(0.0, |config| config.limits.minimum_elevation_deg);
+    grid::rim(painter, dome, Angle::from_degrees(minimum_deg), t);
+    let chosen = match state.chosen {
+        Chosen::Zone(index) => skies.zones.get(index),
+        Chosen::Skyline | Chosen::Sun => None,
+    };
+    let name = chosen.map(|zone| zone.name.trim());
+    let shown_effect = model.effects.effect.as_ref().filter(|_| state.shows_passes);
+    if let Some(effect) = shown_effect {
+        passes(ui, dome, effect, name, t);
+    }
+    if let Some(config) = config {
+        travel(ui, dome, config, t);
+    }
+    let half_beam = config.map_or(Angle::ZERO, |config| config.beam_width() * 0.5);
+    let shown: Vec<(&ZoneDraft, Zone)> = skies
+        .zones
+        .iter()
+        .enumerate()
+        .filter(|(index, zone)| state.chosen == Chosen::Zone(*index) || holds_for(zone, config))
+        .filter_map(|(_, zone)| Some((zone, zone.zone().ok()?)))
+        .collect();
+    let marks: Vec<KeepOutMark<'_>> = shown
+        .iter()
+        .map(|(draft, zone)| KeepOutMark {
+            name: draft.name.trim(),
+            zone,
+            margin: half_beam + Angle::from_degrees(draft.margin.kept()),
+        })
+        .collect();
+    keep_outs::paint(painter, dome, &marks, t);
+    if let Some(effect) = shown_effect {
+        blocked(ui, dome, effect, name, t);
+    }
+    keep_outs::words(painter, dome, &marks, t);
+    for zone in skies.zones.iter().filter(|zone| zone.zone().is_err()) {
+        let corners = zone.corners_deg();
+        let path: Vec<Pos2> =
+            corners.iter().chain(corners.first()).map(|at| place(dome, *at)).collect();
+        painter.extend(dashed(&path, 4.0, 3.0, Stroke::new(1.5, t.bad)));
+    }
+    sun(ui, rect, dome, model, skies, state, t);
+    if let Some(antenna) = antenna
+        && let Some(direction) = antenna.snapshot.state.measured.and_then(|of| of.direction())
+        && let Some(at) = dome.visible(direction)
+    {
+        marks::measured(painter, at, 0.75, t);
+        let words = format!(
+            "{}\n{}, {}",
+            antenna.config.name,
+            format::degrees(direction.azimuth_deg(), 1),
+            format::degrees(direction.elevation_deg(), 1)
+        );
+        label(ui, at + vec2(24.0, 8.0), Align2::LEFT_TOP, &words, t.t1, t);
+    }
+}
+
+pub(super) fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
+    match (&zone.antenna, antenna) {
+        (Some(name), Some(antenna)) => Antenna::same_name(name, &antenna.name),
+        _ => true,
+    }
+}
+
+/// What the keep-out of this name does to the passes.
+fn toll_of<'a>(effect: &'a Effect, name: Option<&str>) -> Option<&'a Toll> {
+    let keep_outs = &effect.question.after.keep_outs;
+    let place = keep_outs.iter().position(|of| Some(&*of.name) == name)?;
+    effect.after.of_each.get(place)
+}
+
+fn path(dome: Dome, effect: &Effect, way: usize, samples: Option<Range<usize>>) -> Vec<Pos2> {
+    let Some(way) = effect.ways.get(way) else { return Vec::new() };
+    let samples = samples.map_or(Some(way.samples.as_slice()), |range| way.samples.get(range));
+    dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
+}
+
+/// All passes, those that the chosen keep-out touches above the others.
+fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+    let toll = toll_of(effect, chosen);
+    let touched =
+        |way: usize| toll.is_some_and(|toll| toll.blocked.iter().any(|(of, _)| *of == way));
+    for is_touched in [false, true] {
+        let colour = if is_touched { t.other } else { t.grid };
+        for way in (0..effect.ways.len()).filter(|way| touched(*way) == is_touched) {
+            let line = path(dome, effect, way, None);
+            ui.painter().add(Shape::line(line, Stroke::new(1.0, colour)));
+        }
+    }
+}
+
+/// The parts of passes that the chosen keep-out blocks.
+fn blocked(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+    let parts = toll_of(effect, chosen).map(|toll| toll.blocked.iter());
+    for (way, samples) in parts.into_iter().flatten() {
+        let line = path(dome, effect, *way, Some(samples.clone()));
+        ui.painter().add(Shape::line(line, Stroke::new(1.5, t.warn)));
+    }
+}
+
+/// Where the axes end.
+fn travel(ui: &Ui, dome: Dome, config: &Antenna, t: &Tokens) {
+    let painter = ui.painter();
+    if let Some(holes) = Keyholes::of(&config.mount) {
+        grid::keyholes(painter, dome, &holes, t);
+    }
+    let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, .. } = config.mount
+    else {
+        return;
+    };
+    if elevation_from_deg > 0.0 {
+        let ring = dome.circle(dome.ring(elevation_from_deg as f32));
+        painter.extend(dashed(&ring, 1.5, 4.0, Stroke::new(1.25, t.warn)));
+    }
+    if azimuth_to_deg - azimuth_from_deg < 360.0 {
+        for end_deg in [azimuth_from_deg, azimuth_to_deg] {
+            let azimuth = end_deg.to_radians() as f32;
+            let spoke = [dome.at(azimuth, 87.0), dome.at(azimuth, 0.0)];
+            painter.extend(dashed(&spoke, 1.5, 4.0, Stroke::new(1.25, t.warn)));
+        }
+    }
+    for end_deg in [azimuth_from_deg, azimuth_to_deg] {
+        let towards = outward(end_deg.to_radians() as f32);
+        let foot = dome.centre + towards * dome.radius;
+        let stroke = Stroke::new(3.0, t.bad);
+        painter.line_segment([foot - towards * 12.0, foot + towards * 13.0], stroke);
+        let across = towards.rot90() * 7.0;
+        painter.line_segment([foot - across, foot + across], stroke);
+    }
+}
+
+fn sun(
+    ui: &Ui,
+    rect: Rect,
+    dome: Dome,
+    model: &Model,
+    skies: &Skies,
+    state: &mut HorizonState,
+    t: &Tokens,
+) {
+    let way = state.sun_way(model.station.site, model.now);
+    let path = dome.path(way.iter().copied());
+    // The way sets and rises: no line across the sky from the one to the other.
+    for part in path.chunk_by(|a, b| a.distance(*b) < dome.radius / 4.0) {
+        ui.painter().extend(dashed(part, 1.5, 4.0, Stroke::new(1.0, t.sun)));
+    }
+    let Some(direction) = model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0) else { return };
+    let Some(at) = dome.visible(direction) else { return };
+    marks::sun(ui.painter(), at, t);
+    let Some(avoidance) = skies.sun.kept() else { return };
+    let radius = Angle::from_degrees(avoidance.radius_deg);
+    let around =
+        (0..=72_u8).map(|step| direction.towards(f64::from(step) * 5.0, avoidance.radius_deg));
+    let ring: Vec<Pos2> = around.filter_map(|of| dome.point(of)).collect();
+    ui.painter().extend(dashed(&ring, 4.0, 3.0, Stroke::new(1.25, t.sun)));
+    let words = format!("Sun {}", format::degrees(avoidance.radius_deg, 1));
+    let beside = at + vec2(dome.length(radius).max(10.0) + 6.0, 0.0);
+    if rect.contains(beside) {
+        label(ui, beside, Align2::LEFT_CENTER, &words, t.sun, t);
+    }
+}

@@ -1,0 +1,64 @@
+//! What the station does by itself for its antennas, set in the form.
+
+use azel::{
+    driver::{Snapshot, StoppingWay},
+    station::{Monitor, OnClose, Resume},
+};
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::{
+    preferences::{form, saved, write},
+    rig::{self, SIZES, Window, asked, says, settle},
+    settings_desk::press,
+    states,
+};
+
+/// Takes one of the words of the form, in view or not.
+fn choose(window: &mut Window, word: &str) {
+    window.get_by_role_and_label(Role::RadioButton, word).click_accesskit();
+    settle(window);
+}
+
+#[test]
+fn what_is_done_by_itself_is_chosen_and_saved() {
+    for size in SIZES {
+        let mut window = form(size);
+        for word in ["Alarm only", "Track on", "Stop and hold"] {
+            choose(&mut window, word);
+        }
+        assert!(says(&window, "By itself, where the antenna stands as it was left."));
+        write(&mut window, "Sway allowed", "0,25");
+        write(&mut window, "Tracks on after up to", "601");
+        assert!(says(&window, "Tracks on after up to must be a number from 0 to 600 s."));
+        write(&mut window, "Tracks on after up to", "20");
+        press(&mut window, "Save and use");
+        let station = saved(asked(&mut window));
+        let [antenna] = &station.antennas[..] else { panic!("{:?}", station.antennas) };
+        assert_eq!((antenna.monitor, antenna.resume), (Monitor::Alarm, Resume::Continue));
+        assert_eq!((antenna.sway_deg, antenna.resume_after_s), (0.25, 20.0));
+        assert_eq!(station.on_close, Some(OnClose::Hold));
+    }
+}
+
+#[test]
+fn a_station_that_asks_says_so_and_comes_back_from_another_choice() {
+    let mut window = form(rig::LARGE);
+    choose(&mut window, "Let finish");
+    assert!(says(&window, "What a unit tracks by itself goes on, and nobody here watches it."));
+    choose(&mut window, "Ask");
+    assert!(says(&window, "Nothing to save."));
+}
+
+#[test]
+fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
+    let shown = |stopping_way: StoppingWay| {
+        let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
+        model.view = azel::app::View::Preferences;
+        rig::window(rig::LARGE, model)
+    };
+    let window = shown(StoppingWay { run_out_s: 0.4, stops: 1, is_learned: false });
+    assert!(says(&window, "Runs on for 0.4 s by its make: 1 of 3 STOPs seen."));
+    let window = shown(StoppingWay { run_out_s: 0.62, stops: 7, is_learned: true });
+    assert!(says(&window, "Runs on for 0.6 s: the longest of the last 3 of 7 STOPs."));
+}
