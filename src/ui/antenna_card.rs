@@ -89,6 +89,9 @@ pub struct CardModel<'a> {
     /// The unit is locked out for maintenance.
     pub lock_out: Option<LockOutModel<'a>>,
     /// Why the operator is asked whether the antenna stands.
+    /// What an action does that was refused because nobody here knows where it leads:
+    /// the operator may answer for it.
+    pub asks_unseen: Option<&'a str>,
     pub asks_standing: Option<&'a str>,
     /// It stands where it must not point.
     pub way_out: Option<WayOutModel<'a>>,
@@ -112,6 +115,8 @@ pub struct CardState {
     pub readings_open: bool,
     /// The actions are unfolded.
     pub more_open: bool,
+    /// That of an action that leads nobody here knows where.
+    unseen: HoldState,
     /// The dialog about a lock-out is open.
     pub maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
@@ -124,6 +129,7 @@ impl CardState {
     /// To be called when the card shows another antenna: what was typed is not
     /// for that one. What is unfolded stays so.
     pub fn change_antenna(&mut self) {
+        self.unseen = HoldState::default();
         self.drive = DriveState::default();
         self.track = TrackState::default();
         self.more = MoreState::default();
@@ -171,6 +177,8 @@ pub enum CardAction {
     AllowWayOut,
     /// The operator has seen that it stands.
     SeenStanding,
+    /// Start the action that was refused because nobody here knows where it leads.
+    ActUnseen,
     /// Turn an axis by an amount, once.
     Step {
         /// Sign of the first axis, −1 to 1.
@@ -266,6 +274,11 @@ fn fill(
     if let Some(lock_out) = &model.lock_out {
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
+    }
+    if let Some(about) = model.asks_unseen
+        && holds::show(ui, &mut at, about, holds::UNSEEN, &mut state.unseen)
+    {
+        actions.push(CardAction::ActUnseen);
     }
     if model.header.control == Control::Released {
         released::show(ui, &mut at, &model.header, actions);

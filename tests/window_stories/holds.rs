@@ -3,11 +3,12 @@
 use azel::{
     app::{Model, UiCommand, alarms::AlarmKind},
     astro::AzEl,
+    controller::{panel::Act, settings::Values},
     driver::{
         Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
     },
     plan::{Barrier, Target},
-    station::{Entered, KeepOut, SunAvoidance},
+    station::{Antenna, Entered, KeepOut, SunAvoidance},
 };
 use egui_kittest::kittest::Queryable as _;
 
@@ -186,4 +187,27 @@ fn a_keep_out_is_told_of_with_its_reason() {
     window.get_by_label_contains("1 alarm").click();
     rig::settle(&mut window);
     assert!(says(&window, "not driven by Azel. “mast”: Steel mast, 24 m away."));
+}
+
+#[test]
+fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
+    const UNSEEN: &str = "Hold 1 s to start it, its end is not known";
+    let dish = Antenna::rc2000c("Dish", "in memory");
+    let action = dish.connection.make().actions.iter().find(|action| action.moves).unwrap();
+    let act = Act { action: action.key, values: Values::default() };
+    for size in SIZES {
+        let mut model = shows(states::holding());
+        model.antennas = vec![rig::antenna(dish.clone(), states::holding())];
+        assert!(rig::window(size, model).query_by_label(UNSEEN).is_none());
+        let mut model = shows(states::holding());
+        model.antennas = vec![rig::antenna(dish.clone(), states::holding())];
+        model.antennas[0].asks_unseen = Some(act.clone());
+        let mut window = rig::window(size, model);
+        assert!(says(&window, action.about));
+        window.get_by_label(UNSEEN).click();
+        assert_eq!(asked(&mut window), [], "a click is no hold");
+        hold(&mut window, UNSEEN);
+        let wanted = [UiCommand::Antenna(0, Command::ActUnseen(act.clone()))];
+        assert_eq!(asked(&mut window), wanted);
+    }
 }

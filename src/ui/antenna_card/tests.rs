@@ -107,6 +107,7 @@ fn model() -> CardModel<'static> {
         more: MoreModel::default(),
         lock_out: None,
         asks_standing: None,
+        asks_unseen: None,
         way_out: None,
         track_again: None,
         others: &[],

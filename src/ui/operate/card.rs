@@ -71,6 +71,7 @@ pub(super) fn show(
     let mode = mode(snapshot.intent);
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
+    let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
     let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
     let asks_standing = words::asks_standing(snapshot);
     let way_out = way_out(antenna);
@@ -135,6 +136,7 @@ pub(super) fn show(
         let mut desk = Desk { model, antenna, question, commands };
         for action in antenna_card::show(ui, rect, &card, state) {
             if action == CardAction::Maintenance {
+            asks_unseen: asks_unseen.map(|action| action.about),
                 state.maintenance = Some(MaintenanceDialog::default());
             } else {
                 desk.take(action);

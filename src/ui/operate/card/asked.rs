@@ -63,6 +63,10 @@ impl Desk<'_> {
             CardAction::AllowUnguarded => Command::AllowUnguarded,
             CardAction::AllowWayOut => Command::AllowWayOut,
             CardAction::SeenStanding => Command::SeenStanding,
+            CardAction::ActUnseen => match &self.antenna.asks_unseen {
+                Some(act) => Command::ActUnseen(act.clone()),
+                None => return,
+            },
             CardAction::Step { x, y, step_deg } => {
                 Command::Step { steps_deg: [f64::from(x) * step_deg, f64::from(y) * step_deg] }
             }
