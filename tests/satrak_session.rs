@@ -35,6 +35,7 @@ mod satrak_session {
     mod stop;
     mod track;
     mod two;
+    #[cfg(unix)]
     mod unguarded;
     mod wire;
 }
