@@ -36,6 +36,7 @@ mod satrak_session {
     mod stop;
     mod track;
     mod two;
+    #[cfg(unix)]
     mod unguarded;
     mod wire;
 }

@@ -141,9 +141,11 @@ async fn fails(mut dice: Dice) {
         assert!(turned_deg <= most_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
         assert!(!scene.world.unit.is_turning(), "runs on: {case}\n{}", scene.report());
     }
-    let (back, turned_on) = (Instant::now(), scene.world.unit.is_turning());
+    let back = Instant::now();
     failure.set(&scene, false);
-    scene.seconds(12.0).await;
+    scene.seconds(AGAIN.as_secs_f64()).await;
+    let turned_on = scene.world.unit.is_turning();
+    scene.seconds(10.5).await;
     assert!(!scene.shown().silent, "still silent: {case}\n{}", scene.report());
     let words = scene.world.unit.words_since(back);
     if !ends_by_itself && failure != Failure::Mute {

@@ -69,7 +69,7 @@ async fn without_a_dead_man_a_jog_is_refused_and_allowed_for_a_minute_by_the_ope
     let refused = Event::NotSent(Refusal::Unguarded);
     rig.hold([1.0, 0.0], 1.0).await;
     rig.send(Command::EndJog);
-    assert_eq!(rig.events(), [refused.clone()]);
+    assert_eq!(rig.events(), std::slice::from_ref(&refused));
     assert!(rig.shown().unguarded);
     assert_eq!(rig.sent("MOVE="), [""; 0]);
 
