@@ -89,10 +89,10 @@ pub struct CardModel<'a> {
     /// The unit is locked out for maintenance.
     pub lock_out: Option<LockOutModel<'a>>,
     /// Why the operator is asked whether the antenna stands.
+    pub asks_standing: Option<&'a str>,
     /// What an action does that was refused because nobody here knows where it leads:
     /// the operator may answer for it.
     pub asks_unseen: Option<&'a str>,
-    pub asks_standing: Option<&'a str>,
     /// It stands where it must not point.
     pub way_out: Option<WayOutModel<'a>>,
     /// The antennas that have no card now.
@@ -115,11 +115,10 @@ pub struct CardState {
     pub readings_open: bool,
     /// The actions are unfolded.
     pub more_open: bool,
-    /// That of an action that leads nobody here knows where.
-    unseen: HoldState,
     /// The dialog about a lock-out is open.
     pub maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
+    unseen: HoldState,
     way_out: HoldState,
     unguarded: HoldState,
     more: MoreState,
@@ -129,12 +128,12 @@ impl CardState {
     /// To be called when the card shows another antenna: what was typed is not
     /// for that one. What is unfolded stays so.
     pub fn change_antenna(&mut self) {
-        self.unseen = HoldState::default();
         self.drive = DriveState::default();
         self.track = TrackState::default();
         self.more = MoreState::default();
         self.maintenance = None;
         self.standing = HoldState::default();
+        self.unseen = HoldState::default();
         self.way_out = HoldState::default();
         self.unguarded = HoldState::default();
     }

@@ -250,6 +250,7 @@ fn in_the_way() -> Bounds {
     let mast = KeepOut {
         name: "mast".to_owned(),
         entered: Entered::Hard,
+        reason: String::new(),
         antenna: None,
         margin_deg: 1.0,
         zone: KeepOut::zone_of(&corners_deg).unwrap(),

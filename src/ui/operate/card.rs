@@ -128,6 +128,7 @@ pub(super) fn show(
                 .as_ref()
                 .map(|lock_out| LockOutModel { by: &lock_out.by, locking: snapshot.locking }),
             asks_standing: asks_standing.as_deref(),
+            asks_unseen: asks_unseen.map(|action| action.about),
             way_out: way_out
                 .as_ref()
                 .map(|(words, is_allowed)| WayOutModel { words, is_allowed: *is_allowed }),
@@ -136,7 +137,6 @@ pub(super) fn show(
         let mut desk = Desk { model, antenna, question, commands };
         for action in antenna_card::show(ui, rect, &card, state) {
             if action == CardAction::Maintenance {
-            asks_unseen: asks_unseen.map(|action| action.about),
                 state.maintenance = Some(MaintenanceDialog::default());
             } else {
                 desk.take(action);
