@@ -76,7 +76,10 @@ impl Cli {
 fn from_hexadecimal(digits: &str) -> Option<Vec<u8>> {
     let pairs = digits.as_bytes().chunks(2);
     let byte = |pair: &[u8]| match pair {
-        [_, _] => u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok(),
+        // The parser takes a sign too.
+        [first, _] if first.is_ascii_hexdigit() => {
+            u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()
+        }
         _ => None,
     };
     pairs.map(byte).collect()
@@ -91,5 +94,14 @@ mod tests {
     #[test]
     fn the_command_line_is_sound() {
         Cli::command().debug_assert();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn only_pairs_of_hexadecimal_digits_are_bytes() {
+        assert_eq!(from_hexadecimal("24aF0d"), Some(vec![0x24, 0xaf, 0x0d]));
+        for bad in ["2", "+1", "-1", " 1", "0x", "2g", "\u{b5}"] {
+            assert_eq!(from_hexadecimal(bad), None, "{bad}");
+        }
     }
 }
