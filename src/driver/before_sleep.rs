@@ -128,12 +128,13 @@ mod logind {
         const PATIENCE: Duration = Duration::from_secs(20);
 
         /// Hands out locks, and the other end of each to the test.
-        struct Manager(mpsc::Sender<UnixStream>);
+        struct Manager(mpsc::SyncSender<UnixStream>);
 
         #[zbus::interface(name = "org.freedesktop.login1.Manager")]
         impl Manager {
-            fn inhibit(&self, what: &str, _who: &str, _why: &str, mode: &str) -> Fd<'static> {
+            fn inhibit(&self, what: &str, who: &str, why: &str, mode: &str) -> Fd<'static> {
                 assert_eq!((what, mode), ("sleep", "delay"));
+                assert!(!who.is_empty() && !why.is_empty());
                 let (near, far) = UnixStream::pair().unwrap();
                 self.0.send(near).unwrap();
                 Fd::from(std::os::fd::OwnedFd::from(far))
@@ -141,6 +142,13 @@ mod logind {
 
             #[zbus(signal)]
             async fn prepare_for_sleep(from: &SignalEmitter<'_>, begins: bool) -> Result<()>;
+        }
+
+        fn in_thread<T: Send + 'static>(
+            name: &str,
+            work: impl FnOnce() -> T + Send + 'static,
+        ) -> thread::JoinHandle<T> {
+            thread::Builder::new().name(name.to_owned()).spawn(work).unwrap()
         }
 
         fn is_held(lock: &UnixStream) -> bool {
@@ -155,17 +163,17 @@ mod logind {
         #[test]
         fn the_lock_is_held_until_all_is_quiet_and_taken_again_after_the_sleep() {
             let (near, far) = UnixStream::pair().unwrap();
-            let (locks, handed_out) = mpsc::channel();
+            let (locks, handed_out) = mpsc::sync_channel(4);
             let serve = move || {
                 let builder = Builder::async_io_unix_stream(far).server(Guid::generate())?.p2p();
                 builder.serve_at(OBJECT, Manager(locks))?.build()
             };
-            let server = thread::spawn(serve);
+            let server = in_thread("test-bus", serve);
             let client = Builder::async_io_unix_stream(near).p2p().build().unwrap();
             let server = server.join().unwrap().unwrap();
-            let (told, hears) = mpsc::channel();
-            let (go_on, waits) = mpsc::channel::<()>();
-            let watching = thread::spawn(move || {
+            let (told, hears) = mpsc::sync_channel(4);
+            let (go_on, waits) = mpsc::sync_channel::<()>(4);
+            let watching = in_thread("test-watch", move || {
                 watch(&client, || {
                     told.send(()).unwrap();
                     waits.recv_timeout(PATIENCE).unwrap();

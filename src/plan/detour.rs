@@ -81,7 +81,7 @@ pub(crate) fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::new();
     for pair in turns_deg.windows(2) {
         let [from, to] = pair else { continue };
-        let [first, second] = [0, 1].map(|axis| to[axis] - from[axis]);
+        let [first, second] = [to[0] - from[0], to[1] - from[1]];
         let parts = (first.abs().max(second.abs()) / step_deg).ceil().max(1.0);
         places.extend((1..=parts as u32).map(|part| {
             let share = f64::from(part) / parts;

@@ -86,8 +86,8 @@ pub(super) fn round(
         target.map_or(0.0, |target| line.off(target, at_s, bounds))
     };
     let way_s = within_rate(&wanted_s, step_s * SHARE_OF_RATE, cost);
-    let [first, second]: [Vec<f64>; 2] =
-        [0, 1].map(|axis| way_s.iter().map(|at_s| line.at(*at_s)[axis]).collect());
+    let places = way_s.into_iter().map(|at_s| line.at(at_s));
+    let (first, second) = places.map(|[first, second]| (first, second)).unzip();
     [first, second]
 }
 
@@ -158,7 +158,8 @@ impl Line {
             return end_deg;
         }
         let share = ((at_s - start_s) / (end_s - start_s)).clamp(0.0, 1.0);
-        [0, 1].map(|axis| start_deg[axis] + (end_deg[axis] - start_deg[axis]) * share)
+        let [a, b] = [end_deg[0] - start_deg[0], end_deg[1] - start_deg[1]];
+        [start_deg[0] + a * share, start_deg[1] + b * share]
     }
 
     /// What it costs to be there on the line.
