@@ -45,6 +45,26 @@ async fn a_held_key_moves_once_and_its_release_stops() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
+    let mut rig = in_manual().await;
+    let fastest_deg_s = antenna().limits.maximum_rate_deg_s;
+    let usual = rig.shown().stopping_way;
+    // What is slow tells nothing of what is fast.
+    for (share, stops) in [(0.2, 0), (0.9, 1), (-0.6, 2), (1.0, 3)] {
+        assert_eq!(rig.shown().stopping_way.run_out_s, usual.run_out_s);
+        rig.hold([fastest_deg_s * share, 0.0], 2.0).await;
+        rig.send(Command::EndJog);
+        rig.seconds(3.0).await;
+        assert_eq!(rig.shown().stopping_way.stops, stops, "{share}");
+    }
+    let learned = rig.shown().stopping_way;
+    assert!(learned.is_learned);
+    // Even braking from the fastest rate at 5 degrees a second squared, and a look.
+    let braking_s = fastest_deg_s / 5.0 / 2.0;
+    assert!((braking_s * 0.8..braking_s + 0.5).contains(&learned.run_out_s), "{learned:?}");
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_lease_that_is_not_renewed_ends_the_jog() {
     let mut rig = in_manual().await;
     rig.hold([0.0, -1.5], 1.0).await;

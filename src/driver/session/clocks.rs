@@ -24,7 +24,7 @@ pub(super) struct Clocks {
 impl Session {
     /// Ends what is moved by hand: while the computer sleeps nothing would.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
-        if let Some(jog) = self.jog.take() {
+        if let Some(jog) = &self.jog {
             self.ended_hold = Some(jog.rates_deg_s);
             self.halt_quietly(now);
             self.tell(Event::Safety(Safety::EndedForSleep));

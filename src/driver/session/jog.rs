@@ -45,8 +45,7 @@ impl Session {
             Some(jog) if same(jog.rates_deg_s, rates_deg_s) => jog.until = until,
             running => {
                 // Another direction or rate: stand still in between.
-                let turn_around = running.take().is_some_and(|jog| jog.started);
-                if turn_around {
+                if running.as_ref().is_some_and(|jog| jog.started) {
                     self.halt_quietly(now);
                 }
                 self.jog =
@@ -59,9 +58,10 @@ impl Session {
     /// The key is up.
     pub(super) fn release_jog(&mut self, now: Moment) {
         self.ended_hold = None;
-        if self.jog.take().is_some_and(|jog| jog.started) {
+        if self.jog.as_ref().is_some_and(|jog| jog.started) {
             self.halt_quietly(now);
         }
+        self.jog = None;
     }
 
     /// Sends a held jog to the gate once no halt is under way.

@@ -33,6 +33,8 @@ const NOISE_DEG: f64 = 0.02;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
     last: Option<Measured>,
+    /// How fast the axes turned between the last two looks, degrees a second.
+    rates_deg_s: [f64; 2],
     /// The barriers that were told and not left since.
     told: Vec<Barrier>,
 }
@@ -49,6 +51,7 @@ impl Session {
         let has_elevation = self.make.capabilities.has_elevation;
         let Some(second) = second.or((!has_elevation).then_some(0.0)) else { return };
         let rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
+        self.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
         let bounds = self.bounds_now();
@@ -145,7 +148,7 @@ fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
     rates
 }
 
-/// How long the axes run on at their rate after a STOP, as it was measured.
+/// How long the axes run on after a STOP, as it was measured.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct RunOut {
     /// The look before the STOP, the rate then, and when STOP went out.
@@ -158,8 +161,9 @@ pub(super) struct RunOut {
 
 /// So many STOPs have to be seen before they replace the usual figure.
 const ENOUGH: usize = StoppingWay::ENOUGH as usize;
-/// The slowest rate from which a run-out can be told, degrees a second.
-const TELLING_DEG_S: f64 = 0.3;
+/// A run-out is taken from jogs at this share of the fastest rate or more. That of a
+/// slower one is too short to be told from the noise of the readings.
+const TELLING_SHARE: f64 = 0.5;
 
 impl RunOut {
     /// A STOP goes out.
@@ -168,16 +172,19 @@ impl RunOut {
     }
 
     /// The axes stand: how long they ran on at most in the last STOPs, seconds,
-    /// once enough were seen.
-    pub(super) fn end(&mut self, rest: &Measured) -> Option<f64> {
+    /// once enough were seen. It counts as that from the fastest rate, in the time that
+    /// they would turn on at it: drives that brake evenly run on for longer the faster
+    /// they are.
+    pub(super) fn end(&mut self, rest: &Measured, fastest_deg_s: f64) -> Option<f64> {
         let (before, rates, stop) = self.before.take()?;
         let to_stop_s = stop.saturating_duration_since(before.asked).as_secs_f64();
         let axes = before.axes.iter().zip(&rest.axes).zip(rates);
         let run_out_s = axes
-            .filter(|(_, rate)| rate.abs() >= TELLING_DEG_S)
+            .filter(|(_, rate)| rate.abs() >= fastest_deg_s * TELLING_SHARE)
             .filter_map(|((before, rest), rate)| {
                 let turned_deg = rest.angle_deg? - before.angle_deg?;
-                Some(turned_deg / rate - to_stop_s)
+                let run_out_s = turned_deg / rate - to_stop_s;
+                Some(run_out_s * (fastest_deg_s / rate.abs()).max(1.0))
             })
             .max_by(f64::total_cmp)?;
         if self.seen_s.len() >= ENOUGH {
@@ -199,7 +206,8 @@ impl Session {
     }
 
     fn rates_now(&self) -> Option<[f64; 2]> {
-        self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s)
+        // Other motions may be slowing down already.
+        self.jog.as_ref().filter(|jog| jog.started).map(|_| self.watch.rates_deg_s)
     }
 
     /// How long the axes run on after a STOP, as far as that is known.
@@ -215,7 +223,8 @@ impl Session {
     /// Learns how long the axes ran on.
     pub(super) fn end_run_out(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
-        if let Some(run_out_s) = self.run_out.end(&rest) {
+        let fastest_deg_s = self.manner.fastest_deg_s();
+        if let Some(run_out_s) = self.run_out.end(&rest, fastest_deg_s) {
             self.gate.set_run_out(run_out_s);
         }
     }

@@ -31,6 +31,11 @@ impl Manner {
         };
         Self { drives, following: antenna.follow }
     }
+
+    /// What the operator allows, degrees a second.
+    pub(in crate::driver::session) fn fastest_deg_s(&self) -> f64 {
+        self.drives.limits.maximum_rate_deg_s
+    }
 }
 
 /// A target that is followed.
