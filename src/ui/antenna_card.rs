@@ -274,11 +274,6 @@ fn fill(
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
     }
-    if let Some(about) = model.asks_unseen
-        && holds::show(ui, &mut at, about, holds::UNSEEN, &mut state.unseen)
-    {
-        actions.push(CardAction::ActUnseen);
-    }
     if model.header.control == Control::Released {
         released::show(ui, &mut at, &model.header, actions);
     }

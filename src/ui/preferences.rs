@@ -267,7 +267,10 @@ fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
         let is_new = holds_in(before, antenna).as_ref() != Some(&zone);
         let name = &antenna.config.name;
         is_new.then(|| {
-            format!("{name} stands inside \"{zone}\" now. It may leave it, not enter it again.")
+            format!(
+                "{name} stands inside \u{201c}{zone}\u{201d} now. It can be moved out by hand once \
+                 you allow it."
+            )
         })
     })
 }

@@ -10,7 +10,10 @@ mod safety;
 pub use alarms::alarm;
 pub use faults::{fault_about, fault_advice, fault_name};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
-pub use refusals::{UNSEEN, answer, follow_problem, hindrance, link_loss, prepare_error, refusal};
+pub use refusals::{
+    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, answer, follow_problem, hindrance, link_loss,
+    prepare_error, refusal,
+};
 pub use safety::{
     SUN_IS_LIFTED, UNGUARDED, asks_standing, forbidden, inside, owed, reason, safety, stopping_way,
     sun_lifted, way_out,

@@ -242,7 +242,7 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     rig.events();
 }
 
-/// A mast from 20 to 60 degrees of elevation about where the satellite is highest.
+/// A mast from 20 to 80 degrees of elevation about where the satellite is highest.
 fn in_the_way() -> Bounds {
     let highest_deg = scene::pass().tca.direction.azimuth_deg();
     let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];

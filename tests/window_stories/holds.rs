@@ -83,7 +83,8 @@ fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
 fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
     let mast = || Barrier::KeepOut("mast".into());
     for size in SIZES {
-        let words = "Satrak stands inside “mast” now. It may leave it, not enter it again.";
+        let words =
+            "Satrak stands inside “mast” now. It can be moved out by hand once you allow it.";
         let mut window = rig::window(size, shows(inside(mast(), false)));
         assert!(says(&window, words));
         window.get_by_label(OUT).click();
@@ -191,7 +192,7 @@ fn a_keep_out_is_told_of_with_its_reason() {
 
 #[test]
 fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
-    const UNSEEN: &str = "Hold 1 s to start it, its end is not known";
+    const UNSEEN: &str = "Hold 1 s to start it without knowing its end";
     let dish = Antenna::rc2000c("Dish", "in memory");
     let action = dish.connection.make().actions.iter().find(|action| action.moves).unwrap();
     let act = Act { action: action.key, values: Values::default() };

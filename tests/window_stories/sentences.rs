@@ -241,7 +241,7 @@ fn a_make_that_serves_one_program_says_that_another_may_have_it() {
         (LinkLoss::Silent, "the connection is open, but the unit is silent. ".to_owned()),
         (
             LinkLoss::OtherDevice,
-            "another device answers there, or one that wants to be told a code first. ".to_owned(),
+            "another device answers there, or one that asks for a code first. ".to_owned(),
         ),
     ] {
         let mut model = makes::model(makes::pair(), rig::quiet());

@@ -55,7 +55,7 @@ pub enum Cause {
         /// Its name.
         name: String,
     },
-    /// It predicts another height of the pass: its elements are others.
+    /// It predicts another height of the pass: their elements differ.
     Elements {
         /// The highest elevation as it tells it, degrees.
         told_deg: f64,

@@ -15,12 +15,6 @@ use crate::ui::{
 
 /// That the antenna stands.
 pub(super) const SEEN_STANDING: &str = "Hold 1 s: I have seen that it stands";
-/// That it may be started although nobody here knows where it leads.
-pub(super) const UNSEEN: &str = "Hold 1 s to start it, its end is not known";
-/// That it may be moved out of where it must not point.
-pub(super) const WAY_OUT: &str = "Hold 1 s to move out by hand";
-/// That it may move without a dead-man.
-pub(super) const UNGUARDED: &str = "Hold 1 s to move without dead-man";
 
 /// An antenna that stands where it must not point.
 #[derive(Debug, Clone, Copy)]

@@ -15,6 +15,7 @@ use crate::ui::{
         paint,
         travel_gauge::{self, TravelModel},
     },
+    words,
 };
 
 /// Everything below the mode.
@@ -104,12 +105,17 @@ fn asked(
     if let Some(WayOutModel { words, is_allowed }) = model.way_out {
         if is_allowed {
             holds::note(ui, at, words);
-        } else if holds::show(ui, at, words, holds::WAY_OUT, &mut state.way_out) {
+        } else if holds::show(ui, at, words, words::HOLD_WAY_OUT, &mut state.way_out) {
             actions.push(CardAction::AllowWayOut);
         }
     }
+    if let Some(about) = model.asks_unseen
+        && holds::show(ui, at, about, words::HOLD_UNSEEN, &mut state.unseen)
+    {
+        actions.push(CardAction::ActUnseen);
+    }
     if let Some(why) = model.drive.unguarded
-        && holds::show(ui, at, why, holds::UNGUARDED, &mut state.unguarded)
+        && holds::show(ui, at, why, words::HOLD_UNGUARDED, &mut state.unguarded)
     {
         actions.push(CardAction::AllowUnguarded);
     }

@@ -19,24 +19,24 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} does not reply: {}.", super::link_loss(loss))
         }
         AlarmKind::StopNotConfirmed => {
-            format!("{antenna} is not known to stand 3 s after STOP. Use the local panel.")
+            format!("{antenna} is still not known to stand after STOP. Use the local panel.")
         }
         AlarmKind::StopRefused(code) => {
             let answer = super::answer(code);
             format!("{antenna} answered {answer} to STOP. Use the local panel.")
         }
         AlarmKind::JogLeaseOver => {
-            format!("{antenna}: the jog was stopped, the window did not hold it in time.")
+            format!("{antenna}: the jog was stopped because the window did not renew it in time.")
         }
         AlarmKind::JogPositionOld => {
-            format!("{antenna}: the jog was stopped, its position came too late.")
+            format!("{antenna}: the jog was stopped because its position came too late.")
         }
         AlarmKind::AutoTrackStillOn => {
             format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
         AlarmKind::LockOutUnproved => format!(
-            "{antenna} is locked out, but that its auto-track is off cannot be read back: it may \
+            "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."
         ),
         AlarmKind::Refused(motion, code) => {
@@ -69,7 +69,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} would miss by its own program: {why}.")
         }
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
-        AlarmKind::EndedShort => format!("{antenna} stands still before its target."),
+        AlarmKind::EndedShort => format!("{antenna} stopped before it reached its target."),
         AlarmKind::StartedByItself => {
             format!("{antenna} tracks by its own program, not by this console.")
         }

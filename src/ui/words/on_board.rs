@@ -44,7 +44,7 @@ pub fn cause(ranked: &Ranked) -> String {
             format!("the unit holds {name} ({catalog_number})")
         }
         Cause::Elements { told_deg, expected_deg } => format!(
-            "the unit predicts a maximum of {} and Azel {}: its elements are others",
+            "the unit predicts a maximum of {} and Azel {}: their elements differ",
             format::degrees(*told_deg, 1),
             format::degrees(*expected_deg, 1)
         ),

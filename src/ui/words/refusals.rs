@@ -6,8 +6,12 @@ use crate::{
     ui::format,
 };
 
-/// On the key that is held to start what leads nobody here knows where.
-pub const UNSEEN: &str = "Start it, its end is not known";
+/// The button that starts an action whose end only the unit knows.
+pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing its end";
+/// The button that lets an antenna be moved out of where it must not point.
+pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
+/// The button that lets it move without a dead-man.
+pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without dead-man";
 
 /// Why a motion was not sent.
 pub fn refusal(refusal: &Refusal) -> String {
@@ -17,7 +21,7 @@ pub fn refusal(refusal: &Refusal) -> String {
         }
         Refusal::PanelLockedOut { by } => format!(
             "Not connected: in maintenance by {by}, and even a question would take the panel of \
-             this unit from whoever works on it. STOP still goes out. Take off the lock-out first."
+             this unit from the person working at it. STOP still goes out. Take off the lock-out first."
         ),
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
@@ -71,7 +75,7 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::pointing_at(*at)
         ),
         Refusal::Inside(barrier) => format!(
-            "Not sent: the antenna is {}. Hold \u{201c}Move out by hand\u{201d} to allow it for a \
+            "Not sent: the antenna is {}. Use \u{201c}{HOLD_WAY_OUT}\u{201d} on its card to allow it for a \
              minute.",
             super::inside(barrier)
         ),
@@ -86,15 +90,16 @@ pub fn refusal(refusal: &Refusal) -> String {
                 "its angles are not known, so somebody has to look at the antenna"
             };
             format!(
-                "Not sent: {why}. Hold \u{201c}{UNSEEN}\u{201d} to start it all the same: {watched}."
+                "Not sent: {why}. Use \u{201c}{HOLD_UNSEEN}\u{201d} on its card to start it all the same: {watched}."
             )
         }
         Refusal::StillMoving => {
             "Not sent: the antenna still moves. Step again when it stands.".to_owned()
         }
-        Refusal::Unguarded => "Not sent: nothing would stop the antenna if Azel ended. Hold \
-                               \u{201c}Move without dead-man\u{201d} to allow it for a minute."
-            .to_owned(),
+        Refusal::Unguarded => format!(
+            "Not sent: nothing would stop the antenna if Azel ended. Use \
+             \u{201c}{HOLD_UNGUARDED}\u{201d} on its card to allow it for a minute."
+        ),
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
         Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
         Refusal::OrbitUnknown { name } => format!(
@@ -122,7 +127,10 @@ pub fn follow_problem(problem: &FollowProblem) -> String {
     match problem {
         FollowProblem::NoPass => "it does not rise in the next days.".to_owned(),
         FollowProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
-        FollowProblem::Refused(why) => refusal(why),
+        FollowProblem::Refused(why) => {
+            let words = refusal(why);
+            words.strip_prefix("Not sent: ").map_or_else(|| words.clone(), str::to_owned)
+        }
     }
 }
 
@@ -139,10 +147,10 @@ pub fn link_loss(loss: &LinkLoss) -> String {
         LinkLoss::ConnectTimeout => "nobody answers at the address".to_owned(),
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
         LinkLoss::Broken(why) => format!("the connection broke ({why})"),
-        LinkLoss::Slept => "this computer slept, it is read anew".to_owned(),
+        LinkLoss::Slept => "this computer slept; the unit is being read again".to_owned(),
         LinkLoss::Unreadable => "what the unit answers cannot be read".to_owned(),
         LinkLoss::OtherDevice => {
-            "another device answers there, or one that wants to be told a code first".to_owned()
+            "another device answers there, or one that asks for a code first".to_owned()
         }
         LinkLoss::Silent => "the connection is open, but the unit is silent".to_owned(),
     }

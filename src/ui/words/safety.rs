@@ -34,7 +34,7 @@ pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String 
             format!("{antenna} stands {place} now. It may move away from it, not nearer.")
         }
         (false, _) => {
-            format!("{antenna} stands {place} now. It may leave it, not enter it again.")
+            format!("{antenna} stands {place} now. It can be moved out by hand once you allow it.")
         }
         (true, _) => format!(
             "{antenna} stands {place}. By your word it may be moved out by hand for a minute, \
@@ -111,13 +111,13 @@ pub fn owed(unit: &Unit) -> String {
 fn unlike(unlike: Unlike) -> &'static str {
     match unlike {
         Unlike::Identity => {
-            " It answers with another name or firmware than before: look whether it is the same \
+            " It answers with another name or firmware than before: check that it is the same \
              unit."
         }
-        Unlike::Limits => " Its limits are not those of before: look at its settings.",
-        Unlike::Place => " The place that it tells is not that of before: look at its settings.",
-        Unlike::Offsets => " Its offsets are not those of before: look at its settings.",
-        Unlike::Unread => " It does not tell again what it told of itself before.",
+        Unlike::Limits => " Its limits have changed: check its settings.",
+        Unlike::Place => " The place it reports has changed: check its settings.",
+        Unlike::Offsets => " Its offsets have changed: check its settings.",
+        Unlike::Unread => " It has not reported again what it reported before.",
     }
 }
 
@@ -156,16 +156,16 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
         }
         Safety::Forbidden { barrier, driver, response } => {
             let driver = match driver {
-                Mover::Azel => "driven by Azel",
-                Mover::Program => "driven by its own program",
-                Mover::Somebody => "and not driven by Azel",
+                Mover::Azel => "Azel was moving it",
+                Mover::Program => "its own program was moving it",
+                Mover::Somebody => "Azel was not moving it",
             };
             let into = forbidden(barrier);
             match response {
                 Response::Stopped => {
-                    format!("{antenna} was stopped before it went {into}, {driver}.")
+                    format!("{antenna} was stopped before it went {into}; {driver}.")
                 }
-                Response::Told => format!("{antenna} is {}, {driver}.", inside(barrier)),
+                Response::Told => format!("{antenna} is {}; {driver}.", inside(barrier)),
             }
         }
         Safety::ClockStepped { by_s } => format!(
