@@ -249,7 +249,7 @@ impl Driver {
                 clock.clone(),
                 wires,
                 debts,
-                bounds.clone(),
+                ends.kept().unwrap_or_else(|| bounds.clone()),
             )
             .locked_out(lock_out.clone());
             match &dead_man {

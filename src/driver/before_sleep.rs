@@ -13,6 +13,10 @@ use tokio::sync::mpsc;
 /// otherwise (`InhibitDelayMaxSec`, logind.conf(5)).
 const MOST: Duration = Duration::from_secs(3);
 
+/// A bus that was lost is looked for again after this long.
+#[cfg(target_os = "linux")]
+const AGAIN: Duration = Duration::from_secs(30);
+
 /// Is kept by a session until nothing runs that it alone would end.
 #[derive(Debug)]
 pub(super) struct Awake(
@@ -53,8 +57,18 @@ impl BeforeSleep {
 pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> std::io::Result<()> {
     std::thread::Builder::new().name("azel-sleep".to_owned()).spawn(move || {
         let quiet = || runtime.block_on(sessions.all_quiet());
-        if let Err(error) = logind::system_bus().and_then(|bus| logind::watch(&bus, quiet)) {
-            tracing::debug!(%error, "nobody tells when this computer goes to sleep");
+        let mut was_watched = false;
+        loop {
+            match logind::system_bus().and_then(|bus| logind::watch(&bus, quiet)) {
+                Ok(()) => was_watched = true,
+                Err(error) if !was_watched => {
+                    tracing::debug!(%error, "nobody tells when this computer goes to sleep");
+                    return;
+                }
+                Err(error) => tracing::debug!(%error, "no bus"),
+            }
+            tracing::warn!("it is not told any more when this computer goes to sleep; tried again");
+            std::thread::sleep(AGAIN);
         }
     })?;
     Ok(())
@@ -96,7 +110,8 @@ mod logind {
                 before();
                 lock = None;
             } else if lock.is_none() {
-                lock = Some(delay(&manager)?);
+                // Without one the next sleep is not put off, but is still told of.
+                lock = delay(&manager).inspect_err(|error| tracing::warn!(%error, "no lock")).ok();
             }
         }
         Ok(())

@@ -79,6 +79,8 @@ pub struct Wires {
     wake: Wake,
     wire_log: WireLog,
     orbit: Orbits,
+    /// The last that it was told to keep within: a session that breaks down loses it.
+    bounds: Arc<watch::Sender<Option<Bounds>>>,
 }
 
 impl Wires {
@@ -95,13 +97,26 @@ impl Wires {
         let commands = Arc::new(AsyncMutex::new(commands));
         let (wire_log, orbit) = (handle.wire().clone(), Arc::clone(&handle.orbit));
         let before_sleep = None;
-        (Self { commands, stop, before_sleep, snapshots, events, wake, wire_log, orbit }, handle)
+        let bounds = Arc::default();
+        (
+            Self { commands, stop, before_sleep, snapshots, events, wake, wire_log, orbit, bounds },
+            handle,
+        )
     }
 
     /// Told before this computer sleeps.
     pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
+    }
+
+    fn keep(&self, bounds: &Bounds) {
+        self.bounds.send_replace(Some(bounds.clone()));
+    }
+
+    /// What an earlier session over these wires was told to keep within last.
+    pub(super) fn kept(&self) -> Option<Bounds> {
+        self.bounds.borrow().clone()
     }
 
     /// Puts STOP before the next word.

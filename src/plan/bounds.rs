@@ -19,9 +19,13 @@ use crate::{
 /// A way may touch an edge and go beyond it by this much, degrees; the margins of
 /// keep-outs and of the Sun are wider by as much.
 const FINEST_DEG: f64 = 0.05;
-/// The Sun is looked at again after this long, seconds: it moves a tenth of a
+/// The Sun is looked at again after this long at least, seconds: it moves a tenth of a
 /// degree.
-const SUN_STEP_S: i64 = 24;
+const SUN_STEP_S: f64 = 24.0;
+/// For any time ahead it is looked at so many times at most.
+const MOST_SUNS: f64 = 40.0;
+/// How fast it moves at most, degrees a second.
+const SUN_DEG_S: f64 = 360.0 / 86_164.0;
 /// A refuge from the Sun is looked for in rings around the antenna, so far apart,
 /// degrees.
 const RING_DEG: f64 = 0.5;
@@ -193,19 +197,21 @@ impl Bounds {
         let sun = self.sun?;
         let separations = self.suns(at).into_iter().map(|sun| start.separation(sun).degrees());
         let nearest_deg = separations.min_by(f64::total_cmp)?;
-        let is_inside = nearest_deg < sun.radius_deg + FINEST_DEG;
-        let radius_deg = nearest_deg - FINEST_DEG;
+        let is_inside = nearest_deg < around_each_sun_deg(sun);
+        let radius_deg = nearest_deg - (around_each_sun_deg(sun) - sun.radius_deg);
         is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
     }
 
     /// Whether nothing is in the way in `direction`, and the Sun is not for its time
     /// ahead either.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
+        self.now_and_later(at).iter().all(|standing| standing.has_room(direction, 0.0))
+    }
+
+    fn now_and_later(&self, at: Timestamp) -> Vec<Standing<'_>> {
         let ahead_min = self.sun.map_or(0.0, |sun| sun.ahead_min);
-        let later = at.checked_add(SignedDuration::from_secs((ahead_min * 60.0) as i64));
-        std::iter::once(at).chain(later).all(|at| {
-            self.nearest(direction, at).is_none_or(|nearest| nearest.angle >= Angle::ZERO)
-        })
+        let later = at.checked_add(seconds(ahead_min * 60.0));
+        std::iter::once(at).chain(later).map(|at| self.standing(at)).collect()
     }
 
     /// Directions that stay clear, the nearest to `from` first, as far as they are
@@ -217,7 +223,26 @@ impl Bounds {
             let bearings = (0..BEARINGS).map(|part| f64::from(part) / f64::from(BEARINGS) * 360.0);
             bearings.map(move |bearing_deg| from.towards(bearing_deg, ring * RING_DEG))
         });
-        around.filter(move |direction| self.stays_clear(*direction, at))
+        let standing = self.now_and_later(at);
+        around.filter(move |direction| {
+            standing.iter().all(|standing| standing.has_room(*direction, 0.0))
+        })
+    }
+
+    /// The same without the barriers that `axes_deg` are inside of.
+    pub fn without_entered(&self, axes_deg: [f64; 2], at: Timestamp) -> Self {
+        let direction = self.direction(axes_deg);
+        let is_outside = |barrier: &Barrier| {
+            let clearances = self.clearances(direction, at);
+            let found = clearances.into_iter().find(|it| it.barrier == *barrier);
+            found.is_none_or(|it| it.warns_only || it.angle >= Angle::ZERO)
+        };
+        let mut rest = self.clone();
+        rest.minimum_elevation =
+            rest.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
+        rest.keep_outs.retain(|(zone, _)| is_outside(&Barrier::KeepOut(zone.name.as_str().into())));
+        rest.sun = rest.sun.filter(|_| is_outside(&Barrier::Sun));
+        rest
     }
 
     /// The first barrier that the axes may come into within `sweep`, and a
@@ -258,9 +283,10 @@ impl Bounds {
     /// Where the Sun stands from `at` until the end of the time ahead.
     fn suns(&self, at: Timestamp) -> Vec<AzEl> {
         let Some(sun) = self.sun else { return Vec::new() };
-        let steps = (sun.ahead_min * 60.0) as i64 / SUN_STEP_S;
+        let step_s = sun_step_s(sun);
+        let steps = (sun.ahead_min * 60.0 / step_s).ceil() as u32;
         (0..=steps)
-            .filter_map(|step| at.checked_add(SignedDuration::from_secs(step * SUN_STEP_S)).ok())
+            .filter_map(|step| at.checked_add(seconds(f64::from(step) * step_s)).ok())
             .map(|at| sun_moon::sun(self.site, at))
             .collect()
     }
@@ -295,7 +321,7 @@ impl Bounds {
             let angle = zone.zone.clearance(direction) - *margin;
             (Named::KeepOut(&zone.name), angle, zone.entered == Entered::Warn)
         });
-        let radius = Angle::from_degrees(self.sun.map_or(0.0, |sun| sun.radius_deg + FINEST_DEG));
+        let radius = Angle::from_degrees(self.sun.map_or(0.0, around_each_sun_deg));
         let sun = suns
             .iter()
             .map(move |sun| direction.separation(*sun) - radius)
@@ -303,6 +329,21 @@ impl Bounds {
             .map(|angle| (Named::Sun, angle, false));
         floor.into_iter().chain(zones).chain(sun)
     }
+}
+
+fn seconds(seconds: f64) -> SignedDuration {
+    SignedDuration::try_from_secs_f64(seconds).unwrap_or_default()
+}
+
+fn sun_step_s(sun: SunAvoidance) -> f64 {
+    SUN_STEP_S.max(sun.ahead_min * 60.0 / MOST_SUNS)
+}
+
+/// The radius around each place of the Sun that is looked at, degrees: wide enough that
+/// nothing is missed between two of them.
+fn around_each_sun_deg(sun: SunAvoidance) -> f64 {
+    let half_deg = sun_step_s(sun) * SUN_DEG_S / 2.0;
+    sun.radius_deg.hypot(half_deg) + FINEST_DEG
 }
 
 /// The barriers at one time.

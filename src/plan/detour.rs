@@ -14,9 +14,9 @@ const CELL_DEG: f64 = 1.0;
 /// A way stays this far outside all margins, degrees: more than half of the way to
 /// the neighbour across a corner, so that it is outside between them too.
 const ROOM_DEG: f64 = 0.75;
-/// A search that has looked at so many places is given up: a few hundredths of a
-/// second, and more than an axis with half a turn of overlap has.
-const MOST_PLACES: usize = 50_000;
+/// A search that has looked at so many places is given up: some hundredths of a second
+/// over zones of many corners.
+const MOST_PLACES: usize = 20_000;
 /// Of two ways that take equally long the straighter one, microseconds a degree.
 const STRAIGHT: f64 = 1000.0;
 

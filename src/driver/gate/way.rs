@@ -1,5 +1,7 @@
 //! The way that a motion takes, held against what the antenna must keep within.
 
+use jiff::Timestamp;
+
 use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
@@ -7,7 +9,10 @@ use crate::{
         JogSpeeds, aimed,
         panel::{Act, Lead},
     },
-    plan::detour::{self, Reach},
+    plan::{
+        Barrier,
+        detour::{self, Reach},
+    },
 };
 
 /// Out of what is forbidden an antenna goes by hand alone, with this share of the
@@ -15,6 +20,8 @@ use crate::{
 const OUT_SHARE: f64 = 0.25;
 /// A way out has to gain at least this much over what it is judged ahead, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
+/// A way out is looked at in so many places, lest it leads in deeper between its ends.
+const LOOKS_OUT: u32 = 8;
 
 /// Between two places of a detour that are tried as the next position, degrees.
 const DETOUR_STEP_DEG: f64 = 4.0;
@@ -114,31 +121,26 @@ fn by_hand(
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
     let (bounds, utc) = (situation.bounds, situation.now.utc);
-    let to_deg = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
-    let (here, there) = (bounds.direction(axes_deg), bounds.direction(to_deg));
-    let (before, after) = (bounds.clearances(here, utc), bounds.clearances(there, utc));
-    let inside = before.iter().find(|clearance| {
+    let at = |share: f64| [axes_deg[0] + ahead_deg[0] * share, axes_deg[1] + ahead_deg[1] * share];
+    let sweep = sweep_between(axes_deg, at(1.0), situation);
+    let here = bounds.clearances(bounds.direction(axes_deg), utc);
+    let inside = here.iter().find(|clearance| {
         !clearance.warns_only
-            && clearance.barrier != crate::plan::Barrier::MinimumElevation
+            && clearance.barrier != Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
     });
     let Some(inside) = inside else {
-        let sweep = sweep_between(axes_deg, to_deg, situation);
         return blocked(sweep, axes_deg, bounds, situation.now);
     };
-    let ways_deg = [axes_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc));
-    for (before, after) in before.iter().zip(&after).filter(|(it, _)| !it.warns_only) {
-        let leaves = before.angle < Angle::ZERO;
-        let leads_out = match ways_deg {
-            [Some(before_deg), Some(after_deg)] => after_deg < before_deg - OUT_GAIN_DEG,
-            // No axis gets out by itself: at least it goes no deeper.
-            _ => after.angle.degrees() > before.angle.degrees() + OUT_GAIN_DEG,
-        };
-        let is_allowed = if leaves { leads_out } else { after.angle >= Angle::ZERO };
-        if !is_allowed {
-            let barrier = after.barrier.clone();
-            return Err(Refusal::Forbidden { barrier, at: there });
+    blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
+    let mut from_deg = axes_deg;
+    for part in 1..=LOOKS_OUT {
+        let to_deg = at(f64::from(part) / f64::from(LOOKS_OUT));
+        if !leads_out(bounds, from_deg, to_deg, utc) {
+            let at = bounds.direction(to_deg);
+            return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
         }
+        from_deg = to_deg;
     }
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
     let slowest_share = match situation.can.jog {
@@ -153,6 +155,20 @@ fn by_hand(
         return Ok(());
     }
     Err(Refusal::Inside(inside.barrier.clone()))
+}
+
+/// Whether it is less deep at the second place, or outside of everything at both.
+fn leads_out(bounds: &Bounds, from_deg: [f64; 2], to_deg: [f64; 2], utc: Timestamp) -> bool {
+    match [from_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc)) {
+        [Some(from), Some(to)] => to < from - OUT_GAIN_DEG || (from <= 0.0 && to <= 0.0),
+        [Some(_), None] => false,
+        [None, Some(_)] => true,
+        // No axis gets out by itself: the nearest edge has to come nearer.
+        [None, None] => {
+            let depth = |axes_deg| bounds.forbidden_deg(axes_deg, utc);
+            depth(to_deg) < depth(from_deg) - OUT_GAIN_DEG
+        }
+    }
 }
 
 /// Where the axes stand, as the mount counts. Without an elevation axis the second
@@ -217,11 +233,12 @@ impl Gate {
         };
         let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
+        let bounds = self.bounds_in(intent);
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
-            let start = self.bounds.direction(corner_deg);
-            let is_free = self.bounds.blocks(second, start, now.utc).is_none()
+            let start = bounds.direction(corner_deg);
+            let is_free = bounds.blocks(second, start, now.utc).is_none()
                 && self.check(first, intent, now).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });
@@ -231,7 +248,7 @@ impl Gate {
             return Err(refusal);
         }
         // Positions that follow each other may make any way.
-        let detour = detour::between(&self.bounds, &self.reach(), from_deg, to_deg, now.utc);
+        let detour = detour::between(bounds, &self.reach(), from_deg, to_deg, now.utc);
         let places_deg = detour::in_steps(&detour.unwrap_or_default(), DETOUR_STEP_DEG);
         let farthest = places_deg.into_iter().rev().map(|place| self.to_axes(place));
         let first = farthest.into_iter().find(|first| self.check(*first, intent, now).is_ok());

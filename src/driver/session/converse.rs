@@ -145,6 +145,7 @@ impl Session {
                 }
             }
             self.watch_halt(now);
+            self.let_sleep();
             self.forget_old_stop(now);
             self.publish(now);
             if now.steady >= retry_at {
@@ -171,9 +172,10 @@ impl Session {
             Turn::Stop => self.halt_and_forget(now),
             Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
-            // Without a link nothing can be done for it.
-            Turn::Sleep(_) | Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+            Turn::Sleep(awake) => self.before_sleep(awake, now),
+            Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
         }
+        self.let_sleep();
         // The link was wanted for a stop alone, and none is owed any more.
         if self.wanted == Wanted::ForStop && self.let_go_quietly() {
             return false;

@@ -23,6 +23,9 @@ use crate::{
 /// So many commands in a row may stay without an answer and without effect.
 const MOST_LOST: u32 = 3;
 
+/// Where a barrier is in the way the next look comes no sooner.
+const BLOCKED: Duration = Duration::from_secs(2);
+
 /// When a target is followed on by itself after the antenna was out of sight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ResumeRule {
@@ -56,7 +59,7 @@ impl Session {
         let planned = if phase == FollowPhase::Over {
             Err(FollowProblem::NoPass)
         } else {
-            let bounds = self.gate.bounds().clone();
+            let bounds = self.gate.bounds_in(Intent::Track).clone();
             Planner::new(follow, drives, following, bounds).map_err(FollowProblem::Orbit)
         };
         // Checked before anything that runs is ended for it.
@@ -206,13 +209,15 @@ impl Session {
                 following.sent = Some(now.steady);
                 following.stats.commands += 1;
                 following.commanded = aim;
-                following.told_barrier = false;
+                following.told_barrier &= route.then.is_some();
                 // What is up is compared with itself, not with the last step.
                 self.aim = aim.filter(|_| following.phase != FollowPhase::Following);
             }
             // It waits at the edge, and goes on where the way is free again.
             Err(Refusal::Forbidden { barrier, at }) => {
                 let Some(following) = &mut self.following else { return };
+                // To look for a way takes time that other antennas need too.
+                following.next_look = following.next_look.max(now.steady + BLOCKED);
                 if !std::mem::replace(&mut following.told_barrier, true) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
                 }
@@ -251,10 +256,11 @@ impl Session {
 
     /// Other bounds hold for the antenna from now on.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
-        if let Some(following) = &mut self.following {
-            following.planner.keep_within(bounds.clone());
-        }
+        self.wires.keep(&bounds);
         self.gate.keep_within(bounds);
+        if let Some(following) = &mut self.following {
+            following.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());
+        }
     }
 
     /// The device was read anew after it was out of sight for `lost`: what it was told
@@ -263,10 +269,12 @@ impl Session {
         let Some(following) = &mut self.following else { return };
         following.planner.forget_sent();
         following.sent = None;
-        following.recheck = None;
-        if lost <= self.rule.after {
+        // A unit that was to be compared still is.
+        let unchecked = following.recheck.take().map(|recheck| recheck.lost);
+        if lost <= self.rule.after && unchecked.is_none() {
             return;
         }
+        let lost = lost + unchecked.unwrap_or_default();
         // Where it was sent, or where it was left, within what it coasts.
         let places = following.commanded.into_iter().chain(self.left_at);
         let is_where_it_was = places.into_iter().any(|place| {

@@ -149,6 +149,7 @@ impl Session {
     pub(super) fn take_word_for_standstill(&mut self) {
         tracing::warn!(antenna = self.name, "standstill by the operator's word");
         self.halting = None;
+        self.forget_silence();
         self.urgent.clear();
         self.settle_debt();
         self.prove_still();

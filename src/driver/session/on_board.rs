@@ -109,10 +109,13 @@ impl Session {
         if satellite.catalog_number == 0 {
             return Held::Nothing;
         }
-        let own_now = add_seconds(now.utc, unit.clock_ahead_s.unwrap_or_default());
-        let Some((start, stop)) = unit.window.filter(|(_, stop)| own_now < *stop) else {
-            return Held::Nothing;
+        let (Some(clock_ahead_s), Some((start, stop))) = (unit.clock_ahead_s, unit.window) else {
+            return Held::Unread;
         };
+        let own_now = add_seconds(now.utc, clock_ahead_s);
+        if own_now >= stop {
+            return Held::Nothing;
+        }
         let from_now_on = OnBoard { window: Some((start.max(own_now), stop)), ..unit.clone() };
         let orbit = self.wires.orbit.borrow().clone();
         let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));

@@ -55,6 +55,7 @@ impl Silence {
 impl Session {
     /// Bytes went to the unit.
     pub(super) fn wrote(&mut self, now: Moment) {
+        self.silence.heard(self.gate.state().traffic.replies);
         self.silence.wrote(now.steady);
     }
 
@@ -86,6 +87,11 @@ impl Session {
         if self.is_in_motion() {
             self.tell_silence();
         }
+    }
+
+    /// The operator has looked at it, or leaves it to others.
+    pub(super) fn forget_silence(&mut self) {
+        self.silence.is_told = false;
     }
 
     fn tell_silence(&mut self) {

@@ -63,6 +63,7 @@ impl Session {
             return false;
         }
         self.wanted = Wanted::No;
+        self.forget_silence();
         self.intent = Intent::Standby;
         self.following = None;
         true

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use super::{AzEl, Bounds};
 
 /// The finest step of a look along a way, degrees.
-const STEP_DEG: f64 = 0.01;
+const STEP_DEG: f64 = 0.1;
 /// An edge is found to this, degrees.
 const EDGE_DEG: f64 = 1e-9;
 /// The stretch over which the speed of an axis in the sky is taken, degrees.
@@ -43,6 +43,14 @@ impl Bounds {
             Some(turn_deg * self.speed(axes_deg, axis))
         });
         lengths.min_by(f64::total_cmp)
+    }
+
+    /// How deep inside of barriers the axes stand, by the nearest edge of each, degrees
+    /// in all.
+    pub fn forbidden_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> f64 {
+        let clearances = self.clearances(self.direction(axes_deg), at).into_iter();
+        let refused = clearances.filter(|clearance| !clearance.warns_only);
+        refused.map(|clearance| (-clearance.angle.degrees()).max(0.0)).sum()
     }
 
     /// The barriers that hold at a direction, in their order.

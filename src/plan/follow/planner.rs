@@ -48,6 +48,8 @@ pub struct Planner {
     bounds: Bounds,
     /// With the end of the pass that it belongs to.
     path: Option<(Path, Timestamp)>,
+    /// The path is one within other bounds; its side of the zenith still holds.
+    is_stale: bool,
     axes: [Axis; 2],
 }
 
@@ -62,13 +64,15 @@ impl Planner {
     ) -> Result<Self, PropagationError> {
         let course = Course::new(&follow.target, follow.site)?;
         let axes = [0, 1].map(|index| Axis::new(index, drives, following));
-        Ok(Self { follow, course, drives, following, bounds, path: None, axes })
+        Ok(Self { follow, course, drives, following, bounds, path: None, is_stale: false, axes })
     }
 
     /// Other keep-outs hold from now on.
     pub fn keep_within(&mut self, bounds: Bounds) {
-        self.bounds = bounds;
-        self.path = None;
+        if bounds != self.bounds {
+            self.bounds = bounds;
+            self.is_stale = true;
+        }
     }
 
     /// What is followed.
@@ -94,6 +98,7 @@ impl Planner {
         if !self.has_path(now) {
             let found = self.new_path(now, axes.map(|axis| axis.position_deg));
             self.path = Some(found.ok_or(PropagationError::Decayed)?);
+            self.is_stale = false;
         }
         let Some((path, _)) = &self.path else { return Ok(None) };
         let now_s = path.seconds(now);
@@ -151,7 +156,7 @@ impl Planner {
 
     fn has_path(&self, now: Timestamp) -> bool {
         let is_for = |(path, _): &(Path, Timestamp)| path.is_for(self.drives.rates_deg_s);
-        self.path.as_ref().is_some_and(is_for) && self.reaches_on(now)
+        !self.is_stale && self.path.as_ref().is_some_and(is_for) && self.reaches_on(now)
     }
 
     /// Whether the path goes on for long enough.

@@ -43,7 +43,8 @@ fn reply(reply: &Reply) -> Meaning {
         Reply::Version(version) => {
             let parts = [Some(&version.control_unit), version.drive_unit.as_ref()];
             let parts: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
-            parts.join(", ")
+            let named = parts.join(", ");
+            if named.is_empty() { "No version".to_owned() } else { named }
         }
         Reply::Status(status) => state(status),
         Reply::Faults(faults) => fault_list(faults),
