@@ -230,6 +230,7 @@ impl Bounds {
     }
 
     /// The same without the barriers that `axes_deg` are inside of.
+    #[must_use]
     pub fn without_entered(&self, axes_deg: [f64; 2], at: Timestamp) -> Self {
         let direction = self.direction(axes_deg);
         let is_outside = |barrier: &Barrier| {
@@ -466,6 +467,25 @@ mod tests {
         station.sun_avoidance = None;
         let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
         assert_eq!(bounds.blocks(there, high(), noon()), None);
+    }
+
+    #[test]
+    fn wherever_the_sun_comes_in_its_time_ahead_is_refused() {
+        for (radius_deg, ahead_min) in [(0.1, 120.0), (5.0, 120.0), (1.0, 7.0), (30.0, 0.0)] {
+            let sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min });
+            let station = Station { sun_avoidance, ..Station::default() };
+            let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
+            let standing = bounds.standing(noon());
+            assert!(standing.suns.len() <= 42, "{}", standing.suns.len());
+            for second in (0..=(ahead_min * 60.0) as i64).step_by(10) {
+                let later = noon() + SignedDuration::from_secs(second);
+                let sun = sun_moon::sun(station.site, later);
+                for bearing_deg in [0.0, 45.0, 90.0, 180.0, 300.0] {
+                    let beside = sun.towards(bearing_deg, radius_deg * 0.999);
+                    assert!(!standing.has_room(beside, 0.0), "{radius_deg} {second} {bearing_deg}");
+                }
+            }
+        }
     }
 
     proptest! {

@@ -219,6 +219,31 @@ async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
+    let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
+    let (mut rig, control, _) = following(&goes_on).await;
+    rig.until("its place", 60.0, |shown| shown.state.on_board.place.is_some()).await;
+    rig.set_off(true);
+    rig.seconds(2.0).await;
+    let (mut near, far) = tokio::io::duplex(4096);
+    let unit = control.clone();
+    tokio::spawn(async move { unit.serve(far).await });
+    near.write_all(&encode("GPS_SETTINGS=,0,12.50N,40.10E")).await.unwrap();
+    rig.seconds(8.0).await;
+    rig.set_off(false);
+    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    let sent = gotos(&control);
+    // Before its place was read again.
+    rig.set_off(true);
+    rig.seconds(0.1).await;
+    rig.set_off(false);
+    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.seconds(20.0).await;
+    assert!(rig.events().iter().any(asks));
+    assert_eq!(gotos(&control), sent);
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_unit_that_comes_back_with_other_settings_is_not_followed_on_with() {
     let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
     for (setting, unlike) in [

@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use azel::{
-    driver::{Command, Event, Intent, LinkState, Refusal, StopState},
+    driver::{Command, Event, Intent, LinkState, Refusal, StopState, StoppingWay},
     protocol::satrak::FaultKind,
     sim::satrak::Fault,
     station::Mount,
@@ -49,9 +49,11 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     let mut rig = in_manual().await;
     let fastest_deg_s = antenna().limits.maximum_rate_deg_s;
     let usual = rig.shown().stopping_way;
+    let mut before = 0;
     // What is slow tells nothing of what is fast.
     for (share, stops) in [(0.2, 0), (0.9, 1), (-0.6, 2), (1.0, 3)] {
-        assert_eq!(rig.shown().stopping_way.run_out_s, usual.run_out_s);
+        assert_eq!(rig.shown().stopping_way, StoppingWay { stops: before, ..usual });
+        before = stops;
         rig.hold([fastest_deg_s * share, 0.0], 2.0).await;
         rig.send(Command::EndJog);
         rig.seconds(3.0).await;

@@ -20,8 +20,9 @@ use crate::{
 const OUT_SHARE: f64 = 0.25;
 /// A way out has to gain at least this much over what it is judged ahead, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
-/// A way out is looked at in so many places, lest it leads in deeper between its ends.
-const LOOKS_OUT: u32 = 8;
+/// A way out is looked at as often as this, lest it leads in deeper between its ends:
+/// degrees of the axis that turns further.
+const LOOK_OUT_DEG: f64 = 0.5;
 
 /// Between two places of a detour that are tried as the next position, degrees.
 const DETOUR_STEP_DEG: f64 = 4.0;
@@ -134,8 +135,9 @@ fn by_hand(
     };
     blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
     let mut from_deg = axes_deg;
-    for part in 1..=LOOKS_OUT {
-        let to_deg = at(f64::from(part) / f64::from(LOOKS_OUT));
+    let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0);
+    for part in 1..=looks as u32 {
+        let to_deg = at(f64::from(part) / looks);
         if !leads_out(bounds, from_deg, to_deg, utc) {
             let at = bounds.direction(to_deg);
             return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });

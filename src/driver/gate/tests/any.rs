@@ -217,6 +217,25 @@ fn look_closely(seed: u64) -> Outcome {
         if let [Some(start_deg), Some(end_deg)] = ways_deg {
             let is_deeper = end_deg > start_deg + FINE_DEG;
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
+            // Nor is it anywhere in between, and what it was outside of stays so.
+            let mut before_deg = start_deg;
+            let entered_at = |axes_deg| {
+                let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
+                clearances.into_iter().map(|it| it.angle.degrees() < -EDGE_DEG).collect::<Vec<_>>()
+            };
+            let entered = entered_at(from_deg);
+            for part in 1..=16 {
+                let share = f64::from(part) / 16.0;
+                let axes_deg: [f64; 2] = std::array::from_fn(|axis| {
+                    from_deg[axis] + share * (to_deg[axis] - from_deg[axis])
+                });
+                let is_new = entered.iter().zip(entered_at(axes_deg)).any(|(was, is)| !was && is);
+                assert!(!is_new, "{seed}: {motion:?} enters another at {axes_deg:?}");
+                let Some(here_deg) = way_out_deg(&bounds, axes_deg, utc) else { continue };
+                let is_deeper = here_deg > before_deg + 3.0 * FINE_DEG;
+                assert!(!is_deeper, "{seed}: {before_deg} to {here_deg} at {axes_deg:?}");
+                before_deg = here_deg;
+            }
         } else {
             let end_deg = clear_deg(to_deg);
             assert!(end_deg > start_deg, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
