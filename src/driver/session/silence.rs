@@ -43,6 +43,15 @@ impl Silence {
         }
     }
 
+    /// What was asked before anything moved is missing from now on only.
+    fn watch(&mut self, is_watched: bool, now: Instant) {
+        if is_watched && !self.is_watched {
+            self.first = self.first.map(|_| now);
+            self.second = None;
+        }
+        self.is_watched = is_watched;
+    }
+
     /// When nothing that was asked has been answered in its time.
     fn due(&self, prompt: Duration) -> Option<Instant> {
         let first = self.first?;
@@ -75,7 +84,8 @@ impl Session {
     /// Tells of a unit that does not answer while it moves; once, until it does.
     pub(super) fn watch_silence(&mut self, now: Moment) {
         self.silence.heard(self.gate.state().traffic.replies);
-        self.silence.is_watched = self.is_in_motion();
+        let is_watched = self.is_in_motion();
+        self.silence.watch(is_watched, now.steady);
         self.gate.device().watch_closely(self.silence.is_watched);
         if self.silence_due().is_some_and(|at| now.steady >= at) {
             self.tell_silence();

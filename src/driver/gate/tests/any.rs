@@ -219,17 +219,18 @@ fn look_closely(seed: u64) -> Outcome {
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
             // Nor is it anywhere in between, and what it was outside of stays so.
             let mut before_deg = start_deg;
-            let entered_at = |axes_deg| {
+            let entered_at = |axes_deg, edge_deg: f64| {
                 let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
-                clearances.into_iter().map(|it| it.angle.degrees() < -EDGE_DEG).collect::<Vec<_>>()
+                clearances.into_iter().map(|it| it.angle.degrees() < -edge_deg).collect::<Vec<_>>()
             };
-            let entered = entered_at(from_deg);
+            let entered = entered_at(from_deg, 0.0);
             for part in 1..=16 {
                 let share = f64::from(part) / 16.0;
                 let axes_deg: [f64; 2] = std::array::from_fn(|axis| {
                     from_deg[axis] + share * (to_deg[axis] - from_deg[axis])
                 });
-                let is_new = entered.iter().zip(entered_at(axes_deg)).any(|(was, is)| !was && is);
+                let is_new =
+                    entered.iter().zip(entered_at(axes_deg, EDGE_DEG)).any(|(was, is)| !was && is);
                 assert!(!is_new, "{seed}: {motion:?} enters another at {axes_deg:?}");
                 let Some(here_deg) = way_out_deg(&bounds, axes_deg, utc) else { continue };
                 let is_deeper = here_deg > before_deg + 3.0 * FINE_DEG;
