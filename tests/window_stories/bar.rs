@@ -41,9 +41,12 @@ fn alarms_are_told_in_words_with_their_antenna() {
     let note = |reason| AlarmKind::Setting(Note { place: "antenna.park".to_owned(), reason });
     for (kind, wanted) in [
         (AlarmKind::LinkLost(LinkLoss::Closed), "Satrak does not reply: the unit closed"),
-        (AlarmKind::StopNotConfirmed, "Satrak is not known to stand 3 s after STOP. Use the"),
+        (AlarmKind::StopNotConfirmed, "Satrak is still not known to stand after STOP. Use the"),
         (AlarmKind::StopRefused("7".to_owned()), "Satrak answered ERR,7 to STOP. Use the local"),
-        (AlarmKind::JogLeaseOver, "Satrak: the jog was stopped, the window did not hold it"),
+        (
+            AlarmKind::JogLeaseOver,
+            "Satrak: the jog was stopped because the window did not renew it",
+        ),
         (AlarmKind::Refused(Motion::StartProgram, "7".to_owned()), "Track: Satrak answered ERR,7"),
         (AlarmKind::Fault(FaultKind::XMotor), "Satrak: X motor. Do not move X"),
         (

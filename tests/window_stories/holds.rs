@@ -136,7 +136,7 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
 
 #[test]
 fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
-    let near = "Move away: Satrak is too close to the Sun, and not driven by Azel.";
+    let near = "Move away: Satrak is too close to the Sun; Azel was not moving it.";
     let told = Safety::Forbidden {
         barrier: Barrier::Sun,
         driver: Mover::Somebody,
@@ -187,7 +187,7 @@ fn a_keep_out_is_told_of_with_its_reason() {
     assert!(says(&window, "at 90.0°, 20.0°. “mast”: Steel mast, 24 m away."));
     window.get_by_label_contains("1 alarm").click();
     rig::settle(&mut window);
-    assert!(says(&window, "not driven by Azel. “mast”: Steel mast, 24 m away."));
+    assert!(says(&window, "Azel was not moving it. “mast”: Steel mast, 24 m away."));
 }
 
 #[test]

@@ -346,7 +346,7 @@ fn a_keep_out_around_an_antenna_is_saved_by_a_hold() {
         field(&mut window, &format!("Azimuth of corner {}", corner + 1), &azimuth.to_string());
         field(&mut window, &format!("Elevation of corner {}", corner + 1), &elevation.to_string());
     }
-    let words = "Satrak stands inside \"mast\" now. It may leave it, not enter it again.";
+    let words = "Satrak stands inside “mast” now. It can be moved out by hand once you allow it.";
     window.get_by_label(words);
     let button = window.get_by_role_and_label(Role::Button, "Hold 1 s to save").rect().center();
     window.drag_at(button);
