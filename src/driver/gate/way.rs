@@ -164,9 +164,8 @@ fn leads_out(bounds: &Bounds, from_deg: [f64; 2], to_deg: [f64; 2], utc: Timesta
     match [from_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc)) {
         [Some(from), Some(to)] => to < from - OUT_GAIN_DEG || (from <= 0.0 && to <= 0.0),
         [Some(_), None] => false,
-        [None, Some(_)] => true,
         // No axis gets out by itself: the nearest edge has to come nearer.
-        [None, None] => {
+        [None, _] => {
             let depth = |axes_deg| bounds.forbidden_deg(axes_deg, utc);
             depth(to_deg) < depth(from_deg) - OUT_GAIN_DEG
         }
