@@ -16,7 +16,7 @@ use crate::{
     rig::{self, SIZES, Window, asked, settle},
     settings_desk::{hold, press},
     states,
-    unit::{Unit, clock_from, open, step_until},
+    unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 
 const HOLD: &str = "Hold 1 s to lock out";
@@ -141,13 +141,9 @@ fn until_it_is_read_back_it_is_being_locked_out() {
     }
 }
 
-#[test]
-fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
-    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
-    let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
-    let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
-    let mut window = open(&path, clock_from(utc));
+/// A window in which the lock-out was held.
+fn locked_out_by_ada(path: &std::path::Path, clock: azel::driver::Clock) -> RealWindow {
+    let mut window = open(path, clock);
     let is_up = |model: &azel::app::Model| {
         model.antenna().is_some_and(|of| of.snapshot.state.measured.is_some())
     };
@@ -157,6 +153,16 @@ fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
     write(&mut window, "Reason", "gear box open");
     window.run_steps(2);
     hold(&mut window, HOLD);
+    window
+}
+
+#[test]
+fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
+    let utc = "2026-08-12T11:14:30Z".parse().unwrap();
+    let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let mut window = locked_out_by_ada(&path, clock_from(utc));
     let is_locked = |model: &azel::app::Model| {
         let snapshot = &model.antenna().unwrap().snapshot;
         snapshot.lock_out.is_some() && !snapshot.locking
@@ -193,16 +199,7 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     station::save(&unit.station(), &path).unwrap();
-    let mut window = open(&path, clock_from(utc));
-    let is_up = |model: &azel::app::Model| {
-        model.antenna().is_some_and(|of| of.snapshot.state.measured.is_some())
-    };
-    step_until(&mut window, "the antenna is measured", is_up);
-    ask_for_lock_out(&mut window, "Satrak");
-    write(&mut window, "Your name", "Ada");
-    write(&mut window, "Reason", "gear box open");
-    window.run_steps(2);
-    hold(&mut window, HOLD);
+    let mut window = locked_out_by_ada(&path, clock_from(utc));
     let is_locked = |model: &azel::app::Model| {
         model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some())
     };
