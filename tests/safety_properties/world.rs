@@ -406,6 +406,11 @@ impl World {
             Unit::Genius(_) => [axes_deg[0].rem_euclid(360.0), axes_deg[1]],
             _ => axes_deg,
         };
+        // Where a unit counts within a full circle, an axis that has turned further would
+        // begin outside of its travel.
+        if axes_deg[0] < self.antenna.mount.travel_deg()[0].0 {
+            return false;
+        }
         let direction = self.bounds.direction(axes_deg);
         let above_deg = direction.elevation_deg() - self.antenna.limits.minimum_elevation_deg;
         let sky = self.bounds.above_the_floor().nearest(direction, self.utc_origin);

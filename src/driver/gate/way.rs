@@ -18,7 +18,8 @@ use crate::{
 /// Out of what is forbidden an antenna goes by hand alone, with this share of the
 /// fastest rate at most, or at the slowest speed that the controller has.
 const OUT_SHARE: f64 = 0.25;
-/// A way out has to gain at least this much over what it is judged ahead, degrees.
+/// A way out has to gain at least this much over what it is judged ahead, and may lose
+/// no more than this on the way, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
 /// A way out is looked at as often as this, lest it leads in deeper between its ends:
 /// degrees of the axis that turns further.
@@ -134,15 +135,15 @@ fn by_hand(
         return blocked(sweep, axes_deg, bounds, situation.now);
     };
     blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
-    let mut from_deg = axes_deg;
-    let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0);
-    for part in 1..=looks as u32 {
-        let to_deg = at(f64::from(part) / looks);
-        if !leads_out(bounds, from_deg, to_deg, utc) {
+    let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
+    for look in 1..=looks {
+        let to_deg = at(f64::from(look) / f64::from(looks));
+        // On the way it may lead along an edge, or past where the way out is shorter.
+        let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
+        if !leads_out(bounds, [axes_deg, to_deg], gain_deg, utc) {
             let at = bounds.direction(to_deg);
             return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
         }
-        from_deg = to_deg;
     }
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
     let slowest_share = match situation.can.jog {
@@ -159,15 +160,18 @@ fn by_hand(
     Err(Refusal::Inside(inside.barrier.clone()))
 }
 
-/// Whether it is less deep at the second place, or outside of everything at both.
-fn leads_out(bounds: &Bounds, from_deg: [f64; 2], to_deg: [f64; 2], utc: Timestamp) -> bool {
-    match [from_deg, to_deg].map(|axes_deg| bounds.way_out_deg(axes_deg, utc)) {
-        [Some(from), Some(to)] => to < from - OUT_GAIN_DEG || (from <= 0.0 && to <= 0.0),
+/// Whether it is less deep by `gain_deg` at the second place, or outside of everything
+/// at both.
+fn leads_out(bounds: &Bounds, ends_deg: [[f64; 2]; 2], gain_deg: f64, utc: Timestamp) -> bool {
+    match ends_deg.map(|axes_deg| bounds.way_out_deg(axes_deg, utc)) {
+        [Some(from), Some(to)] => to < from - gain_deg || (from <= 0.0 && to <= 0.0),
         [Some(_), None] => false,
-        // No axis gets out by itself: the nearest edge has to come nearer.
+        // No axis gets out by itself: the edge of what is deepest has to come nearer. To
+        // rise to the floor is worth no way deeper into what stands above it.
         [None, _] => {
-            let depth = |axes_deg| bounds.forbidden_deg(axes_deg, utc);
-            depth(to_deg) < depth(from_deg) - OUT_GAIN_DEG
+            let [(was_below_deg, was_inside_deg), (below_deg, inside_deg)] =
+                ends_deg.map(|axes_deg| bounds.depths_deg(axes_deg, utc));
+            below_deg <= was_below_deg && inside_deg < was_inside_deg - gain_deg
         }
     }
 }

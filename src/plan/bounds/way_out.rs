@@ -6,7 +6,7 @@
 
 use jiff::Timestamp;
 
-use super::{AzEl, Bounds};
+use super::{AzEl, Barrier, Bounds};
 
 /// The finest step of a look along a way, degrees.
 const STEP_DEG: f64 = 0.1;
@@ -45,12 +45,19 @@ impl Bounds {
         lengths.min_by(f64::total_cmp)
     }
 
-    /// How deep inside of barriers the axes stand, by the nearest edge of each, degrees
-    /// in all.
-    pub fn forbidden_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> f64 {
-        let clearances = self.clearances(self.direction(axes_deg), at).into_iter();
-        let refused = clearances.filter(|clearance| !clearance.warns_only);
-        refused.map(|clearance| (-clearance.angle.degrees()).max(0.0)).sum()
+    /// How deep the axes stand below the minimum elevation, and inside of the deepest
+    /// of all other barriers by its nearest edge; degrees.
+    pub fn depths_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> (f64, f64) {
+        let (mut below_deg, mut inside_deg) = (0.0_f64, 0.0_f64);
+        for clearance in self.clearances(self.direction(axes_deg), at) {
+            let deep_deg = (-clearance.angle.degrees()).max(0.0);
+            match clearance.barrier {
+                _ if clearance.warns_only => {}
+                Barrier::MinimumElevation => below_deg = below_deg.max(deep_deg),
+                _ => inside_deg = inside_deg.max(deep_deg),
+            }
+        }
+        (below_deg, inside_deg)
     }
 
     /// The barriers that hold at a direction, in their order.
@@ -79,12 +86,14 @@ impl Bounds {
         let place = |turn_deg| self.place(axes_at(turn_deg), left, suns);
         let end_deg = self.turn_to_end_deg(axes_deg, axis, way).min(FURTHEST_DEG);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
-        while turn_deg <= end_deg {
+        loop {
             match place(turn_deg) {
                 Place::Barred => return None,
+                Place::Inside(_) if turn_deg >= end_deg => return None,
                 Place::Inside(step_deg) => {
                     inside_deg = turn_deg;
-                    turn_deg += step_deg.max(STEP_DEG);
+                    // The edge may lie just before the end of the travel.
+                    turn_deg = f64::min(turn_deg + step_deg.max(STEP_DEG), end_deg);
                 }
                 Place::Free => {
                     let mut free_deg = turn_deg;
@@ -99,7 +108,6 @@ impl Bounds {
                 }
             }
         }
-        None
     }
 
     fn place(&self, axes_deg: [f64; 2], left: &[bool], suns: &[AzEl]) -> Place {
@@ -145,10 +153,14 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::station::{Antenna, Entered, KeepOut, Station};
+    use crate::station::{Antenna, Entered, KeepOut, Mount, Station};
 
     /// The keep-out reaches below the minimum elevation of 5 degrees.
     fn bounds() -> Bounds {
+        bounds_to(360.0)
+    }
+
+    fn bounds_to(azimuth_to_deg: f64) -> Bounds {
         let corners_deg = [(100.0, 2.0), (160.0, 2.0), (160.0, 60.0), (100.0, 60.0)];
         let keep_out = KeepOut {
             name: "roof".to_owned(),
@@ -161,6 +173,12 @@ mod tests {
         let mut antenna = Antenna::genius("Yagi", "memory:1");
         antenna.limits.minimum_elevation_deg = 5.0;
         antenna.beam_width_deg = 0.0;
+        antenna.mount = Mount::AzEl {
+            azimuth_from_deg: 0.0,
+            azimuth_to_deg,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        };
         Bounds::of(&Station { keep_outs: vec![keep_out], ..Station::default() }, &antenna)
     }
 
@@ -174,6 +192,15 @@ mod tests {
         assert!((25.0..31.0).contains(&at_deg), "{at_deg}");
         assert!(way_out_deg([130.0, 5.0]).unwrap() > at_deg, "lower is deeper");
         assert!(way_out_deg([131.0, 6.0]).unwrap() < at_deg, "sideways leads out");
+    }
+
+    #[test]
+    fn an_edge_just_before_the_end_of_the_travel_is_a_way_out() {
+        let at = "2026-08-12T10:00:00Z".parse().unwrap();
+        let at_deg = bounds_to(160.08).way_out_deg([155.0, 30.0], at).unwrap();
+        assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
+        let at_deg = bounds_to(160.02).way_out_deg([155.0, 30.0], at).unwrap();
+        assert!(at_deg > 20.0, "{at_deg}");
     }
 
     #[test]

@@ -128,16 +128,19 @@ fn way_out_deg(bounds: &Bounds, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
     let turn_deg = |axis: usize, way: f64| {
         let (least_deg, most_deg) = bounds.mount().travel_deg()[axis];
         for step in 0_u32..3_600 {
-            let turn_deg = f64::from(step) * FINE_DEG;
             let mut axes_deg = from_deg;
-            axes_deg[axis] += way * turn_deg;
+            axes_deg[axis] += way * f64::from(step) * FINE_DEG;
+            let is_beyond = !(least_deg..=most_deg).contains(&axes_deg[axis]);
+            // The edge may lie just before the end of the travel.
+            axes_deg[axis] = axes_deg[axis].clamp(least_deg, most_deg);
+            let turn_deg = (axes_deg[axis] - from_deg[axis]).abs();
             let here_deg = clear_deg(axes_deg);
             let enters = before_deg.iter().zip(&here_deg).any(|(a, b)| *a >= 0.0 && *b < 0.0);
-            if enters || !(least_deg..=most_deg).contains(&axes_deg[axis]) {
-                return None;
-            }
-            if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
+            if !enters && here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
                 return Some(turn_deg);
+            }
+            if enters || is_beyond {
+                return None;
             }
         }
         None
@@ -218,7 +221,6 @@ fn look_closely(seed: u64) -> Outcome {
             let is_deeper = end_deg > start_deg + FINE_DEG;
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
             // Nor is it anywhere in between, and what it was outside of stays so.
-            let mut before_deg = start_deg;
             let entered_at = |axes_deg, edge_deg: f64| {
                 let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
                 clearances.into_iter().map(|it| it.angle.degrees() < -edge_deg).collect::<Vec<_>>()
@@ -233,9 +235,8 @@ fn look_closely(seed: u64) -> Outcome {
                     entered.iter().zip(entered_at(axes_deg, EDGE_DEG)).any(|(was, is)| !was && is);
                 assert!(!is_new, "{seed}: {motion:?} enters another at {axes_deg:?}");
                 let Some(here_deg) = way_out_deg(&bounds, axes_deg, utc) else { continue };
-                let is_deeper = here_deg > before_deg + 3.0 * FINE_DEG;
-                assert!(!is_deeper, "{seed}: {before_deg} to {here_deg} at {axes_deg:?}");
-                before_deg = here_deg;
+                let is_deeper = here_deg > start_deg + 3.0 * FINE_DEG;
+                assert!(!is_deeper, "{seed}: {start_deg} to {here_deg} at {axes_deg:?}");
             }
         } else {
             let end_deg = clear_deg(to_deg);

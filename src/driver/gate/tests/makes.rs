@@ -209,3 +209,34 @@ fn an_action_ends_where_it_leads_and_not_where_the_motion_before_did() {
     assert!((first_deg(&gate, 48.0) - 54.0).abs() < 1e-9, "it passes on");
     assert!((first_deg(&gate, 198.0) - 200.0).abs() < 1e-9);
 }
+
+#[test]
+fn by_hand_it_may_go_along_an_edge_to_where_the_way_out_is_shorter() {
+    let zone = |name: &str, margin_deg, corners_deg: [(f64, f64); 4]| KeepOut {
+        name: name.to_owned(),
+        reason: String::new(),
+        entered: crate::station::Entered::Hard,
+        antenna: None,
+        margin_deg,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    };
+    // It stands within the margin below the balcony. The mast is beneath, and left of
+    // the mast the way down is free.
+    let balcony = [(130.0, 44.0), (195.0, 44.0), (195.0, 80.0), (130.0, 80.0)];
+    let mast = [(147.0, -5.0), (204.0, -5.0), (204.0, 30.0), (147.0, 30.0)];
+    let mut case = Case {
+        antenna: Antenna::genius("Mast", ""),
+        keep_outs: vec![zone("balcony", 6.0, balcony), zone("mast", 5.0, mast)],
+        ..Case::new(Intent::Manual)
+    };
+    for (axis, deg) in case.axes().iter_mut().zip([149.0, 40.0]) {
+        axis.angle_deg = Some(deg);
+    }
+    let mut gate = case.gate(&Arc::default());
+    let now = case.now();
+    gate.let_out(Some(now.steady + Duration::from_secs(1)));
+    assert_eq!(gate.check(jog(-4.0, 0.0), Intent::Manual, now), Ok(()));
+    for motion in [jog(4.0, 0.0), jog(0.0, -4.0)] {
+        assert!(gate.check(motion, Intent::Manual, now).is_err(), "{motion:?}");
+    }
+}
