@@ -66,6 +66,12 @@ pub enum AlarmKind {
     },
     /// By what the unit tells of itself it would miss a pass; the likeliest cause.
     UnitDiffers(Ranked),
+    /// The unit tracks by itself, and where it should point is not known here.
+    NotCompared {
+        /// What it says that it tracks, of which no elements are known; `None` where it
+        /// does not say.
+        satellite: Option<String>,
+    },
     /// Tracking ended before LOS.
     TrackingEnded,
     /// A motion ended somewhere else.
@@ -259,6 +265,7 @@ impl AlarmKind {
                 | Self::ClockOff(_)
                 | Self::OffTarget { .. }
                 | Self::UnitDiffers(_)
+                | Self::NotCompared { .. }
                 | Self::ClockNotSet
                 | Self::DecimalCommas
                 | Self::Setting(_)

@@ -15,7 +15,7 @@ use super::{
 use crate::{
     astro::{Angle, Site, time::add_seconds},
     controller::{OnBoard, TrackTarget},
-    driver::{self, Event, Refusal},
+    driver::{self, Event, Refusal, Snapshot},
     orbit::{PassSearch, passes},
     plan::{
         OnBoardPass, Supervision,
@@ -176,10 +176,32 @@ impl App {
             Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
             None => alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
         }
+        let is_read = matches!(self.model.catalog, CatalogState::Ready(_));
+        match antenna.not_compared().filter(|_| is_read) {
+            Some(kind) => alarms.raise(of, kind, now),
+            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
+        }
     }
 }
 
 impl AntennaModel {
+    /// What the operator has to watch alone: the unit tracks by itself what cannot be
+    /// compared with elements.
+    fn not_compared(&self) -> Option<AlarmKind> {
+        let Snapshot { state, following, link, .. } = &*self.snapshot;
+        let tracks = state.program.is_some_and(|program| program.enabled);
+        if !tracks || !link.is_open() || following.is_some() || self.orbit.is_some() {
+            return None;
+        }
+        match &state.on_board.satellite {
+            Some(held) if held.catalog_number == 0 => None,
+            Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
+            // A unit that is given satellites from here tells soon which it holds.
+            None if self.make().capabilities.has_program => None,
+            None => Some(AlarmKind::NotCompared { satellite: None }),
+        }
+    }
+
     /// How its unit would follow by what it tells of itself, or does.
     pub fn supervision(&self) -> Option<&Supervision> {
         let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);

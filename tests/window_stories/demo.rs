@@ -1,11 +1,11 @@
 //! The demo station: one simulated controller of each make, behind real links.
 
-use std::net::TcpStream;
+use std::{collections::BTreeMap, net::TcpStream};
 
 use azel::{
-    app::Model,
+    app::{Model, alarms::AlarmKind},
     astro::{Angle, AzEl},
-    controller::Measured,
+    controller::{Measured, panel::Act, settings::Value},
     driver::{Clock, Command, LinkState, StopState},
     makes, station,
 };
@@ -78,6 +78,28 @@ fn the_rc2000c_is_calibrated_and_goes_where_it_is_sent() {
     // 1525 and 750 counts, 20 a degree.
     step_until(&mut window, "it is measured", |model| stands_at(model, RC2000C, 164.75, 36.0));
     go_to(&mut window, RC2000C, 169.0, 33.0);
+}
+
+#[test]
+fn an_rc2000c_that_tracks_by_itself_is_compared_with_nothing_and_that_is_an_alarm() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = demo(&folder);
+    send(&window, RC2000C, Command::Connect);
+    let is_listed = |model: &Model| {
+        let state = &model.antennas[RC2000C].snapshot.state;
+        let mut readings = state.readings.iter();
+        readings.any(|of| of.label == "Stored satellites" && !of.text.ends_with('…'))
+    };
+    step_until(&mut window, "its satellites are read", is_listed);
+    send(&window, RC2000C, Command::Manual);
+    let values = BTreeMap::from([("satellite", Value::Text("GSTAR 3".to_owned()))]);
+    send(&window, RC2000C, Command::ActUnseen(Act { action: "to_satellite", values }));
+    let not_compared = AlarmKind::NotCompared { satellite: None };
+    let is_told = |model: &Model| {
+        let mut alarms = model.alarms.list().iter();
+        alarms.any(|alarm| alarm.antenna == Some(RC2000C) && alarm.kind == not_compared)
+    };
+    step_until(&mut window, "it is told", is_told);
 }
 
 #[test]

@@ -7,11 +7,11 @@ use std::{
 };
 
 use azel::{
-    app::{UiCommand, alarms::AlarmKind},
+    app::{Model, UiCommand, alarms::AlarmKind},
     astro::{Angle, time::add_seconds},
     controller::{Place, settings::Value},
     driver::{OnBoardView, Snapshot},
-    orbit::bundled,
+    orbit::{bundled, read_elements},
     plan::{
         Supervision,
         on_board::{Cause, Error, Ranked, Unknown},
@@ -21,6 +21,7 @@ use azel::{
     station,
     ui::words,
 };
+use egui::Key;
 use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
@@ -107,6 +108,15 @@ fn by_another(unit: &Unit, payloads: &[&str]) {
     }
 }
 
+/// Another client lets the unit track a satellite of its file, five minutes after `utc`.
+fn track_by_another(unit: &Unit, satellite: &str, utc: Timestamp) {
+    let text = |at| TimeZone::UTC.to_datetime(at).strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string();
+    let (from, until) = (add_seconds(utc, 300.0), add_seconds(utc, 900.0));
+    let satellite = format!("SATELLITE=,{BUNDLED_FILE},{satellite},1,0");
+    let window = format!("START_STOP_TIME=,{},{}", text(from), text(until));
+    by_another(unit, &[&satellite, &window, "TRACK=,1"]);
+}
+
 #[test]
 fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     let utc: Timestamp = "2026-08-12T11:14:30Z".parse().unwrap();
@@ -115,14 +125,37 @@ fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     station::save(&unit.station(), &path).unwrap();
     let catalog = bundled().unwrap();
     let held = catalog.get(rig::station().favourites[0]).unwrap().name().to_owned();
-    let text = |at| TimeZone::UTC.to_datetime(at).strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string();
-    let (from, until) = (add_seconds(utc, 300.0), add_seconds(utc, 900.0));
-    let satellite = format!("SATELLITE=,{BUNDLED_FILE},{held},1,0");
-    let window = format!("START_STOP_TIME=,{},{}", text(from), text(until));
-    by_another(&unit, &[&satellite, &window, "TRACK=,1"]);
+    track_by_another(&unit, &held, utc);
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "it is compared", |model| {
         model.antenna().is_some_and(|antenna| antenna.snapshot.on_board.is_some())
     });
     assert_eq!(window.state().model().antenna().unwrap().snapshot.target, None);
+}
+
+/// Elements of nothing that the catalog has.
+const UNKNOWN: &str = r#"[{"OBJECT_NAME": "HOMEMADE", "OBJECT_ID": "2026-999A",
+    "NORAD_CAT_ID": 799999999, "EPOCH": "2026-08-12T00:00:00", "MEAN_MOTION": 15.2,
+    "ECCENTRICITY": 0.0005, "INCLINATION": 97.5, "RA_OF_ASC_NODE": 120.0,
+    "ARG_OF_PERICENTER": 30.0, "MEAN_ANOMALY": 10.0, "BSTAR": 0.0001}]"#;
+
+#[test]
+fn what_the_unit_tracks_that_the_station_has_no_elements_of_is_an_alarm() {
+    let utc: Timestamp = "2026-08-12T11:14:30Z".parse().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let unit = Unit::of_elements(read_elements(UNKNOWN).elements, utc);
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    track_by_another(&unit, "HOMEMADE", utc);
+    let mut window = open(&path, clock_from(utc));
+    let not_compared = AlarmKind::NotCompared { satellite: Some("HOMEMADE".to_owned()) };
+    let stands = |model: &Model, is_over: bool| {
+        let mut alarms = model.alarms.list().iter();
+        alarms.any(|alarm| alarm.kind == not_compared && alarm.cleared == is_over)
+    };
+    step_until(&mut window, "it is told", |model| stands(model, false));
+    let said = words::alarm(&not_compared, "Satrak");
+    assert!(said.contains("add a source that has them"), "{said}");
+    window.key_press(Key::Escape);
+    step_until(&mut window, "it is over", |model| stands(model, true));
 }

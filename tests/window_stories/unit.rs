@@ -15,7 +15,7 @@ use azel::{
     astro::time::add_seconds,
     controller::satrak::ELEMENT_FILE,
     driver::Clock,
-    orbit::bundled,
+    orbit::{Elements, bundled},
     protocol::satrak::{Frame, Reply, Status, encode},
     sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
     station::{Antenna, Station},
@@ -28,6 +28,8 @@ use crate::rig;
 
 /// No story may take longer for one step.
 const PATIENCE: Duration = Duration::from_secs(20);
+
+const USUAL_DELAY: RangeInclusive<Duration> = Duration::from_millis(5)..=Duration::from_millis(30);
 
 pub(crate) type RealWindow = Harness<'static, App>;
 
@@ -42,20 +44,23 @@ impl Unit {
     /// A unit that holds the elements of the station and whose clock starts at
     /// `utc`.
     pub(crate) fn start(utc: Timestamp) -> Self {
-        Self::with_delay(utc, Duration::from_millis(5)..=Duration::from_millis(30))
+        Self::with_delay(utc, USUAL_DELAY)
     }
 
     /// The same, with answers that take so long.
     pub(crate) fn with_delay(utc: Timestamp, reply_delay: RangeInclusive<Duration>) -> Self {
-        let station = rig::station();
         let catalog = bundled().unwrap();
-        let elements =
-            station.favourites.iter().map(|number| catalog.get(*number).unwrap().clone());
-        let options = Options {
-            elements: BTreeMap::from([(BUNDLED_FILE.to_owned(), elements.collect())]),
-            reply_delay,
-            ..Options::new(station.site, utc)
-        };
+        let favourites = rig::station().favourites.into_iter();
+        let elements = favourites.map(|number| catalog.get(number).unwrap().clone()).collect();
+        Self::run(Options { reply_delay, ..holding(elements, utc) })
+    }
+
+    /// A unit that holds these elements and whose clock starts at `utc`.
+    pub(crate) fn of_elements(elements: Vec<Elements>, utc: Timestamp) -> Self {
+        Self::run(holding(elements, utc))
+    }
+
+    fn run(options: Options) -> Self {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         let free_port = SocketAddr::from(([127, 0, 0, 1], 0));
         let simulator = runtime.block_on(Simulator::bind(free_port, options)).unwrap();
@@ -92,6 +97,14 @@ impl Unit {
             Reply::Status(status) => Some(status),
             other => panic!("{other:?}"),
         }
+    }
+}
+
+fn holding(elements: Vec<Elements>, utc: Timestamp) -> Options {
+    Options {
+        elements: BTreeMap::from([(BUNDLED_FILE.to_owned(), elements)]),
+        reply_delay: USUAL_DELAY,
+        ..Options::new(rig::station().site, utc)
     }
 }
 

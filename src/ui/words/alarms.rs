@@ -68,6 +68,14 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             let why = super::cause(ranked);
             format!("{antenna} would miss by its own program: {why}.")
         }
+        AlarmKind::NotCompared { satellite: Some(name) } => format!(
+            "{antenna} tracks {name} by its own program. Azel has no elements of it and cannot \
+             tell whether it is on its satellite: add a source that has them."
+        ),
+        AlarmKind::NotCompared { satellite: None } => format!(
+            "{antenna} tracks by its own program and does not tell what. Azel cannot tell \
+             whether it is on its satellite; its limits and keep-outs are watched."
+        ),
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stopped before it reached its target."),
         AlarmKind::StartedByItself => {
