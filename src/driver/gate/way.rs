@@ -125,8 +125,8 @@ fn by_hand(
     let (bounds, utc) = (situation.bounds, situation.now.utc);
     let at = |share: f64| [axes_deg[0] + ahead_deg[0] * share, axes_deg[1] + ahead_deg[1] * share];
     let sweep = sweep_between(axes_deg, at(1.0), situation);
-    let here = bounds.clearances(bounds.direction(axes_deg), utc);
-    let inside = here.iter().find(|clearance| {
+    let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
+    let inside = clearances.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
@@ -135,12 +135,13 @@ fn by_hand(
         return blocked(sweep, axes_deg, bounds, situation.now);
     };
     blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
+    let here = Depth::of(bounds, axes_deg, utc);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
     for look in 1..=looks {
         let to_deg = at(f64::from(look) / f64::from(looks));
         // On the way it may lead along an edge, or past where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
-        if !leads_out(bounds, [axes_deg, to_deg], gain_deg, utc) {
+        if !here.is_left_for(&Depth::of(bounds, to_deg, utc), gain_deg) {
             let at = bounds.direction(to_deg);
             return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
         }
@@ -160,18 +161,31 @@ fn by_hand(
     Err(Refusal::Inside(inside.barrier.clone()))
 }
 
-/// Whether it is less deep by `gain_deg` at the second place, or outside of everything
-/// at both.
-fn leads_out(bounds: &Bounds, ends_deg: [[f64; 2]; 2], gain_deg: f64, utc: Timestamp) -> bool {
-    match ends_deg.map(|axes_deg| bounds.way_out_deg(axes_deg, utc)) {
-        [Some(from), Some(to)] => to < from - gain_deg || (from <= 0.0 && to <= 0.0),
-        [Some(_), None] => false,
-        // No axis gets out by itself: the edge of what is deepest has to come nearer. To
-        // rise to the floor is worth no way deeper into what stands above it.
-        [None, _] => {
-            let [(was_below_deg, was_inside_deg), (below_deg, inside_deg)] =
-                ends_deg.map(|axes_deg| bounds.depths_deg(axes_deg, utc));
-            below_deg <= was_below_deg && inside_deg < was_inside_deg - gain_deg
+/// How deep axes stand in what is forbidden.
+struct Depth {
+    /// How far it is to where they may point; `None` where no axis gets out by itself.
+    way_out_deg: Option<f64>,
+    below_floor_deg: f64,
+    inside_deg: f64,
+}
+
+impl Depth {
+    fn of(bounds: &Bounds, axes_deg: [f64; 2], utc: Timestamp) -> Self {
+        let (below_floor_deg, inside_deg) = bounds.depths_deg(axes_deg, utc);
+        Self { way_out_deg: bounds.way_out_deg(axes_deg, utc), below_floor_deg, inside_deg }
+    }
+
+    /// Whether it is less deep there by `gain_deg`, or outside of everything.
+    fn is_left_for(&self, there: &Self, gain_deg: f64) -> bool {
+        match (self.way_out_deg, there.way_out_deg) {
+            (Some(here), Some(there)) => there < here - gain_deg || (here <= 0.0 && there <= 0.0),
+            (Some(_), None) => false,
+            // No axis gets out by itself: the edge of what is deepest has to come nearer.
+            // To rise to the floor is worth no way deeper into what stands above it.
+            (None, _) => {
+                there.below_floor_deg <= self.below_floor_deg
+                    && there.inside_deg < self.inside_deg - gain_deg
+            }
         }
     }
 }

@@ -88,23 +88,23 @@ impl Bounds {
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
             match place(turn_deg) {
-                Place::Barred => return None,
                 Place::Inside(_) if turn_deg >= end_deg => return None,
                 Place::Inside(step_deg) => {
                     inside_deg = turn_deg;
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg.max(STEP_DEG), end_deg);
                 }
-                Place::Free => {
-                    let mut free_deg = turn_deg;
-                    while free_deg - inside_deg > EDGE_DEG {
-                        let middle_deg = f64::midpoint(inside_deg, free_deg);
+                // The edge may lie just before another barrier, too.
+                beyond @ (Place::Free | Place::Barred) => {
+                    let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
+                    while beyond_deg - inside_deg > EDGE_DEG {
+                        let middle_deg = f64::midpoint(inside_deg, beyond_deg);
                         match place(middle_deg) {
-                            Place::Free => free_deg = middle_deg,
-                            Place::Inside(_) | Place::Barred => inside_deg = middle_deg,
+                            Place::Inside(_) => inside_deg = middle_deg,
+                            nearer => (beyond, beyond_deg) = (nearer, middle_deg),
                         }
                     }
-                    return Some(free_deg);
+                    return matches!(beyond, Place::Free).then_some(beyond_deg);
                 }
             }
         }
@@ -153,7 +153,10 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::station::{Antenna, Entered, KeepOut, Mount, Station};
+    use crate::{
+        astro::Angle,
+        station::{Antenna, Entered, KeepOut, Mount, Station},
+    };
 
     /// The keep-out reaches below the minimum elevation of 5 degrees.
     fn bounds() -> Bounds {
@@ -201,6 +204,17 @@ mod tests {
         assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
         let at_deg = bounds_to(160.02).way_out_deg([155.0, 30.0], at).unwrap();
         assert!(at_deg > 20.0, "{at_deg}");
+    }
+
+    #[test]
+    fn a_gap_before_the_floor_is_a_way_out() {
+        let mut bounds = bounds();
+        // The lower edge is at 2 degrees.
+        for (floor_deg, is_open) in [(1.94, true), (1.96, false)] {
+            bounds.minimum_elevation = Some(Angle::from_degrees(floor_deg));
+            let at_deg = bounds.way_out_deg([130.0, 3.0], "2026-08-12T10:00:00Z".parse().unwrap());
+            assert_eq!(at_deg.unwrap() < 1.1, is_open, "{at_deg:?}");
+        }
     }
 
     #[test]
