@@ -8,7 +8,7 @@ mod owed_stop {
         net::SocketAddr,
         sync::{
             Arc,
-            atomic::{AtomicBool, Ordering},
+            atomic::{AtomicBool, AtomicU32, Ordering},
             mpsc,
         },
         thread,
@@ -28,6 +28,9 @@ mod owed_stop {
 
     /// Longer than anything here takes.
     const PATIENCE: Duration = Duration::from_secs(30);
+    /// A program that tries to pay for a moment as it closes has given up by then: a link
+    /// that is owed a STOP is dialled four times a second.
+    const MANY_DIALS: u32 = 16;
 
     /// A simulated unit behind a relay.
     struct Scene {
@@ -35,6 +38,8 @@ mod owed_stop {
         control: Control,
         relay: SocketAddr,
         is_cut: watch::Sender<bool>,
+        /// How often the relay was dialled while it was cut.
+        dials: Arc<AtomicU32>,
         woken: mpsc::Receiver<()>,
         marks: tempfile::TempDir,
         _runtime: tokio::runtime::Runtime,
@@ -51,9 +56,12 @@ mod owed_stop {
             let (is_cut, cut) = watch::channel(false);
             let listener = runtime.block_on(TcpListener::bind(any)).unwrap();
             let relay = listener.local_addr().unwrap();
+            let dials = Arc::new(AtomicU32::new(0));
+            let counted = Arc::clone(&dials);
             runtime.spawn(async move {
                 while let Ok((near, _)) = listener.accept().await {
                     let mut cut = cut.clone();
+                    counted.fetch_add(u32::from(*cut.borrow()), Ordering::Relaxed);
                     tokio::spawn(async move {
                         if !*cut.borrow_and_update() {
                             tokio::select! {
@@ -73,7 +81,7 @@ mod owed_stop {
                 .unwrap()
                 .guarded_by(Some(env!("CARGO_BIN_EXE_azel").into()))
                 .marking_in(Some(marks.path().to_owned()));
-            Self { driver, control, relay, is_cut, woken, marks, _runtime: runtime }
+            Self { driver, control, relay, is_cut, dials, woken, marks, _runtime: runtime }
         }
 
         fn antenna(&self) -> Antenna {
@@ -188,6 +196,11 @@ mod owed_stop {
         scene.cut_in_a_jog(&handle);
         let before = scene.control.received().len();
         drop(handle);
+        let (since, dials) = (Instant::now(), scene.dials.load(Ordering::Relaxed));
+        while scene.dials.load(Ordering::Relaxed) < dials + MANY_DIALS {
+            assert!(since.elapsed() < PATIENCE, "it is not dialled any more");
+            thread::park_timeout(Duration::from_millis(20));
+        }
         scene.is_cut.send(false).unwrap();
         let since = Instant::now();
         while !scene.driver.debts().units().is_empty() {

@@ -89,6 +89,15 @@ pub struct Measured {
     pub axes: [Axis; 2],
 }
 
+impl Measured {
+    /// Where both axes stand, degrees as the mount counts; an antenna without an
+    /// elevation axis counts as one at 0. `None` where an axis tells no angle.
+    pub fn axes_deg(&self, has_elevation: bool) -> Option<[f64; 2]> {
+        let [first, second] = self.axes.map(|axis| axis.angle_deg);
+        Some([first?, if has_elevation { second? } else { 0.0 }])
+    }
+}
+
 /// Where an antenna points, as far as its device tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pointing {

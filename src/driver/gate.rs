@@ -323,8 +323,7 @@ impl Gate {
 
     /// Where the axes were measured last, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
-        let [x, y] = self.state().measured?.axes.map(|axis| axis.angle_deg);
-        Some([x?, y?])
+        self.state().measured?.axes_deg(self.controller.capabilities().has_elevation)
     }
 
     /// What the antenna must keep within.

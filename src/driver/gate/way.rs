@@ -190,12 +190,9 @@ impl Depth {
     }
 }
 
-/// Where the axes stand, as the mount counts. Without an elevation axis the second
-/// one may point anywhere; `None` where an axis that counts tells no angle.
+/// Where the axes stand, as the mount counts.
 pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
-    let [first, second] = situation.state.measured?.axes.map(|axis| axis.angle_deg);
-    let second = if situation.can.has_elevation { second? } else { 0.0 };
-    Some([first?, second])
+    situation.state.measured?.axes_deg(situation.can.has_elevation)
 }
 
 fn sweep_between(from_deg: [f64; 2], to_deg: [f64; 2], situation: &Situation<'_>) -> Sweep {

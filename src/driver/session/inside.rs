@@ -52,10 +52,7 @@ impl Session {
 
     /// Where it points, as its bounds see it.
     fn direction(&self) -> Option<AzEl> {
-        let [first, second] = self.gate.state().measured?.axes.map(|axis| axis.angle_deg);
-        let has_elevation = self.make.capabilities.has_elevation;
-        let second = second.or((!has_elevation).then_some(0.0))?;
-        Some(self.gate.bounds().direction([first?, second]))
+        Some(self.gate.bounds().direction(self.gate.axes_deg()?))
     }
 
     /// The operator lets it be moved out by hand, for a minute.

@@ -47,19 +47,17 @@ impl Session {
         if before.is_some_and(|before| before.received == look.received) || self.unread {
             return;
         }
-        let [Some(first), second] = look.axes.map(|axis| axis.angle_deg) else { return };
-        let has_elevation = self.make.capabilities.has_elevation;
-        let Some(second) = second.or((!has_elevation).then_some(0.0)) else { return };
+        let Some(axes_deg) = self.gate.axes_deg() else { return };
         let rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
         self.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
         let bounds = self.bounds_now();
-        let ahead_deg = self.gate.ahead_of([first, second], rates.map(|rate| rate * ahead_s));
+        let ahead_deg = self.gate.ahead_of(axes_deg, rates.map(|rate| rate * ahead_s));
         let ahead = bounds.direction(ahead_deg);
-        let here = bounds.clearances(bounds.direction([first, second]), now.utc);
+        let here = bounds.clearances(bounds.direction(axes_deg), now.utc);
         let there = bounds.clearances(ahead, now.utc);
-        let ways_deg = [[first, second], ahead_deg].map(|at| bounds.way_out_deg(at, now.utc));
+        let ways_deg = [axes_deg, ahead_deg].map(|at| bounds.way_out_deg(at, now.utc));
         for (here, there) in here.into_iter().zip(there) {
             // Where no axis gets out by itself, the depth of each barrier counts.
             let deeper_deg = match ways_deg {

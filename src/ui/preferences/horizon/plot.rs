@@ -84,10 +84,12 @@ pub(super) fn show(
     show_legend(ui, rect, dome, t);
 }
 
-/// Words on a ground of their own.
+/// Words on a ground of their own, whole even beside the edge of the plot.
 fn label(ui: &Ui, at: Pos2, anchor: Align2, words: &str, colour: egui::Color32, t: &Tokens) {
     let galley = ui.painter().layout_no_wrap(words.to_owned(), text::small(), colour);
-    let place = anchor.anchor_size(at, galley.size());
+    let wanted = anchor.anchor_size(at, galley.size());
+    let seen = ui.clip_rect().shrink(4.0);
+    let place = wanted.translate(wanted.min.clamp(seen.min, seen.max - galley.size()) - wanted.min);
     ui.painter().rect_filled(place.expand(2.0), 0.0, t.sky);
     ui.painter().galley(place.min, galley, colour);
 }
