@@ -6,8 +6,9 @@
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
 use std::{
+    collections::BTreeMap,
     env, fs,
-    io::Write as _,
+    io::{BufRead as _, BufReader, Write as _},
     net::SocketAddr,
     process::{Child, ChildStdin, Command, Stdio},
     thread::sleep,
@@ -15,15 +16,20 @@ use std::{
 };
 
 use azel::{
-    sim::satrak::{Control, Options, Simulator},
+    orbit::bundled,
+    protocol::satrak::encode,
+    sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
     station::Station,
 };
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp, tz::TimeZone};
 use tokio::{
     io::{AsyncReadExt as _, AsyncWriteExt as _},
     net::{TcpListener, TcpStream},
     runtime::Runtime,
 };
+
+/// EUTELSAT 7C, which stands in the sky of the usual site.
+const SATELLITE: u32 = 44_334;
 
 struct Running(Child);
 
@@ -46,6 +52,8 @@ enum Doing {
     Nothing,
     /// A jog key is held.
     Jogging,
+    /// The unit tracks by itself.
+    Tracking,
 }
 
 /// One window and its unit, and what was measured of it so far.
@@ -53,6 +61,7 @@ struct Bench {
     name: String,
     keys: ChildStdin,
     control: Control,
+    unit: SocketAddr,
     times: Vec<Duration>,
     _folder: tempfile::TempDir,
     _azel: Running,
@@ -69,6 +78,7 @@ fn main() {
         ("poll at 10 Hz", 10.0, Duration::ZERO, Doing::Nothing, 200),
         ("replies stalled by 1.5 s", 10.0, Duration::from_millis(1500), Doing::Nothing, 200),
         ("in a held jog", 10.0, Duration::ZERO, Doing::Jogging, 60),
+        ("while the unit tracks", 10.0, Duration::ZERO, Doing::Tracking, 60),
     ] {
         // Each on a screen of its own, where it keeps the focus.
         let mut benches: Vec<(Running, Bench)> = programs
@@ -144,13 +154,18 @@ impl Bench {
             .enable_all()
             .build()
             .expect("a runtime");
-        let options = Options::new(Station::default().site, Timestamp::now());
+        let satellite = bundled().expect("elements").get(SATELLITE).expect("it is there").clone();
+        let options = Options {
+            elements: BTreeMap::from([(BUNDLED_FILE.to_owned(), vec![satellite])]),
+            max_clients: 2,
+            ..Options::new(Station::default().site, Timestamp::now())
+        };
         let simulator =
             runtime.block_on(Simulator::bind(([127, 0, 0, 1], 0).into(), options)).expect("a port");
-        let address = simulator.local_addr().expect("an address");
+        let unit = simulator.local_addr().expect("an address");
         let control = simulator.control();
         runtime.spawn(simulator.run());
-        let address = runtime.block_on(stalling_way(address, stall));
+        let address = runtime.block_on(stalling_way(unit, stall));
 
         let folder = tempfile::tempdir().expect("a folder");
         let station = folder.path().join("station.toml");
@@ -173,6 +188,7 @@ impl Bench {
             name: name.to_owned(),
             keys,
             control,
+            unit,
             times: Vec::new(),
             _folder: folder,
             _azel: azel,
@@ -191,6 +207,11 @@ impl Bench {
             self.type_in("keydown Right");
             self.next("MOVE=", before);
         }
+        if doing == Doing::Tracking {
+            sleep(Duration::from_millis(2500));
+            self.track();
+            sleep(Duration::from_millis(1500));
+        }
         // Not in step with the polling.
         sleep(Duration::from_millis(280 + (press * 37) % 90));
         let before = self.arrived("STOP=").len();
@@ -200,6 +221,28 @@ impl Bench {
         self.times.push(arrived.saturating_duration_since(pressed));
         if doing == Doing::Jogging {
             self.type_in("keyup Right");
+        }
+    }
+
+    /// Another client lets the unit track.
+    fn track(&self) {
+        let elements = bundled().expect("elements");
+        let name = elements.get(SATELLITE).expect("it is there").name();
+        let now = Timestamp::now();
+        let [from, until] = [-60, 3600].map(|seconds| {
+            let at = TimeZone::UTC.to_datetime(now + SignedDuration::from_secs(seconds));
+            at.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
+        });
+        let stream = std::net::TcpStream::connect(self.unit).expect("the unit");
+        let mut replies = BufReader::new(stream.try_clone().expect("a handle")).lines();
+        for payload in [
+            format!("SATELLITE=,{BUNDLED_FILE},{name},1,0"),
+            format!("START_STOP_TIME=,{from},{until}"),
+            "TRACK=,1".to_owned(),
+        ] {
+            (&stream).write_all(&encode(&payload)).expect("the unit reads");
+            let reply = replies.next().expect("a reply").expect("a line");
+            assert!(reply.contains("OK"), "{payload}: {reply}");
         }
     }
 
