@@ -74,11 +74,11 @@ fn main() {
     let beside = env::var("AZEL_BESIDE").ok().map(|program| ("beside", program));
     let programs: Vec<(&str, String)> = std::iter::once(ours).chain(beside).collect();
     for (what, hz, stall, doing, presses) in [
-        ("poll at 2 Hz", 2.0, Duration::ZERO, Doing::Nothing, 200),
-        ("poll at 10 Hz", 10.0, Duration::ZERO, Doing::Nothing, 200),
-        ("replies stalled by 1.5 s", 10.0, Duration::from_millis(1500), Doing::Nothing, 200),
-        ("in a held jog", 10.0, Duration::ZERO, Doing::Jogging, 60),
-        ("while the unit tracks", 10.0, Duration::ZERO, Doing::Tracking, 60),
+        ("poll at 2 Hz", 2.0, Duration::ZERO, Doing::Nothing, 120),
+        ("poll at 10 Hz", 10.0, Duration::ZERO, Doing::Nothing, 120),
+        ("replies stalled by 1.5 s", 10.0, Duration::from_millis(1500), Doing::Nothing, 60),
+        ("in a held jog", 10.0, Duration::ZERO, Doing::Jogging, 40),
+        ("while the unit tracks", 10.0, Duration::ZERO, Doing::Tracking, 40),
     ] {
         // Each on a screen of its own, where it keeps the focus.
         let mut benches: Vec<(Running, Bench)> = programs

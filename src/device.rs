@@ -26,7 +26,7 @@ pub use wire::{Direction, Finding, WireLine};
 
 use crate::{astro::Angle, protocol::satrak::Query};
 use panel::{Act, Lead};
-use settings::{Change, Group, SettleError};
+use settings::{Change, SettleError};
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +39,10 @@ pub struct Moment {
 
 /// A reply that has not come after this long is missing while metal moves.
 pub const PROMPT: Duration = Duration::from_millis(600);
+/// Without a reply for so long the link of a make that says nothing else is lost.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// So often a make that says nothing else is asked.
+const POLL: Duration = Duration::from_millis(500);
 
 /// What makes metal move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -159,22 +163,21 @@ pub enum PrepareError {
 }
 
 /// A controller as everyone may use it: nothing here starts a motion, or decides
-/// where one leads.
+/// where one leads. What is not written for a make, that make has not.
 pub trait Device: Send {
-    /// What it can do.
-    fn capabilities(&self) -> Capabilities;
-
     /// The link has come up: forget what was outstanding, ask everything anew.
     fn link_up(&mut self, now: Moment);
 
     /// The link is gone: nothing that was asked will be answered.
-    fn link_down(&mut self, now: Moment);
+    fn link_down(&mut self, _now: Moment) {}
 
     /// Bytes that were written, for [`Self::next_wire_line`].
-    fn sent(&mut self, bytes: &[u8], now: Moment);
+    fn sent(&mut self, _bytes: &[u8], _now: Moment) {}
 
     /// What went over the link and was not taken yet, oldest first.
-    fn next_wire_line(&mut self) -> Option<WireLine>;
+    fn next_wire_line(&mut self) -> Option<WireLine> {
+        None
+    }
 
     /// Takes bytes that came in. Any bytes are harmless.
     fn receive(&mut self, bytes: &[u8], now: Moment);
@@ -206,38 +209,35 @@ pub trait Device: Send {
     }
 
     /// Asks for the position without waiting for its turn.
-    fn look(&mut self, now: Moment);
+    fn look(&mut self, _now: Moment) {}
 
     /// While `is_watched`, metal moves on this program's word: a position that is not
     /// told within [`Self::prompt`] is asked for again at once, and a reply that takes
     /// longer holds up no question for the position.
-    fn watch_closely(&mut self, is_watched: bool);
+    fn watch_closely(&mut self, _is_watched: bool) {}
 
     /// How long a reply takes at most while all is well.
     fn prompt(&self) -> Duration {
         PROMPT
     }
 
-    /// What the device remembers and can be told: the same for its whole life.
-    fn groups(&self) -> &'static [&'static Group];
-
     /// Reads the group with this key anew. It is then among
     /// [`AntennaState::held`].
-    fn read_group(&mut self, group: &str);
+    fn read_group(&mut self, _group: &str) {}
 
     /// A change that is not sent: the reason stands in [`AntennaState::held`].
-    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment);
+    fn refuse_change(&mut self, _change: Change, _why: SettleError, _now: Moment) {}
 
     /// While they are locked, changes of settings that wait end with
     /// [`LockedOut`](settings::SettleError::LockedOut). The gate lets no new one by.
-    fn lock_changes(&mut self, are_locked: bool);
+    fn lock_changes(&mut self, _are_locked: bool) {}
 
     /// Asks this between its own questions. What is no question to this device
     /// is dropped.
-    fn ask(&mut self, question: Question);
+    fn ask(&mut self, _question: Question) {}
 
     /// The device no longer starts to follow by itself.
-    fn disable_auto(&mut self);
+    fn disable_auto(&mut self) {}
 
     /// A motion is queued, or sent and not answered.
     fn motion_under_way(&self) -> bool;
@@ -251,13 +251,19 @@ pub trait Device: Send {
     fn state(&self) -> &AntennaState;
 
     /// What came of earlier requests, oldest first.
-    fn next_happening(&mut self) -> Option<Happening>;
+    fn next_happening(&mut self) -> Option<Happening> {
+        None
+    }
 
     /// Without any good reply for this long, the link counts as lost.
-    fn patience(&self) -> Duration;
+    fn patience(&self) -> Duration {
+        PATIENCE
+    }
 
     /// The time between two questions at present.
-    fn poll_period(&self) -> Duration;
+    fn poll_period(&self) -> Duration {
+        POLL
+    }
 }
 
 /// The side of a controller that moves metal or decides where it goes. Only the gate holds it.
@@ -268,16 +274,19 @@ pub trait Moves: Device {
         None
     }
 
-    /// Where an action leads the axes.
-    fn lead_of(&self, act: &Act) -> Lead;
+    /// Where an action leads the axes. Of a make that does not say, the operator answers
+    /// for it.
+    fn lead_of(&self, _act: &Act) -> Lead {
+        Lead::Unseen("its make does not tell where it leads")
+    }
 
     /// Puts a target on the device without moving it. The outcome comes as a
     /// [`Happening`].
-    fn prepare(&mut self, target: TrackTarget);
+    fn prepare(&mut self, _target: TrackTarget) {}
 
     /// Puts new values of a group on the device and reads them back. How far it
     /// is, and what came of it, stands in [`AntennaState::held`].
-    fn settle(&mut self, change: Change, now: Moment);
+    fn settle(&mut self, _change: Change, _now: Moment) {}
 
     /// Queues a motion other than an action. It is sent once, and not at all
     /// when a halt comes first.
@@ -285,7 +294,7 @@ pub trait Moves: Device {
 
     /// Queues what only this make can do. A controller without
     /// [`Make::actions`] is never asked.
-    fn act(&mut self, act: Act);
+    fn act(&mut self, _act: Act) {}
 }
 
 /// What a motion aims at: an angle that is left as it is stays as measured.

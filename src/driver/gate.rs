@@ -20,14 +20,14 @@ use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
     controller::{
-        AntennaState, Capabilities, Device, Moment, Motion, Moves, Pointing, aimed, panel::Act,
-        settings::Hindrance,
+        AntennaState, Capabilities, Device, Make, Moment, Motion, Moves, Pointing, aimed,
+        panel::Act, settings::Hindrance,
     },
     plan::{
         Barrier, Bounds, Sweep,
         on_board::{Judge, Trespass},
     },
-    station::{LockOut, MotionLimits, Mount},
+    station::{Antenna, LockOut, MotionLimits, Mount},
 };
 pub(super) use program::Held;
 use rules::{Check, RULES, Rule};
@@ -238,6 +238,7 @@ struct Situation<'a> {
 /// The checker and the controller behind it.
 pub(super) struct Gate {
     controller: Box<dyn Moves>,
+    make: &'static Make,
     rules: Vec<Rule>,
     limits: MotionLimits,
     mount: Mount,
@@ -262,15 +263,17 @@ pub(super) struct Gate {
 }
 
 impl Gate {
-    pub(super) fn new(controller: Box<dyn Moves>, limits: MotionLimits, bounds: Bounds) -> Self {
-        let run_out_s = controller.capabilities().standstill.run_out_s;
+    /// The gate before the controller of `antenna`.
+    pub(super) fn new(controller: Box<dyn Moves>, antenna: &Antenna, bounds: Bounds) -> Self {
+        let make = antenna.connection.make();
         Self {
             controller,
+            make,
             rules: RULES.to_vec(),
-            limits,
+            limits: antenna.limits,
             mount: bounds.mount(),
             bounds,
-            run_out_s,
+            run_out_s: make.capabilities.standstill.run_out_s,
             to_deg: None,
             started_from_deg: None,
             lock_out: None,
@@ -323,7 +326,7 @@ impl Gate {
 
     /// Where the axes were measured last, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
-        self.state().measured?.axes_deg(self.controller.capabilities().has_elevation)
+        self.state().measured?.axes_deg(self.make.capabilities.has_elevation)
     }
 
     /// What the antenna must keep within.
@@ -414,7 +417,7 @@ impl Gate {
         Situation {
             gate: self,
             state: self.controller.state(),
-            can: self.controller.capabilities(),
+            can: self.make.capabilities,
             intent,
             stopping,
             may_move: false,
@@ -507,8 +510,8 @@ impl Gate {
 
     /// Where the elevation axis was measured, degrees; `None` without one.
     fn elevation_axis_deg(&self) -> Option<f64> {
-        let is_one = matches!(self.mount, Mount::AzEl { .. })
-            && self.controller.capabilities().has_elevation;
+        let is_one =
+            matches!(self.mount, Mount::AzEl { .. }) && self.make.capabilities.has_elevation;
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 

@@ -257,7 +257,7 @@ impl Session {
         debts: Debts,
         bounds: Bounds,
     ) -> Self {
-        let mut gate = Gate::new(controller, antenna.limits, bounds);
+        let mut gate = Gate::new(controller, antenna, bounds);
         let make = antenna.connection.make();
         let (wanted, link) = first_link(antenna);
         let unit = Unit::of(antenna);

@@ -9,10 +9,9 @@ use super::{
 };
 use crate::{
     controller::{
-        AntennaState, Capabilities, Device, Extent, Finding, Happening, Moment, Motion, Moves,
-        PrepareError, Question, TrackTarget, WireLine,
+        AntennaState, Device, Extent, Finding, Happening, Moment, Motion, Moves, PrepareError,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
-        settings::{Change, Group, SettleError},
     },
     protocol::rc2000c::{
         Decoder, Motion as UnitMotion, PolarizationMotion, Request, Speed, Status,
@@ -20,10 +19,6 @@ use crate::{
 };
 
 impl Device for Rc2000c {
-    fn capabilities(&self) -> Capabilities {
-        MAKE.capabilities
-    }
-
     fn link_up(&mut self, now: Moment) {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
@@ -135,20 +130,6 @@ impl Device for Rc2000c {
         self.line.longest_prompt()
     }
 
-    fn groups(&self) -> &'static [&'static Group] {
-        MAKE.groups
-    }
-
-    fn read_group(&mut self, _: &str) {}
-
-    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
-
-    fn lock_changes(&mut self, _: bool) {}
-
-    fn ask(&mut self, _: Question) {}
-
-    fn disable_auto(&mut self) {}
-
     fn motion_under_way(&self) -> bool {
         let is_sent = self.outstanding.as_ref().is_some_and(Outstanding::is_order);
         is_sent || !self.orders.is_empty() || self.jog.is_some()
@@ -202,8 +183,6 @@ impl Moves for Rc2000c {
         let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
         self.happenings.push_back(Happening::NotPrepared(target, reason));
     }
-
-    fn settle(&mut self, _: Change, _: Moment) {}
 
     fn start(&mut self, motion: Motion) {
         // A newer wish replaces one that has not gone out yet.

@@ -3,29 +3,22 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    ALONE, GROUPS, Genius, PAIR, PATIENCE, Rotators,
+    Genius, PATIENCE,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
     orders::in_whole_degrees,
 };
 use crate::{
     controller::{
-        AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
-        Question, TrackTarget, WireLine,
+        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, TrackTarget,
+        WireLine,
         panel::{Act, Lead},
-        settings::{Change, Group, SettleError, SettleStep},
+        settings::{Change, SettleError, SettleStep},
     },
     protocol::rotator_genius::{Decoder, Request},
 };
 
 impl Device for Genius {
-    fn capabilities(&self) -> Capabilities {
-        match self.rotators {
-            Rotators::Pair => PAIR.capabilities,
-            Rotators::First | Rotators::Second => ALONE.capabilities,
-        }
-    }
-
     fn link_up(&mut self, now: Moment) {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
@@ -115,13 +108,6 @@ impl Device for Genius {
         self.is_watched = is_watched;
     }
 
-    fn groups(&self) -> &'static [&'static Group] {
-        GROUPS
-    }
-
-    /// All that it tells of its configuration is in every status.
-    fn read_group(&mut self, _: &str) {}
-
     fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
         self.settled(change, Err(why), now);
     }
@@ -129,10 +115,6 @@ impl Device for Genius {
     fn lock_changes(&mut self, are_locked: bool) {
         self.are_changes_locked = are_locked;
     }
-
-    fn ask(&mut self, _: Question) {}
-
-    fn disable_auto(&mut self) {}
 
     fn motion_under_way(&self) -> bool {
         self.motion_waits()

@@ -3,27 +3,20 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    DRAIN, MAKE, REPLY, Satrak,
-    exchange::Outstanding,
-    prepare::Preparation,
-    schedule::Schedule,
-    settings::{GROUPS, Plan},
+    DRAIN, REPLY, Satrak, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
+    settings::Plan,
 };
 use crate::{
     controller::{
-        AntennaState, Capabilities, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
-        Question, TrackTarget, WireLine,
+        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, Question,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
-        settings::{Change, Group, SettleError, SettleStep},
+        settings::{Change, SettleError, SettleStep},
     },
     protocol::satrak::{Decoder, Halt, Request},
 };
 
 impl Device for Satrak {
-    fn capabilities(&self) -> Capabilities {
-        MAKE.capabilities
-    }
-
     fn link_up(&mut self, now: Moment) {
         self.link_down(now);
         self.state.link_since = Some(now.steady);
@@ -143,10 +136,6 @@ impl Device for Satrak {
         self.is_watched = is_watched;
     }
 
-    fn groups(&self) -> &'static [&'static Group] {
-        GROUPS
-    }
-
     fn read_group(&mut self, group: &str) {
         if let Some(Plan { query, .. }) = Plan::of(group) {
             self.want(query);
@@ -218,6 +207,4 @@ impl Moves for Satrak {
         self.motions.clear();
         self.motions.push_back(motion);
     }
-
-    fn act(&mut self, _: Act) {}
 }

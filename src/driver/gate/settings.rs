@@ -31,8 +31,7 @@ impl Gate {
             self.controller.refuse_change(change, SettleError::LockedOut, now);
             return Err(refusal);
         }
-        let groups = self.controller.groups();
-        let group = groups.iter().find(|group| group.key == change.group);
+        let group = self.make.groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
         let hindrance = || {
             let asked = self.situation(Intent::Standby, stopping, now);

@@ -14,21 +14,14 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
-    controller::{
-        Axis, AxisMotion, Capabilities, Extent, Happening, Measured, Question, TrackTarget,
-        WireLine,
-        panel::Lead,
-        satrak,
-        settings::{Change, Group, SettleError},
-    },
+    controller::{Axis, AxisMotion, Extent, Measured, TrackTarget, panel::Lead, settings::Change},
     orbit::{PassSearch, Propagator, passes},
     plan::{OnBoardPass, on_board::Ability},
-    station::{Antenna, KeepOut, Station},
+    station::{KeepOut, Station},
 };
 
 /// A controller that remembers what was started.
 struct Metal {
-    can: Capabilities,
     state: AntennaState,
     started: Arc<Mutex<Vec<Motion>>>,
     objection: Option<&'static str>,
@@ -38,7 +31,6 @@ struct Metal {
 impl Metal {
     fn of(case: &Case, started: Arc<Mutex<Vec<Motion>>>) -> Self {
         Self {
-            can: case.antenna.connection.make().capabilities,
             state: case.state.clone(),
             started,
             objection: case.objection,
@@ -48,19 +40,9 @@ impl Metal {
 }
 
 impl Device for Metal {
-    fn capabilities(&self) -> Capabilities {
-        self.can
-    }
     fn link_up(&mut self, _: Moment) {}
-    fn link_down(&mut self, _: Moment) {}
     fn receive(&mut self, _: &[u8], _: Moment) {}
-    fn sent(&mut self, _: &[u8], _: Moment) {}
-    fn next_wire_line(&mut self) -> Option<WireLine> {
-        None
-    }
-    fn lock_changes(&mut self, _: bool) {}
 
-    fn ask(&mut self, _: Question) {}
     fn poll(&mut self, _: Moment) -> Option<Vec<u8>> {
         None
     }
@@ -73,31 +55,12 @@ impl Device for Metal {
     fn stop_bytes(&self) -> Vec<u8> {
         Vec::new()
     }
-    fn look(&mut self, _: Moment) {}
-    fn watch_closely(&mut self, _: bool) {}
     fn motion_under_way(&self) -> bool {
         false
     }
-    fn groups(&self) -> &'static [&'static Group] {
-        satrak::GROUPS
-    }
 
-    fn read_group(&mut self, _: &str) {}
-
-    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
-
-    fn disable_auto(&mut self) {}
     fn state(&self) -> &AntennaState {
         &self.state
-    }
-    fn next_happening(&mut self) -> Option<Happening> {
-        None
-    }
-    fn patience(&self) -> Duration {
-        Duration::ZERO
-    }
-    fn poll_period(&self) -> Duration {
-        Duration::ZERO
     }
 }
 
@@ -109,12 +72,6 @@ impl Moves for Metal {
     fn lead_of(&self, _: &Act) -> Lead {
         self.leads_to
     }
-
-    fn prepare(&mut self, _: TrackTarget) {}
-
-    fn settle(&mut self, _: Change, _: Moment) {}
-
-    fn act(&mut self, _: Act) {}
 
     fn start(&mut self, motion: Motion) {
         self.started.lock().unwrap().push(motion);
@@ -213,7 +170,7 @@ impl Case {
         let metal = Metal::of(self, Arc::clone(started));
         let station = Station { keep_outs: self.keep_outs.clone(), ..Station::default() };
         let bounds = Bounds::of(&station, &self.antenna);
-        let mut gate = Gate::new(Box::new(metal), self.antenna.limits, bounds);
+        let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds);
         gate.held = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
@@ -431,7 +388,7 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
     let metal = Metal::of(&case, Arc::default());
     let gate = Gate::new(
         Box::new(metal),
-        case.antenna.limits,
+        &case.antenna,
         Bounds::of_antenna(&Antenna { mount, ..case.antenna.clone() }),
     );
     // The axis stands at 90.

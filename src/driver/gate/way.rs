@@ -162,6 +162,7 @@ fn by_hand(
 }
 
 /// How deep axes stand in what is forbidden.
+#[allow(clippy::struct_field_names, reason = "names tell their units")]
 struct Depth {
     /// How far it is to where they may point; `None` where no axis gets out by itself.
     way_out_deg: Option<f64>,
@@ -276,7 +277,7 @@ impl Gate {
         if let Mount::AzEl { .. } = self.mount {
             travel_deg[1].0 = travel_deg[1].0.max(self.limits.minimum_elevation_deg);
         }
-        let can = self.controller.capabilities();
+        let can = self.make.capabilities;
         let rests_within_deg = can.position_step_deg + can.arrives_within_deg;
         Reach::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
@@ -286,7 +287,7 @@ impl Gate {
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
         let Some(to_deg) = self.to_deg else { return reached };
-        let coasts_deg = self.controller.capabilities().arrives_within_deg * 2.0;
+        let coasts_deg = self.make.capabilities.arrives_within_deg * 2.0;
         for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(to_deg) {
             let passes =
                 (from_deg..=*reached).contains(&to_deg) || (*reached..=from_deg).contains(&to_deg);

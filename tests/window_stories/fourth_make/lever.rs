@@ -6,17 +6,14 @@ use std::{
     net::TcpListener,
     sync::mpsc,
     thread,
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 use azel::{
     astro::AzEl,
     controller::{
-        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, Happening, JogSpeeds, Make,
-        Measured, Moment, Motion, Moves, Question, Standstill, TrackTarget, WireLine, aimed,
-        panel::{Act, Lead},
-        satrak,
-        settings::{Change, Group, SettleError},
+        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Make, Measured,
+        Moment, Motion, Moves, Standstill, aimed, satrak,
     },
     station::{Choice, Connection, Holds, Kind, Link, Setting, Table, Usual, Value},
 };
@@ -115,22 +112,10 @@ impl Lever {
 }
 
 impl Device for Lever {
-    fn capabilities(&self) -> Capabilities {
-        MAKE.capabilities
-    }
-
     fn link_up(&mut self, now: Moment) {
         self.state.link_since = Some(now.steady);
         self.orders = [self.greeting.clone()].into();
         (self.asked, self.heard) = (None, Vec::new());
-    }
-
-    fn link_down(&mut self, _: Moment) {}
-
-    fn sent(&mut self, _: &[u8], _: Moment) {}
-
-    fn next_wire_line(&mut self) -> Option<WireLine> {
-        None
     }
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
@@ -188,24 +173,6 @@ impl Device for Lever {
         b"S\n".to_vec()
     }
 
-    fn look(&mut self, _: Moment) {}
-
-    fn watch_closely(&mut self, _: bool) {}
-
-    fn groups(&self) -> &'static [&'static Group] {
-        MAKE.groups
-    }
-
-    fn read_group(&mut self, _: &str) {}
-
-    fn refuse_change(&mut self, _: Change, _: SettleError, _: Moment) {}
-
-    fn lock_changes(&mut self, _: bool) {}
-
-    fn ask(&mut self, _: Question) {}
-
-    fn disable_auto(&mut self) {}
-
     fn motion_under_way(&self) -> bool {
         !self.orders.is_empty()
     }
@@ -213,29 +180,9 @@ impl Device for Lever {
     fn state(&self) -> &AntennaState {
         &self.state
     }
-
-    fn next_happening(&mut self) -> Option<Happening> {
-        None
-    }
-
-    fn patience(&self) -> Duration {
-        Duration::from_secs(5)
-    }
-
-    fn poll_period(&self) -> Duration {
-        Duration::from_millis(50)
-    }
 }
 
 impl Moves for Lever {
-    fn lead_of(&self, _: &Act) -> Lead {
-        Lead::Nowhere
-    }
-
-    fn prepare(&mut self, _: TrackTarget) {}
-
-    fn settle(&mut self, _: Change, _: Moment) {}
-
     fn start(&mut self, motion: Motion) {
         let Motion::Position { azimuth, elevation } = motion else { return };
         let measured = self.state.measured.map(|measured| measured.pointing);
@@ -244,8 +191,6 @@ impl Moves for Lever {
             self.orders.push_back(format!("G {} {}\n", azimuth.degrees(), elevation.degrees()));
         }
     }
-
-    fn act(&mut self, _: Act) {}
 }
 
 /// A unit that is at once where it is sent; the lines that it hears, questions

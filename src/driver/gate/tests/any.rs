@@ -186,11 +186,10 @@ fn look_closely(seed: u64) -> Outcome {
     for (axis, deg) in measured.axes.iter_mut().zip(from_deg) {
         axis.angle_deg = Some(deg);
     }
-    let can = antenna.connection.make().capabilities;
     let started = Arc::default();
     let (objection, leads_to) = (None, Lead::Nowhere);
-    let metal = Metal { can, state: case.state.clone(), started, objection, leads_to };
-    let mut gate = Gate::new(Box::new(metal), antenna.limits, bounds.clone());
+    let metal = Metal { state: case.state.clone(), started, objection, leads_to };
+    let mut gate = Gate::new(Box::new(metal), &antenna, bounds.clone());
     let now = Moment { steady: measured_at(&case) + case.age, utc };
     gate.let_out(Some(now.steady + Duration::from_secs(1)));
     if gate.check(motion, intent, now).is_err() {

@@ -7,7 +7,10 @@ use super::{
     makes::{genius, rc2000c},
     *,
 };
-use crate::controller::settings::{Value, Values};
+use crate::controller::{
+    Phase, Program,
+    settings::{Value, Values},
+};
 
 /// What is asked of the gate.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +25,14 @@ enum Asked {
     Setting,
     /// The same, of an antenna that was told to move.
     SettingInMotion,
+}
+
+/// A Satrak that stands and would not start by itself.
+fn idle_satrak() -> Case {
+    changed(Case::new(Intent::Standby), |case| {
+        let phase = Phase::OutOfWindow;
+        case.state.program = Some(Program { enabled: false, phase, auto: Some(false) });
+    })
 }
 
 /// The case of a rule.
@@ -182,7 +193,7 @@ fn motions() -> Vec<Needed> {
 }
 
 fn actions_and_settings() -> Vec<Needed> {
-    use Intent::{Manual, Standby};
+    use Intent::Manual;
     vec![
         needed("no_action_while_locked_out", locked_out(Case::new(Manual)), Asked::Act, |it| {
             matches!(it, Refusal::LockedOut { .. })
@@ -226,24 +237,24 @@ fn actions_and_settings() -> Vec<Needed> {
             Asked::MovingAct,
             |it| matches!(it, Refusal::Forbidden { .. }),
         ),
-        needed("no_setting_while_locked_out", locked_out(genius(Standby)), Asked::Setting, |it| {
+        needed("no_setting_while_locked_out", locked_out(idle_satrak()), Asked::Setting, |it| {
             matches!(it, Refusal::LockedOut { .. })
         }),
         needed(
             "no_setting_while_stopping",
-            Case { stopping: true, ..genius(Standby) },
+            Case { stopping: true, ..idle_satrak() },
             Asked::Setting,
             |it| matches!(it, Refusal::Setting { why: Hindrance::Stopping, .. }),
         ),
         needed(
             "no_setting_while_the_unit_may_move",
-            changed(genius(Standby), |case| case.axes()[1].motion = AxisMotion::Plus),
+            changed(idle_satrak(), |case| case.axes()[1].motion = AxisMotion::Plus),
             Asked::Setting,
             |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
         ),
         needed(
             "no_setting_after_a_motion_was_asked_for",
-            genius(Standby),
+            idle_satrak(),
             Asked::SettingInMotion,
             |it| matches!(it, Refusal::Setting { why: Hindrance::Moves, .. }),
         ),
