@@ -39,7 +39,7 @@ use crate::controller::panel::{Act, CheckState, Reading};
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
-pub use header::{Control, HeaderModel};
+pub use header::{HeaderModel, Reach};
 pub use holds::WayOutModel;
 pub use lock_out::LockOutModel;
 pub use more::MoreModel;
@@ -58,7 +58,7 @@ pub const FULL_HEIGHT: f32 = 740.0;
 /// a dash.
 #[derive(Debug, Clone, Copy)]
 pub struct CardModel<'a> {
-    /// Name, kind and who controls.
+    /// Name, kind, and whether it can be reached.
     pub header: HeaderModel<'a>,
     /// What the antenna does, why, and what comes next.
     pub sentence: Sentence<'a>,
@@ -274,7 +274,7 @@ fn fill(
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
     }
-    if model.header.control == Control::Released {
+    if model.header.reach == Reach::NotConnected {
         released::show(ui, &mut at, &model.header, actions);
     }
 

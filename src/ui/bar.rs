@@ -46,7 +46,6 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             age,
             selected: index == model.selected_antenna,
             maintenance: antenna.snapshot.lock_out.is_some(),
-            foreign_control: false,
         })
         .collect();
 

@@ -57,10 +57,6 @@ pub struct DriveModel<'a> {
     pub commanded_deg: (Option<f64>, Option<f64>),
     /// Of the numbers that are shown for it.
     pub commanded_decimals: usize,
-    /// Why the last direction was not sent.
-    pub go_to_refusal: Option<&'a str>,
-    /// What the preview found: time to arrive, limits that are touched.
-    pub go_to_note: Option<&'a str>,
     /// What STOP does beyond stopping this antenna.
     pub stop_note: Option<&'a str>,
 }
@@ -180,18 +176,17 @@ pub(super) fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: 
     let t = theme::tokens(ui);
     // So that little moves when a sentence comes.
     let end = at.y + MESSAGE;
-    let refusal = state.go_to.refusal().or(model.go_to_refusal);
+    let refusal = state.go_to.refusal();
     let step = model.most_step_deg.and_then(|most_deg| state.steps.size_deg(most_deg).err());
     let step = step.as_deref().filter(|_| model.jog_locked.is_none());
     let lock = model.jog_locked;
     let other_lock = model.go_to_locked.filter(|reason| Some(*reason) != lock);
-    let found: [(Option<&str>, Icon, Color32, Color32); 7] = [
+    let found: [(Option<&str>, Icon, Color32, Color32); 6] = [
         (step, Icon::Warning, t.bad, t.bad),
         (refusal, Icon::Warning, t.bad, t.bad),
         (lock, Icon::Lock, t.t2, t.t2),
         (other_lock, Icon::Lock, t.t2, t.t2),
         (model.jog_note.filter(|_| lock.is_none()), Icon::Info, t.t2, t.t2),
-        (model.go_to_note.filter(|_| refusal.is_none()), Icon::Info, t.cmd, t.t1),
         (model.stop_note, Icon::Octagon, t.t2, t.t2),
     ];
     for (index, (words, icon, mark, colour)) in found.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Name of the antenna, who controls it, and the key that lets go of it.
+//! Name of the antenna, whether it can be reached, and the key that lets go of it.
 
 use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -13,17 +13,17 @@ use crate::ui::{
 /// Side of the key that opens the menu of the link.
 const MENU: f32 = 24.0;
 
-/// Who may move the antenna.
+/// Whether the unit can be reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Control<'a> {
-    /// This console.
-    You,
-    /// Somebody else, in words such as "Local panel".
-    Other(&'a str),
-    /// The unit does not say, or does not answer.
-    Unknown,
+pub enum Reach {
+    /// Its link is up.
+    Connected,
+    /// It is locked out for maintenance.
+    InMaintenance,
+    /// It is called, or was lost.
+    NoAnswer,
     /// This console has no link and wants none.
-    Released,
+    NotConnected,
 }
 
 /// The head of the card.
@@ -35,8 +35,8 @@ pub struct HeaderModel<'a> {
     pub second_line: &'a str,
     /// How its link stands.
     pub link: LinkGlyph,
-    /// Who controls it.
-    pub control: Control<'a>,
+    /// Whether it can be reached.
+    pub reach: Reach,
     /// A connection takes the panel from whoever stands in front of the unit.
     pub takes_panel: bool,
     /// It is locked out for maintenance.
@@ -60,12 +60,12 @@ pub(super) fn show(
     icons::paint(ui.painter(), glyph, icon, colour);
 
     let mut end = row;
-    if model.control != Control::Released || !model.in_maintenance {
+    if model.reach != Reach::NotConnected || !model.in_maintenance {
         let key = paint::square(pos2(row.right() - MENU / 2.0 + 4.0, y), MENU);
         link_menu(ui, key, model, actions);
         end = row.with_max_x(key.left() - 2.0);
     }
-    let tag_left = control_tag(ui, end, model.control);
+    let tag_left = reach_tag(ui, end, model.reach);
     let name_room = row.with_min_x(row.left() + 24.0).with_max_x(tag_left - 6.0);
     if short {
         paint::text_in(ui, name_room, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
@@ -92,7 +92,7 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     paint::focus_ring(ui, &response, 4);
     Popup::menu(&response).accessible_name(name).show(|ui| {
         let about = "Closes the link, so that another program may have the unit.";
-        if model.control != Control::Released
+        if model.reach != Reach::NotConnected
             && ui.button("Disconnect").on_hover_text(about).clicked()
         {
             actions.push(CardAction::Disconnect);
@@ -104,14 +104,14 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     });
 }
 
-/// Paints who controls and returns the left end of it.
-fn control_tag(ui: &Ui, row: Rect, control: Control<'_>) -> f32 {
+/// Paints whether it can be reached and returns the left end of it.
+fn reach_tag(ui: &Ui, row: Rect, reach: Reach) -> f32 {
     let t = theme::tokens(ui);
-    let (words, colour) = match control {
-        Control::You => ("You have control", t.ok),
-        Control::Other(who) => (who, t.warn),
-        Control::Unknown => ("Control not known", t.t3),
-        Control::Released => ("Not connected", t.t3),
+    let (words, colour) = match reach {
+        Reach::Connected => ("Connected", t.ok),
+        Reach::InMaintenance => ("In maintenance", t.warn),
+        Reach::NoAnswer => ("No answer", t.t3),
+        Reach::NotConnected => ("Not connected", t.t3),
     };
     let font = text::sized(11.0, Weight::SemiBold);
     let width = (paint::text_width(ui, words, font.clone()) + 12.0).min(0.5 * row.width());
@@ -121,6 +121,6 @@ fn control_tag(ui: &Ui, row: Rect, control: Control<'_>) -> f32 {
     ui.painter().rect_stroke(tag, 3.0, Stroke::new(1.0, colour), StrokeKind::Inside);
     let room = tag.shrink2(vec2(4.0, 0.0));
     paint::text_in(ui, room, Align2::CENTER_CENTER, words, font, colour);
-    paint::name_text(ui, "control", tag, words);
+    paint::name_text(ui, "reach", tag, words);
     tag.left()
 }

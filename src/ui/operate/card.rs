@@ -9,8 +9,8 @@ use egui::{Align2, Rect, Ui};
 
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
-    self, CardAction, CardModel, CardState, Control, DriveModel, FaultsModel, FollowModel,
-    HeaderModel, LockOutModel, MoreModel, OtherAntenna, TrackModel, WayOutModel,
+    self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
+    LockOutModel, MoreModel, OtherAntenna, Reach, TrackModel, WayOutModel,
 };
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
@@ -85,7 +85,7 @@ pub(super) fn show(
                 name: &antenna.config.name,
                 second_line: &second_line,
                 link: bar::glyph(antenna),
-                control: control(snapshot),
+                reach: reach(snapshot),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
             },
@@ -180,12 +180,12 @@ fn second_line(antenna: &AntennaModel) -> String {
     unit.map_or_else(|| make.name.to_owned(), |unit| format!("{}, {}", make.name, unit.text))
 }
 
-fn control(snapshot: &Snapshot) -> Control<'static> {
+fn reach(snapshot: &Snapshot) -> Reach {
     match snapshot.link {
-        LinkState::Off => Control::Released,
-        _ if snapshot.lock_out.is_some() => Control::Other("In maintenance"),
-        LinkState::Up { .. } | LinkState::Stale { .. } => Control::You,
-        LinkState::Connecting { .. } | LinkState::Lost { .. } => Control::Unknown,
+        LinkState::Off => Reach::NotConnected,
+        _ if snapshot.lock_out.is_some() => Reach::InMaintenance,
+        LinkState::Up { .. } | LinkState::Stale { .. } => Reach::Connected,
+        LinkState::Connecting { .. } | LinkState::Lost { .. } => Reach::NoAnswer,
     }
 }
 
@@ -212,8 +212,6 @@ fn drive<'a>(
         elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
         commanded_deg: (None, None),
         commanded_decimals: 0,
-        go_to_refusal: None,
-        go_to_note: None,
         stop_note: can.stop_note,
     }
 }

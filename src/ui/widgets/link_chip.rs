@@ -74,8 +74,6 @@ pub struct ChipModel<'a> {
     pub age: &'a str,
     /// Its card is shown.
     pub selected: bool,
-    /// Somebody else controls it.
-    pub foreign_control: bool,
     /// It is locked out for maintenance.
     pub maintenance: bool,
 }
@@ -112,9 +110,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     let second = model.second_line();
     let response = ui.interact(rect, ui.make_persistent_id(("chip", model.name)), Sense::click());
     response.widget_info(|| {
-        let control = if model.foreign_control { ", somebody else controls it" } else { "" };
-        let link = model.link.word();
-        let name = format!("{}: {second}, link {link}{control}", model.name);
+        let name = format!("{}: {second}, link {}", model.name, model.link.word());
         egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
     });
     ui.painter().rect_filled(rect, RADIUS, if response.hovered() { t.bg3 } else { t.bg2 });
@@ -123,12 +119,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         (false, true) => t.warn,
         (false, false) => t.line,
     };
-    if model.foreign_control {
-        let border = if model.selected { t.sat } else { t.edge };
-        paint::dashed_border(ui, rect, f32::from(RADIUS), (1.0, border));
-    } else {
-        ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, border), StrokeKind::Inside);
-    }
+    ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, border), StrokeKind::Inside);
     let (icon, colour) = model.link.look(t);
     let strong = text::sized(13.0, Weight::SemiBold);
     let centre = rect.center().y;
@@ -178,16 +169,13 @@ mod tests {
                 link: LinkGlyph::Lost,
                 activity: "No reply",
                 age: "14 s",
-                foreign_control: true,
                 ..ChipModel::default()
             };
             if show(ui, rect, &model, ChipForm::TwoLines).clicked() {
                 *clicks += 1;
             }
         });
-        window
-            .get_by_label("RC2000C: No reply, 14 s, link lost, somebody else controls it")
-            .click();
+        window.get_by_label("RC2000C: No reply, 14 s, link lost").click();
         window.run();
         assert_eq!(*window.state(), 1);
     }
