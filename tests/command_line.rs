@@ -1,8 +1,5 @@
 //! The program as it is called from a shell.
 
-// A test ends loudly, in its helpers too.
-#![allow(clippy::expect_used)]
-
 use std::process::{Command, Output};
 
 fn azel(arguments: &[&str]) -> Output {

@@ -1,133 +1,129 @@
 //! What the documents say of the code is there.
 
-#[cfg(test)]
-mod documents {
-    use std::{
-        collections::{BTreeMap, BTreeSet},
-        fs,
-        path::Path,
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    fs,
+    path::Path,
+};
+
+/// Every Rust file below `folder`, by its path from the top and with its text.
+fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
+        }
+    }
+}
+
+#[test]
+fn every_test_that_the_fault_matrix_names_is_there() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    sources(&top.join("src"), &mut files);
+    sources(&top.join("tests"), &mut files);
+    let matrix = fs::read_to_string(top.join("docs/reliability.md")).unwrap();
+    let quoted = matrix.split('`').skip(1).step_by(2);
+    let named: Vec<(&str, &str)> = quoted.filter_map(|words| words.split_once(".rs::")).collect();
+    assert!(named.len() > 100, "{}", named.len());
+    for (file, test) in named {
+        let ends = format!("/{file}.rs");
+        let head = format!("fn {test}(");
+        let is_there =
+            files.iter().any(|(path, text)| path.ends_with(&ends) && text.contains(&head));
+        assert!(is_there, "{file}.rs has no {test}");
+    }
+    assert!(!matrix.contains("not tested"), "a fault is not tested");
+}
+
+/// What is above the tests of a file.
+fn product(text: &str) -> &str {
+    text.split("#[cfg(test)]\nmod ").next().unwrap_or_default()
+}
+
+/// The layer of a file below `src`.
+fn layer(path: &str) -> &str {
+    let within = path.rsplit_once("/src/").unwrap().1;
+    within.split('/').next().unwrap().trim_end_matches(".rs")
+}
+
+/// The layers that a text names after `crate::`, in braces too.
+fn named(text: &str) -> BTreeSet<String> {
+    let word = |text: &str| -> String {
+        text.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
     };
-
-    /// Every Rust file below `folder`, by its path from the top and with its text.
-    fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
-                sources(&path, found);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                found.push((path.display().to_string(), fs::read_to_string(&path).unwrap()));
-            }
-        }
-    }
-
-    #[test]
-    fn every_test_that_the_fault_matrix_names_is_there() {
-        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let mut files = Vec::new();
-        sources(&top.join("src"), &mut files);
-        sources(&top.join("tests"), &mut files);
-        let matrix = fs::read_to_string(top.join("docs/reliability.md")).unwrap();
-        let quoted = matrix.split('`').skip(1).step_by(2);
-        let named: Vec<(&str, &str)> =
-            quoted.filter_map(|words| words.split_once(".rs::")).collect();
-        assert!(named.len() > 100, "{}", named.len());
-        for (file, test) in named {
-            let ends = format!("/{file}.rs");
-            let head = format!("fn {test}(");
-            let is_there =
-                files.iter().any(|(path, text)| path.ends_with(&ends) && text.contains(&head));
-            assert!(is_there, "{file}.rs has no {test}");
-        }
-        assert!(!matrix.contains("not tested"), "a fault is not tested");
-    }
-
-    /// What is above the tests of a file.
-    fn product(text: &str) -> &str {
-        text.split("#[cfg(test)]\nmod ").next().unwrap_or_default()
-    }
-
-    /// The layer of a file below `src`.
-    fn layer(path: &str) -> &str {
-        let within = path.rsplit_once("/src/").unwrap().1;
-        within.split('/').next().unwrap().trim_end_matches(".rs")
-    }
-
-    /// The layers that a text names after `crate::`, in braces too.
-    fn named(text: &str) -> BTreeSet<String> {
-        let word = |text: &str| -> String {
-            text.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
+    let mut found = BTreeSet::new();
+    for (at, head) in text.match_indices("crate::") {
+        let rest = &text[at + head.len()..];
+        let Some(list) = rest.strip_prefix('{') else {
+            found.insert(word(rest));
+            continue;
         };
-        let mut found = BTreeSet::new();
-        for (at, head) in text.match_indices("crate::") {
-            let rest = &text[at + head.len()..];
-            let Some(list) = rest.strip_prefix('{') else {
-                found.insert(word(rest));
-                continue;
-            };
-            let (mut depth, mut begins) = (0, true);
-            for (at, letter) in list.char_indices() {
-                match letter {
-                    '{' => depth += 1,
-                    '}' if depth == 0 => break,
-                    '}' => depth -= 1,
-                    ',' if depth == 0 => begins = true,
-                    _ if begins && letter.is_alphabetic() => {
-                        found.insert(word(&list[at..]));
-                        begins = false;
-                    }
-                    _ => {}
+        let (mut depth, mut begins) = (0, true);
+        for (at, letter) in list.char_indices() {
+            match letter {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                ',' if depth == 0 => begins = true,
+                _ if begins && letter.is_alphabetic() => {
+                    found.insert(word(&list[at..]));
+                    begins = false;
                 }
+                _ => {}
             }
         }
-        found
     }
+    found
+}
 
-    /// The table of layers in the architecture text: what each may know, and what those
-    /// know in turn.
-    fn allowed() -> BTreeMap<String, BTreeSet<String>> {
-        let top = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let text = fs::read_to_string(top.join("docs/architecture.md")).unwrap();
-        let mut layers = BTreeMap::<String, BTreeSet<String>>::new();
-        for line in text.lines().filter(|line| line.starts_with("| `src/")) {
-            let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
-            let [names, _, may_know] = cells[..] else { panic!("{line}") };
-            let mut knows = BTreeSet::new();
-            for name in may_know.trim_end_matches('|').trim().split(", ") {
-                match name {
-                    "nothing" => {}
-                    "all above" => knows.extend(layers.keys().cloned()),
-                    name => {
-                        knows.insert(name.to_owned());
-                        knows.extend(layers.get(name).into_iter().flatten().cloned());
-                    }
+/// The table of layers in the architecture text: what each may know, and what those
+/// know in turn.
+fn allowed() -> BTreeMap<String, BTreeSet<String>> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = fs::read_to_string(top.join("docs/architecture.md")).unwrap();
+    let mut layers = BTreeMap::<String, BTreeSet<String>>::new();
+    for line in text.lines().filter(|line| line.starts_with("| `src/")) {
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [names, _, may_know] = cells[..] else { panic!("{line}") };
+        let mut knows = BTreeSet::new();
+        for name in may_know.trim_end_matches('|').trim().split(", ") {
+            match name {
+                "nothing" => {}
+                "all above" => knows.extend(layers.keys().cloned()),
+                name => {
+                    knows.insert(name.to_owned());
+                    knows.extend(layers.get(name).into_iter().flatten().cloned());
                 }
             }
-            for name in names.split(", ") {
-                let name = name.trim_matches('`').trim_start_matches("src/");
-                layers.insert(name.trim_end_matches(".rs").to_owned(), knows.clone());
-            }
         }
-        layers
+        for name in names.split(", ") {
+            let name = name.trim_matches('`').trim_start_matches("src/");
+            layers.insert(name.trim_end_matches(".rs").to_owned(), knows.clone());
+        }
     }
+    layers
+}
 
-    #[test]
-    fn a_layer_names_only_those_that_the_architecture_text_allows() {
-        let mut files = Vec::new();
-        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
-        let allowed = allowed();
-        assert!(allowed.len() > 12, "{allowed:?}");
-        let mut wrong = Vec::new();
-        for (path, text) in &files {
-            let is_test = path.contains("/tests/")
-                || ["tests.rs", "testing.rs", "lib.rs"].iter().any(|end| path.ends_with(end));
-            let layer = layer(path);
-            let Some(knows) = allowed.get(layer).filter(|_| !is_test) else { continue };
-            for other in named(product(text)) {
-                if other != layer && allowed.contains_key(&other) && !knows.contains(&other) {
-                    wrong.push(format!("{path}: {other}"));
-                }
+#[test]
+fn a_layer_names_only_those_that_the_architecture_text_allows() {
+    let mut files = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let allowed = allowed();
+    assert!(allowed.len() > 12, "{allowed:?}");
+    let mut wrong = Vec::new();
+    for (path, text) in &files {
+        let is_test = path.contains("/tests/")
+            || ["tests.rs", "testing.rs", "lib.rs"].iter().any(|end| path.ends_with(end));
+        let layer = layer(path);
+        let Some(knows) = allowed.get(layer).filter(|_| !is_test) else { continue };
+        for other in named(product(text)) {
+            if other != layer && allowed.contains_key(&other) && !knows.contains(&other) {
+                wrong.push(format!("{path}: {other}"));
             }
         }
-        assert_eq!(wrong, [""; 0], "not below");
     }
+    assert_eq!(wrong, [""; 0], "not below");
 }

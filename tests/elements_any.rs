@@ -1,7 +1,5 @@
 //! Any bytes are harmless to every reader, and a bad object costs no other.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use azel::{
     astro::Site,
     orbit::{Elements, PassSearch, Propagator, passes, read_element_bytes, read_elements},

@@ -1,7 +1,5 @@
 //! Elements come back from every form as they were written.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use std::io::Read as _;
 
 use azel::orbit::{

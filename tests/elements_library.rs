@@ -1,7 +1,5 @@
 //! The library against a real server on loopback.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use std::{
     fs,
     io::{BufRead as _, BufReader, Read as _, Write as _},

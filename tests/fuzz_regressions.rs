@@ -1,8 +1,6 @@
 //! What fuzzing has found, and what it starts from, is harmless: without a
 //! nightly toolchain, by the same functions as in `fuzz/targets`.
 
-#![allow(clippy::unwrap_used, reason = "a test may end here")]
-
 use std::{
     fs, io,
     panic::catch_unwind,

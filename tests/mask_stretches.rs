@@ -1,8 +1,6 @@
 //! The stretches of a pass that clear a horizon mask, against looks at every
 //! tenth of a second.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use azel::{
     astro::{HorizonMask, Site, time},
     orbit::{Pass, PassSearch, Propagator, bundled, clear_stretches, passes},

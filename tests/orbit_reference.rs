@@ -1,7 +1,5 @@
 //! Directions and passes against Skyfield, for every kind of orbit.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use std::collections::BTreeMap;
 
 use azel::{

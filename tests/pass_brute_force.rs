@@ -6,8 +6,6 @@
 //! sets how many (and a whole day instead of some hours), `AZEL_ELEMENTS` names
 //! a folder with more TLE files to draw from.
 
-#![allow(clippy::unwrap_used, reason = "the data is part of the test")]
-
 use azel::{
     astro::{Angle, Site, time},
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes, read_elements},

@@ -1,7 +1,5 @@
 //! The pass search against plain sampling, over orbits and sites of any kind.
 
-#![allow(clippy::unwrap_used, reason = "the data is part of the test")]
-
 use azel::{
     astro::{Angle, Site, time},
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes, read_elements},

@@ -1,8 +1,5 @@
 //! `azel passes` as it is called from a shell and read by another program.
 
-// A test ends loudly, in its helpers too.
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use std::{
     io::Write as _,
     process::{Command, Output, Stdio},

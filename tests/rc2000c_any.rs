@@ -1,7 +1,5 @@
 //! The RC2000C codec on any input.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may end here")]
-
 use std::time::Duration;
 
 use azel::protocol::rc2000c::*;

@@ -1,13 +1,6 @@
 //! The simulated RC2000C on a real socket and a real pseudo-terminal, driven
 //! with the codec alone.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
-
 use std::time::Duration;
 
 use azel::protocol::rc2000c::*;

@@ -1,13 +1,6 @@
 //! The byte-exact frames of the RC2000C, each in one piece and in many, with
 //! every expected value named, and what can happen to them on a line.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
-
 use std::time::Duration;
 
 use azel::protocol::rc2000c::*;

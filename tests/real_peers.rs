@@ -4,21 +4,15 @@
 //! Needs root, both servers and `openssl`; the tests are ignored by default and
 //! run by name, one after the other, where those are installed.
 
-// A test ends loudly, and its scene is part of it.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
-
-#[cfg(target_os = "linux")]
-mod real_peers {
-    mod breaks;
-    mod doorman;
-    mod fetches;
-    mod ftp_server;
-    mod https_server;
-    mod library;
-    mod log_in;
-    mod narrow;
-    mod unit;
-    mod uploads;
-    mod user;
-    mod whole_way;
-}
+mod breaks;
+mod doorman;
+mod fetches;
+mod ftp_server;
+mod https_server;
+mod library;
+mod log_in;
+mod narrow;
+mod unit;
+mod uploads;
+mod user;
+mod whole_way;

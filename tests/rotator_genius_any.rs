@@ -1,7 +1,5 @@
 //! The Rotator Genius codec on any input.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may end here")]
-
 use azel::protocol::rotator_genius::*;
 use proptest::prelude::*;
 

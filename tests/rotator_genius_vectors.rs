@@ -1,13 +1,6 @@
 //! The byte-exact vectors of the Rotator Genius protocol, each in one piece and
 //! in pieces.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
-
 use azel::protocol::rotator_genius::*;
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@
 //! minutes of simulated time:
 //!
 //! ```text
-//! AZEL_CASES=10000 cargo test --release --test safety_properties -- --nocapture any_
+//! AZEL_CASES=10000 cargo test --release --test azel -- --nocapture safety_properties
 //! ```
 //!
 //! It runs 10 000 cases in each of seven classes, and as many for each of three makes and
@@ -30,21 +30,8 @@
 //! a case that fails prints its own seed, and `AZEL_SEED=<that> AZEL_CASES=1` runs it
 //! alone.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    clippy::print_stdout,
-    reason = "a test may end here"
-)]
-
-#[path = "safety_properties/damage.rs"]
 mod damage;
-#[path = "safety_properties/lies.rs"]
 mod lies;
-#[path = "safety_properties/link_down.rs"]
 mod link_down;
-#[path = "safety_properties/link_up.rs"]
 mod link_up;
-#[path = "safety_properties/world.rs"]
 mod world;

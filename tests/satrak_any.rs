@@ -1,7 +1,5 @@
 //! The Satrak codec on any input.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test may end here")]
-
 use azel::protocol::satrak::*;
 use jiff::Timestamp;
 use proptest::option;

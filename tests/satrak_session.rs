@@ -1,42 +1,32 @@
 //! The session of an antenna against a simulated Satrak, in paused time: what
 //! the operator is shown, and what the unit receives.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
+mod rig;
+mod scene;
+mod script;
 
-mod satrak_session {
-    mod rig;
-    mod scene;
-    mod script;
-
-    mod connect;
-    mod doubt;
-    mod every_command;
-    mod idle;
-    mod inside;
-    mod jog;
-    mod let_go;
-    mod lock_out;
-    mod oddities;
-    mod on_board;
-    mod overtaken;
-    mod position;
-    mod reconnect;
-    mod secrets;
-    mod settings;
-    mod settings_moving;
-    mod settings_refused;
-    mod silence;
-    mod stalled;
-    mod stop;
-    mod track;
-    mod two;
-    #[cfg(unix)]
-    mod unguarded;
-    mod wire;
-}
+mod connect;
+mod doubt;
+mod every_command;
+mod idle;
+mod inside;
+mod jog;
+mod let_go;
+mod lock_out;
+mod oddities;
+mod on_board;
+mod overtaken;
+mod position;
+mod reconnect;
+mod secrets;
+mod settings;
+mod settings_moving;
+mod settings_refused;
+mod silence;
+mod stalled;
+mod stop;
+mod track;
+mod two;
+#[cfg(unix)]
+mod unguarded;
+mod wire;

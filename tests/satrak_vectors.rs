@@ -1,13 +1,6 @@
 //! The byte-exact vectors of the Satrak protocol, each in one piece and byte by
 //! byte, with every expected value named.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
-
 use azel::protocol::satrak::*;
 use jiff::Timestamp;
 use serde_json::Value;

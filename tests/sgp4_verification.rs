@@ -1,8 +1,6 @@
 //! The published verification cases of SGP4, against the output of the C++ code
 //! of its authors.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "the data is part of the test")]
-
 use azel::{
     astro::time,
     orbit::{ElementsError, PropagationError, Propagator, RefusalReason, read_elements},

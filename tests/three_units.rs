@@ -1,15 +1,7 @@
 //! The three controllers at once, each with trouble on its line, for an hour of
 //! paused time: what is shown is true and nothing gets stuck. Memory is printed:
 //! it grows until the logs of the links are full, after some two hours, and stays
-//! flat from then on (`AZEL_HOURS=4 cargo test --test three_units -- --nocapture`).
-
-#![allow(
-    clippy::unwrap_used,
-    clippy::expect_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "a test may end here"
-)]
+//! flat from then on (`AZEL_HOURS=4 cargo test --test azel three_units -- --nocapture`).
 
 use std::{sync::Arc, time::Duration};
 

@@ -1,9 +1,5 @@
 //! A log that nobody reads: the program goes on, and comes to its end.
 
-#![cfg(unix)]
-// A test ends loudly, in its helpers too.
-#![allow(clippy::expect_used, clippy::panic)]
-
 use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
     net::{SocketAddr, TcpListener, TcpStream},

@@ -1,8 +1,6 @@
 //! Elements from the web as a unit is told to fetch them, from a server on
 //! loopback.
 
-#![allow(clippy::unwrap_used, reason = "the server is part of the test")]
-
 use std::{
     io::{BufRead as _, BufReader, Write as _},
     net::TcpListener,

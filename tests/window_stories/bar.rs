@@ -16,7 +16,7 @@ use azel::{
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, SIZES, Window, asked, says, settle},
     states,
 };

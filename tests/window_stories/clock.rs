@@ -3,7 +3,7 @@
 use azel::driver::TimeSync;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window},
     states,
 };

@@ -10,7 +10,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     makes,
     preferences::write,
     rig::{self, LARGE, NOAA_20, SIZES, Window},

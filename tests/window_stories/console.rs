@@ -12,7 +12,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, OutputCommand, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, SIZES, SMALL, Window, asked, says, settle},
     states,
 };

@@ -14,7 +14,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     console::{click, is_disabled, row, view, write},
     rig::{self, SIZES, SMALL, asked, says, settle},
     states,

@@ -12,7 +12,7 @@ use azel::{
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::unit::{RealWindow, open, step_until, wait_until};
+use crate::window_stories::unit::{RealWindow, open, step_until, wait_until};
 
 const SATRAK: usize = 0;
 const GENIUS: usize = 1;

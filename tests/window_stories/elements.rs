@@ -16,7 +16,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
     states,
     unit::{Unit, clock_from, open, step_until},

@@ -12,7 +12,7 @@ use azel::{
 use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     maintenance,
     rig::{self, SIZES, SMALL, Window, asked, says},
     states,

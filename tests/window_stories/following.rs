@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{rig, states};
+use crate::window_stories::{rig, states};
 
 const WANTED: AzEl = AzEl::from_degrees(134.0, 20.0);
 

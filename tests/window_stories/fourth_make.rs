@@ -21,7 +21,7 @@ use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
 use self::lever::{CODE, GEAR, KIND, SHAFTS, unit};
-use crate::{
+use crate::window_stories::{
     preferences::{saved, write},
     rig::{self, SIZES, asked, says, settle},
 };
@@ -80,7 +80,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
 fn its_own_settings_are_fields_of_the_form() {
     for size in SIZES {
         let antenna = KIND.antenna("Lever", KIND.usual_address);
-        let mut model = crate::makes::model(antenna.clone(), rig::quiet());
+        let mut model = crate::window_stories::makes::model(antenna.clone(), rig::quiet());
         (model.view, model.station.antennas) = (View::Preferences, vec![antenna]);
         let mut window = rig::window(size, model);
         assert!(says(&window, "Antenna 1: Archimedes Lever"));
@@ -135,7 +135,8 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     until(&|shown| matches!(shown.stop, StopState::Stopped { .. }));
     assert_eq!([next(), next(), next()], ["C eureka low 2", "G 200 40", "S"]);
 
-    let mut shown = crate::makes::model(antenna, Snapshot::clone(&handle.snapshot()));
+    let mut shown =
+        crate::window_stories::makes::model(antenna, Snapshot::clone(&handle.snapshot()));
     shown.view = View::Operate;
     let window = rig::window(SIZES[0], shown);
     assert!(says(&window, "200.00"), "the card shows where it is");

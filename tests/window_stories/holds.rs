@@ -12,7 +12,7 @@ use azel::{
 };
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked, says},
     settings_desk::hold,
     states,

@@ -13,7 +13,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     preferences::saved,
     rig::{self, LARGE, SIZES, SMALL, Window, settle},
     states,

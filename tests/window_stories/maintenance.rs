@@ -11,7 +11,7 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 
-use crate::{
+use crate::window_stories::{
     makes,
     rig::{self, SIZES, Window, asked, settle},
     settings_desk::{hold, press},

@@ -14,7 +14,7 @@ use azel::{
     station::{Antenna, Mount},
 };
 
-use crate::{
+use crate::window_stories::{
     rig::{self, quiet},
     states,
 };

@@ -8,7 +8,7 @@ use azel::{
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     horizon,
     preferences::{form, saved, write},
     rig::{self, LARGE, SIZES, Window, asked},

@@ -24,7 +24,7 @@ use azel::{
 use egui::Key;
 use jiff::{Timestamp, tz::TimeZone};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, asked},
     settings::settles,
     settings_desk::{apply, desk, hold, press, read, says, state_of, texts},

@@ -13,7 +13,7 @@ use azel::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     extremes::nothing_overlaps,
     makes,
     rig::{self, SIZES, Window, asked, says, settle},

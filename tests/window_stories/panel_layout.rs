@@ -11,7 +11,7 @@ use azel::{
 use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     extremes::nothing_overlaps,
     maintenance, makes, on_board,
     rig::{self, SIZES, Window, settle},

@@ -13,7 +13,7 @@ use azel::{
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     makes,
     rig::{self, SIZES, Window, asked, says, settle},
     states,

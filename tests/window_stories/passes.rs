@@ -11,7 +11,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, PointerButton, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, NOAA_20, SIZES, SMALL, Window, asked, says, settle},
     states,
 };

@@ -4,7 +4,7 @@ use azel::app::View;
 use egui::{Key, Role, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, SIZES, Window, asked, settle},
     settings_desk::press,
     states,

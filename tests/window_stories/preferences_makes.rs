@@ -13,7 +13,7 @@ use azel::{
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     preferences::{form, saved, write},
     rig::{self, SIZES, Window, asked, says, settle},
     states,

@@ -7,7 +7,7 @@ use azel::{
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     preferences::{form, saved, write},
     rig::{self, SIZES, Window, asked, says, settle},
     settings_desk::press,

@@ -13,7 +13,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     rig::NOAA_20,
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };

@@ -9,7 +9,7 @@ use azel::{
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
 };
 
-use crate::{makes, rig, states};
+use crate::window_stories::{makes, rig, states};
 
 /// The station with this snapshot, `change`d.
 fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {

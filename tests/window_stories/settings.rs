@@ -12,7 +12,7 @@ use azel::{
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     makes,
     rig::{self, LARGE, SIZES, Window, asked, settle},
     settings_desk::{

@@ -6,7 +6,7 @@ use azel::{
     driver::Command,
 };
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked},
     settings::{group, settles},
     settings_desk::{apply, change, desk, hold, press, read, says, state_of, texts},

@@ -6,7 +6,7 @@ use std::fs;
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     settings_desk::{apply, press, says, state_of, write},
     settings_unit::{Scene, ask},
     unit::{step_until, wait_until},

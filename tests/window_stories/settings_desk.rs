@@ -17,7 +17,7 @@ use egui_kittest::{
     kittest::{By, NodeT as _, Queryable as _},
 };
 
-use crate::{
+use crate::window_stories::{
     rig::{self, Window, now},
     states,
 };

@@ -6,7 +6,7 @@ use azel::{app::UiCommand, controller::settings::Value, driver::Command};
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked, settle},
     settings_desk::{
         apply, change, choose, desk, hold, press, read, says, state_of, unlock, write,

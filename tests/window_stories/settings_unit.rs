@@ -12,7 +12,7 @@ use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tokio::io::{AsyncBufReadExt as _, AsyncWriteExt as _, BufReader};
 
-use crate::{
+use crate::window_stories::{
     settings_desk::{apply, choose, press, says, state_of, unlock, write},
     settings_forms::{ANGLES, FILE, FTP, GENERAL, GPS, IMAGE, REDUCTION, Story, WEB, WINDOW},
     unit::{RealWindow, Unit, clock_from, open, step_until},
@@ -56,7 +56,7 @@ impl Scene {
     }
 
     pub(crate) fn until_said(&mut self, words: &str) {
-        crate::unit::wait_until(words, || {
+        crate::window_stories::unit::wait_until(words, || {
             self.window.step();
             says(&self.window, words)
         });
@@ -74,7 +74,7 @@ impl Scene {
     /// Applies, and waits until the field says so.
     pub(crate) fn apply_until(&mut self, field: &str, state: &str) {
         apply(&mut self.window);
-        crate::unit::wait_until(state, || {
+        crate::window_stories::unit::wait_until(state, || {
             self.window.step();
             state_of(&self.window, field).starts_with(state)
         });
@@ -96,7 +96,7 @@ impl Scene {
         let control = self.unit.control.clone();
         control.set_fault(Fault::HangUp, true);
         press(&mut self.window);
-        crate::unit::wait_until("the link is lost", || {
+        crate::window_stories::unit::wait_until("the link is lost", || {
             let handle = &self.window.state().model().antennas[0].handle;
             let is_lost = |settled: &Settled| settled.result == Err(SettleError::LinkLost);
             let shown = handle.snapshot();

@@ -21,7 +21,7 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 
-use crate::{
+use crate::window_stories::{
     rig::{self, NOAA_20},
     states,
 };

@@ -11,7 +11,7 @@ use azel::{
 };
 use jiff::Timestamp;
 
-use crate::rig::{NOAA_20, model, now, quiet};
+use crate::window_stories::rig::{NOAA_20, model, now, quiet};
 
 /// A position that has just come in.
 pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion) -> Measured {

@@ -4,7 +4,7 @@ use azel::{app::UiCommand, driver::Command};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, SIZES, Window, asked, says, settle},
     states,
 };

@@ -7,7 +7,7 @@ use azel::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     makes,
     rig::{self, SIZES, Window, asked, settle},
     states,

@@ -24,7 +24,7 @@ use egui_kittest::Harness;
 use jiff::Timestamp;
 use tokio::sync::oneshot;
 
-use crate::rig;
+use crate::window_stories::rig;
 
 /// No story may take longer for one step.
 const PATIENCE: Duration = Duration::from_secs(20);

@@ -10,7 +10,7 @@ use azel::{
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::{
+use crate::window_stories::{
     rig::{self, NOAA_20},
     states,
     upload_desk::{

@@ -8,7 +8,7 @@ use azel::{
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::{
+use crate::window_stories::{
     makes,
     rig::{self, SIZES, says},
     states,

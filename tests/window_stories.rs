@@ -1,13 +1,5 @@
 //! Stories of the operator in front of the whole window, without a display.
 
-#![allow(
-    clippy::expect_used,
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    clippy::panic,
-    reason = "the data is part of the test"
-)]
-
 mod bar;
 mod clock;
 mod closing;

@@ -1,0 +1,36 @@
+//! All tests of the library from outside, and of the window without a display. One
+//! binary: each would link everything anew.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test may end here, and says what it counted"
+)]
+
+mod documents;
+mod elements_any;
+mod elements_forms;
+mod elements_library;
+mod fuzz_regressions;
+mod genius_session;
+mod host_tracking;
+mod mask_stretches;
+mod orbit_reference;
+mod pass_brute_force;
+mod pass_search;
+mod rc2000c_any;
+mod rc2000c_session;
+mod rc2000c_simulator;
+mod rc2000c_vectors;
+mod rotator_genius_any;
+mod rotator_genius_vectors;
+mod safety_properties;
+mod satrak_any;
+mod satrak_session;
+mod satrak_vectors;
+mod sgp4_verification;
+mod three_units;
+mod window_stories;

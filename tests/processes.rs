@@ -1,0 +1,24 @@
+//! Tests with processes, sockets and clocks of the real world. They stand apart so that
+//! nothing else takes the processor from them.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test may end here, and says what it counted"
+)]
+
+mod command_line;
+#[cfg(unix)]
+mod dead_man;
+mod owed_stop;
+mod passes_command;
+#[cfg(target_os = "linux")]
+mod real_peers;
+#[cfg(target_os = "linux")]
+mod real_window;
+#[cfg(unix)]
+mod unread_log;
+mod web_source;
