@@ -21,7 +21,8 @@ use crate::{
     astro::{Angle, AzEl},
     controller::{
         AntennaState, Capabilities, Device, Make, Moment, Motion, Moves, Pointing, aimed,
-        panel::Act, settings::Hindrance,
+        panel::{Act, Action},
+        settings::Hindrance,
     },
     plan::{
         Barrier, Bounds, Sweep,
@@ -436,18 +437,18 @@ impl Gate {
     pub(super) fn act(
         &mut self,
         act: Act,
-        moves: bool,
         is_agreed: bool,
         intent: Intent,
         stopping: bool,
         now: Moment,
-    ) -> Result<(), Refusal> {
+    ) -> Result<&'static Action, Refusal> {
+        let action = self.make.action(act.action).ok_or(Refusal::NotOffered)?;
         let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
             _ => Ok(()),
         })?;
-        if moves {
+        if action.moves {
             self.examine(Motion::Action(act.action), intent, stopping, now)?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
@@ -458,7 +459,7 @@ impl Gate {
             self.started_from_deg = self.axes_deg();
         }
         self.controller.act(act);
-        Ok(())
+        Ok(action)
     }
 
     /// The motion to a direction of the sky, as the axes count: the azimuth axis

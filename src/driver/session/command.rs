@@ -177,16 +177,13 @@ impl Session {
     }
 
     fn act(&mut self, act: Act, is_agreed: bool, now: Moment) {
-        let Some(action) = self.make.action(act.action) else {
-            return self.tell(Event::NotSent(Refusal::NotOffered));
-        };
         let stopping = self.halting.is_some();
-        match self.gate.act(act, action.moves, is_agreed, self.intent, stopping, now) {
-            Ok(()) if action.moves => {
+        match self.gate.act(act, is_agreed, self.intent, stopping, now) {
+            Ok(action) if action.moves => {
                 self.stopped_at = None;
                 self.acts = true;
             }
-            Ok(()) => {}
+            Ok(_) => {}
             Err(refusal) => self.tell(Event::NotSent(refusal)),
         }
     }

@@ -45,7 +45,7 @@ struct Needed {
 
 fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
     let (intent, stopping, now) = (case.intent, case.stopping, case.now());
-    let act = Act { action: "turn", values: Values::new() };
+    let act = |action| Act { action, values: Values::new() };
     let change = || Change {
         ticket: 1,
         group: "gps",
@@ -55,9 +55,9 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
     };
     match asked {
         Asked::Motion(motion) => gate.start(motion, intent, stopping, now),
-        Asked::Act => gate.act(act, false, false, intent, stopping, now),
-        Asked::MovingAct => gate.act(act, true, false, intent, stopping, now),
-        Asked::AgreedAct => gate.act(act, true, true, intent, stopping, now),
+        Asked::Act => gate.act(act("read_list"), false, intent, stopping, now).map(drop),
+        Asked::MovingAct => gate.act(act("to_counts"), false, intent, stopping, now).map(drop),
+        Asked::AgreedAct => gate.act(act("to_counts"), true, intent, stopping, now).map(drop),
         Asked::Setting => gate.settle(change(), false, stopping, now),
         Asked::SettingInMotion => gate.settle(change(), true, stopping, now),
     }
@@ -195,7 +195,7 @@ fn motions() -> Vec<Needed> {
 fn actions_and_settings() -> Vec<Needed> {
     use Intent::Manual;
     vec![
-        needed("no_action_while_locked_out", locked_out(Case::new(Manual)), Asked::Act, |it| {
+        needed("no_action_while_locked_out", locked_out(rc2000c(Manual)), Asked::Act, |it| {
             matches!(it, Refusal::LockedOut { .. })
         }),
         needed(

@@ -204,8 +204,8 @@ fn an_action_ends_where_it_leads_and_not_where_the_motion_before_did() {
     gate.start(position(50.0, 45.0), Intent::Position, false, case.now()).unwrap();
     let first_deg = |gate: &Gate, from_deg: f64| gate.ahead_of([from_deg, 45.0], [6.0, 0.0])[0];
     assert!((first_deg(&gate, 48.0) - 50.0).abs() < 1e-9);
-    let act = Act { action: "turn", values: [].into() };
-    gate.act(act, true, false, Intent::Position, false, case.now()).unwrap();
+    let act = Act { action: "to_counts", values: [].into() };
+    gate.act(act, false, Intent::Position, false, case.now()).unwrap();
     assert!((first_deg(&gate, 48.0) - 54.0).abs() < 1e-9, "it passes on");
     assert!((first_deg(&gate, 198.0) - 200.0).abs() < 1e-9);
 }
