@@ -35,7 +35,8 @@ pub(super) fn show(
     drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
     asked(ui, at, model, state, actions);
     drive::messages(ui, at, &model.drive, &state.drive);
-    track::notes(ui, at, model.track.as_ref(), &state.track, actions);
+    let said = model.drive.jog_locked;
+    track::notes(ui, at, model.track.as_ref(), said, &state.track, actions);
     if !short {
         at.skip(4.0);
     }

@@ -87,17 +87,18 @@ pub(super) fn row(
 }
 
 /// What is to be known before something is tracked, and whether the unit begins by
-/// itself.
+/// itself. `said` stands above already.
 pub(super) fn notes(
     ui: &Ui,
     at: &mut Cursor,
     model: Option<&TrackModel<'_>>,
+    said: Option<&str>,
     state: &TrackState,
     actions: &mut Vec<CardAction>,
 ) {
     // What is asked is about something else.
     let Some(model) = model.filter(|model| state.question(model).is_none()) else { return };
-    if let Some(refusal) = model.refusal {
+    if let Some(refusal) = model.refusal.filter(|refusal| Some(*refusal) != said) {
         caution_row(ui, at, "track refusal", refusal);
     }
     for (salt, words) in [("misses", model.misses), ("track note", model.note)] {
