@@ -5,11 +5,15 @@ mod passes;
 mod simulate;
 mod window;
 
-use std::{path::PathBuf, process::ExitCode};
+use std::{
+    io::{self, Write as _},
+    path::PathBuf,
+    process::ExitCode,
+};
 
-#[cfg(unix)]
 use anyhow::Context as _;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
+use clap_complete::Shell;
 
 #[cfg(unix)]
 use crate::driver::dead_man;
@@ -44,6 +48,18 @@ enum Command {
         #[command(subcommand)]
         simulator: simulate::Simulator,
     },
+    /// Write what completes this command line in a shell to standard output
+    #[command(hide = true)]
+    Completions {
+        /// Shell
+        shell: Shell,
+    },
+    /// Write a man page for each command
+    #[command(hide = true)]
+    Man {
+        /// Folder that the pages go to
+        folder: PathBuf,
+    },
 }
 
 impl Cli {
@@ -67,6 +83,13 @@ impl Cli {
                 dead_man::watch_over(&bytes)?;
             }
             Some(Command::Simulate { simulator }) => simulate::run(&simulator)?,
+            Some(Command::Completions { shell }) => {
+                let mut text = Vec::new();
+                clap_complete::generate(shell, &mut Self::command(), "azel", &mut text);
+                io::stdout().write_all(&text)?;
+            }
+            Some(Command::Man { folder }) => clap_mangen::generate_to(Self::command(), &folder)
+                .with_context(|| format!("no man pages in {}", folder.display()))?,
         }
         Ok(ExitCode::SUCCESS)
     }

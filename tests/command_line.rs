@@ -67,3 +67,23 @@ fn a_wrong_fault_of_an_rc2000c_names_the_right_ones() {
     assert!(!output.status.success());
     assert!(text(&output.stderr).contains("az_jam"), "{}", text(&output.stderr));
 }
+
+#[test]
+fn completions_and_man_pages_tell_the_commands_but_not_those_of_the_program_itself() {
+    let output = azel(&["completions", "bash"]);
+    assert!(output.status.success());
+    assert!(text(&output.stdout).contains("--station"), "{}", text(&output.stdout));
+    let folder = tempfile::tempdir().unwrap();
+    assert!(azel(&["man", &folder.path().display().to_string()]).status.success());
+    let mut pages: Vec<String> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|page| page.unwrap().file_name().into_string().unwrap())
+        .collect();
+    pages.sort_unstable();
+    assert!(pages.contains(&"azel.1".to_owned()), "{pages:?}");
+    assert!(pages.contains(&"azel-simulate-satrak.1".to_owned()), "{pages:?}");
+    assert!(pages.iter().all(|page| !page.contains("dead")), "{pages:?}");
+    let nowhere = azel(&["man", "/nowhere/at/all"]);
+    assert_eq!(nowhere.status.code(), Some(1));
+    assert!(text(&nowhere.stderr).contains("/nowhere/at/all"), "{}", text(&nowhere.stderr));
+}
