@@ -41,8 +41,6 @@ pub struct Moment {
 pub const PROMPT: Duration = Duration::from_millis(600);
 /// Without a reply for so long the link of a make that says nothing else is lost.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// So often a make that says nothing else is asked.
-const POLL: Duration = Duration::from_millis(500);
 
 /// What makes metal move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,12 +161,14 @@ pub enum PrepareError {
 }
 
 /// A controller as everyone may use it: nothing here starts a motion, or decides
-/// where one leads. What is not written for a make, that make has not.
+/// where one leads. What a make does not
+/// implement, it does not have.
 pub trait Device: Send {
     /// The link has come up: forget what was outstanding, ask everything anew.
     fn link_up(&mut self, now: Moment);
 
-    /// The link is gone: nothing that was asked will be answered.
+    /// The link is gone: nothing that was asked will be answered. What is not forgotten
+    /// here is when the link comes up.
     fn link_down(&mut self, _now: Moment) {}
 
     /// Bytes that were written, for [`Self::next_wire_line`].
@@ -261,9 +261,7 @@ pub trait Device: Send {
     }
 
     /// The time between two questions at present.
-    fn poll_period(&self) -> Duration {
-        POLL
-    }
+    fn poll_period(&self) -> Duration;
 }
 
 /// The side of a controller that moves metal or decides where it goes. Only the gate holds it.

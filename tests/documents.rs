@@ -40,13 +40,16 @@ fn every_test_that_the_fault_matrix_names_is_there() {
 
 /// What is above the tests of a file.
 fn product(text: &str) -> &str {
-    text.split("#[cfg(test)]\nmod ").next().unwrap_or_default()
+    const HEAD: &str = "#[cfg(test)]\nmod ";
+    let opens =
+        |at: &usize| text[at + HEAD.len()..].lines().next().is_some_and(|line| line.ends_with('{'));
+    let tests = text.match_indices(HEAD).map(|(at, _)| at).find(opens);
+    &text[..tests.unwrap_or(text.len())]
 }
 
-/// The layer of a file below `src`.
+/// The layer of a file, by its path below `src`.
 fn layer(path: &str) -> &str {
-    let within = path.rsplit_once("/src/").unwrap().1;
-    within.split('/').next().unwrap().trim_end_matches(".rs")
+    path.split(['/', '\\']).next().unwrap_or_default().trim_end_matches(".rs")
 }
 
 /// The layers that a text names after `crate::`, in braces too.
@@ -109,21 +112,42 @@ fn allowed() -> BTreeMap<String, BTreeSet<String>> {
 
 #[test]
 fn a_layer_names_only_those_that_the_architecture_text_allows() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
-    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    sources(&top, &mut files);
     let allowed = allowed();
-    assert!(allowed.len() > 12, "{allowed:?}");
-    let mut wrong = Vec::new();
+    let (mut wrong, mut read) = (Vec::new(), 0);
     for (path, text) in &files {
-        let is_test = path.contains("/tests/")
-            || ["tests.rs", "testing.rs", "lib.rs"].iter().any(|end| path.ends_with(end));
-        let layer = layer(path);
-        let Some(knows) = allowed.get(layer).filter(|_| !is_test) else { continue };
+        let path = Path::new(path).strip_prefix(&top).unwrap().display().to_string();
+        let is_test = path.split(['/', '\\']).any(|part| part == "tests")
+            || ["tests.rs", "testing.rs"].iter().any(|end| path.ends_with(end));
+        if is_test || path == "lib.rs" {
+            continue;
+        }
+        let layer = layer(&path);
+        let knows = allowed.get(layer).unwrap_or_else(|| panic!("{layer} is in no row"));
+        read += 1;
         for other in named(product(text)) {
             if other != layer && allowed.contains_key(&other) && !knows.contains(&other) {
                 wrong.push(format!("{path}: {other}"));
             }
         }
     }
+    assert!(read > 400, "{read}");
     assert_eq!(wrong, [""; 0], "not below");
+}
+
+#[test]
+fn every_test_file_is_part_of_a_test_binary() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| fs::read_to_string(top.join(path)).unwrap();
+    let manifest = read("Cargo.toml");
+    let binaries = read("tests/azel.rs") + &read("tests/processes.rs");
+    for entry in fs::read_dir(top.join("tests")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let Some(name) = name.strip_suffix(".rs") else { continue };
+        let is_named = manifest.contains(&format!("[[test]]\nname = \"{name}\""))
+            || binaries.contains(&format!("\nmod {name};"));
+        assert!(is_named, "nothing runs tests/{name}.rs");
+    }
 }

@@ -176,8 +176,8 @@ impl App {
             Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
             None => alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
         }
-        let is_read = matches!(self.model.catalog, CatalogState::Ready(_));
-        match antenna.not_compared().filter(|_| is_read) {
+        let is_loading = matches!(self.model.catalog, CatalogState::Loading);
+        match antenna.not_compared().filter(|_| !is_loading) {
             Some(kind) => alarms.raise(of, kind, now),
             None => alarms.clear(of, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
         }
@@ -194,7 +194,7 @@ impl AntennaModel {
             return None;
         }
         match &state.on_board.satellite {
-            Some(held) if held.catalog_number == 0 => None,
+            Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
             Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
             // A unit that is given satellites from here tells soon which it holds.
             None if self.make().capabilities.has_program => None,

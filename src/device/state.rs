@@ -93,7 +93,7 @@ impl Measured {
     /// Where both axes stand, degrees as the mount counts; an antenna without an
     /// elevation axis counts as one at 0. `None` where an axis tells no angle.
     pub fn axes_deg(&self, has_elevation: bool) -> Option<[f64; 2]> {
-        let [first, second] = self.axes.map(|axis| axis.angle_deg);
+        let [first, second] = self.axes.map(|axis| axis.angle_deg.filter(|deg| deg.is_finite()));
         Some([first?, if has_elevation { second? } else { 0.0 }])
     }
 }

@@ -81,6 +81,7 @@ impl Sweep {
 pub struct Bounds {
     site: Site,
     mount: Mount,
+    has_elevation: bool,
     /// `None` where it has no elevation axis.
     minimum_elevation: Option<Angle>,
     /// The keep-outs that hold for it, with the whole margin of each.
@@ -99,6 +100,7 @@ impl Bounds {
         Self {
             site: station.site,
             mount: antenna.mount,
+            has_elevation,
             minimum_elevation: has_elevation.then_some(minimum),
             keep_outs: holds
                 .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))

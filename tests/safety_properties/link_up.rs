@@ -186,6 +186,7 @@ async fn others_move(mut dice: Dice) {
 /// small steps. `None` where the floor, the end of the travel or another zone comes first.
 fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Option<f64> {
     const STEP_DEG: f64 = 0.02;
+    const GAP_DEG: f64 = 1.0;
     let World { bounds, antenna, utc_origin, .. } = &scene.world;
     let clear_deg = |axes_deg| {
         let clearances = bounds.clearances(bounds.direction(axes_deg), *utc_origin);
@@ -203,7 +204,11 @@ fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Opt
             return None;
         }
         if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
-            return Some(turn_deg);
+            // Nothing gets into a narrow gap that is judged ahead.
+            there_deg[axis] += way * GAP_DEG;
+            let is_wide = clear_deg(there_deg).iter().all(|clear_deg| *clear_deg >= 0.0)
+                && (from_deg..=to_deg).contains(&there_deg[axis]);
+            return (is_wide || step == 0).then_some(turn_deg);
         }
     }
     None

@@ -62,6 +62,10 @@ impl Device for Metal {
     fn state(&self) -> &AntennaState {
         &self.state
     }
+
+    fn poll_period(&self) -> Duration {
+        Duration::ZERO
+    }
 }
 
 impl Moves for Metal {

@@ -137,11 +137,15 @@ fn by_hand(
     blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
     let here = Depth::of(bounds, axes_deg, utc);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
+    let mut was_out = false;
     for look in 1..=looks {
         let to_deg = at(f64::from(look) / f64::from(looks));
+        let there = Depth::of(bounds, to_deg, utc);
         // On the way it may lead along an edge, or past where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
-        if !here.is_left_for(&Depth::of(bounds, to_deg, utc), gain_deg) {
+        let enters_again = was_out && !there.is_out();
+        was_out = there.is_out();
+        if enters_again || !here.is_left_for(&there, gain_deg) {
             let at = bounds.direction(to_deg);
             return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
         }
@@ -164,28 +168,41 @@ fn by_hand(
 /// How deep axes stand in what is forbidden.
 #[allow(clippy::struct_field_names, reason = "names tell their units")]
 struct Depth {
-    /// How far it is to where they may point; `None` where no axis gets out by itself.
+    /// How far it is to where they may point, degrees; `None` where no axis gets out by
+    /// itself.
     way_out_deg: Option<f64>,
-    below_floor_deg: f64,
-    inside_deg: f64,
+    /// Below the minimum elevation, degrees.
+    below_deg: f64,
+    /// Inside of each other barrier, degrees.
+    inside_deg: Vec<f64>,
 }
 
 impl Depth {
     fn of(bounds: &Bounds, axes_deg: [f64; 2], utc: Timestamp) -> Self {
-        let (below_floor_deg, inside_deg) = bounds.depths_deg(axes_deg, utc);
-        Self { way_out_deg: bounds.way_out_deg(axes_deg, utc), below_floor_deg, inside_deg }
+        let (below_deg, inside_deg) = bounds.depths_deg(axes_deg, utc);
+        Self { way_out_deg: bounds.way_out_deg(axes_deg, utc), below_deg, inside_deg }
     }
 
-    /// Whether it is less deep there by `gain_deg`, or outside of everything.
+    fn is_out(&self) -> bool {
+        self.way_out_deg.is_some_and(|deg| deg <= 0.0)
+    }
+
+    /// Whether it is less deep there by `gain_deg`, or outside of everything, and no
+    /// lower below the minimum elevation.
     fn is_left_for(&self, there: &Self, gain_deg: f64) -> bool {
+        if there.below_deg > self.below_deg + OUT_GAIN_DEG {
+            return false;
+        }
         match (self.way_out_deg, there.way_out_deg) {
             (Some(here), Some(there)) => there < here - gain_deg || (here <= 0.0 && there <= 0.0),
             (Some(_), None) => false,
-            // No axis gets out by itself: the edge of what is deepest has to come nearer.
-            // To rise to the floor is worth no way deeper into what stands above it.
+            // No axis gets out by itself: the edge of what is deepest has to come nearer,
+            // and no other goes further away.
             (None, _) => {
-                there.below_floor_deg <= self.below_floor_deg
-                    && there.inside_deg < self.inside_deg - gain_deg
+                let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
+                let mut each = self.inside_deg.iter().zip(&there.inside_deg);
+                each.all(|(here, there)| *there <= here + OUT_GAIN_DEG)
+                    && deepest(&there.inside_deg) < deepest(&self.inside_deg) - gain_deg
             }
         }
     }

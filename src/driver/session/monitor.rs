@@ -48,7 +48,9 @@ impl Session {
             return;
         }
         let Some(axes_deg) = self.gate.axes_deg() else { return };
-        let rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
+        let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
+        // Without an elevation axis the second one turns something else.
+        let rates = [first, if self.make.capabilities.has_elevation { second } else { 0.0 }];
         self.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);

@@ -12,6 +12,9 @@ use super::{AzEl, Barrier, Bounds};
 const STEP_DEG: f64 = 0.1;
 /// An edge is found to this, degrees.
 const EDGE_DEG: f64 = 1e-9;
+/// A gap that is narrower than this, degrees of the axis, is no way out: what is judged
+/// ahead never gets into it.
+const GAP_DEG: f64 = 1.0;
 /// The stretch over which the speed of an axis in the sky is taken, degrees.
 const STRETCH_DEG: f64 = 0.01;
 /// No axis turns further to get out, degrees.
@@ -38,23 +41,25 @@ impl Bounds {
             return Some(0.0);
         }
         let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
-        let lengths = ways.into_iter().filter_map(|(axis, way)| {
+        let there_are = |(axis, _): &(usize, f64)| *axis == 0 || self.has_elevation;
+        let lengths = ways.into_iter().filter(there_are).filter_map(|(axis, way)| {
             let turn_deg = self.turn_out_deg(axes_deg, axis, way, &left, &suns)?;
             Some(turn_deg * self.speed(axes_deg, axis))
         });
         lengths.min_by(f64::total_cmp)
     }
 
-    /// How deep the axes stand below the minimum elevation, and inside of the deepest
-    /// of all other barriers by its nearest edge; degrees.
-    pub fn depths_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> (f64, f64) {
-        let (mut below_deg, mut inside_deg) = (0.0_f64, 0.0_f64);
-        for clearance in self.clearances(self.direction(axes_deg), at) {
+    /// How deep the axes stand below the minimum elevation, and inside of each other
+    /// barrier by its nearest edge; degrees, zero outside.
+    pub fn depths_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> (f64, Vec<f64>) {
+        let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
+        let clearances = self.clearances(self.direction(axes_deg), at).into_iter();
+        for clearance in clearances.filter(|clearance| !clearance.warns_only) {
             let deep_deg = (-clearance.angle.degrees()).max(0.0);
-            match clearance.barrier {
-                _ if clearance.warns_only => {}
-                Barrier::MinimumElevation => below_deg = below_deg.max(deep_deg),
-                _ => inside_deg = inside_deg.max(deep_deg),
+            if clearance.barrier == Barrier::MinimumElevation {
+                below_deg = deep_deg;
+            } else {
+                inside_deg.push(deep_deg);
             }
         }
         (below_deg, inside_deg)
@@ -104,7 +109,9 @@ impl Bounds {
                             nearer => (beyond, beyond_deg) = (nearer, middle_deg),
                         }
                     }
-                    return matches!(beyond, Place::Free).then_some(beyond_deg);
+                    let far_deg = beyond_deg + GAP_DEG;
+                    let has_room = far_deg <= end_deg && matches!(place(far_deg), Place::Free);
+                    return (matches!(beyond, Place::Free) && has_room).then_some(beyond_deg);
                 }
             }
         }
@@ -198,23 +205,31 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_just_before_the_end_of_the_travel_is_a_way_out() {
+    fn an_edge_before_the_end_of_the_travel_is_a_way_out_where_there_is_room() {
         let at = "2026-08-12T10:00:00Z".parse().unwrap();
-        let at_deg = bounds_to(160.08).way_out_deg([155.0, 30.0], at).unwrap();
+        let at_deg = bounds_to(161.08).way_out_deg([155.0, 30.0], at).unwrap();
         assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
-        let at_deg = bounds_to(160.02).way_out_deg([155.0, 30.0], at).unwrap();
-        assert!(at_deg > 20.0, "{at_deg}");
+        let at_deg = bounds_to(161.02).way_out_deg([155.0, 30.0], at).unwrap();
+        assert!(at_deg > 20.0, "too narrow: {at_deg}");
     }
 
     #[test]
-    fn a_gap_before_the_floor_is_a_way_out() {
+    fn a_gap_before_the_floor_is_a_way_out_where_there_is_room() {
         let mut bounds = bounds();
         // The lower edge is at 2 degrees.
-        for (floor_deg, is_open) in [(1.94, true), (1.96, false)] {
+        for (floor_deg, is_open) in [(0.94, true), (0.96, false)] {
             bounds.minimum_elevation = Some(Angle::from_degrees(floor_deg));
             let at_deg = bounds.way_out_deg([130.0, 3.0], "2026-08-12T10:00:00Z".parse().unwrap());
             assert_eq!(at_deg.unwrap() < 1.1, is_open, "{at_deg:?}");
         }
+    }
+
+    #[test]
+    fn an_antenna_without_an_elevation_axis_gets_out_by_its_azimuth() {
+        let bounds = Bounds { has_elevation: false, minimum_elevation: None, ..bounds() };
+        let at = "2026-08-12T10:00:00Z".parse().unwrap();
+        let at_deg = bounds.way_out_deg([130.0, 58.0], at).unwrap();
+        assert!((15.0..17.0).contains(&at_deg), "{at_deg}");
     }
 
     #[test]

@@ -20,7 +20,9 @@ pub enum Reach {
     Connected,
     /// It is locked out for maintenance.
     InMaintenance,
-    /// It is called, or was lost.
+    /// It is being dialled.
+    Connecting,
+    /// Its replies are missing, or its link is lost.
     NoAnswer,
     /// This console has no link and wants none.
     NotConnected,
@@ -110,7 +112,8 @@ fn reach_tag(ui: &Ui, row: Rect, reach: Reach) -> f32 {
     let (words, colour) = match reach {
         Reach::Connected => ("Connected", t.ok),
         Reach::InMaintenance => ("In maintenance", t.warn),
-        Reach::NoAnswer => ("No answer", t.t3),
+        Reach::Connecting => ("Connecting", t.t3),
+        Reach::NoAnswer => ("No answer", t.warn),
         Reach::NotConnected => ("Not connected", t.t3),
     };
     let font = text::sized(11.0, Weight::SemiBold);

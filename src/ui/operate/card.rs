@@ -184,8 +184,9 @@ fn reach(snapshot: &Snapshot) -> Reach {
     match snapshot.link {
         LinkState::Off => Reach::NotConnected,
         _ if snapshot.lock_out.is_some() => Reach::InMaintenance,
-        LinkState::Up { .. } | LinkState::Stale { .. } => Reach::Connected,
-        LinkState::Connecting { .. } | LinkState::Lost { .. } => Reach::NoAnswer,
+        LinkState::Up { .. } => Reach::Connected,
+        LinkState::Connecting { .. } => Reach::Connecting,
+        LinkState::Stale { .. } | LinkState::Lost { .. } => Reach::NoAnswer,
     }
 }
 

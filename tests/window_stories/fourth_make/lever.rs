@@ -6,7 +6,7 @@ use std::{
     net::TcpListener,
     sync::mpsc,
     thread,
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use azel::{
@@ -179,6 +179,10 @@ impl Device for Lever {
 
     fn state(&self) -> &AntennaState {
         &self.state
+    }
+
+    fn poll_period(&self) -> Duration {
+        Duration::from_millis(50)
     }
 }
 

@@ -13,6 +13,9 @@ use crate::station::{Entered, KeepOut, Station};
 /// What a way may touch of the edge of a margin, degrees.
 const EDGE_DEG: f64 = 0.05 + 1e-6;
 
+/// A narrower gap is no way out, degrees.
+const GAP_DEG: f64 = 1.0;
+
 /// The step in which a way out is looked for, degrees.
 const FINE_DEG: f64 = 0.1;
 
@@ -117,6 +120,13 @@ fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
     }
 }
 
+/// What a place on a way out is.
+enum OnTheWay {
+    Free,
+    Inside,
+    Barred,
+}
+
 /// How far it is to where the antenna may point by the shortest turn of one axis,
 /// degrees of the sky; looked for in small steps.
 fn way_out_deg(bounds: &Bounds, from_deg: [f64; 2], utc: jiff::Timestamp) -> Option<f64> {
@@ -125,22 +135,36 @@ fn way_out_deg(bounds: &Bounds, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
         clearances.map(|it| it.angle.degrees()).collect::<Vec<_>>()
     };
     let before_deg = clear_deg(from_deg);
-    let turn_deg = |axis: usize, way: f64| {
+    let place = |axis: usize, turned_deg: f64| {
+        let mut axes_deg = from_deg;
+        axes_deg[axis] += turned_deg;
         let (least_deg, most_deg) = bounds.mount().travel_deg()[axis];
+        let here_deg = clear_deg(axes_deg);
+        let enters = before_deg.iter().zip(&here_deg).any(|(a, b)| *a >= 0.0 && *b < 0.0);
+        if enters || !(least_deg..=most_deg).contains(&axes_deg[axis]) {
+            OnTheWay::Barred
+        } else if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
+            OnTheWay::Free
+        } else {
+            OnTheWay::Inside
+        }
+    };
+    let turn_deg = |axis: usize, way: f64| {
+        let at = |turn_deg: f64| place(axis, way * turn_deg);
         for step in 0_u32..3_600 {
-            let mut axes_deg = from_deg;
-            axes_deg[axis] += way * f64::from(step) * FINE_DEG;
-            let is_beyond = !(least_deg..=most_deg).contains(&axes_deg[axis]);
-            // The edge may lie just before the end of the travel.
-            axes_deg[axis] = axes_deg[axis].clamp(least_deg, most_deg);
-            let turn_deg = (axes_deg[axis] - from_deg[axis]).abs();
-            let here_deg = clear_deg(axes_deg);
-            let enters = before_deg.iter().zip(&here_deg).any(|(a, b)| *a >= 0.0 && *b < 0.0);
-            if !enters && here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
-                return Some(turn_deg);
-            }
-            if enters || is_beyond {
-                return None;
+            let turn_deg = f64::from(step) * FINE_DEG;
+            match at(turn_deg) {
+                OnTheWay::Inside => {}
+                OnTheWay::Barred => return None,
+                OnTheWay::Free if step == 0 => return Some(0.0),
+                OnTheWay::Free => {
+                    let back = (0..=100).map(|part| FINE_DEG * f64::from(part) / 100.0);
+                    let free =
+                        back.take_while(|back| matches!(at(turn_deg - back), OnTheWay::Free));
+                    let edge_deg = turn_deg - free.last().unwrap_or_default();
+                    let has_room = matches!(at(edge_deg + GAP_DEG), OnTheWay::Free);
+                    return has_room.then_some(edge_deg);
+                }
             }
         }
         None

@@ -240,3 +240,44 @@ fn by_hand_it_may_go_along_an_edge_to_where_the_way_out_is_shorter() {
         assert!(gate.check(motion, Intent::Manual, now).is_err(), "{motion:?}");
     }
 }
+
+#[test]
+fn by_hand_it_leaves_a_keep_out_and_enters_it_nowhere_again() {
+    // A yard that is open in the middle, above 30 degrees.
+    let corners_deg = [
+        (100.0, 10.0),
+        (150.0, 10.0),
+        (150.0, 60.0),
+        (130.0, 60.0),
+        (130.0, 30.0),
+        (120.0, 30.0),
+        (120.0, 60.0),
+        (100.0, 60.0),
+    ];
+    let yard = KeepOut {
+        name: "yard".to_owned(),
+        reason: String::new(),
+        entered: crate::station::Entered::Hard,
+        antenna: None,
+        margin_deg: 0.0,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    };
+    let mut case = Case { keep_outs: vec![yard], ..changed_mount(Case::new(Intent::Manual)) };
+    case.antenna.beam_width_deg = 0.01;
+    case.antenna.limits.maximum_step_deg = 30.0;
+    for (axis, deg) in case.axes().iter_mut().zip([117.0, 50.0]) {
+        axis.angle_deg = Some(deg);
+    }
+    let mut gate = case.gate(&Arc::default());
+    let now = case.now();
+    gate.let_out(Some(now.steady + Duration::from_secs(1)));
+    assert_eq!(gate.check(step(8.0, 0.0), Intent::Manual, now), Ok(()));
+    let through = gate.check(step(14.0, 0.0), Intent::Manual, now);
+    assert!(matches!(through, Err(Refusal::Forbidden { .. })), "{through:?}");
+}
+
+/// The same on a mount of azimuth and elevation.
+fn changed_mount(case: Case) -> Case {
+    let mount = Antenna::rc2000c("Dish", "").mount;
+    Case { antenna: Antenna { mount, ..case.antenna }, ..case }
+}
