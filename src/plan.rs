@@ -11,7 +11,7 @@ pub mod pass_export;
 mod trackability;
 mod within_rate;
 
-pub use bounds::{Barrier, Bounds, Clearance, Sweep};
+pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use on_board::{OnBoardPass, Supervision};
 pub use trackability::{Loss, Reach, Sample, Trackability, trackability};

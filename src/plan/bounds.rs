@@ -9,6 +9,7 @@
 mod sun;
 mod way_out;
 
+use glam::DVec3;
 use jiff::Timestamp;
 use smol_str::SmolStr;
 
@@ -20,6 +21,7 @@ use crate::{
 /// A way may touch an edge and go beyond it by this much, degrees; the margins of
 /// keep-outs and of the Sun are wider by as much.
 const FINEST_DEG: f64 = 0.05;
+
 /// What an antenna must not point into.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Barrier {
@@ -133,101 +135,15 @@ impl Bounds {
         }
     }
 
-    /// The clearance of a direction from every barrier, at a time.
-    pub fn clearances(&self, direction: AzEl, at: Timestamp) -> Vec<Clearance> {
-        let sun = self.suns(at);
-        self.each(direction, &sun)
-            .map(|(barrier, angle, warns_only)| Clearance {
-                barrier: barrier.clone_of(),
-                angle,
-                warns_only,
-            })
-            .collect()
-    }
-
-    /// The least clearance from what is refused, at a time; `None` without any
-    /// barrier.
-    pub fn nearest(&self, direction: AzEl, at: Timestamp) -> Option<Clearance> {
-        let clearances = self.clearances(direction, at).into_iter();
-        clearances
-            .filter(|clearance| !clearance.warns_only)
-            .min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()))
+    /// The barriers as they stand at a time.
+    pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
+        let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
+        BoundsAt { bounds: self, minimum_elevation: self.minimum_elevation, suns }
     }
 
     /// Whether there is any keep-out or the Sun that is refused.
     pub fn forbid_anything(&self) -> bool {
         self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
-    }
-
-    /// The keep-out or the surroundings of the Sun that a direction is in.
-    pub fn forbids(&self, direction: AzEl, at: Timestamp) -> Option<Barrier> {
-        self.above_the_floor()
-            .nearest(direction, at)
-            .filter(|it| it.angle < Angle::ZERO)
-            .map(|it| it.barrier)
-    }
-
-    /// The same without the minimum elevation, for a unit that keeps to its own.
-    #[must_use]
-    pub fn above_the_floor(&self) -> Self {
-        Self { minimum_elevation: None, ..self.clone() }
-    }
-
-    /// The same without the barriers that `axes_deg` are inside of.
-    #[must_use]
-    pub fn without_entered(&self, axes_deg: [f64; 2], at: Timestamp) -> Self {
-        let direction = self.direction(axes_deg);
-        let is_outside = |barrier: &Barrier| {
-            let clearances = self.clearances(direction, at);
-            let found = clearances.into_iter().find(|it| it.barrier == *barrier);
-            found.is_none_or(|it| it.warns_only || it.angle >= Angle::ZERO)
-        };
-        let mut rest = self.clone();
-        rest.minimum_elevation =
-            rest.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
-        rest.keep_outs.retain(|(zone, _)| is_outside(&Barrier::KeepOut(zone.name.as_str().into())));
-        rest.sun = rest.sun.filter(|_| is_outside(&Barrier::Sun));
-        rest
-    }
-
-    /// The first barrier that the axes may come into within `sweep`, and a
-    /// direction in it. From a `start` below the minimum elevation nothing may lead
-    /// lower than that.
-    pub fn blocks(&self, sweep: Sweep, start: AzEl, at: Timestamp) -> Option<(Barrier, AzEl)> {
-        if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
-            let lowest = Some(start.elevation);
-            return Self { minimum_elevation: lowest, ..self.clone() }.blocks_from(sweep, at);
-        }
-        self.blocks_from(sweep, at)
-    }
-
-    fn blocks_from(&self, sweep: Sweep, at: Timestamp) -> Option<(Barrier, AzEl)> {
-        let suns = self.suns(at);
-        let mut open = vec![sweep];
-        while let Some(sweep) = open.pop() {
-            let direction = self.direction(sweep.middle());
-            let radius_deg = sweep.radius_deg();
-            let nearest = self
-                .each(direction, &suns)
-                .filter(|(_, _, warns_only)| !warns_only)
-                .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()));
-            let (barrier, angle, _) = nearest?;
-            // What lies on the edge is free, also where it is a whole side of the sweep.
-            let clear_deg = angle.degrees() + FINEST_DEG;
-            if clear_deg >= radius_deg {
-                continue;
-            }
-            if clear_deg < 0.0 || radius_deg < FINEST_DEG / 100.0 {
-                return Some((barrier.clone_of(), direction));
-            }
-            open.extend(sweep.halves());
-        }
-        None
-    }
-
-    /// The barriers as they stand at `at`, for many looks.
-    pub(super) fn standing(&self, at: Timestamp) -> Standing<'_> {
-        Standing { bounds: self, suns: self.suns(at) }
     }
 
     /// Whether any keep-out is one that ways lead round.
@@ -242,46 +158,135 @@ impl Bounds {
         let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
         rounded.any(|(it, margin)| it.zone.clearance(direction) < *margin + room)
     }
-
-    fn each<'a>(
-        &'a self,
-        direction: AzEl,
-        suns: &'a [AzEl],
-    ) -> impl Iterator<Item = (Named<'a>, Angle, bool)> + 'a {
-        let floor = self
-            .minimum_elevation
-            .map(|minimum| (Named::MinimumElevation, direction.elevation - minimum, false));
-        let zones = self.keep_outs.iter().map(move |(zone, margin)| {
-            let angle = zone.zone.clearance(direction) - *margin;
-            (Named::KeepOut(&zone.name), angle, zone.entered == Entered::Warn)
-        });
-        let radius = Angle::from_degrees(self.sun.map_or(0.0, sun::around_each_deg));
-        let sun = suns
-            .iter()
-            .map(move |sun| direction.separation(*sun) - radius)
-            .min_by(|a, b| a.degrees().total_cmp(&b.degrees()))
-            .map(|angle| (Named::Sun, angle, false));
-        floor.into_iter().chain(zones).chain(sun)
-    }
 }
 
-/// The barriers at one time.
-pub(super) struct Standing<'a> {
+/// [`Bounds`] at one time: the Sun is worked out once for many looks.
+#[derive(Debug, Clone)]
+pub struct BoundsAt<'a> {
     bounds: &'a Bounds,
-    suns: Vec<AzEl>,
+    minimum_elevation: Option<Angle>,
+    /// Unit vectors, from the time itself to the end of the time ahead.
+    suns: Vec<DVec3>,
 }
 
-impl Standing<'_> {
+impl BoundsAt<'_> {
+    /// The clearance of a direction from every barrier.
+    pub fn clearances(&self, direction: AzEl) -> Vec<Clearance> {
+        let each = self.each(direction);
+        each.map(|(barrier, angle, warns_only)| Clearance {
+            barrier: barrier.clone_of(),
+            angle,
+            warns_only,
+        })
+        .collect()
+    }
+
+    /// The least clearance from what is refused; `None` without any barrier.
+    pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
+        let (barrier, angle) = self.nearest_of(direction)?;
+        Some(Clearance { barrier: barrier.clone_of(), angle, warns_only: false })
+    }
+
+    fn nearest_of(&self, direction: AzEl) -> Option<(Named<'_>, Angle)> {
+        self.each(direction)
+            .filter(|(_, _, warns_only)| !warns_only)
+            .map(|(barrier, angle, _)| (barrier, angle))
+            .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()))
+    }
+
+    /// The keep-out or the surroundings of the Sun that a direction is in.
+    pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
+        let entered = self.each(direction).filter(|(barrier, angle, warns_only)| {
+            !warns_only && *angle < Angle::ZERO && !matches!(barrier, Named::MinimumElevation)
+        });
+        let deepest = entered.min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()));
+        deepest.map(|(barrier, ..)| barrier.clone_of())
+    }
+
+    /// The same without the minimum elevation, for a unit that keeps to its own.
+    #[must_use]
+    pub fn above_the_floor(self) -> Self {
+        Self { minimum_elevation: None, ..self }
+    }
+
+    /// The bounds without the barriers that `axes_deg` are inside of.
+    pub fn without_entered(&self, axes_deg: [f64; 2]) -> Bounds {
+        let clearances = self.clearances(self.bounds.direction(axes_deg));
+        let is_outside = |barrier: &Barrier| {
+            let found = clearances.iter().find(|it| it.barrier == *barrier);
+            found.is_none_or(|it| it.warns_only || it.angle >= Angle::ZERO)
+        };
+        let mut rest = self.bounds.clone();
+        rest.minimum_elevation =
+            rest.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
+        rest.keep_outs.retain(|(zone, _)| is_outside(&Barrier::KeepOut(zone.name.as_str().into())));
+        rest.sun = rest.sun.filter(|_| is_outside(&Barrier::Sun));
+        rest
+    }
+
+    /// The first barrier that the axes may come into within `sweep`, and a
+    /// direction in it. From axes that stand below the minimum elevation nothing
+    /// may lead lower than they do.
+    pub fn blocks(&self, sweep: Sweep, start_deg: [f64; 2]) -> Option<(Barrier, AzEl)> {
+        let start = self.bounds.direction(start_deg);
+        if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
+            let minimum_elevation = Some(start.elevation);
+            return Self { minimum_elevation, ..self.clone() }.blocks_from(sweep);
+        }
+        self.blocks_from(sweep)
+    }
+
+    fn blocks_from(&self, sweep: Sweep) -> Option<(Barrier, AzEl)> {
+        let mut open = vec![sweep];
+        while let Some(sweep) = open.pop() {
+            let direction = self.bounds.direction(sweep.middle());
+            let radius_deg = sweep.radius_deg();
+            let (barrier, angle) = self.nearest_of(direction)?;
+            // What lies on the edge is free, also where it is a whole side of the sweep.
+            let clear_deg = angle.degrees() + FINEST_DEG;
+            if clear_deg >= radius_deg {
+                continue;
+            }
+            if clear_deg < 0.0 || radius_deg < FINEST_DEG / 100.0 {
+                return Some((barrier.clone_of(), direction));
+            }
+            open.extend(sweep.halves());
+        }
+        None
+    }
+
     /// Whether `direction` is `room_deg` beside everything that refuses; along the
     /// minimum elevation an antenna may go without any.
     pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
-        self.bounds.each(direction, &self.suns).all(|(barrier, angle, warns_only)| {
+        self.each(direction).all(|(barrier, angle, warns_only)| {
             let room_deg = match barrier {
                 Named::MinimumElevation => -FINEST_DEG,
                 Named::KeepOut(_) | Named::Sun => room_deg,
             };
             warns_only || angle.degrees() >= room_deg
         })
+    }
+
+    fn each(&self, direction: AzEl) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
+        let floor = self
+            .minimum_elevation
+            .map(|minimum| (Named::MinimumElevation, direction.elevation - minimum, false));
+        let zones = self.bounds.keep_outs.iter().map(move |(zone, margin)| {
+            let angle = zone.zone.clearance(direction) - *margin;
+            (Named::KeepOut(&zone.name), angle, zone.entered == Entered::Warn)
+        });
+        floor.into_iter().chain(zones).chain(self.sun_clearance(direction))
+    }
+
+    fn sun_clearance(&self, direction: AzEl) -> Option<(Named<'_>, Angle, bool)> {
+        let sun = self.bounds.sun.filter(|_| !self.suns.is_empty())?;
+        let at = direction.to_enu();
+        let chord_squared =
+            self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
+        // The chord keeps its digits near zero, where the cosine loses them.
+        let separation = Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin());
+        let radius = Angle::from_degrees(sun::around_each_deg(sun));
+        Some((Named::Sun, separation - radius, false))
     }
 }
 
@@ -331,15 +336,13 @@ mod tests {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
 
-    fn high() -> AzEl {
-        AzEl::from_degrees(0.0, 89.0)
-    }
+    const HIGH_DEG: [f64; 2] = [0.0, 89.0];
 
     #[test]
     fn from_below_the_minimum_elevation_nothing_leads_lower() {
         let bounds = bounds(Vec::new());
-        let start = bounds.direction([10.0, -3.0]);
-        let way = |to| bounds.blocks(Sweep::between([10.0, -3.0], to), start, noon());
+        let start_deg = [10.0, -3.0];
+        let way = |to_deg| bounds.at(noon()).blocks(Sweep::between(start_deg, to_deg), start_deg);
         assert_eq!(way([90.0, 30.0]), None);
         assert_eq!(way([90.0, -4.0]).map(|(barrier, _)| barrier), Some(Barrier::MinimumElevation));
     }
@@ -351,7 +354,8 @@ mod tests {
     #[test]
     fn a_way_round_a_corner_is_free_and_the_box_of_both_axes_is_not() {
         let bounds = bounds(vec![mast()]);
-        let free = |from, to| bounds.blocks(Sweep::between(from, to), high(), noon()).is_none();
+        let free =
+            |from, to| bounds.at(noon()).blocks(Sweep::between(from, to), HIGH_DEG).is_none();
         let (from, to) = ([60.0, 20.0], [160.0, 70.0]);
         assert!(!free(from, to), "both axes at once may sweep through");
         assert!(free(from, [60.0, 70.0]) && free([60.0, 70.0], to), "elevation first");
@@ -362,11 +366,15 @@ mod tests {
     fn a_keep_out_of_one_antenna_holds_for_no_other() {
         let other = KeepOut { antenna: Some("Dish".to_owned()), ..mast() };
         let inside = Sweep([(110.0, 110.0), (20.0, 20.0)]);
-        assert_eq!(bounds(vec![other]).blocks(inside, high(), noon()), None);
-        let (barrier, _) = bounds(vec![mast()]).blocks(inside, high(), noon()).unwrap();
+        assert_eq!(bounds(vec![other]).at(noon()).blocks(inside, HIGH_DEG), None);
+        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(inside, HIGH_DEG).unwrap();
         assert_eq!(barrier, Barrier::KeepOut("mast".into()));
         let warns = KeepOut { entered: Entered::Warn, ..mast() };
-        assert_eq!(bounds(vec![warns]).blocks(inside, high(), noon()), None, "told, not refused");
+        assert_eq!(
+            bounds(vec![warns]).at(noon()).blocks(inside, HIGH_DEG),
+            None,
+            "told, not refused"
+        );
     }
 
     proptest! {
@@ -387,14 +395,14 @@ mod tests {
             let zone = KeepOut { zone: zone.unwrap(), ..mast() };
             let bounds = bounds(vec![zone]);
             let to: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
-            let blocked = bounds.blocks(Sweep::between([az, el], to), high(), noon());
+            let blocked = bounds.at(noon()).blocks(Sweep::between([az, el], to), HIGH_DEG);
             if let Some((_, direction)) = &blocked {
-                let nearest = bounds.nearest(*direction, noon()).unwrap();
+                let nearest = bounds.at(noon()).nearest(*direction).unwrap();
                 prop_assert!(nearest.angle.degrees() < 0.0, "{nearest:?}");
             } else {
                 for (a, b) in part {
                     let axes = [az + a * daz, el + b * (to[1] - el)];
-                    let nearest = bounds.nearest(bounds.direction(axes), noon()).unwrap();
+                    let nearest = bounds.at(noon()).nearest(bounds.direction(axes)).unwrap();
                     prop_assert!(nearest.angle.degrees() > -FINEST_DEG - 1e-6, "{axes:?} {nearest:?}");
                 }
             }

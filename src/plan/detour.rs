@@ -7,7 +7,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::bounds::{Bounds, Standing};
+use super::bounds::{Bounds, BoundsAt};
 
 /// Between two neighbours of the grid on which a way is looked for, degrees.
 const CELL_DEG: f64 = 1.0;
@@ -69,8 +69,7 @@ pub(crate) fn between(
     to_deg: [f64; 2],
     at: Timestamp,
 ) -> Option<Vec<[f64; 2]>> {
-    let standing = bounds.standing(at);
-    let search = Search { bounds, standing, reach, from_deg, to_deg };
+    let search = Search { bounds, now: bounds.at(at), reach, from_deg, to_deg };
     let way = search.way()?;
     Some(search.pulled_straight(&way))
 }
@@ -93,7 +92,7 @@ pub(crate) fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
 
 struct Search<'a> {
     bounds: &'a Bounds,
-    standing: Standing<'a>,
+    now: BoundsAt<'a>,
     reach: &'a Reach,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
@@ -106,8 +105,7 @@ impl Search<'_> {
     }
 
     fn is_free(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
-        self.reach.holds(axes_deg)
-            && self.standing.has_room(self.bounds.direction(axes_deg), room_deg)
+        self.reach.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
     }
 
     /// Microseconds, which an order can be made of.
@@ -242,7 +240,7 @@ mod tests {
             for part in 0..=100 {
                 let share = f64::from(part) / 100.0;
                 let axes = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share);
-                let nearest = bounds.nearest(bounds.direction(axes), noon()).unwrap();
+                let nearest = bounds.at(noon()).nearest(bounds.direction(axes)).unwrap();
                 assert!(nearest.angle.degrees() >= -1e-6, "{axes:?} {nearest:?}");
             }
         }

@@ -53,7 +53,7 @@ async fn follow_round(rig: &mut Rig, antenna: &Antenna, scene: &Scene, mast: Kee
     while rig.utc() < scene.pass.los.time {
         rig.seconds(0.2).await;
         let at = direction(rig);
-        let clearance = bounds.nearest(at, rig.utc()).unwrap();
+        let clearance = bounds.at(rig.utc()).nearest(at).unwrap();
         least_deg = least_deg.min(clearance.angle.degrees());
         let target = propagator.look_from(sky::site(), rig.utc()).unwrap().direction;
         off_deg = target.separation(at).degrees();

@@ -413,7 +413,7 @@ impl World {
         }
         let direction = self.bounds.direction(axes_deg);
         let above_deg = direction.elevation_deg() - self.antenna.limits.minimum_elevation_deg;
-        let sky = self.bounds.above_the_floor().nearest(direction, self.utc_origin);
+        let sky = self.bounds.at(self.utc_origin).above_the_floor().nearest(direction);
         let clear_deg = sky.map_or(90.0, |nearest| nearest.angle.degrees());
         let is_wished = if inside { clear_deg < -0.5 } else { clear_deg > 3.0 };
         if above_deg < 3.0 || !is_wished {
@@ -594,7 +594,7 @@ impl Scene {
     /// How far the true direction is from the Sun's surroundings, degrees.
     pub(super) fn sun_clearance_deg(&self) -> f64 {
         let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.at);
-        let clearances = self.world.bounds.clearances(self.world.direction(), utc);
+        let clearances = self.world.bounds.at(utc).clearances(self.world.direction());
         let sun = clearances.into_iter().find(|clearance| clearance.barrier == Barrier::Sun);
         sun.map_or(f64::INFINITY, |clearance| clearance.angle.degrees())
     }

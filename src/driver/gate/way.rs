@@ -1,8 +1,6 @@
 //! The way that a motion takes, held against what the antenna must keep within.
 
-use jiff::Timestamp;
-
-use super::{Angle, Bounds, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
+use super::{Angle, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
     controller::{
@@ -10,7 +8,7 @@ use crate::{
         panel::{Act, Lead},
     },
     plan::{
-        Barrier,
+        Barrier, BoundsAt,
         detour::{self, Reach},
     },
 };
@@ -70,7 +68,7 @@ fn to_position(
         };
         let sweep = sweep_between(axes_deg, to_deg, situation);
         return away_from_the_sun(sweep, axes_deg, to_deg, situation)
-            .unwrap_or_else(|| blocked(sweep, axes_deg, situation.bounds, situation.now));
+            .unwrap_or_else(|| blocked(sweep, axes_deg, &situation.bounds_now()));
     }
     let Some(measured) = situation.state.measured else { return Ok(()) };
     let [first, second] = [0, 1].map(|axis| {
@@ -84,10 +82,14 @@ fn to_position(
     let second = if situation.can.has_elevation { reach(second, to_deg[1]) } else { (0.0, 90.0) };
     let sweep = Sweep([reach(first, to_deg[0]), second]);
     // Its end is judged by its reach; where it begins may be below the floor.
-    blocked(sweep, to_deg, &situation.bounds.above_the_floor(), situation.now)
+    blocked(sweep, to_deg, &situation.bounds_now().above_the_floor())
 }
 
 impl Situation<'_> {
+    fn bounds_now(&self) -> BoundsAt<'_> {
+        self.bounds.at(self.now.utc)
+    }
+
     /// The rates at which the axes really turn in a jog: a controller that jogs at
     /// named speeds has no others.
     pub(super) fn turning(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
@@ -108,12 +110,12 @@ fn away_from_the_sun(
     to_deg: [f64; 2],
     situation: &Situation<'_>,
 ) -> Option<Result<(), Refusal>> {
-    let (bounds, now) = (situation.bounds, situation.now);
+    let (bounds, utc) = (situation.bounds, situation.now.utc);
     let is_sent = matches!(situation.intent, Intent::Position | Intent::Park);
     let leaving = bounds
-        .away_from_the_sun(bounds.direction(from_deg), now.utc)
-        .filter(|_| is_sent && bounds.forbids(bounds.direction(to_deg), now.utc).is_none())?;
-    Some(blocked(sweep, from_deg, &leaving, now))
+        .away_from_the_sun(bounds.direction(from_deg), utc)
+        .filter(|_| is_sent && bounds.at(utc).forbids(bounds.direction(to_deg)).is_none())?;
+    Some(blocked(sweep, from_deg, &leaving.at(utc)))
 }
 
 fn by_hand(
@@ -122,25 +124,26 @@ fn by_hand(
     rates_deg_s: Option<[f64; 2]>,
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
-    let (bounds, utc) = (situation.bounds, situation.now.utc);
+    let (bounds, bounds_now) = (situation.bounds, situation.bounds_now());
     let at = |share: f64| [axes_deg[0] + ahead_deg[0] * share, axes_deg[1] + ahead_deg[1] * share];
     let sweep = sweep_between(axes_deg, at(1.0), situation);
-    let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
+    let clearances = bounds_now.clearances(bounds.direction(axes_deg));
     let inside = clearances.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
     });
     let Some(inside) = inside else {
-        return blocked(sweep, axes_deg, bounds, situation.now);
+        return blocked(sweep, axes_deg, &bounds_now);
     };
-    blocked(sweep, axes_deg, &bounds.without_entered(axes_deg, utc), situation.now)?;
-    let here = Depth::of(bounds, axes_deg, utc);
+    let outside_of = bounds_now.without_entered(axes_deg);
+    blocked(sweep, axes_deg, &outside_of.at(situation.now.utc))?;
+    let here = Depth::of(&bounds_now, axes_deg);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
     let mut was_out = false;
     for look in 1..=looks {
         let to_deg = at(f64::from(look) / f64::from(looks));
-        let there = Depth::of(bounds, to_deg, utc);
+        let there = Depth::of(&bounds_now, to_deg);
         // On the way it may lead along an edge, or past where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         let enters_again = was_out && !there.is_out();
@@ -178,9 +181,9 @@ struct Depth {
 }
 
 impl Depth {
-    fn of(bounds: &Bounds, axes_deg: [f64; 2], utc: Timestamp) -> Self {
-        let (below_deg, inside_deg) = bounds.depths_deg(axes_deg, utc);
-        Self { way_out_deg: bounds.way_out_deg(axes_deg, utc), below_deg, inside_deg }
+    fn of(bounds: &BoundsAt<'_>, axes_deg: [f64; 2]) -> Self {
+        let (below_deg, inside_deg) = bounds.depths_deg(axes_deg);
+        Self { way_out_deg: bounds.way_out_deg(axes_deg), below_deg, inside_deg }
     }
 
     fn is_out(&self) -> bool {
@@ -219,9 +222,10 @@ fn sweep_between(from_deg: [f64; 2], to_deg: [f64; 2], situation: &Situation<'_>
     Sweep([first, second])
 }
 
-fn blocked(sweep: Sweep, from_deg: [f64; 2], bounds: &Bounds, now: Moment) -> Result<(), Refusal> {
-    let blocked = bounds.blocks(sweep, bounds.direction(from_deg), now.utc);
-    blocked.map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
+fn blocked(sweep: Sweep, from_deg: [f64; 2], bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
+    bounds
+        .blocks(sweep, from_deg)
+        .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
 }
 
 /// The axes at the end of a motion to a position, degrees as the mount counts.
@@ -271,8 +275,7 @@ impl Gate {
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
-            let start = bounds.direction(corner_deg);
-            let is_free = bounds.blocks(second, start, now.utc).is_none()
+            let is_free = bounds.at(now.utc).blocks(second, corner_deg).is_none()
                 && self.check(first, intent, now).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });
@@ -348,7 +351,7 @@ impl Gate {
         let to_deg = target(Some(to.azimuth), Some(to.elevation), from_deg, &situation);
         let Some(to_deg) = to_deg else { return Ok(()) };
         let sweep = sweep_between(from_deg, to_deg, &situation);
-        blocked(sweep, from_deg, &self.bounds.above_the_floor(), now)
+        blocked(sweep, from_deg, &self.bounds.at(now.utc).above_the_floor())
     }
 
     /// Where an action leads, as a motion to a position; `None` where it leads

@@ -31,7 +31,7 @@ impl Session {
             return;
         }
         let Some(at) = self.direction() else { return };
-        self.place.barrier = self.bounds_now().forbids(at, now.utc);
+        self.place.barrier = self.bounds_now().at(now.utc).forbids(at);
         if self.place.barrier.is_none() {
             self.gate.let_out(None);
         }

@@ -54,12 +54,11 @@ impl Session {
         self.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
-        let bounds = self.bounds_now();
+        let bounds = self.bounds_now().at(now.utc);
         let ahead_deg = self.gate.ahead_of(axes_deg, rates.map(|rate| rate * ahead_s));
-        let ahead = bounds.direction(ahead_deg);
-        let here = bounds.clearances(bounds.direction(axes_deg), now.utc);
-        let there = bounds.clearances(ahead, now.utc);
-        let ways_deg = [axes_deg, ahead_deg].map(|at| bounds.way_out_deg(at, now.utc));
+        let [here, there] = [axes_deg, ahead_deg]
+            .map(|axes_deg| bounds.clearances(self.gate.bounds().direction(axes_deg)));
+        let ways_deg = [axes_deg, ahead_deg].map(|axes_deg| bounds.way_out_deg(axes_deg));
         for (here, there) in here.into_iter().zip(there) {
             // Where no axis gets out by itself, the depth of each barrier counts.
             let deeper_deg = match ways_deg {

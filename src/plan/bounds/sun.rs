@@ -2,7 +2,7 @@
 
 use jiff::{SignedDuration, Timestamp};
 
-use super::{AzEl, Bounds, FINEST_DEG, Standing, SunAvoidance};
+use super::{AzEl, Bounds, BoundsAt, FINEST_DEG, SunAvoidance};
 use crate::astro::sun_moon;
 
 /// The Sun is looked at again after this long at least, seconds: it moves a tenth of a
@@ -41,13 +41,13 @@ impl Bounds {
     /// Whether nothing is in the way in `direction`, and the Sun is not for its time
     /// ahead either.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
-        self.now_and_later(at).iter().all(|standing| standing.has_room(direction, 0.0))
+        self.now_and_later(at).iter().all(|bounds| bounds.has_room(direction, 0.0))
     }
 
-    fn now_and_later(&self, at: Timestamp) -> Vec<Standing<'_>> {
+    fn now_and_later(&self, at: Timestamp) -> Vec<BoundsAt<'_>> {
         let ahead_min = self.sun.map_or(0.0, |sun| sun.ahead_min);
         let later = at.checked_add(seconds(ahead_min * 60.0));
-        std::iter::once(at).chain(later).map(|at| self.standing(at)).collect()
+        std::iter::once(at).chain(later).map(|at| self.at(at)).collect()
     }
 
     /// Directions that stay clear, the nearest to `from` first, as far as they are
@@ -59,10 +59,8 @@ impl Bounds {
             let bearings = (0..BEARINGS).map(|part| f64::from(part) / f64::from(BEARINGS) * 360.0);
             bearings.map(move |bearing_deg| from.towards(bearing_deg, ring * RING_DEG))
         });
-        let standing = self.now_and_later(at);
-        around.filter(move |direction| {
-            standing.iter().all(|standing| standing.has_room(*direction, 0.0))
-        })
+        let all = self.now_and_later(at);
+        around.filter(move |direction| all.iter().all(|bounds| bounds.has_room(*direction, 0.0)))
     }
 
     /// Where the Sun stands from `at` until the end of the time ahead.
@@ -104,9 +102,7 @@ mod tests {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
 
-    fn high() -> AzEl {
-        AzEl::from_degrees(0.0, 89.0)
-    }
+    const HIGH_DEG: [f64; 2] = [0.0, 89.0];
 
     #[test]
     fn the_sun_is_avoided_where_it_will_be_too() {
@@ -118,12 +114,12 @@ mod tests {
         let place_deg = [ahead.azimuth_deg(), ahead.elevation_deg()];
         let there = Sweep::between(place_deg, place_deg);
         assert_eq!(
-            bounds.blocks(there, high(), noon()).map(|(barrier, _)| barrier),
+            bounds.at(noon()).blocks(there, HIGH_DEG).map(|(barrier, _)| barrier),
             Some(Barrier::Sun)
         );
         station.sun_avoidance = None;
         let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-        assert_eq!(bounds.blocks(there, high(), noon()), None);
+        assert_eq!(bounds.at(noon()).blocks(there, HIGH_DEG), None);
     }
 
     #[test]
@@ -132,14 +128,14 @@ mod tests {
             let sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min });
             let station = Station { sun_avoidance, ..Station::default() };
             let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-            let standing = bounds.standing(noon());
-            assert!(standing.suns.len() <= 42, "{}", standing.suns.len());
+            let bounds = bounds.at(noon());
+            assert!(bounds.suns.len() <= 42, "{}", bounds.suns.len());
             for second in (0..=(ahead_min * 60.0) as i64).step_by(10) {
                 let later = noon() + SignedDuration::from_secs(second);
                 let sun = sun_moon::sun(station.site, later);
                 for bearing_deg in [0.0, 45.0, 90.0, 180.0, 300.0] {
                     let beside = sun.towards(bearing_deg, radius_deg * 0.999);
-                    assert!(!standing.has_room(beside, 0.0), "{radius_deg} {second} {bearing_deg}");
+                    assert!(!bounds.has_room(beside, 0.0), "{radius_deg} {second} {bearing_deg}");
                 }
             }
         }

@@ -4,9 +4,8 @@
 //! barrier lies behind it. So depth is measured along what an axis can really do:
 //! turn one way until the antenna points where it may.
 
-use jiff::Timestamp;
-
-use super::{AzEl, Barrier, Bounds};
+use super::{AzEl, Bounds, BoundsAt, Named};
+use crate::station::Mount;
 
 /// The finest step of a look along a way, degrees.
 const STEP_DEG: f64 = 0.1;
@@ -30,33 +29,40 @@ enum Place {
     Barred,
 }
 
-impl Bounds {
+impl BoundsAt<'_> {
     /// How far it is to where the antenna may point, by the shortest turn of one axis
     /// that leads there within its travel and through no other barrier; degrees of the
     /// sky, zero outside all barriers. `None` where no such turn does.
-    pub fn way_out_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> Option<f64> {
-        let suns = self.suns(at);
-        let left = self.entered(self.direction(axes_deg), &suns);
+    pub fn way_out_deg(&self, axes_deg: [f64; 2]) -> Option<f64> {
+        let left = self.entered(self.bounds.direction(axes_deg));
         if !left.contains(&true) {
             return Some(0.0);
         }
-        let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
-        let there_are = |(axis, _): &(usize, f64)| *axis == 0 || self.has_elevation;
-        let lengths = ways.into_iter().filter(there_are).filter_map(|(axis, way)| {
-            let turn_deg = self.turn_out_deg(axes_deg, axis, way, &left, &suns)?;
-            Some(turn_deg * self.speed(axes_deg, axis))
-        });
-        lengths.min_by(f64::total_cmp)
+        let mut shortest_deg = None;
+        // The azimuth, which may turn the furthest, comes last.
+        for (axis, way) in [(1, 1.0), (1, -1.0), (0, 1.0), (0, -1.0)] {
+            if axis == 1 && !self.bounds.has_elevation {
+                continue;
+            }
+            let turn = self.turn(axes_deg, axis, way);
+            let most_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
+            let place = |turn_deg| self.place(&turn, turn_deg, &left);
+            if let Some(turn_deg) = turn.out_deg(most_deg, place) {
+                let way_deg = turn_deg * turn.speed;
+                shortest_deg = Some(shortest_deg.map_or(way_deg, |deg| deg.min(way_deg)));
+            }
+        }
+        shortest_deg
     }
 
     /// How deep the axes stand below the minimum elevation, and inside of each other
     /// barrier by its nearest edge; degrees, zero outside.
-    pub fn depths_deg(&self, axes_deg: [f64; 2], at: Timestamp) -> (f64, Vec<f64>) {
+    pub fn depths_deg(&self, axes_deg: [f64; 2]) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
-        let clearances = self.clearances(self.direction(axes_deg), at).into_iter();
-        for clearance in clearances.filter(|clearance| !clearance.warns_only) {
-            let deep_deg = (-clearance.angle.degrees()).max(0.0);
-            if clearance.barrier == Barrier::MinimumElevation {
+        let each = self.each(self.bounds.direction(axes_deg));
+        for (barrier, angle, _) in each.filter(|(_, _, warns_only)| !warns_only) {
+            let deep_deg = (-angle.degrees()).max(0.0);
+            if let Named::MinimumElevation = barrier {
                 below_deg = deep_deg;
             } else {
                 inside_deg.push(deep_deg);
@@ -66,38 +72,89 @@ impl Bounds {
     }
 
     /// The barriers that hold at a direction, in their order.
-    fn entered(&self, direction: AzEl, suns: &[AzEl]) -> Vec<bool> {
-        let each = self.each(direction, suns);
+    fn entered(&self, direction: AzEl) -> Vec<bool> {
+        let each = self.each(direction);
         each.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
     }
 
-    /// By how much the axis turns one way until it is out of what is `left`, degrees.
-    fn turn_out_deg(
-        &self,
-        axes_deg: [f64; 2],
-        axis: usize,
-        way: f64,
-        left: &[bool],
-        suns: &[AzEl],
-    ) -> Option<f64> {
-        let axes_at = |turn_deg: f64| {
-            let [first, second] = axes_deg;
-            if axis == 0 {
-                [first + way * turn_deg, second]
-            } else {
-                [first, second + way * turn_deg]
+    fn turn(&self, axes_deg: [f64; 2], axis: usize, way: f64) -> Turn {
+        let Bounds { mount, .. } = *self.bounds;
+        let [first, second] = mount.travel_deg();
+        let ((from_deg, to_deg), at_deg) =
+            if axis == 0 { (first, axes_deg[0]) } else { (second, axes_deg[1]) };
+        let end_deg = if way > 0.0 { to_deg - at_deg } else { at_deg - from_deg };
+        let stretched_deg = Turn::turned(axes_deg, axis, STRETCH_DEG);
+        let [here, on] = [axes_deg, stretched_deg].map(|at| self.bounds.direction(at));
+        Turn {
+            axes_deg,
+            axis,
+            way,
+            end_deg: end_deg.min(FURTHEST_DEG),
+            speed: here.separation(on).degrees() / STRETCH_DEG,
+            keeps_elevation: axis == 0 && matches!(mount, Mount::AzEl { .. }),
+        }
+    }
+
+    fn place(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Place {
+        let axes_deg = Turn::turned(turn.axes_deg, turn.axis, turn.way * turn_deg);
+        let mut deepest_deg = 0.0;
+        let mut room_deg = f64::INFINITY;
+        let each = self.each(self.bounds.direction(axes_deg)).zip(left);
+        for ((barrier, angle, warns_only), is_left) in each {
+            let clear_deg = angle.degrees();
+            let is_level = turn.keeps_elevation && matches!(barrier, Named::MinimumElevation);
+            if warns_only {
+                continue;
             }
-        };
-        let place = |turn_deg| self.place(axes_at(turn_deg), left, suns);
-        let end_deg = self.turn_to_end_deg(axes_deg, axis, way).min(FURTHEST_DEG);
+            if *is_left {
+                // The edge of what it does not leave is never reached.
+                let deep_deg = if is_level { f64::INFINITY } else { -clear_deg };
+                deepest_deg = f64::max(deepest_deg, deep_deg);
+            } else if clear_deg < 0.0 {
+                return Place::Barred;
+            } else if !is_level {
+                room_deg = f64::min(room_deg, clear_deg);
+            }
+        }
+        if deepest_deg > 0.0 { Place::Inside(deepest_deg.min(room_deg)) } else { Place::Free }
+    }
+}
+
+/// One axis turns one way.
+struct Turn {
+    /// Where it begins.
+    axes_deg: [f64; 2],
+    axis: usize,
+    /// 1 or -1.
+    way: f64,
+    /// How far it can turn within its travel; an axis beyond its other end may come
+    /// back.
+    end_deg: f64,
+    /// How far the direction goes in the sky for each degree of the axis: the same all
+    /// the way round.
+    speed: f64,
+    keeps_elevation: bool,
+}
+
+impl Turn {
+    fn turned(axes_deg: [f64; 2], axis: usize, by_deg: f64) -> [f64; 2] {
+        let [first, second] = axes_deg;
+        if axis == 0 { [first + by_deg, second] } else { [first, second + by_deg] }
+    }
+
+    /// By how much the axis turns until `place` is free, degrees; by `most_deg` at
+    /// most.
+    fn out_deg(&self, most_deg: f64, mut place: impl FnMut(f64) -> Place) -> Option<f64> {
+        let last_deg = self.end_deg.min(most_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
             match place(turn_deg) {
-                Place::Inside(_) if turn_deg >= end_deg => return None,
+                Place::Inside(_) if turn_deg >= last_deg => return None,
                 Place::Inside(step_deg) => {
                     inside_deg = turn_deg;
+                    let step_deg = (step_deg / self.speed).max(STEP_DEG);
                     // The edge may lie just before the end of the travel.
-                    turn_deg = f64::min(turn_deg + step_deg.max(STEP_DEG), end_deg);
+                    turn_deg = f64::min(turn_deg + step_deg, last_deg);
                 }
                 // The edge may lie just before another barrier, too.
                 beyond @ (Place::Free | Place::Barred) => {
@@ -110,59 +167,22 @@ impl Bounds {
                         }
                     }
                     let far_deg = beyond_deg + GAP_DEG;
-                    let has_room = far_deg <= end_deg && matches!(place(far_deg), Place::Free);
+                    let has_room = far_deg <= self.end_deg && matches!(place(far_deg), Place::Free);
                     return (matches!(beyond, Place::Free) && has_room).then_some(beyond_deg);
                 }
             }
         }
     }
-
-    fn place(&self, axes_deg: [f64; 2], left: &[bool], suns: &[AzEl]) -> Place {
-        let mut deepest_deg = 0.0;
-        let mut room_deg = f64::INFINITY;
-        let each = self.each(self.direction(axes_deg), suns).zip(left);
-        for ((_, angle, warns_only), is_left) in each {
-            let clear_deg = angle.degrees();
-            if warns_only {
-                continue;
-            }
-            if *is_left {
-                deepest_deg = f64::max(deepest_deg, -clear_deg);
-            } else if clear_deg < 0.0 {
-                return Place::Barred;
-            } else {
-                room_deg = f64::min(room_deg, clear_deg);
-            }
-        }
-        if deepest_deg > 0.0 { Place::Inside(deepest_deg.min(room_deg)) } else { Place::Free }
-    }
-
-    /// By how much the axis can turn one way within its travel, degrees; an axis beyond
-    /// its other end may come back.
-    fn turn_to_end_deg(&self, axes_deg: [f64; 2], axis: usize, way: f64) -> f64 {
-        let [first, second] = self.mount.travel_deg();
-        let ((from_deg, to_deg), at_deg) =
-            if axis == 0 { (first, axes_deg[0]) } else { (second, axes_deg[1]) };
-        if way > 0.0 { to_deg - at_deg } else { at_deg - from_deg }
-    }
-
-    /// How far the direction goes in the sky for each degree of the axis: the same all
-    /// the way round.
-    fn speed(&self, axes_deg: [f64; 2], axis: usize) -> f64 {
-        let [first, second] = axes_deg;
-        let on_deg =
-            if axis == 0 { [first + STRETCH_DEG, second] } else { [first, second + STRETCH_DEG] };
-        let moved = self.direction(axes_deg).separation(self.direction(on_deg));
-        moved.degrees() / STRETCH_DEG
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use jiff::Timestamp;
+
     use super::*;
     use crate::{
         astro::Angle,
-        station::{Antenna, Entered, KeepOut, Mount, Station},
+        station::{Antenna, Entered, KeepOut, Station},
     };
 
     /// The keep-out reaches below the minimum elevation of 5 degrees.
@@ -192,8 +212,12 @@ mod tests {
         Bounds::of(&Station { keep_outs: vec![keep_out], ..Station::default() }, &antenna)
     }
 
+    fn morning() -> Timestamp {
+        "2026-08-12T10:00:00Z".parse().unwrap()
+    }
+
     fn way_out_deg(axes_deg: [f64; 2]) -> Option<f64> {
-        bounds().way_out_deg(axes_deg, "2026-08-12T10:00:00Z".parse().unwrap())
+        bounds().at(morning()).way_out_deg(axes_deg)
     }
 
     #[test]
@@ -206,10 +230,9 @@ mod tests {
 
     #[test]
     fn an_edge_before_the_end_of_the_travel_is_a_way_out_where_there_is_room() {
-        let at = "2026-08-12T10:00:00Z".parse().unwrap();
-        let at_deg = bounds_to(161.08).way_out_deg([155.0, 30.0], at).unwrap();
+        let at_deg = bounds_to(161.08).at(morning()).way_out_deg([155.0, 30.0]).unwrap();
         assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
-        let at_deg = bounds_to(161.02).way_out_deg([155.0, 30.0], at).unwrap();
+        let at_deg = bounds_to(161.02).at(morning()).way_out_deg([155.0, 30.0]).unwrap();
         assert!(at_deg > 20.0, "too narrow: {at_deg}");
     }
 
@@ -219,7 +242,7 @@ mod tests {
         // The lower edge is at 2 degrees.
         for (floor_deg, is_open) in [(0.94, true), (0.96, false)] {
             bounds.minimum_elevation = Some(Angle::from_degrees(floor_deg));
-            let at_deg = bounds.way_out_deg([130.0, 3.0], "2026-08-12T10:00:00Z".parse().unwrap());
+            let at_deg = bounds.at(morning()).way_out_deg([130.0, 3.0]);
             assert_eq!(at_deg.unwrap() < 1.1, is_open, "{at_deg:?}");
         }
     }
@@ -227,8 +250,7 @@ mod tests {
     #[test]
     fn an_antenna_without_an_elevation_axis_gets_out_by_its_azimuth() {
         let bounds = Bounds { has_elevation: false, minimum_elevation: None, ..bounds() };
-        let at = "2026-08-12T10:00:00Z".parse().unwrap();
-        let at_deg = bounds.way_out_deg([130.0, 58.0], at).unwrap();
+        let at_deg = bounds.at(morning()).way_out_deg([130.0, 58.0]).unwrap();
         assert!((15.0..17.0).contains(&at_deg), "{at_deg}");
     }
 
@@ -237,5 +259,23 @@ mod tests {
         let at_deg = way_out_deg([130.0, 58.0]).unwrap();
         assert!((2.0..5.0).contains(&at_deg), "{at_deg}");
         assert_eq!(way_out_deg([90.0, 30.0]), Some(0.0));
+    }
+
+    /// A jog is judged while it is held: each look at it costs.
+    #[test]
+    fn a_way_along_the_floor_is_found_in_few_looks() {
+        for axes_deg in [[130.0, 5.0], [130.0, 5.01], [130.0, 4.99]] {
+            let bounds = bounds();
+            let now = bounds.at(morning());
+            let left = now.entered(bounds.direction(axes_deg));
+            let turn = now.turn(axes_deg, 0, 1.0);
+            let mut looks = 0;
+            let turn_deg = turn.out_deg(FURTHEST_DEG, |turn_deg| {
+                looks += 1;
+                now.place(&turn, turn_deg, &left)
+            });
+            assert_eq!(turn_deg.is_some(), axes_deg[1] >= 5.0, "{axes_deg:?}");
+            assert!(looks < 100, "{looks} from {axes_deg:?}");
+        }
     }
 }

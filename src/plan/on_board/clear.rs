@@ -46,7 +46,7 @@ pub fn path_is_clear(
     bounds: &Bounds,
 ) -> Result<(), Trespass> {
     path.try_for_each(|Sample { time, direction }| {
-        let forbidden = || bounds.forbids(direction, time).map(OffLimits::Forbidden);
+        let forbidden = || bounds.at(time).forbids(direction).map(OffLimits::Forbidden);
         let limit = off_limits(direction, ability).or_else(forbidden);
         limit.map_or(Ok(()), |limit| Err(Trespass { at: time, direction, limit }))
     })

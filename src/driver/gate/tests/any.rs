@@ -131,7 +131,7 @@ enum OnTheWay {
 /// degrees of the sky; looked for in small steps.
 fn way_out_deg(bounds: &Bounds, from_deg: [f64; 2], utc: jiff::Timestamp) -> Option<f64> {
     let clear_deg = |axes_deg| {
-        let clearances = bounds.clearances(bounds.direction(axes_deg), utc).into_iter();
+        let clearances = bounds.at(utc).clearances(bounds.direction(axes_deg)).into_iter();
         clearances.map(|it| it.angle.degrees()).collect::<Vec<_>>()
     };
     let before_deg = clear_deg(from_deg);
@@ -190,8 +190,12 @@ enum Outcome {
 /// How far a direction is from the surroundings of the Sun, degrees.
 fn sun_clear_deg(station: &Station, direction: AzEl, utc: Timestamp) -> f64 {
     let bare = Station { keep_outs: Vec::new(), ..station.clone() };
-    let bounds = Bounds::of(&bare, &Antenna::genius("Yagi", "memory:1")).above_the_floor();
-    bounds.nearest(direction, utc).map_or(180.0, |nearest| nearest.angle.degrees())
+    let bounds = Bounds::of(&bare, &Antenna::genius("Yagi", "memory:1"));
+    bounds
+        .at(utc)
+        .above_the_floor()
+        .nearest(direction)
+        .map_or(180.0, |nearest| nearest.angle.degrees())
 }
 
 fn look_closely(seed: u64) -> Outcome {
@@ -233,8 +237,8 @@ fn look_closely(seed: u64) -> Outcome {
     }
     let floor_deg = f64::min(antenna.limits.minimum_elevation_deg, here.elevation_deg());
     let clear_deg = |axes_deg: [f64; 2]| {
-        let sky = bounds.above_the_floor();
-        let sky = sky.nearest(bounds.direction(axes_deg), utc);
+        let sky = bounds.at(utc).above_the_floor();
+        let sky = sky.nearest(bounds.direction(axes_deg));
         sky.map_or(180.0, |nearest| nearest.angle.degrees())
     };
     let start_deg = clear_deg(from_deg);
@@ -245,7 +249,7 @@ fn look_closely(seed: u64) -> Outcome {
             assert!(!is_deeper, "{seed}: {motion:?} leads from {start_deg} to {end_deg}");
             // Nor is it anywhere in between, and what it was outside of stays so.
             let entered_at = |axes_deg, edge_deg: f64| {
-                let clearances = bounds.clearances(bounds.direction(axes_deg), utc);
+                let clearances = bounds.at(utc).clearances(bounds.direction(axes_deg));
                 clearances.into_iter().map(|it| it.angle.degrees() < -edge_deg).collect::<Vec<_>>()
             };
             let entered = entered_at(from_deg, 0.0);

@@ -365,7 +365,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
             if now < pass.aos.time {
                 return;
             }
-            nearest_deg = nearest_deg.min(bounds.nearest(at, now).unwrap().angle.degrees());
+            nearest_deg = nearest_deg.min(bounds.at(now).nearest(at).unwrap().angle.degrees());
             let target = course.direction(now).unwrap();
             let off_deg = target.separation(at).degrees();
             if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
@@ -401,7 +401,7 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let mut last_deg = f64::MAX;
     run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
         if now >= pass.aos.time {
-            let clear = bounds.nearest(bounds.direction(axes_deg), now).unwrap();
+            let clear = bounds.at(now).nearest(bounds.direction(axes_deg)).unwrap();
             last_deg = bounds.direction(axes_deg).separation(pass.los.direction).degrees();
             assert!(clear.angle.degrees() > -0.05, "{clear:?}");
         }
