@@ -182,11 +182,19 @@ async fn others_move(mut dice: Dice) {
     }
 }
 
+/// A gap that is narrower than this is no way out.
+const GAP_DEG: f64 = 1.0;
+
 /// How far an axis turns one way until the true direction is free, degrees; looked for in
-/// small steps. `None` where the floor, the end of the travel or another zone comes first.
-fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Option<f64> {
+/// small steps. `None` where the floor, the end of the travel or another zone comes first,
+/// or follows within `gap_deg`.
+fn turn_out_deg(
+    scene: &Scene,
+    axes_deg: [f64; 2],
+    (axis, way): (usize, f64),
+    gap_deg: f64,
+) -> Option<f64> {
     const STEP_DEG: f64 = 0.02;
-    const GAP_DEG: f64 = 1.0;
     let World { bounds, antenna, utc_origin, .. } = &scene.world;
     let clear_deg = |axes_deg| {
         let clearances = bounds.at(*utc_origin).clearances(bounds.direction(axes_deg));
@@ -205,7 +213,7 @@ fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Opt
         }
         if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
             // Nothing gets into a narrow gap that is judged ahead.
-            there_deg[axis] += way * GAP_DEG;
+            there_deg[axis] += way * gap_deg;
             let is_wide = clear_deg(there_deg).iter().all(|clear_deg| *clear_deg >= 0.0)
                 && (from_deg..=to_deg).contains(&there_deg[axis]);
             return (is_wide || step == 0).then_some(turn_deg);
@@ -216,11 +224,11 @@ fn turn_out_deg(scene: &Scene, axes_deg: [f64; 2], axis: usize, way: f64) -> Opt
 
 /// How far in the sky it is to where the antenna may point, by the shortest turn of one
 /// axis, which axis that is and which way.
-fn way_out(scene: &Scene, axes_deg: [f64; 2]) -> Option<(f64, usize, f64)> {
+fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usize, f64)> {
     let bounds = &scene.world.bounds;
     let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
     let lengths = ways.into_iter().filter_map(|(axis, way)| {
-        let turn_deg = turn_out_deg(scene, axes_deg, axis, way)?;
+        let turn_deg = turn_out_deg(scene, axes_deg, (axis, way), gap_deg)?;
         let mut on_deg = axes_deg;
         on_deg[axis] += 0.01;
         let moved = bounds.direction(axes_deg).separation(bounds.direction(on_deg));
@@ -240,7 +248,7 @@ fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64
         _ => rate_deg_s * AHEAD_S,
     };
     let at_deg = unit.axes_deg();
-    let Some(turn_deg) = turn_out_deg(scene, at_deg, axis, way) else { return false };
+    let Some(turn_deg) = turn_out_deg(scene, at_deg, (axis, way), GAP_DEG) else { return false };
     let (from_deg, to_deg) = antenna.mount.travel_deg()[axis];
     (1..=10).map(|part| ahead_deg * f64::from(part) / 10.0).all(|ahead_deg| {
         let mut axes_deg = at_deg;
@@ -258,7 +266,7 @@ async fn starts_inside(mut dice: Dice) {
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let slow_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * 0.24;
-    let out = way_out(&scene, scene.world.unit.axes_deg());
+    let out = way_out(&scene, scene.world.unit.axes_deg(), GAP_DEG);
     let is_open = out.is_some_and(|out| is_way_wide(&scene, out, slow_deg_s));
     let mut ways_out = 0;
     scene.send(Command::Manual);
@@ -267,7 +275,7 @@ async fn starts_inside(mut dice: Dice) {
         for way in [1.0, -1.0] {
             scene.send(Command::AllowWayOut);
             let from_deg = scene.world.unit.axes_deg();
-            let before = way_out(&scene, from_deg);
+            let before = way_out(&scene, from_deg, GAP_DEG);
             let before_zone_deg = scene.world.zone_clearance_deg();
             let mut rates_deg_s = [0.0; 2];
             rates_deg_s[axis] = way * slow_deg_s;
@@ -278,7 +286,8 @@ async fn starts_inside(mut dice: Dice) {
             scene.send(Command::EndJog);
             scene.seconds(5.0).await;
             let to_deg = scene.world.unit.axes_deg();
-            let after = way_out(&scene, to_deg);
+            // What the unit measures differs from where it is: a gap may look wider.
+            let after = way_out(&scene, to_deg, GAP_DEG - 0.1);
             let turned_deg = (to_deg[axis] - from_deg[axis]).abs();
             if before.is_some_and(|(length_deg, ..)| length_deg == 0.0) {
                 return;
