@@ -8,7 +8,6 @@ mod capabilities;
 mod make;
 mod on_board;
 pub mod panel;
-mod satrak;
 pub mod settings;
 mod state;
 pub(crate) mod wire;
@@ -19,8 +18,7 @@ use jiff::Timestamp;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
 pub use make::Make;
-pub use on_board::{HeldSatellite, Offsets, OnBoard, Place};
-pub use satrak::{SatrakState, UnitClock};
+pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
 pub use wire::{Direction, Finding, WireLine};
 

@@ -12,7 +12,6 @@ use crate::{
     },
     driver::{Event, FollowProblem, Found, LinkLoss, Safety, Unit},
     plan::on_board::Ranked,
-    protocol::satrak::FaultKind,
     station::{Note, NoteReason},
 };
 
@@ -95,16 +94,14 @@ pub enum AlarmKind {
     /// The part of the program that talks to the antenna is too busy to take
     /// what was asked for.
     NotTaken,
-    /// A fault of the unit.
-    Fault(FaultKind),
     /// A fault or warning of the unit, as it names them itself.
     Check(Check),
     /// The unit's clock is this far ahead of ours, seconds.
     ClockOff(f64),
     /// The unit's clock was never set.
     ClockNotSet,
-    /// Its state cannot be read; the unit seems to write decimal commas.
-    DecimalCommas,
+    /// Its position cannot be read, for this reason.
+    Unreadable(&'static str),
     /// A setting of the station file that was not taken over.
     Setting(Note),
     /// The settings could not be read or written; in words.
@@ -153,14 +150,13 @@ impl Alarm {
             | AlarmKind::LockOuts(_)
             | AlarmKind::StartedByItself
             | AlarmKind::MovesByItself
-            | AlarmKind::DecimalCommas
+            | AlarmKind::Unreadable(_)
             | AlarmKind::JogPositionOld
             | AlarmKind::OffTarget { .. }
             | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             AlarmKind::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => {
                 Priority::Warning
             }
-            AlarmKind::Fault(kind) if !kind.is_warning() => Priority::Warning,
             _ => Priority::Caution,
         }
     }
@@ -260,14 +256,13 @@ impl AlarmKind {
                 | Self::SourceSetAside(_)
                 | Self::LockOutUnproved
                 | Self::LockOuts(_)
-                | Self::Fault(_)
                 | Self::Check(_)
                 | Self::ClockOff(_)
                 | Self::OffTarget { .. }
                 | Self::UnitDiffers(_)
                 | Self::NotCompared { .. }
                 | Self::ClockNotSet
-                | Self::DecimalCommas
+                | Self::Unreadable(_)
                 | Self::Setting(_)
                 | Self::Settings(_)
                 | Self::Elements(_)
@@ -293,18 +288,18 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
 fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     matches!(
         (cause, effect),
-        (AlarmKind::DecimalCommas, AlarmKind::LinkLost(LinkLoss::Unreadable))
+        (AlarmKind::Unreadable(_), AlarmKind::LinkLost(LinkLoss::Unreadable))
             | (AlarmKind::Safety(Safety::SilentInMotion), AlarmKind::LinkLost(_))
     )
 }
 
-/// Whether `news` says more than what stands: a unit that writes decimal commas
-/// does answer, and one that moves matters more than its link.
+/// Whether `news` says more than what stands: a unit that cannot be read does
+/// answer, and one that moves matters more than its link.
 fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     matches!(
         (news, standing),
         (
-            AlarmKind::DecimalCommas | AlarmKind::Safety(Safety::SilentInMotion),
+            AlarmKind::Unreadable(_) | AlarmKind::Safety(Safety::SilentInMotion),
             AlarmKind::LinkLost(_)
         )
     )
@@ -367,6 +362,8 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
 mod tests {
     use super::*;
 
+    const COMMAS: AlarmKind = AlarmKind::Unreadable("Decimal commas.");
+
     fn time() -> Timestamp {
         "2026-08-12T00:00:00Z".parse().unwrap()
     }
@@ -411,9 +408,9 @@ mod tests {
     fn a_unit_that_writes_decimal_commas_raises_one_alarm() {
         let unreadable = AlarmKind::LinkLost(LinkLoss::Unreadable);
         let orders = [
-            [unreadable.clone(), AlarmKind::DecimalCommas],
-            [AlarmKind::LinkLost(LinkLoss::Silent), AlarmKind::DecimalCommas],
-            [AlarmKind::DecimalCommas, unreadable.clone()],
+            [unreadable.clone(), COMMAS],
+            [AlarmKind::LinkLost(LinkLoss::Silent), COMMAS],
+            [COMMAS, unreadable.clone()],
         ];
         for order in orders {
             let mut alarms = Alarms::default();
@@ -421,7 +418,7 @@ mod tests {
                 alarms.raise(Some(0), kind, time());
             }
             let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
-            assert_eq!(kinds, [&AlarmKind::DecimalCommas]);
+            assert_eq!(kinds, [&COMMAS]);
             alarms.raise(Some(1), unreadable.clone(), time());
             alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), time());
             assert_eq!(alarms.list().len(), 3, "another antenna, another loss");
@@ -430,9 +427,9 @@ mod tests {
 
     #[test]
     fn a_check_is_over_when_it_is_told_to_be_good_or_worse() {
-        let check = |name, state| Check { name, state, advice: "Look at it." };
+        let check = |name, state| Check::new(name, state, "Look at it.");
         let raised = check("Drive", CheckState::Caution);
-        assert!(!is_over(&raised, &[raised]));
+        assert!(!is_over(&raised, std::slice::from_ref(&raised)));
         assert!(!is_over(&raised, &[check("Drive", CheckState::Unknown)]));
         assert!(is_over(&raised, &[check("Drive", CheckState::Good)]));
         assert!(is_over(&raised, &[check("Drive", CheckState::Fault)]));

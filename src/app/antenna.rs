@@ -234,7 +234,7 @@ impl AntennaModel {
         }
         let enabled = state.program.is_some_and(|program| program.enabled);
         if enabled {
-            return state.satrak.satellite.as_ref().map(|held| held.catalog_number);
+            return state.on_board.satellite.as_ref().map(|held| held.catalog_number);
         }
         (self.snapshot.intent == Intent::Track)
             .then(|| self.snapshot.target.as_ref().map(|target| target.catalog_number))

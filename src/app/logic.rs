@@ -229,25 +229,17 @@ impl App {
         } else {
             for check in checks.iter() {
                 if matches!(check.state, CheckState::Caution | CheckState::Fault) {
-                    alarms.raise(of, AlarmKind::Check(*check), now);
+                    alarms.raise(of, AlarmKind::Check(check.clone()), now);
                 }
             }
             alarms.clear(of, |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)));
         }
-        if snapshot.state.satrak.decimal_commas {
-            alarms.raise(of, AlarmKind::DecimalCommas, now);
+        if let Some(why) = snapshot.state.unreadable {
+            alarms.raise(of, AlarmKind::Unreadable(why), now);
         } else {
-            alarms.clear(of, |kind| *kind == AlarmKind::DecimalCommas);
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
-        if let Some((faults, _)) = &snapshot.state.satrak.faults {
-            for kind in faults.active() {
-                alarms.raise(of, AlarmKind::Fault(kind), now);
-            }
-            alarms.clear(of, |alarm| {
-                matches!(alarm, AlarmKind::Fault(kind) if !faults.active().any(|active| active == *kind))
-            });
-        }
-        if let Some(clock) = snapshot.state.satrak.clock {
+        if let Some(clock) = snapshot.state.on_board.clock {
             let off = clock.is_set && clock.ahead_s.abs() > CLOCK_OFF_S;
             if off {
                 alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);

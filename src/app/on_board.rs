@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, Site, time::add_seconds},
-    controller::{OnBoard, TrackTarget},
+    controller::{OnBoard, TrackTarget, UnitClock},
     driver::{self, Event, Refusal, Snapshot},
     orbit::{PassSearch, passes},
     plan::{
@@ -118,8 +118,7 @@ impl App {
     /// What is found of the unit of `antenna`: as before where nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
         let unit = &antenna.snapshot.state.on_board;
-        let is_told =
-            unit.place.is_some() || unit.clock_ahead_s.is_some() || unit.offsets.is_some();
+        let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
         let can = antenna.make().capabilities.has_program && antenna.snapshot.link.is_open();
         if !can || !is_told {
             return None;
@@ -218,7 +217,11 @@ impl AntennaModel {
 fn rounded(unit: &OnBoard) -> OnBoard {
     let tenths = |seconds: f64| (seconds * 5.0).round() / 5.0;
     OnBoard {
-        clock_ahead_s: unit.clock_ahead_s.map(tenths),
+        clock: unit.clock.map(|clock| UnitClock {
+            ahead_s: tenths(clock.ahead_s),
+            read_at: Timestamp::UNIX_EPOCH,
+            ..clock
+        }),
         satellite: None,
         window: None,
         ..unit.clone()

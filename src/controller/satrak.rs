@@ -2,12 +2,14 @@
 //! past everything else.
 
 mod changes;
+mod checks;
 mod device;
 mod exchange;
 mod kind;
 mod on_board;
 mod prepare;
 mod record;
+mod reported;
 mod schedule;
 mod settings;
 mod settle;
@@ -18,7 +20,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub use super::{SatrakState, UnitClock};
+pub use checks::{FILE_CHECKS, checks};
 pub use kind::{ELEMENT_FILE, KIND};
 pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 
@@ -32,6 +34,7 @@ use crate::{
 };
 use exchange::{Outstanding, Purpose, unit_motion};
 use prepare::Preparation;
+use reported::Reported;
 use schedule::Schedule;
 use settle::Settling;
 
@@ -78,6 +81,7 @@ pub struct Satrak {
     element_file: String,
     decoder: Decoder,
     state: AntennaState,
+    reported: Reported,
     schedule: Option<Schedule>,
     outstanding: Option<Outstanding>,
     drain_until: Option<Instant>,
@@ -119,7 +123,8 @@ impl Satrak {
             rates,
             element_file,
             decoder: Decoder::new(),
-            state: AntennaState::default(),
+            state: AntennaState { checks: checks(None).into(), ..AntennaState::default() },
+            reported: Reported::default(),
             schedule: None,
             outstanding: None,
             drain_until: None,

@@ -8,14 +8,26 @@ use jiff::Timestamp;
 pub struct OnBoard {
     /// Where it takes itself to stand.
     pub place: Option<Place>,
-    /// How far its clock is ahead of ours, seconds.
-    pub clock_ahead_s: Option<f64>,
+    /// Its clock.
+    pub clock: Option<UnitClock>,
     /// What it adds to the path that it computes.
     pub offsets: Option<Offsets>,
     /// The satellite that it holds.
     pub satellite: Option<HeldSatellite>,
     /// From when to when it tracks.
     pub window: Option<(Timestamp, Timestamp)>,
+}
+
+/// A unit's clock against ours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitClock {
+    /// How far the unit is ahead of us, in seconds; half the way over the link
+    /// is taken off.
+    pub ahead_s: f64,
+    /// It was set by somebody.
+    pub is_set: bool,
+    /// When it was read, by our clock.
+    pub read_at: Timestamp,
 }
 
 /// A place as a device tells it: without its height.

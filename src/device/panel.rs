@@ -49,14 +49,33 @@ pub enum Tone {
 }
 
 /// A fault or warning that a device can report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Check {
     /// As the operator knows it.
     pub name: &'static str,
+    /// What is good, or not, with it; after the name, may be empty.
+    pub about: &'static str,
     /// How it is.
     pub state: CheckState,
+    /// How the device puts it where it says more than `state` does; else empty.
+    pub told: Cow<'static, str>,
     /// What to do about it, in a sentence.
     pub advice: &'static str,
+    /// As long as it is a fault, nothing may be moved.
+    pub locks_motion: bool,
+}
+
+impl Check {
+    /// One that locks no motion.
+    pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
+        let told = Cow::Borrowed("");
+        Self { name, about: "", state, told, advice, locks_motion: false }
+    }
+
+    /// Whether it is a fault for which nothing may be moved.
+    pub fn forbids_motion(&self) -> bool {
+        self.locks_motion && self.state == CheckState::Fault
+    }
 }
 
 /// How a checked thing is.

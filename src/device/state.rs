@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
-    Moment, OnBoard, SatrakState,
+    Moment, OnBoard,
     panel::{Check, Reading},
     settings::{Change, GroupState, Held, SettleError, Settled},
 };
@@ -36,8 +36,9 @@ pub struct AntennaState {
     pub checked_at: Option<Timestamp>,
     /// What it goes by when it tracks by itself.
     pub on_board: OnBoard,
-    /// What a Satrak adds to the above.
-    pub satrak: SatrakState,
+    /// Why the last position could not be read, as far as it is known, and what to do;
+    /// in a sentence or two.
+    pub unreadable: Option<&'static str>,
     /// Its settings, as far as they were read, and what came of changes.
     pub held: Arc<Held>,
     /// What answers is another device, or wants to be told a code first.

@@ -141,17 +141,11 @@ impl Snapshot {
         newer.state.traffic = self.state.traffic;
         newer.state.checked_at = self.state.checked_at;
         newer.state.held = Arc::clone(&self.state.held);
-        newer.state.satrak.clock = self.state.satrak.clock;
-        newer.state.satrak.gps = self.state.satrak.gps;
-        newer.state.on_board.clock_ahead_s = self.state.on_board.clock_ahead_s;
+        newer.state.on_board.clock = self.state.on_board.clock;
         if let (Some(old), Some(new)) = (&self.following, &mut newer.following) {
             new.next_look = old.next_look;
             new.stats = old.stats;
             new.predicted = old.predicted;
-        }
-        if let (Some(old), Some(new)) = (&self.state.satrak.faults, &mut newer.state.satrak.faults)
-        {
-            new.1 = old.1;
         }
         *self == newer
     }

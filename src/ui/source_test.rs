@@ -72,7 +72,7 @@ pub fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let Some(antenna) = model.antennas.get(antenna) else { return };
-    let held = antenna.snapshot.state.satrak.satellite.as_ref().map(|held| held.name.as_str());
+    let held = antenna.snapshot.state.on_board.satellite.as_ref().map(|held| held.name.as_str());
     let order = order(&antenna.config.name, typed, held.unwrap_or_default(), state);
     match typed {
         TypedSource::Web { .. } => satellite(ui, held, state),

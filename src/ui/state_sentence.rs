@@ -15,7 +15,7 @@ use super::{
 use crate::{
     app::{Model, antenna::AntennaModel, forecast::Followed},
     astro::time::seconds_between,
-    controller::{JogSpeeds, Phase, Pointing, panel::CheckState},
+    controller::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
 };
 
@@ -99,18 +99,7 @@ fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
 
 fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
-    if let Some((faults, _)) = &state.satrak.faults
-        && let Some(kind) = faults.active().find(|kind| kind.locks_motion())
-    {
-        return Some(Spoken::new(SentenceKind::Fault).plain(format!(
-            "Motion is locked by a fault: {}. {}",
-            words::fault_name(kind),
-            words::fault_advice(kind)
-        )));
-    }
-    if state.motion_lock == Some(true)
-        && let Some(check) = state.checks.iter().find(|check| check.state == CheckState::Fault)
-    {
+    if let Some(check) = state.checks.iter().find(|check| check.forbids_motion()) {
         let words = format!("Motion is locked by a fault: {}. {}", check.name, check.advice);
         return Some(Spoken::new(SentenceKind::Fault).plain(words));
     }
@@ -146,13 +135,13 @@ fn preparing(antenna: &AntennaModel) -> Option<Spoken> {
 fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     let program = state.program.filter(|program| program.enabled)?;
-    let held = state.satrak.satellite.as_ref();
+    let held = state.on_board.satellite.as_ref();
     let name = held.map_or("a satellite", |held| short(&held.name));
-    let window = state.satrak.window;
+    let window = state.on_board.window;
     match program.phase {
         Phase::Tracking => Some(tracking(model, antenna, name)),
         Phase::AtStart | Phase::OutOfWindow => {
-            let starts = window.map(|window| window.start).filter(|start| *start > model.now);
+            let starts = window.map(|(start, _)| start).filter(|start| *start > model.now);
             let spoken = Spoken::new(SentenceKind::Commanded);
             let moving = state.measured.is_some_and(|measured| measured.moving());
             let spoken = if moving {
@@ -199,9 +188,9 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
             .plain("We have no elements of it to compare with.");
     };
     let off_deg = error.off_beam.degrees();
-    let after = match antenna.snapshot.state.satrak.window {
-        Some(window) if window.stop > model.now => {
-            format!(" At LOS {} it stops and holds.", format::time_z(window.stop))
+    let after = match antenna.snapshot.state.on_board.window {
+        Some((_, stop)) if stop > model.now => {
+            format!(" At LOS {} it stops and holds.", format::time_z(stop))
         }
         _ => String::new(),
     };

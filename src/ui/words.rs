@@ -2,13 +2,11 @@
 //! what is true now, what to do.
 
 mod alarms;
-mod faults;
 mod on_board;
 mod refusals;
 mod safety;
 
 pub use alarms::alarm;
-pub use faults::{fault_about, fault_advice, fault_name};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
     HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, answer, follow_problem, hindrance, link_loss,
@@ -20,9 +18,6 @@ pub use safety::{
 };
 
 use crate::{app::antenna::Stake, controller::Motion, driver::Intent, makes};
-
-/// The likely cause of numbers that cannot be read, and what to do.
-pub const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 /// Elements older than this are worth a word, seconds: after some days a low
 /// satellite is minutes away from where they put it.

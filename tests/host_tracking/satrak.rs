@@ -30,7 +30,7 @@ pub(super) async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> 
         let unit = unit.clone();
         async move { unit.serve(far).await }
     });
-    rig.until("all is read", 5.0, |shown| shown.state.satrak.settings.is_some()).await;
+    rig.until("all is read", 5.0, |shown| shown.state.on_board.offsets.is_some()).await;
     rig.events();
     (rig, control)
 }

@@ -80,7 +80,7 @@ impl Desk {
             matches!(model.catalog, CatalogState::Ready(_))
                 && model.antenna().is_some_and(|antenna| {
                     antenna.snapshot.state.measured.is_some()
-                        && antenna.snapshot.state.satrak.faults.is_some()
+                        && antenna.snapshot.state.checked_at.is_some()
                 })
         });
         desk

@@ -30,8 +30,8 @@ async fn a_new_link_is_probed_in_order_and_nothing_moves() {
     assert_eq!((shown.stop, shown.jog, shown.aim), (StopState::Ready, None, None));
     let measured = shown.state.measured.unwrap();
     assert!((measured.direction().unwrap().elevation_deg() - 90.0).abs() < 0.01);
-    assert!(shown.state.satrak.version.is_some() && shown.state.satrak.faults.is_some());
-    let clock = shown.state.satrak.clock.unwrap();
+    assert!(shown.state.identity.is_some() && shown.state.checked_at.is_some());
+    let clock = shown.state.on_board.clock.unwrap();
     assert!(clock.ahead_s.abs() < 0.02, "{clock:?}");
     let traffic = shown.state.traffic;
     assert!(traffic.replies >= 10, "{traffic:?}");

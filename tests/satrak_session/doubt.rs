@@ -137,7 +137,7 @@ async fn a_late_reply_is_not_taken_for_that_of_another_question() {
     unit.seconds(10.0).await;
     let shown = unit.handle.snapshot();
     assert!(shown.link.is_open(), "{:?}", shown.link);
-    assert_eq!(shown.state.satrak.version, None);
+    assert_eq!(shown.state.identity, None);
     assert_eq!(shown.state.traffic.unsolicited, 2);
     assert_eq!(shown.state.traffic.unreadable, 0);
     let measured = shown.state.measured.unwrap();

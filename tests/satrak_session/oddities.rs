@@ -4,7 +4,11 @@ use std::collections::BTreeSet;
 
 use azel::{
     astro::{Angle, AzEl},
-    driver::{Command, Event, LinkLoss, LinkState},
+    controller::{
+        panel::{Check, CheckState},
+        satrak::checks,
+    },
+    driver::{Command, Event, LinkLoss, LinkState, Snapshot},
     sim::satrak::{Fault, Options, Quirk},
 };
 
@@ -109,26 +113,26 @@ async fn each_fault_of_the_line_is_lived_with_and_counted() {
     }
 }
 
+/// The names of the checks that are not good.
+fn bad(shown: &Snapshot) -> Vec<&'static str> {
+    let is_bad = |check: &&Check| matches!(check.state, CheckState::Caution | CheckState::Fault);
+    shown.state.checks.iter().filter(is_bad).map(|check| check.name).collect()
+}
+
 #[tokio::test(start_paused = true)]
 async fn each_fault_of_the_unit_is_shown_and_the_dangerous_ones_forbid_motion() {
     for (fault, name) in Fault::ALL {
         let Fault::Unit(kind) = fault else { continue };
         let mut rig = Rig::connected(&odd(&[], &[fault]), &antenna()).await;
         let shown = rig.shown();
-        assert!(shown.state.satrak.fault_flag, "{name}");
-        let (faults, _) = shown.state.satrak.faults.as_ref().unwrap();
-        assert_eq!(faults.active().collect::<Vec<_>>(), [kind], "{name}");
+        assert_eq!(bad(&shown), [checks(None)[kind.index() - 1].name], "{name}");
         rig.send(Command::Park);
         rig.seconds(0.5).await;
         let refused = rig.events().iter().any(|event| matches!(event, Event::NotSent(_)));
         assert_eq!(Some(refused), shown.state.motion_lock, "{name}");
         assert_eq!(rig.sent("GOTO=").is_empty(), shown.state.motion_lock == Some(true), "{name}");
         rig.control.set_fault(fault, false);
-        rig.until("cleared", 3, |shown| {
-            let faults = shown.state.satrak.faults.as_ref();
-            faults.is_some_and(|(faults, _)| faults.active().next().is_none())
-        })
-        .await;
+        rig.until("cleared", 3, |shown| bad(shown).is_empty()).await;
         assert_eq!(rig.shown().state.motion_lock, Some(false), "{name}");
     }
 }
@@ -142,7 +146,7 @@ async fn decimal_commas_never_become_a_position() {
         assert_eq!(rig.shown().state.program, None);
     }
     assert!(rig.shown().state.traffic.unreadable > 5, "{:?}", rig.shown().state.traffic);
-    assert!(rig.shown().state.satrak.decimal_commas, "the likely cause is told");
+    assert!(rig.shown().state.unreadable.is_some(), "the likely cause is told");
     let lost = rig.events();
     let why = Event::LinkLost(LinkLoss::Unreadable);
     assert!(!lost.is_empty() && lost.iter().all(|event| *event == why), "{lost:?}");
@@ -159,10 +163,10 @@ async fn decimal_commas_never_become_a_position() {
 #[tokio::test(start_paused = true)]
 async fn a_unit_that_is_set_to_points_is_read_and_the_cause_forgotten() {
     let mut rig = Rig::start(&odd(&[Quirk::DecimalComma], &[]), &antenna());
-    rig.until("the cause", 20, |shown| shown.state.satrak.decimal_commas).await;
+    rig.until("the cause", 20, |shown| shown.state.unreadable.is_some()).await;
     rig.control.set_quirk(Quirk::DecimalComma, false);
     rig.until("a position", 30, |shown| shown.state.measured.is_some()).await;
-    assert!(!rig.shown().state.satrak.decimal_commas);
+    assert!(rig.shown().state.unreadable.is_none());
 }
 
 #[tokio::test(start_paused = true)]

@@ -136,7 +136,10 @@ async fn a_clock_and_offsets_that_miss_are_found_before_the_pass() {
     let civil = jiff::tz::TimeZone::UTC.to_datetime(ahead);
     let clock = civil.strftime("TIME=,%-H,%-M,%-S,%-d,%-m,%Y").to_string();
     by_another(&rig, &clock).await;
-    rig.until("its clock", 15, |shown| shown.state.on_board.clock_ahead_s > Some(1000.0)).await;
+    rig.until("its clock", 15, |shown| {
+        shown.state.on_board.clock.is_some_and(|clock| clock.ahead_s > 1000.0)
+    })
+    .await;
     assert!(matches!(first(&refused(&mut rig).await), Cause::Clock { .. }));
 }
 

@@ -99,7 +99,7 @@ impl Rig {
     /// A session that has read its unit: everything is known, all stands.
     pub(super) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
-        rig.until("all is read", 5, |shown| shown.state.satrak.settings.is_some()).await;
+        rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
         rig.events();
         rig
     }

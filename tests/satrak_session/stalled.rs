@@ -59,7 +59,7 @@ async fn a_write_that_is_not_taken_ends_the_link_and_stop_is_first_on_the_next()
     let options = azel::sim::satrak::Options { max_clients: 2, ..options() };
     let control = Control::new(&options);
     let mut rig = Rig::start_over(control, options.utc_origin, &antenna(), None, link);
-    rig.until("all is read", 5, |shown| shown.state.satrak.settings.is_some()).await;
+    rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
     rig.send(Command::Manual);
     rig.hold([1.0, 0.0], 1.0).await;
     assert!(rig.control.state().is_moving);

@@ -52,7 +52,7 @@ async fn every_step_is_read_back_before_the_program_starts() {
     );
     let shown = rig.shown();
     assert!(!shown.pending && shown.state.program.unwrap().enabled);
-    assert_eq!(shown.state.satrak.satellite.as_ref().unwrap().name, "ISS (ZARYA)");
+    assert_eq!(shown.state.on_board.satellite.as_ref().unwrap().name, "ISS (ZARYA)");
     rig.until("on the way to the start", 40, |shown| {
         shown.state.program.unwrap().phase == Phase::AtStart
     })
@@ -148,7 +148,7 @@ async fn a_change_of_mind_during_the_preparation_tracks_the_last_choice() {
         let last = rig.sent("SATELLITE=").pop().unwrap();
         assert_eq!(last, "SATELLITE=,stations.txt,TWIN,1,0", "after {pause_ms} ms");
         rig.until("read again", 20, |shown| {
-            shown.state.satrak.satellite.as_ref().is_some_and(|held| held.name == "TWIN")
+            shown.state.on_board.satellite.as_ref().is_some_and(|held| held.name == "TWIN")
         })
         .await;
         assert_eq!(rig.shown().target, Some(twin()));

@@ -14,7 +14,7 @@ async fn two() -> (Rig, Rig) {
         || Rig::start_over(control.clone(), options.utc_origin, &antenna(), None, plain_link);
     let (mut one, mut other) = (start(), start());
     for rig in [&mut one, &mut other] {
-        rig.until("all is read", 5, |shown| shown.state.satrak.settings.is_some()).await;
+        rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
         rig.events();
         rig.send(Command::Manual);
     }

@@ -63,7 +63,7 @@ async fn without_a_dead_man_a_jog_is_refused_and_allowed_for_a_minute_by_the_ope
     let options = options();
     let control = Control::new(&options);
     let mut rig = Rig::start_over(control, options.utc_origin, &antenna(), None, link);
-    rig.until("all is read", 5, |shown| shown.state.satrak.settings.is_some()).await;
+    rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
     rig.send(Command::Manual);
     rig.events();
     let refused = Event::NotSent(Refusal::Unguarded);

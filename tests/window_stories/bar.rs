@@ -7,9 +7,8 @@ use azel::{
         UiCommand,
         alarms::{AlarmKind, Work},
     },
-    controller::Motion,
+    controller::{Motion, satrak::checks},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
-    protocol::satrak::FaultKind,
     station::{Note, NoteReason},
     ui::{theme, tokens::ThemeName, words},
 };
@@ -48,10 +47,10 @@ fn alarms_are_told_in_words_with_their_antenna() {
             "Satrak: the jog was stopped because the window did not renew it",
         ),
         (AlarmKind::Refused(Motion::StartProgram, "7".to_owned()), "Track: Satrak answered ERR,7"),
-        (AlarmKind::Fault(FaultKind::XMotor), "Satrak: X motor. Do not move X"),
+        (AlarmKind::Check(checks(None)[7].clone()), "Satrak: X motor. Do not move X"),
         (
-            AlarmKind::DecimalCommas,
-            "Satrak seems to write decimal commas. Its position cannot be read. Set it to points.",
+            AlarmKind::Unreadable("It writes commas."),
+            "Satrak: its position cannot be read. It writes commas.",
         ),
         (
             AlarmKind::LinkLost(LinkLoss::Unreadable),

@@ -143,7 +143,7 @@ fn the_app_records_asks_and_saves() {
     let mut window = open(&settings, clock_from(rig::now()));
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num5);
     let is_read = |model: &Model| {
-        let settings = model.antennas.first().map(|one| one.snapshot.state.satrak.settings);
+        let settings = model.antennas.first().map(|one| one.snapshot.state.on_board.offsets);
         model.view == View::Console && settings.flatten().is_some()
     };
     step_until(&mut window, "the unit is read", is_read);

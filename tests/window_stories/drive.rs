@@ -288,7 +288,7 @@ fn a_bad_number_stays_as_typed_and_nothing_goes_out() {
 #[test]
 fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
     let mut snapshot = states::manual();
-    snapshot.state.satrak.faults = Some((states::faults(&[8]), rig::now()));
+    states::report(&mut snapshot, &[8], rig::now());
     snapshot.state.motion_lock = Some(true);
     for size in SIZES {
         let mut window = rig::window(size, rig::model(snapshot.clone()));

@@ -88,15 +88,20 @@ pub(crate) fn alone_at(intent: Intent, sees_other: bool) -> Snapshot {
     standing(intent, measured)
 }
 
-const ALARMS: [Check; 3] = [
-    Check { name: "Azimuth drive", state: CheckState::Good, advice: "" },
-    Check {
-        name: "Elevation drive",
-        state: CheckState::Fault,
-        advice: "The sensor did not move with the drive: look at the motor, then reset.",
-    },
-    Check { name: "Remote mode", state: CheckState::Caution, advice: "Switch it on at the panel." },
-];
+fn alarms() -> [Check; 3] {
+    [
+        Check::new("Azimuth drive", CheckState::Good, ""),
+        Check {
+            locks_motion: true,
+            ..Check::new(
+                "Elevation drive",
+                CheckState::Fault,
+                "The sensor did not move with the drive: look at the motor, then reset.",
+            )
+        },
+        Check::new("Remote mode", CheckState::Caution, "Switch it on at the panel."),
+    ]
+}
 
 fn told() -> Arc<[Reading]> {
     Arc::new([
@@ -118,7 +123,7 @@ pub(crate) fn rc2000c_off() -> Snapshot {
 pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(370.0), Some(42.4)));
     snapshot.state.readings = told();
-    snapshot.state.checks = ALARMS.map(|check| Check { state: CheckState::Good, ..check }).into();
+    snapshot.state.checks = alarms().map(|check| Check { state: CheckState::Good, ..check }).into();
     snapshot.state.checked_at = Some(rig::now());
     snapshot
 }
@@ -127,7 +132,7 @@ pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
 pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
     let mut snapshot = rc2000c_at(intent);
     snapshot.state.motion_lock = Some(true);
-    snapshot.state.checks = ALARMS.into();
+    snapshot.state.checks = alarms().into();
     let mut readings = told().to_vec();
     readings[5] = Reading::new("Alarm", "3, elevation jammed").in_tone(Tone::Bad);
     snapshot.state.readings = readings.into();

@@ -190,7 +190,7 @@ fn tab_brings_into_sight_what_it_leads_to() {
 #[test]
 fn the_checks_of_every_make_say_when_they_were_read() {
     let mut satrak = states::manual();
-    satrak.state.satrak.faults = Some((states::faults(&[]), rig::now()));
+    states::report(&mut satrak, &[], rig::now());
     for (model, count) in [
         (rig::model(satrak), 12),
         (makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual)), 3),

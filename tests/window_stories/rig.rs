@@ -20,6 +20,7 @@ use azel::{
         uploads::Uploads,
     },
     astro::time::add_seconds,
+    controller::satrak::checks,
     driver::{AntennaHandle, LinkState, Snapshot, TimeSync},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     station::{Antenna, Station},
@@ -125,7 +126,11 @@ pub(crate) fn antenna(config: Antenna, snapshot: Snapshot) -> AntennaModel {
 }
 
 /// The station with its antenna in the state of `snapshot`, NOAA 20 selected.
-pub(crate) fn model(snapshot: Snapshot) -> Model {
+pub(crate) fn model(mut snapshot: Snapshot) -> Model {
+    // A Satrak names its checks before it was asked.
+    if snapshot.state.checks.is_empty() {
+        snapshot.state.checks = checks(None).into();
+    }
     let (station, orbits) = (station(), orbits());
     let mut forecasts = Forecasts::default();
     forecasts.favourites.satellites.clone_from(&orbits.satellites);

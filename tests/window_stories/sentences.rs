@@ -181,7 +181,7 @@ fn a_limit_says_which_way_out() {
 fn a_fault_that_locks_motion_comes_before_all_else_and_a_warning_does_not() {
     let with = |set: &'static [usize]| {
         told(states::tracking(0.0), move |model, snapshot| {
-            snapshot.state.satrak.faults = Some((states::faults(set), model.now));
+            states::report(snapshot, set, model.now);
         })
     };
     assert_eq!(
@@ -302,8 +302,8 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
 
 #[test]
 fn numbers_that_cannot_be_read_are_told_with_the_likely_cause() {
-    let commas = |snapshot: &mut Snapshot| snapshot.state.satrak.decimal_commas = true;
-    let cause = "The unit seems to write decimal commas. Set it to points.";
+    let commas = |snapshot: &mut Snapshot| snapshot.state.unreadable = Some("Decimal commas.");
+    let cause = "Decimal commas.";
     let unread = format!("Not known: the position of Satrak cannot be read. {cause}");
     assert_eq!(told(rig::quiet(), |_, snapshot| commas(snapshot)), unread);
     let lost = |model: &mut Model, snapshot: &mut Snapshot| {

@@ -78,7 +78,7 @@ fn a_place_far_from_the_site_is_a_warning() {
 #[test]
 fn faults_stand_with_what_to_do() {
     let mut snapshot = read();
-    snapshot.state.satrak.faults = Some((states::faults(&[2, 10]), rig::now()));
+    states::report(&mut snapshot, &[2, 10], rig::now());
     let window = desk(LARGE, snapshot);
     assert!(says(&window, "Faults, read 11:15:30Z"));
     assert_eq!(state_of_check(&window, "Age of the elements"), "Caution");

@@ -5,9 +5,11 @@ use std::time::Instant;
 use azel::{
     app::Model,
     astro::{AzEl, time::add_seconds},
-    controller::{Axis, AxisMotion, Measured, Phase, Program, TrackTarget},
+    controller::{
+        Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget, satrak::checks,
+    },
     driver::{Intent, Snapshot},
-    protocol::satrak::{Faults, Frame, Reply, Satellite, StartStopTime},
+    protocol::satrak::{Frame, Reply},
 };
 use jiff::Timestamp;
 
@@ -81,20 +83,17 @@ pub(crate) fn program(phase: Phase, motion: AxisMotion) -> Snapshot {
     snapshot.state.measured = Some(measured(205.0, 5.0, motion));
     snapshot.state.program = Some(Program { enabled: true, phase, auto: Some(false) });
     hold_noaa_20(&mut snapshot);
-    snapshot.state.satrak.window =
-        Some(StartStopTime { start: add_seconds(now(), 192.0), stop: los() });
+    snapshot.state.on_board.window = Some((add_seconds(now(), 192.0), los()));
     snapshot
 }
 
 fn hold_noaa_20(snapshot: &mut Snapshot) {
-    snapshot.state.satrak.satellite = Some(Satellite {
-        file: "active.txt".to_owned(),
-        name: "NOAA 20 (JPSS-1)".to_owned(),
-        period: 1,
+    snapshot.state.on_board.satellite = Some(HeldSatellite {
         catalog_number: NOAA_20,
-        maximum_elevation_deg: 70.8,
+        name: "NOAA 20 (JPSS-1)".to_owned(),
+        maximum_elevation_deg: Some(70.8),
     });
-    snapshot.state.satrak.window = Some(StartStopTime { start: now(), stop: los() });
+    snapshot.state.on_board.window = Some((now(), los()));
 }
 
 /// The sentence of the first antenna.
@@ -102,13 +101,13 @@ pub(crate) fn sentence(model: &Model) -> String {
     azel::ui::state_sentence::state_sentence(model, &model.antennas[0]).text()
 }
 
-/// The checks as the unit reports them, the numbered ones (1 to 12) set.
-pub(crate) fn faults(set: &[usize]) -> Faults {
+/// The checks as the unit reported them at `at`, the numbered ones (1 to 12) set.
+pub(crate) fn report(snapshot: &mut Snapshot, set: &[usize], at: Timestamp) {
     let flags: Vec<&str> =
         (1..=12).map(|number| if set.contains(&number) { "1" } else { "0" }).collect();
     let frame = Frame::from_payload(&format!("ERRSTATUS?,{}", flags.join(",")));
-    match Reply::parse(&frame).unwrap().reply {
-        Reply::Faults(faults) => faults,
-        other => panic!("{other:?}"),
-    }
+    let reply = Reply::parse(&frame).unwrap().reply;
+    let Reply::Faults(faults) = reply else { panic!("{reply:?}") };
+    snapshot.state.checks = checks(Some(&faults)).into();
+    snapshot.state.checked_at = Some(at);
 }

@@ -30,7 +30,7 @@ impl AntennaModel {
             return Some(Stake::Followed(following.name.clone()));
         }
         if state.program.is_some_and(|program| program.enabled) {
-            let held = state.satrak.satellite.as_ref();
+            let held = state.on_board.satellite.as_ref();
             return Some(Stake::OnBoard(held.map(|held| held.name.clone())));
         }
         if snapshot.intent == Intent::Track {

@@ -6,12 +6,15 @@ use jiff::Timestamp;
 
 use crate::{
     app::antenna::AntennaModel,
-    controller::settings::{Change, HeldGroup, Hindrance, Settled, Value},
+    controller::{
+        panel::{Check, CheckState},
+        satrak::FILE_CHECKS,
+        settings::{Change, HeldGroup, Hindrance, Settled, Value},
+    },
     driver::{
         self,
         files::{FileObject, Uploaded},
     },
-    protocol::satrak::{FaultKind, Faults},
 };
 
 /// The settings of the file and the satellite.
@@ -62,8 +65,9 @@ pub(super) struct Answer {
     settled: Arc<Settled>,
     /// What the unit holds now.
     held: Option<HeldGroup>,
-    /// The faults, and when they were read.
-    faults: Option<(Faults, Timestamp)>,
+    checks: Arc<[Check]>,
+    /// When the checks were read.
+    checked_at: Option<Timestamp>,
 }
 
 impl UnitNow {
@@ -80,10 +84,11 @@ impl UnitNow {
             Some(Answer {
                 settled: group.settled.clone()?,
                 held: group.held.clone(),
-                faults: state.satrak.faults,
+                checks: Arc::clone(&state.checks),
+                checked_at: state.checked_at,
             })
         });
-        let held = state.satrak.satellite.as_ref().map(|held| held.catalog_number);
+        let held = state.on_board.satellite.as_ref().map(|held| held.catalog_number);
         let locked_out = antenna.snapshot.lock_out.as_ref();
         let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
         let hindrance = antenna.snapshot.hindrance(antenna.make().capabilities, steady);
@@ -142,12 +147,12 @@ impl Selection {
         if number != Some(&Value::Integer(self.satellite.catalog_number.into())) {
             return Err("the unit names another object than the one that was chosen");
         }
-        let (faults, _) = answer
-            .faults
-            .filter(|(_, read_at)| *read_at >= self.since)
-            .ok_or("the unit did not tell its checks after it was told to use the file")?;
-        let missing = [FaultKind::TleMissing, FaultKind::SatelliteMissing];
-        if faults.active().any(|kind| missing.contains(&kind)) {
+        if answer.checked_at.is_none_or(|read_at| read_at < self.since) {
+            return Err("the unit did not tell its checks after it was told to use the file");
+        }
+        let is_bad =
+            |check: &Check| FILE_CHECKS.contains(&check.name) && check.state == CheckState::Fault;
+        if answer.checks.iter().any(is_bad) {
             return Err("the unit does not find the satellite in the file");
         }
         Ok(())
@@ -169,11 +174,7 @@ pub(super) fn pick(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        controller::settings::SettleError,
-        driver::Command,
-        protocol::satrak::{Frame, Reply},
-    };
+    use crate::{controller::settings::SettleError, driver::Command};
 
     const NUMBER: u32 = 43_013;
 
@@ -187,14 +188,8 @@ mod tests {
         Selection { ticket: TICKETS + 1, since: time(0), file: "active.txt".to_owned(), satellite }
     }
 
-    /// The checks with these flags set, from 1.
-    fn faults(set: &[usize]) -> Faults {
-        let flags: Vec<_> = (1..=12).map(|n| if set.contains(&n) { "1" } else { "0" }).collect();
-        let frame = Frame::from_payload(&format!("ERRSTATUS?,{}", flags.join(",")));
-        match Reply::parse(&frame).unwrap().reply {
-            Reply::Faults(faults) => faults,
-            other => panic!("{other:?}"),
-        }
+    fn checks(file: CheckState) -> Arc<[Check]> {
+        FILE_CHECKS.map(|name| Check::new(name, file, "")).into()
     }
 
     fn answer(result: Result<(), SettleError>) -> Answer {
@@ -203,7 +198,8 @@ mod tests {
         Answer {
             settled: Arc::new(Settled { change, at: time(3), result }),
             held: Some(HeldGroup { values, read_at: time(1) }),
-            faults: Some((faults(&[]), time(2))),
+            checks: checks(CheckState::Good),
+            checked_at: Some(time(2)),
         }
     }
 
@@ -226,9 +222,9 @@ mod tests {
         assert_eq!(other.end(&answer(Ok(()))), None, "of another order");
         let failed = answer(Err(SettleError::LinkLost));
         assert!(problem(&failed).contains("link was lost"));
-        let old = Answer { faults: Some((faults(&[]), time(-1))), ..answer(Ok(())) };
+        let old = Answer { checked_at: Some(time(-1)), ..answer(Ok(())) };
         assert!(problem(&old).contains("did not tell its checks"));
-        let missing = Answer { faults: Some((faults(&[4]), time(2))), ..answer(Ok(())) };
+        let missing = Answer { checks: checks(CheckState::Fault), ..answer(Ok(())) };
         assert!(problem(&missing).contains("does not find the satellite"));
         let mut wrong = answer(Ok(()));
         let held = wrong.held.as_mut().unwrap();

@@ -21,29 +21,31 @@ pub(super) fn checks(
     }
     checks.extend(device.and_then(kind));
     if !is_calibrated {
-        checks.push(Check {
-            name: "Calibration",
-            state: CheckState::Caution,
-            advice: "What the counts mean is not known. Enter two points or more for azimuth and \
+        checks.push(Check::new(
+            "Calibration",
+            CheckState::Caution,
+            "What the counts mean is not known. Enter two points or more for azimuth and \
                      elevation in Preferences; until then no direction can be sent.",
-        });
+        ));
     }
     checks
 }
 
 /// Whether the unit reports something with which nothing may be moved.
 pub(super) fn forbids_motion(status: &Status) -> bool {
-    let is_down =
-        |drive| matches!(drive, AxisDrive::Runaway | AxisDrive::Jammed | AxisDrive::Overcurrent);
-    is_down(status.azimuth_drive)
-        || is_down(status.elevation_drive)
-        || matches!(
-            status.alarm,
-            Alarm::AzimuthCount
-                | Alarm::ElevationCount
-                | Alarm::AzimuthLimits
-                | Alarm::ElevationLimits
-        )
+    let drives = [
+        drive("Azimuth drive", status.azimuth_drive),
+        drive("Elevation drive", status.elevation_drive),
+    ];
+    drives.into_iter().chain(alarm(status.alarm)).any(|check| check.forbids_motion())
+}
+
+/// Whether the unit loses where it stands, or where it may go.
+fn locks_motion(alarm: Alarm) -> bool {
+    matches!(
+        alarm,
+        Alarm::AzimuthCount | Alarm::ElevationCount | Alarm::AzimuthLimits | Alarm::ElevationLimits
+    )
 }
 
 fn remote_mode(status: Option<&Status>, is_offline: bool) -> Check {
@@ -56,7 +58,7 @@ fn remote_mode(status: Option<&Status>, is_offline: bool) -> Check {
         (false, Some(_)) => (CheckState::Good, ""),
         (false, None) => (CheckState::Unknown, ""),
     };
-    Check { name: "Remote mode", state, advice }
+    Check::new("Remote mode", state, advice)
 }
 
 fn drive(name: &'static str, drive: AxisDrive) -> Check {
@@ -84,7 +86,7 @@ fn drive(name: &'static str, drive: AxisDrive) -> Check {
             (CheckState::Good, "")
         }
     };
-    Check { name, state, advice }
+    Check { locks_motion: true, ..Check::new(name, state, advice) }
 }
 
 /// The most urgent alarm; the next one shows when it is cleared.
@@ -129,7 +131,8 @@ pub(super) fn alarm(alarm: Alarm) -> Option<Check> {
         Alarm::AxisOptions => ("Azimuth and elevation options", enter_again),
         Alarm::Unknown(_) => ("Unknown alarm", "Read it from the display of the unit."),
     };
-    Some(Check { name, state: CheckState::Fault, advice })
+    let locks_motion = locks_motion(alarm);
+    Some(Check { locks_motion, ..Check::new(name, CheckState::Fault, advice) })
 }
 
 fn tracking(submode: Submode) -> Option<Check> {
@@ -143,7 +146,7 @@ fn tracking(submode: Submode) -> Option<Check> {
         Submode::SystemError | Submode::ChecksumError => "The unit has lost what it had learned.",
         _ => return None,
     };
-    Some(Check { name: "TRACK", state: CheckState::Fault, advice })
+    Some(Check::new("TRACK", CheckState::Fault, advice))
 }
 
 /// A relative of the RC2000C numbers its alarms otherwise, and the axes of a
@@ -154,5 +157,5 @@ fn kind(device: DeviceType) -> Option<Check> {
         MountKind::Polar => "It is made for a polar mount: its axes are not azimuth and elevation.",
         MountKind::Other(_) => "It is no RC2000C: its alarms may mean something else.",
     };
-    Some(Check { name: "Kind of unit", state: CheckState::Caution, advice })
+    Some(Check::new("Kind of unit", CheckState::Caution, advice))
 }

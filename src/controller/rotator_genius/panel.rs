@@ -23,45 +23,45 @@ const NAMES: [Names; 2] = [
 
 /// The faults and warnings of the rotators that turn this antenna.
 pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
-    let kinds = Check {
-        name: "Kinds of the rotators",
-        state: if roles.is_clear { CheckState::Good } else { CheckState::Fault },
-        advice: if roles.is_pair {
+    let kinds = Check::new(
+        "Kinds of the rotators",
+        if roles.is_clear { CheckState::Good } else { CheckState::Fault },
+        if roles.is_pair {
             "The unit must report one azimuth and one elevation rotator. Change the kind of one \
              of them in its settings."
         } else {
             "The unit must report the rotator of this antenna as an azimuth rotator. Change its \
              kind in its settings, or name the other rotator in Preferences."
         },
-    };
-    let panic = Check {
-        name: "Panic code",
-        state: match status.panic {
+    );
+    let panic = Check::new(
+        "Panic code",
+        match status.panic {
             None => CheckState::Unknown,
             Some(0) => CheckState::Good,
             Some(_) => CheckState::Caution,
         },
-        advice: "The document of the unit does not say what its codes mean. Look at the unit.",
-    };
+        "The document of the unit does not say what its codes mean. Look at the unit.",
+    );
     let ours = roles.axes.into_iter().filter(|number| roles.is_ours(*number));
     let of_rotators = ours.flat_map(|number| {
         let (rotator, names) = (status.rotator(number), number.of(&NAMES));
-        let sensor = Check {
-            name: names.sensor,
-            state: if rotator.position.is_ok() { CheckState::Good } else { CheckState::Fault },
-            advice: "The unit gives no position and refuses to turn. Check the sensor and its \
+        let sensor = Check::new(
+            names.sensor,
+            if rotator.position.is_ok() { CheckState::Good } else { CheckState::Fault },
+            "The unit gives no position and refuses to turn. Check the sensor and its \
                      cable.",
-        };
-        let limits = Check {
-            name: names.limits,
-            state: match rotator.is_outside_limits {
+        );
+        let limits = Check::new(
+            names.limits,
+            match rotator.is_outside_limits {
                 Some(false) => CheckState::Good,
                 Some(true) => CheckState::Caution,
                 None => CheckState::Unknown,
             },
-            advice: "Outside its limits nothing but STOP ends a motion of the rotator. Send it \
+            "Outside its limits nothing but STOP ends a motion of the rotator. Send it \
                      to a direction, or arm the rescue and jog it back.",
-        };
+        );
         [sensor, limits]
     });
     [kinds, panic].into_iter().chain(of_rotators).collect()

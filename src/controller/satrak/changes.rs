@@ -72,7 +72,7 @@ impl Satrak {
     }
 
     pub(super) fn change_answered(&mut self, reply: &Reply, now: Moment) {
-        let ahead_s = self.state.satrak.clock.map(|clock| clock.ahead_s);
+        let ahead_s = self.reported.clock.map(|clock| clock.ahead_s);
         self.advance_change(now, |settling| settling.answered(reply, ahead_s));
     }
 

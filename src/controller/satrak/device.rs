@@ -23,7 +23,7 @@ impl Device for Satrak {
         self.state.motion_lock = None;
         self.state.identity = None;
         // What the unit goes by may be another since the last link.
-        let unit = &mut self.state.satrak;
+        let unit = &mut self.reported;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
         (unit.settings, unit.satellite, unit.window) = (None, None, None);
         self.state.on_board = unit.on_board();

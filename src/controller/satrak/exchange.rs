@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome};
+use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
     astro::Angle,
     controller::{Happening, Moment, Motion, PROMPT, PrepareError, settings::ReadFailure},
@@ -177,7 +177,7 @@ impl Satrak {
                 if let ReplyError::Count { word: Word::Status, looks_like_decimal_commas, .. } =
                     error
                 {
-                    self.state.satrak.decimal_commas = looks_like_decimal_commas;
+                    self.state.unreadable = looks_like_decimal_commas.then_some(DECIMAL_COMMAS);
                 }
                 tracing::debug!(%error, "unreadable reply");
                 return self.give_up(outstanding.purpose, now);
@@ -196,16 +196,16 @@ impl Satrak {
         match (parsed.reply, outstanding.purpose) {
             (Reply::Refused { code }, purpose) => self.take_refusal(code, purpose, now),
             (reply, Purpose::Poll(query) | Purpose::Asked(query)) => {
-                let fault_before = self.state.satrak.fault_flag;
-                self.state.take_satrak(reply, outstanding.first_sent, now);
+                let fault_before = self.reported.fault_flag;
+                self.take_report(reply, outstanding.first_sent, now);
                 self.polled(query, fault_before, now);
             }
             (reply, Purpose::Prepare) => {
                 self.advance_preparation(&reply);
-                self.state.take_satrak(reply, outstanding.first_sent, now);
+                self.take_report(reply, outstanding.first_sent, now);
             }
             (reply, Purpose::Settle) => {
-                self.state.take_satrak(reply.clone(), outstanding.first_sent, now);
+                self.take_report(reply.clone(), outstanding.first_sent, now);
                 self.change_answered(&reply, now);
             }
             (_, Purpose::Motion(motion)) => {
@@ -218,7 +218,7 @@ impl Satrak {
 
     fn polled(&mut self, query: Query, fault_before: bool, now: Moment) {
         let period = self.rates.period(self.moving());
-        let fault = self.state.satrak.fault_flag;
+        let fault = self.reported.fault_flag;
         if let Some(schedule) = &mut self.schedule {
             schedule.done(query, now.steady, period, fault);
             if fault != fault_before {
@@ -229,10 +229,10 @@ impl Satrak {
 
     /// The unit does not know the question, or does not answer it.
     fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
-        self.state.take_read_failure(query, failure);
+        self.take_read_failure(query, failure);
         if query == Query::Faults && self.state.motion_lock.is_none() {
             // A unit that cannot name its faults still says that there are some.
-            self.state.motion_lock = Some(self.state.satrak.fault_flag);
+            self.state.motion_lock = Some(self.reported.fault_flag);
         }
         let period = self.rates.period(self.moving());
         if let Some(schedule) = &mut self.schedule {

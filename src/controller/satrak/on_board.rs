@@ -1,6 +1,6 @@
 //! From what a Satrak reports to what any device that tracks by itself goes by.
 
-use super::SatrakState;
+use super::reported::Reported;
 use crate::{
     controller::{HeldSatellite, Offsets, OnBoard, Place},
     protocol::satrak::Position,
@@ -9,7 +9,7 @@ use crate::{
 /// Places are told with two decimals.
 const STEP_DEG: f64 = 0.01;
 
-impl SatrakState {
+impl Reported {
     /// What the unit goes by when it tracks.
     pub(super) fn on_board(&self) -> OnBoard {
         let offsets = self.settings.as_ref().map(|settings| Offsets {
@@ -31,7 +31,7 @@ impl SatrakState {
                 longitude_deg: place.longitude_deg(),
                 step_deg: STEP_DEG,
             }),
-            clock_ahead_s: self.clock.map(|clock| clock.ahead_s),
+            clock: self.clock,
             offsets,
             satellite,
             window: self.window.map(|window| (window.start, window.stop)),

@@ -12,7 +12,7 @@ mod source;
 mod times;
 mod wish;
 
-use super::UnitClock;
+use crate::controller::UnitClock;
 use crate::{
     controller::settings::{Group, SettleError, Unfit, Values},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},

@@ -3,44 +3,47 @@
 use jiff::Timestamp;
 
 use super::{
-    UnitClock,
+    Satrak, checks,
     settings::{group_of, values_of},
 };
 use crate::{
     astro::{AzEl, time::seconds_between},
     controller::{
-        AntennaState, Axis, AxisMotion, Measured, Moment, Phase, Program,
+        Axis, AxisMotion, Measured, Moment, Phase, Program, UnitClock,
         settings::{HeldGroup, ReadFailure},
     },
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
 };
 
-impl AntennaState {
+/// Why a state with too many fields cannot be read.
+pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
+
+impl Satrak {
     /// Takes over what a reply says. `asked` is when the question went out.
-    pub(super) fn take_satrak(&mut self, reply: Reply, asked: Moment, now: Moment) {
+    pub(super) fn take_report(&mut self, reply: Reply, asked: Moment, now: Moment) {
         let way = now.steady.saturating_duration_since(asked.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
         if let Reply::Clock(clock) = &reply {
-            self.satrak.clock = Some(UnitClock {
+            self.reported.clock = Some(UnitClock {
                 ahead_s: seconds_between(measured_at, clock.time),
                 is_set: clock.is_set(),
                 read_at: now.utc,
             });
         }
         self.take_values(&reply, now);
-        let unit = &mut self.satrak;
+        let (unit, state) = (&mut self.reported, &mut self.state);
         match reply {
             Reply::Version(version) => {
                 let firmware = [Some(version.control_unit.as_str()), version.drive_unit.as_deref()];
                 let others = version.others.iter().map(String::as_str);
                 let words: Vec<&str> = firmware.into_iter().flatten().chain(others).collect();
-                self.identity = Some(words.join(", "));
-                unit.version = Some(version);
+                state.identity = Some(words.join(", "));
             }
             Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
             Reply::Faults(faults) => {
-                unit.faults = Some((faults, now.utc));
-                self.motion_lock = Some(faults.lock_motion());
+                state.checks = checks(Some(&faults)).into();
+                state.checked_at = Some(now.utc);
+                state.motion_lock = Some(faults.lock_motion());
             }
             Reply::StartStopTime(window) => {
                 unit.height_is_of_window &= unit.window == Some(window);
@@ -56,12 +59,12 @@ impl AntennaState {
             // Only among the settings.
             _ => {}
         }
-        self.on_board = self.satrak.on_board();
+        self.state.on_board = self.reported.on_board();
     }
 
     fn take_values(&mut self, reply: &Reply, now: Moment) {
-        let Some((group, values)) = values_of(reply, self.satrak.clock.as_ref()) else { return };
-        let state = self.group(group.key);
+        let Some((group, values)) = values_of(reply, self.reported.clock.as_ref()) else { return };
+        let state = self.state.group(group.key);
         state.held = Some(HeldGroup { values, read_at: now.utc });
         state.failure = None;
     }
@@ -69,14 +72,14 @@ impl AntennaState {
     /// A question was refused or not answered; what was read before stays.
     pub(super) fn take_read_failure(&mut self, query: Query, failure: ReadFailure) {
         if let Some(group) = group_of(query) {
-            self.group(group.key).failure = Some(failure);
+            self.state.group(group.key).failure = Some(failure);
         }
     }
 
     fn take_status(&mut self, status: &Status, at: Timestamp, asked: Moment, now: Moment) {
         let limits = status.limits;
-        self.satrak.decimal_commas = false;
-        self.measured = Some(Measured {
+        self.state.unreadable = None;
+        self.state.measured = Some(Measured {
             at,
             asked: asked.steady,
             received: now.steady,
@@ -86,7 +89,7 @@ impl AntennaState {
                 axis(status.y_deg, status.y_motion, limits.y_plus, limits.y_minus),
             ],
         });
-        self.program = Some(Program {
+        self.state.program = Some(Program {
             enabled: status.tracking_enabled,
             phase: match status.track_state {
                 TrackState::NotInTrackTime => Phase::OutOfWindow,
@@ -97,12 +100,11 @@ impl AntennaState {
             },
             auto: status.auto_track,
         });
-        if status.fault && !self.satrak.fault_flag {
+        if status.fault && !self.reported.fault_flag {
             // Which fault it is comes with the next answer.
-            self.motion_lock = None;
+            self.state.motion_lock = None;
         }
-        self.satrak.fault_flag = status.fault;
-        self.satrak.clock_from_gps = Some(status.rtc_from_gps);
+        self.reported.fault_flag = status.fault;
     }
 }
 

@@ -56,11 +56,11 @@ impl Watch {
 
     /// Judges anew where the unit tells something else.
     fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
-        let same_clock = match (unit.clock_ahead_s, self.found_by.clock_ahead_s) {
-            (Some(now), Some(then)) => (now - then).abs() < SAME_CLOCK_S,
+        let same_clock = match (unit.clock, self.found_by.clock) {
+            (Some(now), Some(then)) => (now.ahead_s - then.ahead_s).abs() < SAME_CLOCK_S,
             (now, then) => now.is_some() == then.is_some(),
         };
-        let with_clock = OnBoard { clock_ahead_s: self.found_by.clock_ahead_s, ..unit.clone() };
+        let with_clock = OnBoard { clock: self.found_by.clock, ..unit.clone() };
         let is_same = same_clock && with_clock == self.found_by;
         if is_same && holds_target == self.holds_target {
             return;
@@ -109,10 +109,10 @@ impl Session {
         if satellite.catalog_number == 0 {
             return Held::Nothing;
         }
-        let (Some(clock_ahead_s), Some((start, stop))) = (unit.clock_ahead_s, unit.window) else {
+        let (Some(clock), Some((start, stop))) = (unit.clock, unit.window) else {
             return Held::Unread;
         };
-        let own_now = add_seconds(now.utc, clock_ahead_s);
+        let own_now = add_seconds(now.utc, clock.ahead_s);
         if own_now >= stop {
             return Held::Nothing;
         }

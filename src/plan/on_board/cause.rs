@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, frames},
-    device::{Offsets, OnBoard, Place},
+    device::{Offsets, OnBoard, Place, UnitClock},
 };
 
 /// An error below this is none worth naming, degrees.
@@ -90,7 +90,7 @@ pub enum Unknown {
 pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
     let open = [
         (told.place.is_none(), Unknown::Place),
-        (told.clock_ahead_s.is_none(), Unknown::Clock),
+        (told.clock.is_none(), Unknown::Clock),
         (told.offsets.is_none(), Unknown::Offsets),
         (true, Unknown::Elements),
     ];
@@ -119,7 +119,7 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
         let away_km = frames::site_ecef_km(site).distance(frames::site_ecef_km(ours));
         add(Cause::Place { place, away_km }, Unit { site, ..right });
     }
-    if let Some(ahead_s) = told.clock_ahead_s {
+    if let Some(UnitClock { ahead_s, .. }) = told.clock {
         add(Cause::Clock { ahead_s }, Unit { ahead_s, ..right });
     }
     if let Some(offsets) = told.offsets {

@@ -63,7 +63,7 @@ impl<'a> Unit<'a> {
         let offsets = told.offsets.unwrap_or(right.offsets);
         Self {
             site: site(told, judge.pass.site).unwrap_or(right.site),
-            ahead_s: told.clock_ahead_s.unwrap_or_default(),
+            ahead_s: told.clock.map_or(0.0, |clock| clock.ahead_s),
             offsets,
             turned: turned(offsets.north_deg, judge.ability.mount),
             ..right

@@ -3,7 +3,7 @@ use std::sync::LazyLock;
 use super::*;
 use crate::{
     astro::{frames, time::add_seconds},
-    device::{HeldSatellite, Offsets, Place},
+    device::{HeldSatellite, Offsets, Place, UnitClock},
     orbit::{Pass, PassSearch, bundled, passes},
 };
 
@@ -51,10 +51,14 @@ fn judge() -> Judge {
     judge_above(5.0)
 }
 
+fn clock(ahead_s: f64) -> UnitClock {
+    UnitClock { ahead_s, is_set: true, read_at: pass().aos.time }
+}
+
 fn right() -> OnBoard {
     OnBoard {
         place: Some(Place { latitude_deg: 41.02, longitude_deg: 29.17, step_deg: 0.01 }),
-        clock_ahead_s: Some(0.0),
+        clock: Some(clock(0.0)),
         offsets: Some(Offsets { minimum_elevation_deg: 5.0, lead_s: 60.0, ..Offsets::default() }),
         satellite: None,
         window: None,
@@ -136,7 +140,7 @@ fn a_place_elsewhere_is_told_with_its_distance() {
 #[test]
 fn a_clock_ahead_and_a_time_offset_are_so_much_along_the_track() {
     let ahead = worst_deg(|at| look(site(), add_seconds(at, 5.0).min(pass().los.time)));
-    let (cause, off_deg) = only(&OnBoard { clock_ahead_s: Some(5.0), ..right() });
+    let (cause, off_deg) = only(&OnBoard { clock: Some(clock(5.0)), ..right() });
     assert_eq!(cause, Cause::Clock { ahead_s: 5.0 });
     assert_near(off_deg, ahead);
 
@@ -213,7 +217,7 @@ fn another_satellite_and_other_elements_are_told_once_the_target_is_on_the_unit(
 #[test]
 fn the_greatest_error_comes_first_and_what_is_not_told_is_named() {
     let mut unit = with(|offsets| offsets.elevation_deg = 3.0);
-    unit.clock_ahead_s = Some(0.5);
+    unit.clock = Some(clock(0.5));
     let found = judge().supervise(&unit, true);
     assert!(matches!(found.causes[0].cause, Cause::ElevationOffset(_)), "{found:?}");
     assert!(matches!(found.causes[1].cause, Cause::Clock { .. }), "{found:?}");
@@ -231,7 +235,7 @@ fn a_lower_minimum_of_the_unit_is_told_beside() {
 #[test]
 fn a_path_is_finely_sampled_to_its_end() {
     let judge = judge();
-    let unit = Unit::of(&OnBoard { clock_ahead_s: Some(7.0), ..right() }, &judge);
+    let unit = Unit::of(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
     let path: Vec<Sample> = judge.path(unit).collect();
     let first = path.first().unwrap();
     assert!((seconds_between(first.time, pass().aos.time) - 7.0).abs() < 1e-6);

@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     fn check(name: &'static str, state: CheckState) -> Check {
-        Check { name, state, advice: "" }
+        Check::new(name, state, "")
     }
 
     #[test]
@@ -184,10 +184,16 @@ mod tests {
         let fault = check("Drive X", CheckState::Fault);
         let unknown = check("Clock", CheckState::Unknown);
         let of = |checks: &[Check]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
-        assert_eq!(of(&[good, good]), ("No faults".into(), "All 2 checks good, 11:06:08Z".into()));
-        assert_eq!(of(&[good, unknown, fault]), ("1 fault".into(), "Drive X".into()));
+        assert_eq!(
+            of(&[good.clone(), good.clone()]),
+            ("No faults".into(), "All 2 checks good, 11:06:08Z".into())
+        );
+        assert_eq!(
+            of(&[good.clone(), unknown.clone(), fault]),
+            ("1 fault".into(), "Drive X".into())
+        );
         let silent = ("Not known".into(), "1 of 2 checks have no answer, 11:06:08Z".into());
-        assert_eq!(of(&[good, unknown]), silent);
+        assert_eq!(of(&[good.clone(), unknown]), silent);
         assert_eq!(of(&[]).0, "Not known");
     }
 }

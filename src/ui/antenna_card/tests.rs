@@ -35,9 +35,9 @@ const fn travel(name: &str, position_deg: f64) -> TravelModel<'_> {
 
 const TRAVEL: [TravelModel<'_>; 2] = [travel("X", 82.9), travel("Y", 37.8)];
 
-const CHECKS: [Check; 2] = [
-    Check { name: "Power", state: CheckState::Good, advice: "" },
-    Check { name: "Drive X", state: CheckState::Fault, advice: "Look at the drive cabinet." },
+static CHECKS: [Check; 2] = [
+    Check::new("Power", CheckState::Good, ""),
+    Check::new("Drive X", CheckState::Fault, "Look at the drive cabinet."),
 ];
 
 fn model() -> CardModel<'static> {

@@ -2,7 +2,6 @@
 
 mod asked;
 mod axes;
-mod checks;
 mod locks;
 
 use egui::{Align2, Rect, Ui};
@@ -15,9 +14,8 @@ use super::antenna_card::{
 use crate::{
     app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
     astro::Angle,
-    controller::{Capabilities, Make, Pointing, satrak},
+    controller::{Capabilities, HeldSatellite, Pointing},
     driver::{Intent, LinkState, Snapshot},
-    protocol::satrak::Satellite,
     station::Mount,
     ui::{
         bar,
@@ -61,8 +59,8 @@ pub(super) fn show(
         WantedColumn::Command
     };
     let decimals = format::decimals(can);
-    let checks = checks::of(antenna);
-    let checked_at = checks::read_at(antenna).map(format::time_z).unwrap_or_default();
+    let checks = &antenna.snapshot.state.checks;
+    let checked_at = antenna.snapshot.state.checked_at.map(format::time_z).unwrap_or_default();
     let others = others(model);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
@@ -116,8 +114,7 @@ pub(super) fn show(
                 ..drive(antenna, &locks, &blocked)
             },
             readings: &snapshot.state.readings,
-            faults: (!checks.is_empty())
-                .then_some(FaultsModel { checks: &checks, checked_at: &checked_at }),
+            faults: (!checks.is_empty()).then_some(FaultsModel { checks, checked_at: &checked_at }),
             more: MoreModel {
                 actions: make.actions,
                 locked: locks.link,
@@ -166,18 +163,15 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
 }
 
 fn second_line(antenna: &AntennaModel) -> String {
-    let state = &antenna.snapshot.state;
-    let address = &antenna.config.connection.address;
-    let make: &Make = antenna.make();
-    if make.key == satrak::MAKE.key {
-        let version = state.satrak.version.as_ref();
-        return version.map_or_else(
-            || format!("X/Y mount at {address}"),
-            |version| format!("X/Y mount, {}", version.control_unit),
-        );
+    let kind = match antenna.config.mount {
+        Mount::AzEl { .. } => antenna.make().name,
+        Mount::Xy { .. } => "X/Y mount",
+    };
+    match (&antenna.snapshot.state.identity, antenna.config.mount) {
+        (Some(identity), _) => format!("{kind}, {identity}"),
+        (None, Mount::AzEl { .. }) => kind.to_owned(),
+        (None, Mount::Xy { .. }) => format!("{kind} at {}", antenna.config.connection.address),
     }
-    let unit = state.readings.iter().find(|reading| reading.label == "Unit");
-    unit.map_or_else(|| make.name.to_owned(), |unit| format!("{}, {}", make.name, unit.text))
 }
 
 fn reach(snapshot: &Snapshot) -> Reach {
@@ -245,8 +239,8 @@ fn track<'a>(
         ("Followed by Azel", name, of_it.is_some() && of_it == number)
     } else {
         // A fresh unit names no satellite at all, and decimal commas read as a name.
-        let names_one = |held: &&Satellite| !held.name.is_empty() && !state.satrak.decimal_commas;
-        let held = state.satrak.satellite.as_ref().filter(names_one);
+        let names_one = |held: &&HeldSatellite| !held.name.is_empty() && state.unreadable.is_none();
+        let held = state.on_board.satellite.as_ref().filter(names_one);
         let of_it = held.map(|held| held.catalog_number);
         let is_tracked = of_it.is_some() && of_it == number && antenna.tracked_number() == number;
         ("The unit holds", held.map(|held| held.name.as_str()), is_tracked)

@@ -162,7 +162,8 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
     let elements = Some(format!("elements {} old", format::age(age_s)));
     let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
     let mut parts: Vec<String> = order.into_iter().flatten().collect();
-    let held = model.antenna().and_then(|antenna| antenna.snapshot.state.satrak.satellite.as_ref());
+    let held =
+        model.antenna().and_then(|antenna| antenna.snapshot.state.on_board.satellite.as_ref());
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {
         let word = if held.name.is_empty() {
             "no satellite"

@@ -11,7 +11,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     let name = &antenna.config.name;
     let address = &antenna.config.connection.address;
     let state = &antenna.snapshot.state;
-    let unreadable = state.satrak.decimal_commas.then(|| unreadable(model, antenna)).flatten();
+    let unreadable = state.unreadable.and_then(|why| unreadable(model, antenna, why));
     if unreadable.is_some() {
         return unreadable;
     }
@@ -64,8 +64,8 @@ fn off(antenna: &AntennaModel) -> String {
     )
 }
 
-/// The unit answers with numbers that cannot be read, and the likely cause.
-fn unreadable(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
+/// The unit answers with numbers that cannot be read.
+fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken> {
     let again = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return None,
         LinkState::Lost { retry_at, .. } => {
@@ -83,7 +83,7 @@ fn unreadable(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     };
     let spoken = Spoken::new(SentenceKind::Fault)
         .plain(format!("Not known: the position of {} cannot be read. ", antenna.config.name));
-    Some(what_it_did(spoken, antenna).plain(format!("{}{again}", words::DECIMAL_COMMAS)))
+    Some(what_it_did(spoken, antenna).plain(format!("{why}{again}")))
 }
 
 /// What it did when it was heard last, and so perhaps still does.
@@ -91,7 +91,7 @@ fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
     let moving = state.measured.is_some_and(|measured| measured.moving());
     if state.program.is_some_and(|program| program.enabled) {
-        let held = state.satrak.satellite.as_ref();
+        let held = state.on_board.satellite.as_ref();
         return spoken
             .plain("It was tracking ")
             .bold(held.map_or("a satellite", |held| short(&held.name)))

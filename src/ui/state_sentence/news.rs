@@ -30,7 +30,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                         .plain(format!("{name} answers again after {silent}. It follows on.")),
                 );
             }
-            let held = antenna.snapshot.state.satrak.satellite.as_ref();
+            let held = antenna.snapshot.state.on_board.satellite.as_ref();
             let spoken = Spoken::new(match found {
                 Found::Tracking => SentenceKind::Tracking,
                 Found::Moving => SentenceKind::Caution,

@@ -106,19 +106,13 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::NotTaken => {
             format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
         }
-        AlarmKind::Fault(kind) => {
-            format!("{antenna}: {}. {}", super::fault_name(*kind), super::fault_advice(*kind))
-        }
         AlarmKind::Check(check) => format!("{antenna}: {}. {}", check.name, check.advice),
         AlarmKind::ClockOff(ahead_s) => {
             let word = if *ahead_s > 0.0 { "ahead" } else { "behind" };
             format!("The clock of {antenna} is {} {word}.", format::age(ahead_s.abs()))
         }
-        AlarmKind::DecimalCommas => {
-            format!(
-                "{antenna} seems to write decimal commas. Its position cannot be read. \
-                 Set it to points."
-            )
+        AlarmKind::Unreadable(why) => {
+            format!("{antenna}: its position cannot be read. {why}")
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => match &note.reason {

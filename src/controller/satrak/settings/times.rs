@@ -1,13 +1,15 @@
 //! The tracking window and the clock (sections 8 to 11 and 20).
 
 use super::{
-    super::UnitClock,
     proof::Proof,
     wish::{Wish, cannot},
 };
 use crate::{
     astro::time::add_seconds,
-    controller::settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
+    controller::{
+        UnitClock,
+        settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
+    },
     protocol::satrak::{Clock, ClockTime, Setting, StartStopTime, TrackWindow},
 };
 

@@ -1,9 +1,39 @@
-//! The twelve checks of a Satrak.
+//! The twelve checks of the unit.
 
-use crate::protocol::satrak::FaultKind;
+use std::borrow::Cow;
+
+use crate::{
+    controller::panel::{Check, CheckState},
+    protocol::satrak::{FaultKind, FaultState, Faults},
+};
+
+/// The names of the checks that are bad where the unit does not find a satellite in
+/// its file.
+pub const FILE_CHECKS: [&str; 2] = ["Element file", "Satellite in the file"];
+
+/// The checks in the order of the document; of a unit that has not told any as well.
+pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
+    let check = |kind: FaultKind| {
+        let told = faults.and_then(|faults| faults.state(kind));
+        let state = match told {
+            None => CheckState::Unknown,
+            Some(FaultState::Clear) => CheckState::Good,
+            Some(_) if kind.is_warning() => CheckState::Caution,
+            Some(_) => CheckState::Fault,
+        };
+        let told = match told {
+            Some(FaultState::Disconnected) => Cow::Borrowed("Not connected"),
+            Some(FaultState::Unknown(code)) => Cow::Owned(format!("Unknown ({code})")),
+            None | Some(FaultState::Clear | FaultState::Set) => Cow::Borrowed(""),
+        };
+        let (about, locks_motion) = (about(kind), kind.locks_motion());
+        Check { about, told, locks_motion, ..Check::new(name(kind), state, advice(kind)) }
+    };
+    FaultKind::ALL.into_iter().map(check).collect()
+}
 
 /// What is checked.
-pub fn fault_name(kind: FaultKind) -> &'static str {
+fn name(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "Internal link",
         FaultKind::TleOutdated => "Age of the elements",
@@ -21,7 +51,7 @@ pub fn fault_name(kind: FaultKind) -> &'static str {
 }
 
 /// What is good, or not, with it.
-pub fn fault_about(kind: FaultKind) -> &'static str {
+fn about(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "between control and drive unit",
         FaultKind::TleOutdated => "young enough to track by",
@@ -37,7 +67,7 @@ pub fn fault_about(kind: FaultKind) -> &'static str {
 }
 
 /// What to do when it is not good.
-pub fn fault_advice(kind: FaultKind) -> &'static str {
+fn advice(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => {
             "Control and drive unit do not talk: check the cable between them."
