@@ -12,17 +12,21 @@ pub mod settings;
 mod state;
 pub(crate) mod wire;
 
-use std::time::{Duration, Instant};
+use std::{
+    borrow::Cow,
+    time::{Duration, Instant},
+};
 
 use jiff::Timestamp;
+use smol_str::SmolStr;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
 pub use make::Make;
 pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
-pub use wire::{Direction, Finding, WireLine};
+pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};
 
-use crate::{astro::Angle, protocol::satrak::Query};
+use crate::astro::Angle;
 use panel::{Act, Lead};
 use settings::{Change, SettleError};
 
@@ -88,11 +92,15 @@ pub struct TrackTarget {
     pub until: Timestamp,
 }
 
-/// What the operator asks a device by hand; it changes nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Question {
-    /// To a Satrak.
-    Satrak(Query),
+/// What the operator may ask a device by hand; it changes nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Question {
+    /// As it is typed, in capitals, such as `STATUS?`.
+    pub key: SmolStr,
+    /// What it asks, in a sentence without a full stop.
+    pub about: Cow<'static, str>,
+    /// As it goes over the link.
+    pub bytes: Box<[u8]>,
 }
 
 /// How much a halt ends.
@@ -230,9 +238,9 @@ pub trait Device: Send {
     /// [`LockedOut`](settings::SettleError::LockedOut). The gate lets no new one by.
     fn lock_changes(&mut self, _are_locked: bool) {}
 
-    /// Asks this between its own questions. What is no question to this device
-    /// is dropped.
-    fn ask(&mut self, _question: Question) {}
+    /// Asks this one of [`AntennaState::questions`], by its key, between its own. What is
+    /// none of them is dropped.
+    fn ask(&mut self, _question: &str) {}
 
     /// The device no longer starts to follow by itself.
     fn disable_auto(&mut self) {}

@@ -24,8 +24,8 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion, Standstill,
-    wire::WireQueue,
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion, Question,
+    Standstill, wire::WireQueue,
 };
 use crate::{
     protocol::rc2000c::{
@@ -66,6 +66,8 @@ pub const MAKE: Make = Make {
     },
     groups: &[],
     actions: actions::ACTIONS,
+    explain: None,
+    why_no_question: None,
 };
 
 /// How long the unit jogs after each command: its own timer is the dead-man.
@@ -89,6 +91,8 @@ pub struct Rc2000c {
     past: Past,
     /// It is to be asked which device it is.
     wants_device: bool,
+    /// The operator wants to know the status.
+    is_status_asked: bool,
     device: Option<DeviceType>,
     /// The configuration of the unit takes no commands.
     is_offline: bool,
@@ -133,6 +137,22 @@ struct HeldJog {
     sent: Option<Instant>,
 }
 
+/// Keys of the questions.
+const STATUS: &str = "STATUS";
+const DEVICE_TYPE: &str = "DEVICE TYPE";
+
+fn questions(address: Address) -> [Question; 2] {
+    let question = |key: &str, about: &'static str, query| Question {
+        key: key.into(),
+        about: about.into(),
+        bytes: Request::Query(query).to_bytes(address).into(),
+    };
+    [
+        question(STATUS, "Asks for the status", Query::Status),
+        question(DEVICE_TYPE, "Asks for the type of the unit", Query::DeviceType),
+    ]
+}
+
 impl Rc2000c {
     /// The unit that turns `antenna`, as the settings of its connection say.
     /// Silent until the link is up.
@@ -149,10 +169,11 @@ impl Rc2000c {
             axes: Axes::new(&Calibration::of(connection)),
             line: Line::new(connection.whole(&BAUD)),
             decoder: Decoder::new(address),
-            state: AntennaState::default(),
+            state: AntennaState { questions: questions(address).into(), ..AntennaState::default() },
             status: None,
             past: Past::default(),
             wants_device: false,
+            is_status_asked: false,
             device: None,
             is_offline: false,
             names: Names::default(),
@@ -192,6 +213,9 @@ impl Rc2000c {
         let poll_at = self.poll_at?;
         if self.wants_device {
             return Some((Request::Query(Query::DeviceType), Purpose::Question));
+        }
+        if std::mem::take(&mut self.is_status_asked) {
+            return Some((Request::Query(Query::Status), Purpose::Question));
         }
         if now.steady >= poll_at {
             return Some((Request::Query(Query::Status), Purpose::Poll));

@@ -23,7 +23,7 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Standstill,
+    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Question, Standstill,
     settings::{Change, Settling},
     wire::WireQueue,
 };
@@ -64,6 +64,8 @@ pub const PAIR: Make = Make {
     },
     groups: GROUPS,
     actions: &[actions::ARM_RESCUE],
+    explain: None,
+    why_no_question: None,
 };
 
 /// A Rotator Genius of which one rotator turns the azimuth of the antenna and
@@ -117,6 +119,8 @@ pub struct Genius {
     orders: VecDeque<Order>,
     /// To be armed with the next look at the clock.
     is_rescue_wanted: bool,
+    /// The operator wants to know the status.
+    is_asked: bool,
     rescue_until: Option<Instant>,
     /// The change that is under way.
     settling: Option<Settling>,
@@ -126,6 +130,17 @@ pub struct Genius {
     are_changes_locked: bool,
     happenings: VecDeque<Happening>,
     wire: WireQueue,
+}
+
+/// Key of the only question.
+const STATUS: &str = "STATUS";
+
+fn questions() -> [Question; 1] {
+    [Question {
+        key: STATUS.into(),
+        about: "Asks for the status".into(),
+        bytes: Request::Read.to_bytes().into(),
+    }]
 }
 
 impl Genius {
@@ -138,7 +153,7 @@ impl Genius {
             decoder: Decoder::new(),
             unfinished: VecDeque::new(),
             quiet_at: None,
-            state: AntennaState::default(),
+            state: AntennaState { questions: questions().into(), ..AntennaState::default() },
             status: None,
             turning: Default::default(),
             next_poll: None,
@@ -149,6 +164,7 @@ impl Genius {
             halts: VecDeque::new(),
             orders: VecDeque::new(),
             is_rescue_wanted: false,
+            is_asked: false,
             rescue_until: None,
             settling: None,
             changes: VecDeque::new(),
@@ -174,6 +190,9 @@ impl Genius {
         if !is_overdue && let Some(Order { request, motion }) = self.orders.pop_front() {
             return Some((Request::Motion(request), Purpose::Motion(motion)));
         }
+        if self.next_poll.is_some() && std::mem::take(&mut self.is_asked) {
+            return Some((Request::Read, Purpose::Asked));
+        }
         let is_due = self.next_poll.is_some_and(|due| due <= now.steady);
         if !is_due && let Some(request) = self.settling_request(now) {
             return Some(request);
@@ -194,6 +213,7 @@ impl Genius {
     fn has_something_to_send(&self) -> bool {
         !self.orders.is_empty()
             || self.is_rescue_wanted
+            || self.is_asked
             || self.settling.is_some()
             || !self.changes.is_empty()
     }

@@ -14,6 +14,7 @@ mod schedule;
 mod settings;
 mod settle;
 mod state;
+mod words;
 
 use std::{
     collections::VecDeque,
@@ -23,6 +24,7 @@ use std::{
 pub use checks::{FILE_CHECKS, checks};
 pub use kind::{ELEMENT_FILE, KIND};
 pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
+pub use words::meaning;
 
 use super::{
     AntennaState, Capabilities, Happening, JogSpeeds, Make, Moment, Motion, PrepareError,
@@ -62,6 +64,8 @@ pub const MAKE: Make = Make {
     },
     groups: GROUPS,
     actions: &[],
+    explain: Some(words::explain),
+    why_no_question: Some(words::why_no_question),
 };
 
 /// No answer within this is none.
@@ -123,7 +127,11 @@ impl Satrak {
             rates,
             element_file,
             decoder: Decoder::new(),
-            state: AntennaState { checks: checks(None).into(), ..AntennaState::default() },
+            state: AntennaState {
+                checks: checks(None).into(),
+                questions: words::questions().into(),
+                ..AntennaState::default()
+            },
             reported: Reported::default(),
             schedule: None,
             outstanding: None,

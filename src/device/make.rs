@@ -1,6 +1,6 @@
 //! What the rest of the program knows of a make of controller without a link.
 
-use super::{Capabilities, panel::Action, settings::Group};
+use super::{Capabilities, Explained, WireLine, panel::Action, settings::Group};
 
 /// One make of controller, as the rest of the program knows it without a link.
 #[derive(Debug)]
@@ -17,6 +17,12 @@ pub struct Make {
     pub groups: &'static [&'static Group],
     /// What only it can do.
     pub actions: &'static [Action],
+    /// Takes a line of its link apart, where it can.
+    pub explain: Option<fn(&WireLine) -> Explained>,
+    /// Why something that was typed, in capitals, is none of
+    /// [`AntennaState::questions`](super::AntennaState::questions); a sentence or two.
+    /// `None` where there is no more to say than that it is none.
+    pub why_no_question: Option<fn(&str) -> String>,
 }
 
 impl Make {

@@ -37,14 +37,18 @@ impl Reading {
     }
 }
 
-/// Whether something is worth a second look.
+/// How something that a device tells, or is told, is to be taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
     /// As usual.
     Plain,
+    /// Something is to be changed or to move.
+    Change,
+    /// It was accepted.
+    Good,
     /// Unusual.
     Caution,
-    /// Wrong.
+    /// Wrong, or refused.
     Bad,
 }
 

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use super::{
-    Moment, OnBoard,
+    Moment, OnBoard, Question,
     panel::{Check, Reading},
     settings::{Change, GroupState, Held, SettleError, Settled},
 };
@@ -34,6 +34,8 @@ pub struct AntennaState {
     pub checks: Arc<[Check]>,
     /// When [`Self::checks`] were read.
     pub checked_at: Option<Timestamp>,
+    /// What it can be asked by hand.
+    pub questions: Arc<[Question]>,
     /// What it goes by when it tracks by itself.
     pub on_board: OnBoard,
     /// Why the last position could not be read, as far as it is known, and what to do;

@@ -1,9 +1,11 @@
 //! What goes over a link, line by line, fit to be kept and shown: secrets are
 //! left out before a line gets here.
 
-use std::{collections::VecDeque, time::Duration};
+use std::{borrow::Cow, collections::VecDeque, time::Duration};
 
 use jiff::Timestamp;
+
+use super::panel::Tone;
 
 /// How many lines wait to be taken; beyond it the oldest go.
 const MOST_WAITING: usize = 4096;
@@ -24,10 +26,52 @@ pub struct WireLine {
     pub is_shortened: bool,
     /// What was found in it.
     pub finding: Finding,
+    /// What it says; `None` where it is damaged, or the make has no words for it.
+    pub meaning: Option<Meaning>,
     /// For a reply: how long after its request.
     pub reply_after: Option<Duration>,
     /// It belongs to a question that is asked again and again by itself.
     pub is_poll: bool,
+}
+
+/// What a line says, in a sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meaning {
+    /// How it is to be taken.
+    pub tone: Tone,
+    /// The sentence, without a full stop.
+    pub text: Cow<'static, str>,
+}
+
+impl Meaning {
+    /// Something is asked or told.
+    pub const fn plain(text: &'static str) -> Self {
+        Self { tone: Tone::Plain, text: Cow::Borrowed(text) }
+    }
+}
+
+/// A line taken apart.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Explained {
+    /// What the document calls such a line; `None` where it is not in there.
+    pub name: Option<&'static str>,
+    /// In the order of the line.
+    pub values: Vec<ExplainedValue>,
+}
+
+/// One value of a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExplainedValue {
+    /// Its place among the values of the line, counted from 1.
+    pub number: usize,
+    /// What it is.
+    pub name: &'static str,
+    /// As it stands in the line, blanks around it removed.
+    pub raw: String,
+    /// Unit of a number; empty for other values.
+    pub unit: &'static str,
+    /// What a code stands for; empty for a number or a text.
+    pub stands_for: &'static str,
 }
 
 /// Which way a line went.
@@ -44,8 +88,8 @@ pub enum Direction {
 pub enum Finding {
     /// A frame whose checksum is right.
     Good,
-    /// A good frame of a protocol without checksums, and what it says.
-    Known(&'static str),
+    /// A good frame of a protocol without checksums.
+    Unchecked,
     /// A frame with another checksum than that of its payload.
     BadChecksum {
         /// As in the line.
@@ -75,7 +119,7 @@ pub enum Finding {
 impl Finding {
     /// Nothing is wrong with the line.
     pub fn is_good(self) -> bool {
-        matches!(self, Self::Good | Self::Known(_))
+        matches!(self, Self::Good | Self::Unchecked)
     }
 }
 

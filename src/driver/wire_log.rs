@@ -94,6 +94,7 @@ mod tests {
             length,
             is_shortened: false,
             finding: Finding::Good,
+            meaning: None,
             reply_after: None,
             is_poll: false,
         }

@@ -12,7 +12,6 @@ mod selection;
 mod send;
 mod table;
 mod tally;
-mod typed;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -106,9 +105,9 @@ pub fn show(
         let foot = right.bottom() - links::height(tallies.len());
         let (right, foot) = right.split_top_bottom_at_y(foot);
         links::show(ui, foot, tallies);
-        inspector::show(ui, right, state, false);
+        inspector::show(ui, right, model, state, false);
     } else if state.inspector_is_open {
-        inspector::show(ui, drawer, state, true);
+        inspector::show(ui, drawer, model, state, true);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What lines do: echoes, noise, pieces, lost and broken replies, wrong addresses.
 
 use azel::{
-    controller::{Direction, Finding},
+    controller::{Direction, Finding, Meaning},
     driver::{Command, Event, LinkLoss, LinkState},
     protocol::rc2000c::Address,
     sim::rc2000c::{Fault, Options, Quirk},
@@ -91,8 +91,8 @@ async fn the_log_shows_every_frame_and_what_is_wrong_with_it() {
     assert_eq!(&*lines[0].bytes, b"\x02\x32\x30\x03\x03");
     assert_eq!(&*lines[1].bytes, b"\x06\x32\x302KCA14\x03\x79");
     assert!(lines[1].reply_after.is_some());
-    assert_eq!(lines[0].finding, Finding::Known("Asks for the type of the unit"));
-    assert_eq!(lines[1].finding, Finding::Known("Type of the unit"));
+    assert_eq!(lines[0].meaning, Some(Meaning::plain("Asks for the type of the unit")));
+    assert_eq!(lines[1].meaning, Some(Meaning::plain("Type of the unit")));
     let has = |wanted: fn(&Finding) -> bool| lines.iter().any(|line| wanted(&line.finding));
     assert!(has(|finding| matches!(finding, Finding::BadChecksum { .. })));
     assert!(has(|finding| matches!(finding, Finding::NoReply { is_repeated: true, .. })));

@@ -3,13 +3,11 @@
 use azel::{
     astro::{Angle, AzEl},
     controller::{
-        Question,
         panel::Act,
         settings::{SettleError, Value},
     },
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     plan::{Follow, Target},
-    protocol::satrak::Query,
     station::LockOut,
 };
 
@@ -89,7 +87,7 @@ async fn every_command_is_refused_and_nothing_but_questions_and_stop_goes_out() 
     let settled = rig.shown().state.held["general"].settled.clone().unwrap();
     assert_eq!(settled.result, Err(SettleError::LockedOut));
     let asked = rig.sent("GPS_DATA?").len();
-    rig.send(Command::Ask(Question::Satrak(Query::GpsData)));
+    rig.send(Command::Ask("GPS_DATA?".into()));
     rig.seconds(2.0).await;
     assert!(rig.sent("GPS_DATA?").len() > asked, "it is asked");
     rig.stop();

@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     app::{UiCommand, View},
     astro::time::add_seconds,
-    controller::{Direction, Finding, WireLine},
+    controller::{Direction, Finding, WireLine, satrak},
     driver::WireLog,
     protocol::satrak::encode,
 };
@@ -27,6 +27,7 @@ pub(crate) fn wire(second: f64, direction: Direction, payload: &str) -> WireLine
         at: add_seconds(rig::now(), second),
         direction,
         length: bytes.len(),
+        meaning: Some(satrak::meaning(direction, &bytes)),
         bytes: bytes.into(),
         is_shortened: false,
         finding: Finding::Good,

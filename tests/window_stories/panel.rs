@@ -325,8 +325,15 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            assert!(says(&window, "Questions can be sent by hand to a Satrak only."));
-            assert!(window.query_by_label("Query to send").is_none());
+            let words = "Questions can be sent, such as STATUS. Settings and motion cannot.";
+            assert!(says(&window, words));
+            type_into(&mut window, "Query to send", "status");
+            assert!(says(&window, "Asks for the status. The answer comes in the log."));
+            window.key_press(Key::Enter);
+            let question = UiCommand::Antenna(0, Command::Ask("STATUS".into()));
+            assert_eq!(asked(&mut window), [question]);
+            type_into(&mut window, "Query to send", "TPOS?");
+            assert!(says(&window, "Not sent. This is no question that the unit answers"));
             window.state_mut().model.view = View::Elements;
             settle(&mut window);
             assert!(window.query_by_label("Upload and prove").is_none());

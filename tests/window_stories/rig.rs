@@ -20,7 +20,7 @@ use azel::{
         uploads::Uploads,
     },
     astro::time::add_seconds,
-    controller::satrak::checks,
+    controller::satrak,
     driver::{AntennaHandle, LinkState, Snapshot, TimeSync},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     station::{Antenna, Station},
@@ -117,7 +117,8 @@ pub(crate) fn quiet() -> Snapshot {
 }
 
 /// An antenna that shows `snapshot` for ever.
-pub(crate) fn antenna(config: Antenna, snapshot: Snapshot) -> AntennaModel {
+pub(crate) fn antenna(config: Antenna, mut snapshot: Snapshot) -> AntennaModel {
+    snapshot.state.questions = Arc::clone(&config.controller().state().questions);
     let (commands, _) = mpsc::channel(1);
     let (_, snapshots) = watch::channel(Arc::new(snapshot));
     let (_, events) = mpsc::channel(1);
@@ -129,7 +130,7 @@ pub(crate) fn antenna(config: Antenna, snapshot: Snapshot) -> AntennaModel {
 pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     // A Satrak names its checks before it was asked.
     if snapshot.state.checks.is_empty() {
-        snapshot.state.checks = checks(None).into();
+        snapshot.state.checks = satrak::checks(None).into();
     }
     let (station, orbits) = (station(), orbits());
     let mut forecasts = Forecasts::default();

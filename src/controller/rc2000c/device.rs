@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    HeldJog, MAKE, Names, Past, RENEWAL, Rc2000c,
+    DEVICE_TYPE, HeldJog, MAKE, Names, Past, RENEWAL, Rc2000c, STATUS,
     exchange::{Outstanding, Purpose},
     refusal::is_tracking,
 };
@@ -20,6 +20,7 @@ use crate::{
 
 impl Device for Rc2000c {
     fn link_up(&mut self, now: Moment) {
+        self.is_status_asked = false;
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
@@ -130,6 +131,11 @@ impl Device for Rc2000c {
         self.line.longest_prompt()
     }
 
+    fn ask(&mut self, question: &str) {
+        self.is_status_asked |= question == STATUS && self.poll_at.is_some();
+        self.wants_device |= question == DEVICE_TYPE && self.poll_at.is_some();
+    }
+
     fn motion_under_way(&self) -> bool {
         let is_sent = self.outstanding.as_ref().is_some_and(Outstanding::is_order);
         is_sent || !self.orders.is_empty() || self.jog.is_some()
@@ -168,7 +174,10 @@ impl Rc2000c {
     fn next_due(&self, now: Moment) -> Option<Instant> {
         let poll_at = self.poll_at?;
         let jog_at = self.jog.map(|jog| jog.sent.map_or(now.steady, |sent| sent + RENEWAL));
-        let is_asked = !self.orders.is_empty() || self.wants_device || self.next_name().is_some();
+        let is_asked = !self.orders.is_empty()
+            || self.wants_device
+            || self.is_status_asked
+            || self.next_name().is_some();
         let at = [poll_at].into_iter().chain(jog_at).chain(is_asked.then_some(now.steady)).min()?;
         Some(at.max(self.quiet_until.unwrap_or(at)))
     }

@@ -1,17 +1,17 @@
 //! What a frame says, in words for the log of the link.
 
 use crate::{
-    controller::Finding,
+    controller::{Meaning, panel::Tone},
     protocol::rc2000c::{Address, Decoder, Frame, Motion, Query, Reply, Request, Setting},
 };
 
 /// What the unit at `address` is asked with the bytes of a command.
-pub(super) fn of_sent(bytes: &[u8], address: Address) -> Finding {
+pub(super) fn of_sent(bytes: &[u8], address: Address) -> Option<Meaning> {
     let mut decoder = Decoder::new(address);
     decoder.push(bytes);
     let frame = decoder.next().and_then(Result::ok);
-    let Some(Ok(request)) = frame.as_ref().map(Request::parse) else { return Finding::Good };
-    Finding::Known(match request {
+    let Some(Ok(request)) = frame.as_ref().map(Request::parse) else { return None };
+    Some(Meaning::plain(match request {
         Request::Query(Query::DeviceType) => "Asks for the type of the unit",
         Request::Query(Query::Status) => "Asks for the status",
         Request::Query(Query::SatelliteName(_)) => "Asks for the name of a stored satellite",
@@ -23,17 +23,17 @@ pub(super) fn of_sent(bytes: &[u8], address: Address) -> Finding {
         Request::Motion(Motion::RestartTracking) => "Starts its tracking again",
         Request::Setting(Setting::AutoPolarization(_)) => "Sets the automatic polarization",
         Request::Setting(Setting::Band(_)) => "Chooses the band of the receiver",
-    })
+    }))
 }
 
 /// What is answered with a frame.
-pub(super) fn of_reply(frame: &Frame) -> Finding {
-    let Ok(reply) = Reply::parse(frame) else { return Finding::Good };
-    Finding::Known(match reply {
-        Reply::DeviceType(_) => "Type of the unit",
-        Reply::Status { .. } => "Status",
-        Reply::SatelliteName(_) => "Name of a stored satellite",
-        Reply::Offline { .. } => "Remote mode is off, nothing is taken",
-        Reply::Refused { .. } => "Refused",
-    })
+pub(super) fn of_reply(frame: &Frame) -> Option<Meaning> {
+    let (tone, text) = match Reply::parse(frame).ok()? {
+        Reply::DeviceType(_) => (Tone::Plain, "Type of the unit"),
+        Reply::Status { .. } => (Tone::Plain, "Status"),
+        Reply::SatelliteName(_) => (Tone::Plain, "Name of a stored satellite"),
+        Reply::Offline { .. } => (Tone::Caution, "Remote mode is off, nothing is taken"),
+        Reply::Refused { .. } => (Tone::Bad, "Refused"),
+    };
+    Some(Meaning { tone, ..Meaning::plain(text) })
 }

@@ -14,15 +14,12 @@ const MOST_NOISE: usize = 4 * MAX_FRAME_BYTES;
 impl Rc2000c {
     /// A command that was written.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
-        let is_poll = bytes.get(2) == Some(&Command::Status.code());
-        self.tell(
-            Direction::Sent,
-            bytes,
-            meaning::of_sent(bytes, self.address),
-            is_poll,
-            None,
-            now,
-        );
+        let is_status = bytes.get(2) == Some(&Command::Status.code());
+        let sent = self.outstanding.as_ref();
+        let is_poll = is_status && sent.is_some_and(|sent| sent.purpose == Purpose::Poll);
+        let line = line(Direction::Sent, bytes, Finding::Good, now);
+        let meaning = meaning::of_sent(bytes, self.address);
+        self.wire.push(WireLine { meaning, is_poll, ..line });
     }
 
     /// Bytes that came in and are not read yet.
@@ -53,8 +50,9 @@ impl Rc2000c {
         let is_poll = request.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let reply_after =
             request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
-        let finding = meaning::of_reply(frame);
-        self.tell(Direction::Received, &bytes, finding, is_poll, reply_after, now);
+        let line = line(Direction::Received, &bytes, Finding::Good, now);
+        let meaning = meaning::of_reply(frame);
+        self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
 
     /// What began like a frame was none.
@@ -74,34 +72,27 @@ impl Rc2000c {
     pub(super) fn record_noise(&mut self, finding: Finding, now: Moment) {
         let noise = std::mem::take(&mut self.heard);
         if !noise.is_empty() {
-            self.tell(Direction::Received, &noise, finding, false, None, now);
+            self.wire.push(line(Direction::Received, &noise, finding, now));
         }
     }
 
     /// A reply is missing, and the question goes out again or is given up.
     pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
         let finding = Finding::NoReply { waited, is_repeated };
-        self.tell(Direction::Received, &[], finding, false, None, now);
+        self.wire.push(line(Direction::Received, &[], finding, now));
     }
+}
 
-    fn tell(
-        &mut self,
-        direction: Direction,
-        bytes: &[u8],
-        finding: Finding,
-        is_poll: bool,
-        reply_after: Option<Duration>,
-        now: Moment,
-    ) {
-        self.wire.push(WireLine {
-            at: now.utc,
-            direction,
-            bytes: bytes.into(),
-            length: bytes.len(),
-            is_shortened: false,
-            finding,
-            reply_after,
-            is_poll,
-        });
+fn line(direction: Direction, bytes: &[u8], finding: Finding, now: Moment) -> WireLine {
+    WireLine {
+        at: now.utc,
+        direction,
+        bytes: bytes.into(),
+        length: bytes.len(),
+        is_shortened: false,
+        finding,
+        meaning: None,
+        reply_after: None,
+        is_poll: false,
     }
 }

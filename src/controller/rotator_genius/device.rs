@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    Genius, PATIENCE,
+    Genius, PATIENCE, STATUS,
     actions::{ARMED, OTHER, RESCUE},
     exchange::Outstanding,
     orders::in_whole_degrees,
@@ -28,6 +28,7 @@ impl Device for Genius {
     }
 
     fn link_down(&mut self, now: Moment) {
+        self.is_asked = false;
         self.record_unfinished(now);
         self.decoder = Decoder::new();
         self.quiet_at = None;
@@ -114,6 +115,10 @@ impl Device for Genius {
 
     fn lock_changes(&mut self, are_locked: bool) {
         self.are_changes_locked = are_locked;
+    }
+
+    fn ask(&mut self, question: &str) {
+        self.is_asked |= question == STATUS && self.next_poll.is_some();
     }
 
     fn motion_under_way(&self) -> bool {

@@ -18,6 +18,8 @@ const PIECE: usize = 1024;
 pub(super) enum Purpose {
     /// It was due.
     Poll,
+    /// The operator wants to know.
+    Asked,
     /// Metal is to move.
     Motion(Motion),
     /// A step of changing the configuration.
@@ -227,7 +229,7 @@ impl Genius {
                 self.happenings.push_back(Happening::Unanswered(motion));
             }
             Purpose::Settle => self.change_unanswered(now),
-            Purpose::Poll | Purpose::Disowned => {}
+            Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}
         }
         self.look_soon(now);
         // Outside the limits a motion goes on for ever when the link is gone.

@@ -5,15 +5,15 @@ use std::time::Duration;
 
 use super::{Genius, REPLY, exchange::Outstanding};
 use crate::{
-    controller::{Direction, Finding, Moment, WireLine},
+    controller::{Direction, Finding, Meaning, Moment, WireLine, panel::Tone},
     protocol::rotator_genius::{Acknowledgement, Received, Reply, Request},
 };
 
 impl Genius {
     /// A command that was written.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
-        let finding = Request::parse(bytes).map_or(Finding::Good, |request| {
-            Finding::Known(match request {
+        let meaning = Request::parse(bytes).ok().map(|request| {
+            Meaning::plain(match request {
                 Request::Read => "Asks for the status",
                 Request::Stop => "Stops both rotators",
                 Request::Motion(crate::protocol::rotator_genius::Motion::GoTo { .. }) => {
@@ -25,7 +25,7 @@ impl Genius {
         });
         let is_poll = bytes == Request::Read.to_bytes()
             && self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
-        self.wire.push(WireLine { finding, is_poll, ..line(Direction::Sent, bytes, now) });
+        self.wire.push(WireLine { meaning, is_poll, ..line(Direction::Sent, bytes, now) });
     }
 
     /// Something that came in and has not been acted upon yet.
@@ -33,7 +33,7 @@ impl Genius {
         let asked = |is_it: &dyn Fn(&Outstanding) -> bool| {
             self.outstanding.as_ref().filter(|sent| is_it(sent)).map(Outstanding::sent)
         };
-        let (finding, asked, is_poll) = match received {
+        let (meaning, asked, is_poll) = match received {
             Received::Noise(bytes) => {
                 self.unfinished.drain(..bytes.len().min(self.unfinished.len()));
                 let line = line(Direction::Received, bytes, now);
@@ -44,7 +44,7 @@ impl Genius {
             Received::Reply(Reply::Status(_)) => {
                 let is_poll = self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
                 let asked = self.missing_since.or_else(|| asked(&Outstanding::is_read));
-                (Finding::Known("Status"), asked, is_poll)
+                (Meaning::plain("Status"), asked, is_poll)
             }
             Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
                 let asked = if *to == Acknowledgement::Stop {
@@ -52,15 +52,17 @@ impl Genius {
                 } else {
                     asked(&|sent| sent.is_acknowledged_by(*to))
                 };
-                let finding = if *is_accepted { "Accepted" } else { "Refused" };
-                (Finding::Known(finding), asked, false)
+                let (tone, text) =
+                    if *is_accepted { (Tone::Good, "Accepted") } else { (Tone::Bad, "Refused") };
+                (Meaning { tone, ..Meaning::plain(text) }, asked, false)
             }
         };
         let count = self.unfinished.len().saturating_sub(self.decoder.unfinished_bytes());
         let bytes: Vec<u8> = self.unfinished.drain(..count).collect();
         let reply_after = asked.map(|asked| now.steady.saturating_duration_since(asked));
         let line = line(Direction::Received, &bytes, now);
-        self.wire.push(WireLine { finding, reply_after, is_poll, ..line });
+        let meaning = Some(meaning);
+        self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
 
     /// What is left of a reply when its link is gone.
@@ -86,7 +88,8 @@ fn line(direction: Direction, bytes: &[u8], now: Moment) -> WireLine {
         bytes: bytes.into(),
         length: bytes.len(),
         is_shortened: false,
-        finding: Finding::Good,
+        finding: Finding::Unchecked,
+        meaning: None,
         reply_after: None,
         is_poll: false,
     }

@@ -4,12 +4,12 @@ use std::time::{Duration, Instant};
 
 use super::{
     DRAIN, REPLY, Satrak, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
-    settings::Plan,
+    settings::Plan, words,
 };
 use crate::{
     controller::{
-        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, Question,
-        TrackTarget, WireLine,
+        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, TrackTarget,
+        WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError, SettleStep},
     },
@@ -150,9 +150,10 @@ impl Device for Satrak {
         self.are_changes_locked = are_locked;
     }
 
-    fn ask(&mut self, question: Question) {
-        let Question::Satrak(query) = question;
-        self.want(query);
+    fn ask(&mut self, question: &str) {
+        if let Some(query) = words::query(question) {
+            self.want(query);
+        }
     }
 
     fn disable_auto(&mut self) {

@@ -3,9 +3,9 @@
 
 use std::time::{Duration, Instant};
 
-use super::{REPLY, Satrak, exchange::Outstanding};
+use super::{REPLY, Satrak, exchange::Outstanding, words};
 use crate::{
-    controller::{Direction, Finding, Moment, WireLine},
+    controller::{Direction, Finding, Meaning, Moment, WireLine},
     protocol::satrak::{Decoder, FrameError, Halt, Line, Verb, Word},
 };
 
@@ -17,10 +17,12 @@ impl Satrak {
         while let Some(line) = decoder.next_line() {
             let is_poll = self.polls(&line);
             let shown = line.without_secrets(false);
+            let meaning = said(&line, Direction::Sent, &shown.bytes);
             self.wire.push(WireLine {
                 direction: Direction::Sent,
                 is_shortened: !shown.is_whole,
                 bytes: shown.bytes.into(),
+                meaning,
                 is_poll,
                 ..blank(&line, now)
             });
@@ -31,9 +33,11 @@ impl Satrak {
     pub(super) fn record_received(&mut self, line: &Line, now: Moment) {
         let shown = line.without_secrets(!self.has_heard_frame);
         self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
+        let meaning = said(line, Direction::Received, &shown.bytes);
         self.wire.push(WireLine {
             is_shortened: !shown.is_whole,
             bytes: shown.bytes.into(),
+            meaning,
             reply_after: self.reply_after(line, now),
             is_poll: self.polls(line),
             ..blank(line, now)
@@ -57,6 +61,7 @@ impl Satrak {
             length: 0,
             is_shortened: false,
             finding,
+            meaning: None,
             reply_after: None,
             is_poll: false,
         });
@@ -98,9 +103,15 @@ fn blank(line: &Line, now: Moment) -> WireLine {
         length: line.length(),
         is_shortened: false,
         finding: finding(line),
+        meaning: None,
         reply_after: None,
         is_poll: false,
     }
+}
+
+/// What is said of a good line, by the bytes that are kept: secrets are not among them.
+fn said(line: &Line, direction: Direction, shown: &[u8]) -> Option<Meaning> {
+    line.frame.is_ok().then(|| words::meaning(direction, shown))
 }
 
 fn finding(line: &Line) -> Finding {

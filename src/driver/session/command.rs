@@ -1,10 +1,12 @@
 //! What the operator can ask of an antenna, and what the session makes of it.
 
+use smol_str::SmolStr;
+
 use super::{Event, Session, wanted::Wanted};
 use crate::{
     astro::Angle,
     controller::{
-        Moment, Motion, Pointing, Question, TrackTarget,
+        Moment, Motion, Pointing, TrackTarget,
         panel::Act,
         settings::{Change, SettleError},
     },
@@ -87,7 +89,7 @@ pub enum Command {
     /// The maintenance is over.
     Unlock,
     /// Ask the device something; the answer is in the log of the link.
-    Ask(Question),
+    Ask(SmolStr),
 }
 
 /// What is done as soon as the antenna stands.
@@ -163,7 +165,7 @@ impl Session {
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
             Command::Settle(change) => self.settle(change, now),
-            Command::Ask(question) => self.gate.device().ask(question),
+            Command::Ask(question) => self.gate.device().ask(&question),
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
             Command::Connect => self.wanted = Wanted::Yes,

@@ -22,7 +22,8 @@ const LABEL: f32 = 0.45;
 /// The mark and the colour of a value.
 fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     match tone {
-        Tone::Plain => (None, t.t1),
+        Tone::Plain | Tone::Change => (None, t.t1),
+        Tone::Good => (Some(Icon::Check), t.ok),
         Tone::Caution => (Some(Icon::Warning), t.warn),
         Tone::Bad => (Some(Icon::Cross), t.bad),
     }

@@ -5,8 +5,8 @@ use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{ConsoleState, PADDING, line::Line};
 use crate::{
-    controller::{Direction, Finding},
-    protocol::satrak::{Tone, Value, explain_reply, explain_request},
+    app::Model,
+    controller::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
     ui::{
         format, text, theme,
         widgets::{
@@ -23,7 +23,13 @@ const NUMBER: f32 = 24.0;
 const BYTES: usize = 8;
 
 /// Draws the panel. In a drawer it can be closed.
-pub(super) fn show(ui: &mut Ui, rect: Rect, state: &mut ConsoleState, is_drawer: bool) {
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut ConsoleState,
+    is_drawer: bool,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
@@ -42,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &mut ConsoleState, is_drawer:
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing.y = 4.0;
         if let Some(line) = state.selected() {
-            return details(ui, line);
+            return details(ui, line, &explained(model, line));
         }
         ui.label(RichText::new("No line selected").font(text::value()));
         let words = "Click a line to see its values and its bytes.";
@@ -50,9 +56,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &mut ConsoleState, is_drawer:
     });
 }
 
-fn details(ui: &mut Ui, line: &Line) {
+fn details(ui: &mut Ui, line: &Line, explained: &Explained) {
     let t = theme::tokens(ui);
-    ui.label(RichText::new(title(line)).font(text::value()));
+    ui.label(RichText::new(title(line, explained)).font(text::value()));
     let small = |words: String| RichText::new(words).font(text::small());
     ui.label(small(when(line)).color(t.t2));
     let colour = match line.meaning.tone {
@@ -63,12 +69,12 @@ fn details(ui: &mut Ui, line: &Line) {
     };
     ui.label(RichText::new(format!("{}.", line.meaning.text)).font(text::body()).color(colour));
     ScrollArea::vertical().id_salt("details").auto_shrink(false).show(ui, |ui| {
-        let values = values(line);
+        let values = &explained.values;
         if !values.is_empty() {
             ui.add_space(8.0);
             ui.label(small(format!("Values, {}", values.len())).color(t.t3));
             ui.spacing_mut().item_spacing.y = 0.0;
-            for value in &values {
+            for value in values {
                 show_value(ui, value);
             }
             ui.spacing_mut().item_spacing.y = 4.0;
@@ -80,15 +86,22 @@ fn details(ui: &mut Ui, line: &Line) {
     });
 }
 
-fn title(line: &Line) -> String {
+/// The line as the make of its antenna takes it apart.
+fn explained(model: &Model, line: &Line) -> Explained {
+    let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
+    let explain = antenna.and_then(|antenna| antenna.make().explain);
+    explain.map(|explain| explain(line.wire())).unwrap_or_default()
+}
+
+fn title(line: &Line, explained: &Explained) -> String {
     let kind = match (line.wire().finding, line.wire().direction) {
         (Finding::NoReply { .. }, _) => return "No reply".to_owned(),
         (_, Direction::Sent) => "request",
         (_, Direction::Received) => "reply",
     };
-    match line.frame().and_then(|frame| frame.command()) {
-        Some((word, _)) => format!("{word} {kind}"),
-        None if line.is_satrak() => "No known frame".to_owned(),
+    match explained.name {
+        Some(name) => format!("{name} {kind}"),
+        None if !line.wire().finding.is_good() => "No known frame".to_owned(),
         None => words::capitalised(kind),
     }
 }
@@ -98,15 +111,7 @@ fn when(line: &Line) -> String {
     format!("{}, {}Z{}", line.antenna, line.time(), after.unwrap_or_default())
 }
 
-fn values(line: &Line) -> Vec<Value> {
-    match (line.frame(), line.wire().direction) {
-        (Some(frame), Direction::Sent) => explain_request(&frame),
-        (Some(frame), Direction::Received) => explain_reply(&frame),
-        (None, _) => Vec::new(),
-    }
-}
-
-fn show_value(ui: &mut Ui, value: &Value) {
+fn show_value(ui: &mut Ui, value: &ExplainedValue) {
     let t = theme::tokens(ui);
     let size = vec2(ui.available_width(), ROW);
     let (row, _) = ui.allocate_exact_size(size, egui::Sense::hover());
@@ -131,7 +136,7 @@ fn bytes(ui: &mut Ui, line: &Line) {
     let wire = line.wire();
     let length = format::number(wire.length as f64, 0);
     let sum = match wire.finding {
-        Finding::Good if wire.is_shortened || !line.is_satrak() => "",
+        Finding::Good if wire.is_shortened => "",
         Finding::Good => ", checksum good",
         Finding::BadChecksum { .. } => ", checksum wrong",
         _ => "",

@@ -5,9 +5,8 @@ use std::{fmt::Write as _, sync::Arc};
 use jiff::tz::TimeZone;
 
 use crate::{
-    controller::{Direction, Finding, WireLine},
+    controller::{Direction, Finding, Meaning, WireLine, panel::Tone},
     driver::Recorded,
-    protocol::satrak::{Decoder, Frame, Meaning, Tone},
     ui::format,
 };
 
@@ -52,18 +51,8 @@ impl Line {
     /// Whether `needle`, in lower case, stands in its bytes, its meaning or the
     /// name of its antenna.
     pub(super) fn has(&self, needle: &str) -> bool {
-        let texts = [self.raw.as_str(), self.meaning.text.as_str(), &self.antenna];
+        let texts = [self.raw.as_str(), &self.meaning.text, &self.antenna];
         texts.into_iter().any(|text| text.to_lowercase().contains(needle))
-    }
-
-    /// The frame, when the line is a good one.
-    pub(super) fn frame(&self) -> Option<Frame> {
-        frame(self.wire())
-    }
-
-    /// It is a frame of a Satrak, good or not.
-    pub(super) fn is_satrak(&self) -> bool {
-        is_satrak(self.wire())
     }
 
     /// hh:mm:ss with milliseconds, UTC.
@@ -123,44 +112,19 @@ pub(super) fn pieces(bytes: &[u8]) -> Vec<Piece> {
     pieces
 }
 
-fn frame(line: &WireLine) -> Option<Frame> {
-    if line.finding != Finding::Good {
-        return None;
-    }
-    let mut decoder = Decoder::new();
-    decoder.push(&line.bytes);
-    decoder.next()?.ok().or_else(|| {
-        // Without its values a frame has no checksum any more.
-        let text = std::str::from_utf8(&line.bytes).ok()?.trim_end();
-        Some(Frame::from_payload(text.rsplit_once('$')?.1))
-    })
-}
-
-/// It begins as every frame of a Satrak does, and no other unit's.
-fn is_satrak(line: &WireLine) -> bool {
-    line.bytes.first() == Some(&b'$')
-}
-
-/// What a unit of another make was asked or has said stands in its bytes.
-fn foreign(direction: Direction, length: usize) -> Meaning {
+/// What its make has no words for stands in its bytes.
+fn unnamed(direction: Direction, length: usize) -> Meaning {
     let kind = if direction == Direction::Sent { "Request" } else { "Reply" };
     let plural = if length == 1 { "" } else { "s" };
-    Meaning { tone: Tone::Plain, text: format!("{kind}, {length} byte{plural}") }
+    Meaning { tone: Tone::Plain, text: format!("{kind}, {length} byte{plural}").into() }
 }
 
 fn meaning(line: &WireLine) -> Meaning {
     let (tone, text) = match line.finding {
-        Finding::Good => {
-            return match (frame(line), line.direction) {
-                (Some(frame), Direction::Sent) => Meaning::of_request(&frame),
-                (Some(frame), Direction::Received) => Meaning::of_reply(&frame),
-                (None, _) if is_satrak(line) => {
-                    Meaning { tone: Tone::Caution, text: "Not in the document".into() }
-                }
-                (None, direction) => foreign(direction, line.length),
-            };
+        Finding::Good | Finding::Unchecked => {
+            let said = line.meaning.clone();
+            return said.unwrap_or_else(|| unnamed(line.direction, line.length));
         }
-        Finding::Known(says) => (Tone::Plain, says.to_owned()),
         Finding::BadChecksum { received, computed } => {
             (Tone::Bad, format!("Checksum {received:02X}, should be {computed:02X}. Dropped"))
         }
@@ -175,12 +139,13 @@ fn meaning(line: &WireLine) -> Meaning {
             (Tone::Caution, format!("No reply in {waited} ms, {next}"))
         }
     };
-    Meaning { tone, text }
+    Meaning { tone, text: text.into() }
 }
 
 #[cfg(test)]
 pub(super) mod testing {
     use super::*;
+    use crate::controller::satrak;
 
     /// A good line at a second of the epoch.
     pub(in crate::ui::console) fn wire(second: i64, direction: Direction, text: &str) -> WireLine {
@@ -189,6 +154,7 @@ pub(super) mod testing {
             at: jiff::Timestamp::from_second(second).unwrap(),
             direction,
             length: bytes.len(),
+            meaning: Some(satrak::meaning(direction, &bytes)),
             bytes: bytes.into(),
             is_shortened: false,
             finding: Finding::Good,
@@ -225,7 +191,6 @@ mod tests {
         wire.finding = Finding::BadChecksum { received: 0, computed: 0x0d };
         let line = line(0, wire.clone());
         assert_eq!(line.meaning.text, "Checksum 00, should be 0D. Dropped");
-        assert!(line.frame().is_none());
         let waited = Duration::from_secs(2);
         wire.finding = Finding::NoReply { waited, is_repeated: true };
         let line = testing::line(0, wire);
@@ -234,18 +199,10 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_without_its_values_is_still_named() {
-        let mut wire = wire(1, Direction::Received, "$SATELLITE_FTP?(hidden)");
-        wire.is_shortened = true;
+    fn what_its_make_has_no_words_for_is_told_by_its_bytes() {
+        let wire = WireLine { meaning: None, ..wire(1, Direction::Received, "|h00OK") };
         let line = line(0, wire);
-        assert_eq!(line.meaning.text, "FTP source of the elements, values hidden");
-    }
-
-    #[test]
-    fn what_another_make_says_is_told_by_its_bytes() {
-        let line = line(0, wire(1, Direction::Received, "|h00OK"));
         assert_eq!((line.meaning.tone, &*line.meaning.text), (Tone::Plain, "Reply, 8 bytes"));
-        assert!(!line.is_satrak() && line.frame().is_none());
     }
 
     #[test]
@@ -254,9 +211,8 @@ mod tests {
         assert!(!line(0, wire.clone()).is_usual_poll());
         wire.is_poll = true;
         assert!(!line(0, wire.clone()).is_usual_poll(), "a refusal is worth a look");
-        wire.bytes = b"$STATUS?*2B\r\n".to_vec().into();
-        wire.direction = Direction::Sent;
-        assert!(line(0, wire).is_usual_poll());
+        let question = testing::wire(1, Direction::Sent, "$STATUS?*2B");
+        assert!(line(0, WireLine { is_poll: true, ..question }).is_usual_poll());
     }
 
     #[test]

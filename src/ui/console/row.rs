@@ -4,8 +4,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::{PADDING, line::Line, raw};
 use crate::{
-    controller::{Direction, Finding},
-    protocol::satrak::Tone,
+    controller::{Direction, Finding, panel::Tone},
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -6,12 +6,11 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-use super::{PADDING, raw, typed};
+use super::{PADDING, raw};
 use crate::{
     app::{Model, UiCommand, antenna::AntennaModel},
-    controller::{Question, satrak},
+    controller::Question,
     driver,
-    protocol::satrak::{Frame, Meaning, Query, Request},
     ui::{
         bar::glyph,
         icons::{self, Icon},
@@ -31,8 +30,6 @@ const ANTENNA: f32 = 112.0;
 const PICK: f32 = 96.0;
 const SEND: f32 = 72.0;
 const FRAME: f32 = 240.0;
-const NO_QUESTIONS: &str = "Questions can be sent by hand to a Satrak only. Azel asks this unit by itself while the link is \
-     open.";
 
 /// Draws the line for the selected antenna.
 pub(super) fn show(
@@ -48,34 +45,31 @@ pub(super) fn show(
     let inner = rect.shrink2(vec2(PADDING, 12.0));
     let (line, below) = inner.split_top_bottom_at_y(inner.top() + BUTTON);
     antenna(ui, line.with_max_x(line.left() + ANTENNA), model);
-    let made = model.antenna().map(AntennaModel::make);
-    if made.is_some_and(|make| make.key != satrak::MAKE.key) {
-        return say(ui, below, Icon::Info, NO_QUESTIONS, t.t2);
-    }
     let send = line.with_min_x(line.right() - SEND);
     let frame = line.with_min_x(send.left() - GAP - FRAME).with_max_x(send.left() - GAP);
     let field = line.with_min_x(line.left() + ANTENNA + GAP).with_max_x(frame.left() - GAP);
-    let is_entered = fields(ui, field, typed);
+    let questions = model.antenna().map_or(&[][..], |one| &one.snapshot.state.questions);
+    let is_entered = fields(ui, field, questions, typed);
 
-    let read = typed::read(typed);
+    let read = model.antenna().and_then(|antenna| read(antenna, typed));
     let link = model.antenna().is_some_and(|antenna| antenna.snapshot.link.is_open());
     let ready = match &read {
-        Some(Ok(query)) if link => Some(*query),
+        Some(Ok(question)) if link => Some(*question),
         _ => None,
     };
-    if let Some(Ok(query)) = &read {
-        finished(ui, frame, *query);
+    if let Some(Ok(question)) = &read {
+        finished(ui, frame, question);
     }
     let (icon, words, colour) = match (&read, ready) {
         (Some(Err(reason)), _) => (Icon::Lock, format!("Not sent. {reason}"), t.warn),
-        (_, Some(query)) => {
-            let payload = Request::Query(query).payload();
-            let meaning = Meaning::of_request(&Frame::from_payload(&payload)).text;
-            (Icon::Check, format!("{meaning}. The answer comes in the log."), t.t2)
+        (_, Some(question)) => {
+            (Icon::Check, format!("{}. The answer comes in the log.", question.about), t.t2)
         }
         (None, _) => {
-            let words = "Questions can be sent, such as STATUS?. Settings and motion cannot.";
-            (Icon::Info, words.to_owned(), t.t2)
+            let such =
+                questions.first().map_or_else(String::new, |one| format!(", such as {}", one.key));
+            let words = format!("Questions can be sent{such}. Settings and motion cannot.");
+            (Icon::Info, words, t.t2)
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),
     };
@@ -83,10 +77,26 @@ pub(super) fn show(
 
     let button = Button::primary("Send").locked(ready.is_none());
     let is_clicked = button.show(ui, "send query", send).clicked();
-    if let Some(query) = ready.filter(|_| is_clicked || is_entered) {
-        let command = driver::Command::Ask(Question::Satrak(query));
+    if let Some(question) = ready.filter(|_| is_clicked || is_entered) {
+        let command = driver::Command::Ask(question.key.clone());
         commands.push(UiCommand::Antenna(model.selected_antenna, command));
     }
+}
+
+/// The question that was typed, in any case and with or without its sign, or why it is
+/// none. `None` when nothing is typed.
+fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Question, String>> {
+    let text = typed.trim().to_uppercase();
+    if text.is_empty() {
+        return None;
+    }
+    let plain = |key: &str| key.trim_end_matches('?').to_owned();
+    let mut questions = antenna.snapshot.state.questions.iter();
+    let found = questions.find(|it| it.key == text || plain(&it.key) == text);
+    Some(found.ok_or_else(|| match antenna.make().why_no_question {
+        Some(why) => why(&text),
+        None => "This is no question that the unit answers: pick one of the list.".to_owned(),
+    }))
 }
 
 /// What is said below the line.
@@ -117,7 +127,7 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
 }
 
 /// The list of questions and the field. True when Enter was pressed in it.
-fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
+fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], typed: &mut String) -> bool {
     let t = theme::tokens(ui);
     let layout = Layout::left_to_right(Align::Center);
     let builder = UiBuilder::new().id_salt("send fields").max_rect(rect).layout(layout);
@@ -126,16 +136,15 @@ fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
         let queries = DropDown { button, salt: "queries", name: "Pick a query" };
         let (place, _) = ui.allocate_exact_size(vec2(PICK, BUTTON), Sense::hover());
         queries.show(ui, place, |ui| {
-            for (_, word) in Query::ALL {
-                let payload = format!("{word}?");
-                let asks = Meaning::of_request(&Frame::from_payload(&payload)).text;
-                let words = RichText::new(format!("{payload}  {asks}")).font(text::small());
+            for Question { key, about, .. } in questions {
+                let words = RichText::new(format!("{key}  {about}")).font(text::small());
                 if ui.selectable_label(false, words).clicked() {
-                    *typed = payload;
+                    *typed = key.to_string();
                 }
             }
         });
-        let hint = RichText::new("STATUS?").color(t.t3);
+        let hint = questions.first().map_or("", |one| one.key.as_str());
+        let hint = RichText::new(hint).color(t.t3);
         let edit = TextEdit::singleline(typed).id_salt("send").font(text::raw()).hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
         edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Query to send"));
@@ -145,11 +154,10 @@ fn fields(ui: &mut Ui, rect: Rect, typed: &mut String) -> bool {
 }
 
 /// The frame as it will go out.
-fn finished(ui: &Ui, rect: Rect, query: Query) {
+fn finished(ui: &Ui, rect: Rect, question: &Question) {
     let t = theme::tokens(ui);
-    let bytes = Request::Query(query).to_bytes();
     let word = paint::text_in(ui, rect, Align2::LEFT_CENTER, "sends", text::small(), t.t3);
-    raw::show(ui, rect.with_min_x(word.right() + 6.0), &bytes, t.sat);
-    let text = String::from_utf8_lossy(&bytes);
+    raw::show(ui, rect.with_min_x(word.right() + 6.0), &question.bytes, t.sat);
+    let text = String::from_utf8_lossy(&question.bytes);
     paint::name_text(ui, "frame", rect, &format!("sends {}", text.trim_end()));
 }

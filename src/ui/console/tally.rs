@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use jiff::{SignedDuration, Timestamp};
 
 use super::{line::Line, log::Log};
-use crate::{controller::Finding, protocol::satrak::Tone};
+use crate::controller::{Finding, panel::Tone};
 
 /// How far back it is counted.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);

@@ -83,6 +83,8 @@ static MAKE: Make = Make {
     },
     groups: &[],
     actions: &[],
+    explain: None,
+    why_no_question: None,
 };
 
 /// The order at which the controller breaks down, instead of sending it.
