@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use azel::protocol::rc2000c::*;
+use azel::protocol::{Parity, rc2000c::*};
 use proptest::prelude::*;
 
 fn address() -> impl Strategy<Value = Address> {

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use azel::protocol::rc2000c::*;
+use azel::protocol::{Parity, rc2000c::*};
 use azel::sim::rc2000c::{Fault, Mode, Options, Quirk, Simulator};
 use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use tokio::net::TcpStream;

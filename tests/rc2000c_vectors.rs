@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use azel::protocol::rc2000c::*;
+use azel::protocol::{Parity, rc2000c::*};
 
 /// Names and bytes.
 fn vectors() -> Vec<(&'static str, Vec<u8>)> {

@@ -11,7 +11,6 @@
 
 mod address;
 mod frame;
-mod parity;
 mod reply;
 mod request;
 mod satellite_name;
@@ -21,7 +20,6 @@ pub use address::{Address, AddressError};
 pub use frame::{
     Command, Decoder, Frame, FrameError, Header, MAX_COMMAND_BYTES, MAX_FRAME_BYTES, checksum,
 };
-pub use parity::Parity;
 pub use reply::{DeviceType, MountKind, NameEntry, Reply, ReplyError};
 pub use request::{
     AutoMove, Band, Direction, DriveReset, Jog, MAX_JOG, MIN_JOG, Motion, NameIndex, Polarity,

@@ -13,7 +13,7 @@ use std::{
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 
 use super::{Duplicate, Stream};
-use crate::protocol::rc2000c::Parity;
+use crate::protocol::Parity;
 
 /// Longer writes go out in pieces of this.
 const PIECE: usize = 64;

@@ -5,7 +5,7 @@ use std::{io, sync::Arc};
 use serial2_tokio::{CharSize, FlowControl, SerialPort, Settings, StopBits};
 
 use super::{Dial, Duplicate, Stream, parity::WithParity};
-use crate::protocol::rc2000c::Parity;
+use crate::protocol::Parity;
 
 impl Stream for SerialPort {
     /// The library hands out no handle. The one make on a serial line ends its

@@ -8,7 +8,7 @@ use super::{
     Dial, Duplicate, Stream, duplicate_of,
     parity::{Heard, WithParity},
 };
-use crate::protocol::rc2000c::Parity;
+use crate::protocol::Parity;
 
 impl Stream for TcpStream {
     fn duplicate(&self) -> io::Result<Option<Duplicate>> {

@@ -9,7 +9,10 @@ use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::control::Mood;
 use super::{Control, Fault, Quirk};
-use crate::protocol::rc2000c::{Address, Decoder, Frame, Header, Parity, Reply, checksum};
+use crate::protocol::{
+    Parity,
+    rc2000c::{Address, Decoder, Frame, Header, Reply, checksum},
+};
 
 /// A client that takes nothing for this long is given up.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);

@@ -1,8 +1,9 @@
 //! Any bytes on the line of an RC2000C: as they are, with the parity made in
 //! software, and each line of them as a good frame.
 
-use azel::protocol::rc2000c::{
-    Address, Decoder, Frame, FrameError, Parity, Reply, Request, checksum,
+use azel::protocol::{
+    Parity,
+    rc2000c::{Address, Decoder, Frame, FrameError, Reply, Request, checksum},
 };
 
 use super::no_infinity::is_finite;

@@ -26,7 +26,7 @@ impl Parity {
     }
 
     /// Takes the parity off `bytes` from the port. A character with the wrong
-    /// parity becomes one that [`super::Decoder`] refuses wherever it stands.
+    /// parity becomes one that no frame has.
     pub fn check(self, bytes: &mut [u8]) {
         if self == Self::Software {
             for byte in bytes {
