@@ -12,6 +12,7 @@ mod foot;
 mod form;
 mod head;
 mod list;
+mod makes;
 mod outcome;
 mod row;
 mod section;

@@ -1,16 +1,16 @@
 //! The cards of a unit, in one column or two.
 
-mod checks;
-mod clock;
-mod gps;
-mod minimum;
-mod satellite;
-mod service;
-mod window;
+pub(super) mod service;
 
 use egui::{Align, Frame, Layout, Margin, RichText, Stroke, Ui, style::ScrollAnimation, vec2};
 
-use super::{field_row, form::Form, row, section::Section, unit::Unit};
+use super::{
+    field_row,
+    form::Form,
+    row,
+    section::{Column, Section},
+    unit::Unit,
+};
 use crate::{
     app::UiCommand,
     controller::settings::{Access, Field},
@@ -25,9 +25,6 @@ const GAP: f32 = 16.0;
 const PADDING: i8 = 12;
 /// A card is not wider than its fields need.
 const WIDEST: f32 = 760.0;
-
-/// The cards of a Satrak in the left one of two columns.
-const LEFT: [Section; 4] = [Section::General, Section::Gps, Section::Window, Section::Checks];
 
 /// What a card can do beside editing its fields.
 pub(super) struct Desk<'a> {
@@ -68,16 +65,14 @@ pub(super) fn show(
     });
 }
 
-/// The cards of the two columns: those of a Satrak have their places, others
-/// take turns.
+/// The cards of the two columns.
 fn columns(all: &[Section]) -> (Vec<Section>, Vec<Section>) {
-    let is_plain = |section: &Section| matches!(section, Section::Plain { .. });
     let places = all.iter().enumerate().map(|(place, section)| {
-        let is_left = if is_plain(section) { place % 2 == 0 } else { LEFT.contains(section) };
-        (is_left, *section)
+        let turn = if place % 2 == 0 { Column::Left } else { Column::Right };
+        (section.column.unwrap_or(turn), *section)
     });
-    let (left, right): (Vec<_>, Vec<_>) = places.partition(|(is_left, _)| *is_left);
-    let sections = |column: Vec<(bool, Section)>| column.into_iter().map(|(_, of)| of).collect();
+    let (left, right): (Vec<_>, Vec<_>) = places.partition(|(column, _)| *column == Column::Left);
+    let sections = |column: Vec<(Column, Section)>| column.into_iter().map(|(_, of)| of).collect();
     (sections(left), sections(right))
 }
 
@@ -91,7 +86,7 @@ fn column(
 ) {
     ui.spacing_mut().item_spacing.y = 0.0;
     for section in sections {
-        let card = card(ui, width, |ui| fill(ui, unit, form, *section, desk));
+        let card = card(ui, width, |ui| fill(ui, unit, form, section, desk));
         if *scroll_to == Some(*section) {
             ui.scroll_to_rect_animation(card, Some(Align::TOP), ScrollAnimation::none());
             *scroll_to = None;
@@ -114,33 +109,14 @@ fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
     shown.response.rect
 }
 
-fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: Section, desk: &mut Desk<'_>) {
-    if section.is_service() {
-        // There may be several of them.
-        let id = section.title();
-        return ui.push_id(id, |ui| service::show(ui, unit, form, section, desk)).inner;
-    }
-    title(ui, section.title());
-    match section {
-        Section::General => {
-            row::head(ui);
-            fields(ui, unit, form, "general", |_| true);
-            minimum::show(ui, unit, form);
+fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: &Section, desk: &mut Desk<'_>) {
+    // There may be several service cards.
+    ui.push_id(section.title, |ui| {
+        if !section.is_service {
+            title(ui, section.title);
         }
-        Section::Gps => gps::show(ui, unit, form),
-        Section::Window => window::show(ui, unit, form, desk.commands),
-        // The upload of elements to the unit has its place below this card.
-        Section::Satellite => satellite::show(ui, unit, form, desk),
-        Section::Clock => clock::show(ui, unit, form, desk.commands),
-        Section::Checks => checks::show(ui, unit, form),
-        Section::Plain { keys, .. } => {
-            row::head(ui);
-            for key in keys {
-                fields(ui, unit, form, key, |_| true);
-            }
-        }
-        Section::Service => {}
-    }
+        (section.content)(ui, unit, form, section, desk);
+    });
 }
 
 fn title(ui: &mut Ui, words: &str) {
@@ -149,7 +125,7 @@ fn title(ui: &mut Ui, words: &str) {
 }
 
 /// A head within a card.
-fn subtitle(ui: &mut Ui, words: &str) {
+pub(super) fn subtitle(ui: &mut Ui, words: &str) {
     let t = theme::tokens(ui);
     ui.add_space(8.0);
     ui.label(RichText::new(words).font(text::small_strong()).color(t.t2));
@@ -157,7 +133,7 @@ fn subtitle(ui: &mut Ui, words: &str) {
 }
 
 /// The fields of a group for which `is_wanted` is true.
-fn fields(
+pub(super) fn fields(
     ui: &mut Ui,
     unit: &Unit<'_>,
     form: &mut Form,
@@ -170,6 +146,6 @@ fn fields(
     form.is_revealed = is_revealed;
 }
 
-fn is_reported(field: &Field) -> bool {
+pub(super) fn is_reported(field: &Field) -> bool {
     field.access != Access::Write
 }

@@ -107,8 +107,8 @@ fn antenna_line(
 
 fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &Unit<'_>, form: &Form) -> bool {
     let t = theme::tokens(ui);
-    let count = form.count(unit, section.groups());
-    let clicked = line(ui, rect, section.title(), if count.edited > 0 { t.t1 } else { t.t2 });
+    let count = form.count(unit, section.keys);
+    let clicked = line(ui, rect, section.title, if count.edited > 0 { t.t1 } else { t.t2 });
     let mut right = pos2(rect.right() - PADDING, rect.center().y);
     let mut said = Vec::new();
     for (number, colour, word) in
@@ -120,11 +120,11 @@ fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &Unit<'_>, form: &F
         }
     }
     if !said.is_empty() {
-        let name = format!("{}: {}", section.title(), said.join(", "));
+        let name = format!("{}: {}", section.title, said.join(", "));
         let at = rect.with_min_x(right.x).with_max_x(rect.right());
-        paint::name_text(ui, ("counts", section.title()), at, &name);
+        paint::name_text(ui, ("counts", section.title), at, &name);
     }
-    if section.is_service() && form.unlock.is_none() && said.is_empty() {
+    if section.is_service && form.unlock.is_none() && said.is_empty() {
         icons::paint(ui.painter(), paint::square(right - vec2(8.0, 0.0), 14.0), Icon::Lock, t.t3);
     }
     clicked

@@ -141,15 +141,19 @@ fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        controller::settings::{Change, Secret},
-        ui::antennas::section,
+    use crate::controller::{
+        satrak::GROUPS,
+        settings::{Change, Group, Secret},
     };
     use jiff::Timestamp;
 
+    fn group(key: &str) -> &'static Group {
+        GROUPS.iter().find(|group| group.key == key).unwrap()
+    }
+
     fn said(values: Values, error: &SettleError, seen: f64, held: f64) -> String {
         let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
-        let group = section::group("general").unwrap();
+        let group = group("general");
         let change = Change { ticket: 1, group: "general", values, seen: None, is_unlocked: false };
         let settled = Settled { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
         sentence(group, &settled, error, Some(&of(seen)), Some(&of(held)))
@@ -171,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_password_is_never_in_a_sentence() {
-        let group = section::group("ftp").unwrap();
+        let group = group("ftp");
         let secret = |text: &str| Values::from([("password", Value::Secret(Secret::new(text)))]);
         let values = secret("hunter2");
         let change = Change { ticket: 1, group: "ftp", values, seen: None, is_unlocked: false };

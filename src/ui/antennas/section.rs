@@ -1,92 +1,64 @@
-//! The parts of the settings of a unit, in the order in which the list shows
-//! them. A Satrak has cards of its own; elsewhere each group is one.
+//! The parts of the settings of a unit, in the order in which the list shows them.
 
-use crate::controller::{
-    Make,
-    satrak::{self, GROUPS},
-    settings::Group,
+use egui::Ui;
+
+use super::{
+    cards::{Desk, fields, service},
+    form::Form,
+    makes, row,
+    unit::Unit,
 };
+use crate::controller::{Make, settings::Group};
+
+/// Draws what a card holds.
+pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut Desk<'_>);
 
 /// One card of the view.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Section {
-    General,
-    Gps,
-    Window,
-    Satellite,
-    Clock,
-    Checks,
-    Service,
-    /// A group of another make.
-    Plain {
-        /// Its key.
-        keys: &'static [&'static str],
-        title: &'static str,
-        is_service: bool,
-    },
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Section {
+    pub(super) title: &'static str,
+    /// The keys of its groups, by which it is known.
+    pub(super) keys: &'static [&'static str],
+    /// It opens only with the service functions.
+    pub(super) is_service: bool,
+    /// Its place where there are two columns; without one, cards take turns.
+    pub(super) column: Option<Column>,
+    pub(super) content: Content,
+}
+
+/// A column of cards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Column {
+    Left,
+    Right,
+}
+
+impl PartialEq for Section {
+    fn eq(&self, other: &Self) -> bool {
+        self.keys == other.keys
+    }
 }
 
 impl Section {
-    /// Those of a Satrak.
-    pub(super) const ALL: [Self; 7] = [
-        Self::General,
-        Self::Gps,
-        Self::Window,
-        Self::Satellite,
-        Self::Clock,
-        Self::Checks,
-        Self::Service,
-    ];
-
     /// Those of a unit of this make.
     pub(super) fn of(make: &Make) -> Vec<Self> {
-        if make.key == satrak::MAKE.key {
-            return Self::ALL.to_vec();
-        }
-        let plain = |group: &&'static Group| Self::Plain {
-            keys: std::slice::from_ref(&group.key),
+        let plain = |group: &&'static Group| Self {
             title: group.title,
+            keys: std::slice::from_ref(&group.key),
             is_service: group.is_service,
+            column: None,
+            content: if group.is_service { service::show } else { all_fields },
         };
-        make.groups.iter().map(plain).collect()
-    }
-
-    /// It opens only with the service functions.
-    pub(super) fn is_service(self) -> bool {
-        matches!(self, Self::Service | Self::Plain { is_service: true, .. })
-    }
-
-    pub(super) fn title(self) -> &'static str {
-        match self {
-            Self::General => "General",
-            Self::Gps => "GPS",
-            Self::Window => "Tracking window",
-            Self::Satellite => "Satellite and TLE",
-            Self::Clock => "Clock",
-            Self::Checks => "Versions and faults",
-            Self::Service => "Service",
-            Self::Plain { title, .. } => title,
-        }
-    }
-
-    /// The keys of its groups.
-    pub(super) fn groups(self) -> &'static [&'static str] {
-        match self {
-            Self::General => &["general"],
-            Self::Gps => &["gps", "receiver"],
-            Self::Window => &["window"],
-            Self::Satellite => &["file", "web", "ftp"],
-            Self::Clock => &["clock"],
-            Self::Checks => &["versions", "position"],
-            Self::Service => &["angles", "reduction", "image"],
-            Self::Plain { keys, .. } => keys,
-        }
+        let own = makes::sections(make).map(<[Self]>::to_vec);
+        own.unwrap_or_else(|| make.groups.iter().map(plain).collect())
     }
 }
 
-/// The description of the group of a Satrak with this key.
-pub(super) fn group(key: &str) -> Option<&'static Group> {
-    GROUPS.iter().copied().find(|group| group.key == key)
+fn all_fields(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: &Section, _: &mut Desk<'_>) {
+    row::head(ui);
+    for key in section.keys {
+        fields(ui, unit, form, key, |_| true);
+    }
 }
 
 #[cfg(test)]
@@ -94,22 +66,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_group_of_a_unit_stands_in_one_section() {
-        let shown: Vec<_> = Section::ALL.iter().flat_map(|section| section.groups()).collect();
-        let known: Vec<_> = GROUPS.iter().map(|group| &group.key).collect();
-        assert_eq!(shown, known);
-    }
-
-    #[test]
-    fn another_make_has_a_section_for_each_of_its_groups() {
-        for make in crate::makes::makes().filter(|make| make.key != satrak::MAKE.key) {
+    fn a_make_without_cards_of_its_own_has_one_for_each_of_its_groups() {
+        for make in crate::makes::makes().filter(|make| makes::sections(make).is_none()) {
             let sections = Section::of(make);
             assert_eq!(sections.len(), make.groups.len());
             for (section, group) in sections.iter().zip(make.groups) {
-                assert_eq!(
-                    (section.groups(), section.title()),
-                    ([group.key].as_slice(), group.title)
-                );
+                assert_eq!((section.keys, section.title), ([group.key].as_slice(), group.title));
             }
         }
     }

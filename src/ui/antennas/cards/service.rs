@@ -17,17 +17,17 @@ use crate::ui::{
 const ABOUT: &str = "A wrong value here points the antenna wrong or moves it. Opens for 10 minutes \
                      after the station name is typed, while the antenna stands.";
 
-pub(super) fn show(
+pub(in crate::ui::antennas) fn show(
     ui: &mut Ui,
     unit: &Unit<'_>,
     form: &mut Form,
-    section: Section,
+    section: &Section,
     desk: &mut Desk<'_>,
 ) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     let lock = paint::square(rect.left_center() + vec2(8.0, 0.0), 16.0);
-    let title = section.title();
+    let title = section.title;
     if form.unlock.is_none() {
         icons::paint(ui.painter(), lock, Icon::Lock, t.t2);
     } else {
@@ -51,7 +51,7 @@ pub(super) fn show(
     ui.add_space(4.0);
     row::note(ui, None, ABOUT, t.t2);
     row::head(ui);
-    for key in section.groups() {
+    for key in section.keys {
         let own_title = unit.description(key).map_or("", |group| group.title);
         if own_title != title {
             subtitle(ui, own_title);

@@ -2,13 +2,13 @@
 
 use egui::{Rect, Sense, Ui, vec2};
 
-use super::{Desk, fields};
+use crate::ui::antennas::cards::{Desk, fields};
 use crate::{
     controller::settings::{Access, Group, Kind, Value, Values},
     ui::{
         antennas::{
             form::{Count, Form},
-            row, section,
+            row,
             unit::Unit,
         },
         icons::{self, Icon},
@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
         let words = "The unit sends this password in clear. Azel never logs it.";
         row::note(ui, Some(Icon::Info), words, t.t2);
     }
-    if let Some(group) = section::group(shown).filter(|_| used != Some(shown)) {
+    if let Some(group) = super::group(shown).filter(|_| used != Some(shown)) {
         use_it(ui, unit, form, group, desk);
     }
     test_from_here(ui, unit, form, shown, desk);
@@ -54,7 +54,7 @@ fn test_from_here(
     shown: &'static str,
     desk: &mut Desk<'_>,
 ) {
-    let (Some(group), Some(held)) = (section::group(shown), unit.values(shown)) else { return };
+    let (Some(group), Some(held)) = (super::group(shown), unit.values(shown)) else { return };
     let draft = form.draft(shown);
     let text = |key: &str| {
         group.field(key).map_or_else(String::new, |field| draft.text(field, Some(held)))

@@ -5,7 +5,7 @@ use egui::{Sense, Ui, vec2};
 use crate::{
     controller::settings::Value,
     ui::{
-        antennas::{form::Form, row, section, unit::Unit},
+        antennas::{form::Form, row, unit::Unit},
         format,
         icons::Icon,
         theme,
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let words = format!("Take {station} from the station");
     let button = Button::normal(&words);
     let place = rect.with_max_x(rect.left() + button.width(ui));
-    let field = section::group(GROUP).and_then(|group| group.field(FIELD));
+    let field = super::group(GROUP).and_then(|group| group.field(FIELD));
     if let Some(field) = field
         && button.show(ui, "take minimum", place).clicked()
     {

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::{fields, subtitle};
+use crate::ui::antennas::cards::{fields, subtitle};
 use crate::{
     controller::panel::{Check, CheckState},
     ui::{

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Ui, vec2};
 
-use super::fields;
+use crate::ui::antennas::cards::fields;
 use crate::{
     app::{UiCommand, forecast::Forecast, on_board},
     controller::{
@@ -14,7 +14,6 @@ use crate::{
         antennas::{
             form::Form,
             row::{self, Columns},
-            section,
             unit::Unit,
         },
         format,
@@ -123,7 +122,7 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
         },
     );
     row::said(ui, room, &words, text::small(), t.t3, &words);
-    let (true, Some(group)) = (clicked, section::group("window")) else {
+    let (true, Some(group)) = (clicked, super::group("window")) else {
         return;
     };
     let Ok((start, stop)) = window else { return };

@@ -2,7 +2,7 @@
 
 use egui::{Rect, Sense, Ui, pos2, vec2};
 
-use super::{fields, is_reported};
+use crate::ui::antennas::cards::{fields, is_reported};
 use crate::{
     app::{Model, UiCommand, forecast::Forecast},
     astro::time::add_seconds,
@@ -11,7 +11,7 @@ use crate::{
         settings::{Value, Values},
     },
     ui::{
-        antennas::{draft::Mark, form::Form, row, section, unit::Unit},
+        antennas::{draft::Mark, form::Form, row, unit::Unit},
         format,
         icons::Icon,
         text, theme,
@@ -73,7 +73,7 @@ fn rate_at_tca(model: &Model, forecast: &Forecast) -> Option<f64> {
 
 fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let Some(group) = section::group("clock") else { return };
+    let Some(group) = super::group("clock") else { return };
     let is_sending = form.draft(group.key).sent().is_some();
     let refusal = if !unit.is_open() {
         Some("There is no link.")
