@@ -40,9 +40,9 @@ fn every_test_that_the_fault_matrix_names_is_there() {
 
 /// What is above the tests of a file.
 fn product(text: &str) -> &str {
-    const HEAD: &str = "#[cfg(test)]\nmod ";
-    let opens =
-        |at: &usize| text[at + HEAD.len()..].lines().next().is_some_and(|line| line.ends_with('{'));
+    const HEAD: &str = "#[cfg(test)]\n";
+    let is_module = |line: &str| line.contains("mod ") && line.ends_with('{');
+    let opens = |at: &usize| text[at + HEAD.len()..].lines().next().is_some_and(is_module);
     let tests = text.match_indices(HEAD).map(|(at, _)| at).find(opens);
     &text[..tests.unwrap_or(text.len())]
 }
@@ -150,4 +150,45 @@ fn every_test_file_is_part_of_a_test_binary() {
             || binaries.contains(&format!("\nmod {name};"));
         assert!(is_named, "nothing runs tests/{name}.rs");
     }
+}
+
+/// Whether a file may name a make: its own folders, the lists of makes, and what starts
+/// the simulators.
+fn may_name_a_make(path: &str) -> bool {
+    let own = ["satrak", "rotator_genius", "rc2000c"];
+    let mut parts = path.split(['/', '\\']).map(|part| part.trim_end_matches(".rs"));
+    let lists = ["controller.rs", "protocol.rs", "sim.rs", "app/demo.rs", "ui/antennas/makes.rs"];
+    parts.any(|part| own.contains(&part))
+        || path.starts_with("makes")
+        || path.starts_with("sim/")
+        || lists.contains(&path)
+}
+
+#[test]
+fn no_make_is_named_outside_of_its_folders() {
+    // The upload of element files, which one make takes, wants to be told by its make.
+    const UPLOAD: [&str; 4] = [
+        "app/uploads/select.rs",
+        "driver/files/login.rs",
+        "driver/files/tle_file.rs",
+        "ui/upload/form.rs",
+    ];
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    sources(&top, &mut files);
+    let below = format!("{}/", top.display());
+    let mut named = BTreeSet::new();
+    for (path, text) in &files {
+        let path = path.strip_prefix(&below).unwrap();
+        let is_test = ["tests", "stories", "testing"].iter().any(|word| path.contains(word));
+        if is_test || may_name_a_make(path) {
+            continue;
+        }
+        let code = product(text).lines().map(|line| line.split("//").next().unwrap_or_default());
+        let code = code.collect::<Vec<_>>().join("\n").to_lowercase();
+        if ["satrak", "genius", "rc2000"].iter().any(|make| code.contains(make)) {
+            named.insert(path);
+        }
+    }
+    assert_eq!(named, UPLOAD.into());
 }
