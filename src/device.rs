@@ -5,6 +5,7 @@
 //! one; everyone else sees its [`Device`] side.
 
 mod capabilities;
+mod element_files;
 mod make;
 mod on_board;
 pub mod panel;
@@ -21,6 +22,7 @@ use jiff::Timestamp;
 use smol_str::SmolStr;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
+pub use element_files::ElementFiles;
 pub use make::Make;
 pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};

@@ -66,6 +66,7 @@ pub const MAKE: Make = Make {
     },
     groups: &[],
     actions: actions::ACTIONS,
+    element_files: None,
     explain: None,
     why_no_question: None,
 };

@@ -64,6 +64,7 @@ pub const PAIR: Make = Make {
     },
     groups: GROUPS,
     actions: &[actions::ARM_RESCUE],
+    element_files: None,
     explain: None,
     why_no_question: None,
 };

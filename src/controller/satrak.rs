@@ -4,6 +4,7 @@
 mod changes;
 mod checks;
 mod device;
+mod element_files;
 mod exchange;
 mod kind;
 mod on_board;
@@ -21,7 +22,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-pub use checks::{FILE_CHECKS, checks};
+pub use checks::checks;
+pub use element_files::ELEMENT_FILES;
 pub use kind::{ELEMENT_FILE, KIND};
 pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 pub use words::meaning;
@@ -64,6 +66,7 @@ pub const MAKE: Make = Make {
     },
     groups: GROUPS,
     actions: &[],
+    element_files: Some(&ELEMENT_FILES),
     explain: Some(words::explain),
     why_no_question: Some(words::why_no_question),
 };

@@ -1,6 +1,6 @@
 //! What the rest of the program knows of a make of controller without a link.
 
-use super::{Capabilities, Explained, WireLine, panel::Action, settings::Group};
+use super::{Capabilities, ElementFiles, Explained, WireLine, panel::Action, settings::Group};
 
 /// One make of controller, as the rest of the program knows it without a link.
 #[derive(Debug)]
@@ -17,6 +17,8 @@ pub struct Make {
     pub groups: &'static [&'static Group],
     /// What only it can do.
     pub actions: &'static [Action],
+    /// How it is given files of elements, where it takes any.
+    pub element_files: Option<&'static ElementFiles>,
     /// Takes a line of its link apart, where it can.
     pub explain: Option<fn(&WireLine) -> Explained>,
     /// Why something that was typed, in capitals, is none of

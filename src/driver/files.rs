@@ -30,7 +30,7 @@ pub use host_key::{KnownHosts, KnownHostsError, OfferedKey, Verdict};
 pub use kept::{KeptError, KeptFile, KeptFiles, Origin};
 pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring};
 pub use limits::{Interruption, Limits};
-pub use login::{FACTORY_USER, Login, Proof, UNIT_FOLDER, is_factory_password};
+pub use login::{Login, Proof, is_factory_password};
 pub use secrecy::SecretString;
 pub use sftp::SftpFolder;
 pub use ssh::{check_host_key, open_sftp};

@@ -56,11 +56,11 @@ pub fn show(
         return;
     };
     let name = &antenna.config.name;
-    if !antenna.make().capabilities.has_program {
+    let Some(takes) = antenna.make().element_files else {
         let words = format!("{name} holds no elements: none are uploaded to it.");
         return line(ui, Tone::Plain, &words);
-    }
-    let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config));
+    };
+    let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config, takes));
     ui.spacing_mut().item_spacing.y = 6.0;
     ui.label(RichText::new(format!("Elements to {name}")).font(text::title()));
     let uploads = &model.uploads;

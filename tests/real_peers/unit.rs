@@ -10,6 +10,7 @@ use std::{
 };
 
 use azel::{
+    controller::satrak::ELEMENT_FILES,
     driver::{Clock, files},
     orbit::{Catalog, Elements, bundled},
 };
@@ -177,7 +178,7 @@ impl Unit {
             let mut folder = self.open_async(&self.login(), address, LIMITS).await.unwrap();
             let upload = Upload {
                 unit: peer(self.address()),
-                file: FileName::new(FILE).unwrap(),
+                file: FileName::new(FILE, &ELEMENT_FILES).unwrap(),
                 elements: elements.clone(),
             };
             let clock = Clock::system();
@@ -211,5 +212,5 @@ pub(crate) fn elements(count: usize) -> TleFile {
         !elements.name().contains([',', '*', '$']) && elements.name().len() <= 24
     };
     let chosen = CATALOG.iter().filter(is_plain).filter(|one| names.insert(one.name().to_owned()));
-    TleFile::of(chosen.take(count)).unwrap()
+    TleFile::of(chosen.take(count), &ELEMENT_FILES).unwrap()
 }

@@ -6,6 +6,7 @@ use azel::{
         uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
     },
     astro::time::add_seconds,
+    controller::satrak::ELEMENT_FILES,
     driver::files::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
     ui::{
         theme,
@@ -107,14 +108,15 @@ pub(crate) fn file() -> TleFile {
     let azel::app::model::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
         panic!("the bundled elements")
     };
-    TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number))).unwrap()
+    TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)
+        .unwrap()
 }
 
 pub(crate) fn uploaded() -> Uploaded {
     let file = file();
     Uploaded {
         unit: peer(),
-        file: FileName::new(FILE).unwrap(),
+        file: FileName::new(FILE, &ELEMENT_FILES).unwrap(),
         bytes: file.bytes().len() as u64,
         sha256: file.hash(),
         at: rig::now(),

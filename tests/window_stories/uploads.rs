@@ -5,7 +5,8 @@ use azel::{
         UiCommand, View,
         uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     },
-    driver::files::{FACTORY_USER, FileObject, Origin, Peer, UploadStep},
+    controller::satrak::ELEMENT_FILES,
+    driver::files::{FileObject, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -27,10 +28,10 @@ fn what_is_followed_is_sent_to_where_the_antenna_is() {
         assert!(is_disabled(&window, "Upload and prove"));
         assert!(says(&window, "Not to be sent yet"));
         write(&mut window, "File", FILE);
-        click(&mut window, &format!("Take the factory user {FACTORY_USER}"));
+        click(&mut window, &format!("Take the factory user {}", ELEMENT_FILES.factory_user));
         click(&mut window, "Upload and prove");
         let order = begun(&mut window);
-        assert_eq!((order.unit, order.user.as_str()), (peer(), FACTORY_USER));
+        assert_eq!((order.unit, order.user.as_str()), (peer(), ELEMENT_FILES.factory_user));
         assert_eq!((order.antenna.as_str(), order.file.as_str()), ("Satrak", FILE));
         assert_eq!(order.satellite, Some(NOAA_20), "the first of them");
         let Cargo::New(file) = order.cargo else { panic!("{:?}", order.cargo) };

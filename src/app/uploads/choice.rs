@@ -3,6 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
+    controller::ElementFiles,
     driver::files::{TleFile, TleFileError},
     orbit::Catalog,
 };
@@ -30,9 +31,9 @@ pub struct ChosenObject {
 }
 
 impl Chosen {
-    /// The objects with these catalogue numbers out of `catalog`. One without
-    /// elements is listed and is not in the file.
-    pub fn of(catalog: &Catalog, numbers: &[u32]) -> Self {
+    /// The objects with these catalogue numbers out of `catalog`, for a unit that
+    /// takes such files. One without elements is listed and is not in the file.
+    pub fn of(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
         let objects = numbers.iter().map(|number| match catalog.get(*number) {
             None => ChosenObject {
                 catalog_number: *number,
@@ -44,12 +45,12 @@ impl Chosen {
                 catalog_number: *number,
                 name: elements.name().to_owned(),
                 epoch: Some(elements.epoch()),
-                problem: TleFile::of([elements]).err(),
+                problem: TleFile::of([elements], takes).err(),
             },
         });
         Self {
             objects: objects.collect(),
-            file: TleFile::of(numbers.iter().filter_map(|number| catalog.get(*number))),
+            file: TleFile::of(numbers.iter().filter_map(|number| catalog.get(*number)), takes),
         }
     }
 }
@@ -57,13 +58,16 @@ impl Chosen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{bundled, read_elements};
+    use crate::{
+        controller::satrak::ELEMENT_FILES,
+        orbit::{bundled, read_elements},
+    };
 
     const ISS: u32 = 25_544;
 
     #[test]
     fn what_can_be_carried_makes_a_file() {
-        let chosen = Chosen::of(&bundled().unwrap(), &[ISS, 43_013]);
+        let chosen = Chosen::of(&bundled().unwrap(), &[ISS, 43_013], &ELEMENT_FILES);
         assert!(chosen.objects.iter().all(|one| one.problem.is_none() && one.epoch.is_some()));
         assert_eq!(chosen.file.unwrap().objects().len(), 2);
     }
@@ -76,7 +80,7 @@ mod tests {
                     \"INCLINATION\":98.7,\"RA_OF_ASC_NODE\":0,\"ARG_OF_PERICENTER\":0,\
                     \"MEAN_ANOMALY\":0,\"BSTAR\":0}]";
         catalog.merge(read_elements(text), "own");
-        let chosen = Chosen::of(&catalog, &[ISS, 340_000, 999_999_998]);
+        let chosen = Chosen::of(&catalog, &[ISS, 340_000, 999_999_998], &ELEMENT_FILES);
         let is_fine: Vec<_> = chosen.objects.iter().map(|one| one.problem.is_none()).collect();
         assert_eq!(is_fine, [true, false, true]);
         assert_eq!(chosen.objects[2].epoch, None);

@@ -82,7 +82,8 @@ pub(super) fn start(
         async move {
             let mut attempt =
                 Attempt { order: &errand.order, places: &places, is_logged_in: false };
-            let factory = |secret: &SecretString| is_factory_password(secret);
+            let takes = errand.order.takes;
+            let factory = |secret: &SecretString| is_factory_password(secret, takes);
             let is_factory =
                 errand.order.key_file.is_none() && secret.as_ref().is_some_and(factory);
             let outcome = attempt.run(secret, &clock, &mut *tell, &cancel).await;

@@ -244,7 +244,8 @@ impl Flow {
         unit: &UnitNow,
         shown: &mut Uploads,
     ) -> Option<Next> {
-        let wanted = self.order.as_ref().and_then(|order| order.satellite);
+        let order = self.order.as_ref()?;
+        let (wanted, takes) = (order.satellite, order.takes);
         let Some(satellite) = pick(&uploaded, wanted, unit.held).cloned() else {
             fail_after(shown, "the file holds no elements that Azel can read".to_owned(), uploaded);
             return None;
@@ -252,7 +253,7 @@ impl Flow {
         self.selections += 1;
         let ticket = TICKETS + self.selections;
         let file = uploaded.file.as_str().to_owned();
-        let selection = Selection { ticket, since: unit.at, file, satellite };
+        let selection = Selection { ticket, takes, since: unit.at, file, satellite };
         self.selection = Some(selection.clone());
         shown.stage = Stage::Selecting(uploaded);
         self.awaits_rest = unit.busy.is_some();

@@ -2,13 +2,18 @@
 
 use std::path::PathBuf;
 
-use crate::driver::files::{Account, FileName, KeptFile, Peer, TleFile};
+use crate::{
+    controller::ElementFiles,
+    driver::files::{Account, FileName, KeptFile, Peer, TleFile},
+};
 
 /// A file of elements for a unit, and the way there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
     /// Name of the antenna whose unit it is.
     pub antenna: String,
+    /// How the unit takes files.
+    pub takes: &'static ElementFiles,
     /// Where the unit's files are served.
     pub unit: Peer,
     /// The folder of elements there.

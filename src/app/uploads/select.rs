@@ -7,8 +7,8 @@ use jiff::Timestamp;
 use crate::{
     app::antenna::AntennaModel,
     controller::{
+        ElementFiles,
         panel::{Check, CheckState},
-        satrak::FILE_CHECKS,
         settings::{Change, HeldGroup, Hindrance, Settled, Value},
     },
     driver::{
@@ -17,8 +17,6 @@ use crate::{
     },
 };
 
-/// The settings of the file and the satellite.
-const GROUP: &str = "file";
 /// Tickets of selections; those of the forms are lower.
 pub(super) const TICKETS: u64 = 1 << 63;
 
@@ -79,7 +77,8 @@ impl UnitNow {
     ) -> Self {
         let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
         let state = &antenna.snapshot.state;
-        let group = state.held.get(GROUP);
+        let takes = antenna.make().element_files;
+        let group = takes.and_then(|takes| state.held.get(takes.group));
         let answer = group.and_then(|group| {
             Some(Answer {
                 settled: group.settled.clone()?,
@@ -101,6 +100,8 @@ impl UnitNow {
 pub(in crate::app) struct Selection {
     /// Tells one from another; [`TICKETS`] and up.
     pub(super) ticket: u64,
+    /// How the unit takes files.
+    pub(super) takes: &'static ElementFiles,
     /// When it was made.
     pub(super) since: Timestamp,
     /// The file.
@@ -112,15 +113,10 @@ pub(in crate::app) struct Selection {
 impl Selection {
     /// What the session is told. The present track ends.
     pub(in crate::app) fn command(&self) -> driver::Command {
-        let values = [
-            ("file", Value::Text(self.file.clone())),
-            ("name", Value::Text(self.satellite.name.clone())),
-            ("continue_tracking", Value::Flag(false)),
-        ];
-        let (ticket, values) = (self.ticket, values.into());
+        let values = (self.takes.choose)(&self.file, &self.satellite.name);
         driver::Command::Settle(Change {
-            ticket,
-            group: GROUP,
+            ticket: self.ticket,
+            group: self.takes.group,
             values,
             seen: None,
             is_unlocked: false,
@@ -143,15 +139,16 @@ impl Selection {
             .held
             .as_ref()
             .filter(|held| held.read_at >= self.since)
-            .and_then(|held| held.values.get("catalog_number"));
+            .and_then(|held| self.takes.found(&held.values));
         if number != Some(&Value::Integer(self.satellite.catalog_number.into())) {
             return Err("the unit names another object than the one that was chosen");
         }
         if answer.checked_at.is_none_or(|read_at| read_at < self.since) {
             return Err("the unit did not tell its checks after it was told to use the file");
         }
-        let is_bad =
-            |check: &Check| FILE_CHECKS.contains(&check.name) && check.state == CheckState::Fault;
+        let is_bad = |check: &Check| {
+            self.takes.checks.contains(&check.name) && check.state == CheckState::Fault
+        };
         if answer.checks.iter().any(is_bad) {
             return Err("the unit does not find the satellite in the file");
         }
@@ -174,7 +171,10 @@ pub(super) fn pick(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{controller::settings::SettleError, driver::Command};
+    use crate::{
+        controller::{satrak::ELEMENT_FILES, settings::SettleError},
+        driver::Command,
+    };
 
     const NUMBER: u32 = 43_013;
 
@@ -185,11 +185,17 @@ mod tests {
     fn selection() -> Selection {
         let satellite =
             FileObject { name: "NOAA 20".to_owned(), catalog_number: NUMBER, epoch: time(-9000) };
-        Selection { ticket: TICKETS + 1, since: time(0), file: "active.txt".to_owned(), satellite }
+        Selection {
+            ticket: TICKETS + 1,
+            takes: &ELEMENT_FILES,
+            since: time(0),
+            file: "active.txt".to_owned(),
+            satellite,
+        }
     }
 
     fn checks(file: CheckState) -> Arc<[Check]> {
-        FILE_CHECKS.map(|name| Check::new(name, file, "")).into()
+        ELEMENT_FILES.checks.iter().map(|name| Check::new(name, file, "")).collect()
     }
 
     fn answer(result: Result<(), SettleError>) -> Answer {

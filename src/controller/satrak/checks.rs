@@ -9,7 +9,7 @@ use crate::{
 
 /// The names of the checks that are bad where the unit does not find a satellite in
 /// its file.
-pub const FILE_CHECKS: [&str; 2] = ["Element file", "Satellite in the file"];
+pub(super) const FILE_CHECKS: [&str; 2] = ["Element file", "Satellite in the file"];
 
 /// The checks in the order of the document; of a unit that has not told any as well.
 pub fn checks(faults: Option<&Faults>) -> Vec<Check> {

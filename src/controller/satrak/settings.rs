@@ -18,6 +18,7 @@ use crate::{
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
 pub(super) use proof::{Differing, Judge, Proof};
+pub(super) use source::FILE;
 pub use times::{FROM_GPS, FROM_THIS_PC};
 pub(super) use wish::Wish;
 

@@ -5,17 +5,7 @@ use std::path::PathBuf;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::FileHash;
-
-/// The user that every Satrak has from its maker, offered as a first choice.
-pub const FACTORY_USER: &str = "sftpsatr";
-
-/// Where every Satrak looks for files of elements, by its protocol document.
-pub const UNIT_FOLDER: &str = "/svs/satrak/tle";
-
-/// SHA-256 of the password that every Satrak has from its maker, after
-/// [`FACTORY_USER`] and a colon. It is known to whoever has the document of the
-/// protocol, so its use is worth a warning.
-const FACTORY_DIGEST: &str = "1cbcd885a8bcd187c65f4bbefba29967dd520511f5887bd5f4ae1011ebca100c";
+use crate::device::ElementFiles;
 
 /// Who logs in. `Debug` shows no secret.
 #[derive(Debug, Clone)]
@@ -40,22 +30,23 @@ pub enum Proof {
     },
 }
 
-/// Whether `password` is the one that every Satrak has from its maker. Whoever
+/// Whether `password` is the one that every unit of a make has from its maker. Whoever
 /// uses it should be told to change it.
-pub fn is_factory_password(password: &SecretString) -> bool {
-    let salted = SecretString::from(format!("{FACTORY_USER}:{}", password.expose_secret()));
-    FileHash::of(salted.expose_secret().as_bytes()).to_string() == FACTORY_DIGEST
+pub fn is_factory_password(password: &SecretString, of: &ElementFiles) -> bool {
+    let salted = SecretString::from(format!("{}:{}", of.factory_user, password.expose_secret()));
+    FileHash::of(salted.expose_secret().as_bytes()).to_string() == of.factory_digest
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::controller::satrak::ELEMENT_FILES;
 
     #[test]
     fn only_one_password_is_the_factory_s() {
-        assert!(!is_factory_password(&"".into()));
-        assert!(!is_factory_password(&FACTORY_USER.into()));
-        assert_eq!(FACTORY_DIGEST.len(), 64);
+        assert!(!is_factory_password(&"".into(), &ELEMENT_FILES));
+        assert!(!is_factory_password(&ELEMENT_FILES.factory_user.into(), &ELEMENT_FILES));
+        assert_eq!(ELEMENT_FILES.factory_digest.len(), 64);
     }
 
     #[test]

@@ -4,8 +4,8 @@ use jiff::Timestamp;
 
 use super::FileHash;
 use crate::{
+    device::ElementFiles,
     orbit::{Elements, TleRefusal, read_element_bytes, write_tle},
-    protocol::satrak::{TextValue, ValueError},
 };
 
 /// One object of a file on a unit.
@@ -52,8 +52,8 @@ pub enum TleFileError {
     Name {
         /// As it stands in the file.
         name: String,
-        /// Why.
-        problem: ValueError,
+        /// Why, in words.
+        problem: String,
     },
 }
 
@@ -64,9 +64,12 @@ fn listed(refused: &[TleRefusal]) -> String {
 }
 
 impl TleFile {
-    /// The file of the `chosen` objects. All of them are in it, each under a name
-    /// that the unit can be told, or there is no file.
-    pub fn of<'a>(chosen: impl IntoIterator<Item = &'a Elements>) -> Result<Self, TleFileError> {
+    /// The file of the `chosen` objects for a unit that takes such files. All of them
+    /// are in it, each under a name that the unit can be told, or there is no file.
+    pub fn of<'a>(
+        chosen: impl IntoIterator<Item = &'a Elements>,
+        takes: &ElementFiles,
+    ) -> Result<Self, TleFileError> {
         let mut bytes = Vec::new();
         // Memory takes all that is written.
         let refused = write_tle(chosen, &mut bytes).unwrap_or_default();
@@ -85,7 +88,7 @@ impl TleFile {
             if !names.insert(name) {
                 return Err(TleFileError::NameTwice { name: name.clone() });
             }
-            TextValue::new("name", name)
+            (takes.check_name)("name", name)
                 .map_err(|problem| TleFileError::Name { name: name.clone(), problem })?;
         }
         Ok(file)
@@ -123,11 +126,11 @@ impl TleFile {
 pub struct FileName(String);
 
 /// Why a name is none for a file on a unit.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FileNameError {
-    /// The unit cannot be told of it.
+    /// The unit cannot be told of it, in words.
     #[error("the {0}; choose another one")]
-    Value(#[from] ValueError),
+    Value(String),
     /// It leads to another folder, or is hidden.
     #[error(
         "the file name starts with a dot or holds a slash; choose a plain one such as weather.txt"
@@ -136,9 +139,9 @@ pub enum FileNameError {
 }
 
 impl FileName {
-    /// Takes `name` as typed.
-    pub fn new(name: &str) -> Result<Self, FileNameError> {
-        TextValue::new("file name", name)?;
+    /// Takes `name` as typed, for a unit that takes such files.
+    pub fn new(name: &str, takes: &ElementFiles) -> Result<Self, FileNameError> {
+        (takes.check_name)("file name", name).map_err(FileNameError::Value)?;
         if name.starts_with('.') || name.contains(['/', '\\']) {
             return Err(FileNameError::Path);
         }
@@ -154,6 +157,7 @@ impl FileName {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::controller::satrak::ELEMENT_FILES;
     use crate::orbit::{TleRefusalReason, bundled, read_elements};
 
     fn omm(name: &str, number: u32) -> String {
@@ -170,7 +174,7 @@ mod tests {
         let objects: Vec<_> = objects.iter().map(|(name, number)| omm(name, *number)).collect();
         let read = read_elements(&format!("[{}]", objects.join(",")));
         assert_eq!(read.elements.len(), objects.len(), "{:?}", read.refused);
-        TleFile::of(&read.elements)
+        TleFile::of(&read.elements, &ELEMENT_FILES)
     }
 
     #[test]
@@ -206,7 +210,7 @@ mod tests {
         let elements: Vec<_> = catalog.iter().take(500).collect();
         assert_eq!(elements.len(), 500);
         for one in elements {
-            let file = TleFile::of([one]).unwrap();
+            let file = TleFile::of([one], &ELEMENT_FILES).unwrap();
             assert_eq!(file.objects()[0].catalog_number, one.catalog_number());
         }
     }
@@ -214,10 +218,10 @@ mod tests {
     #[test]
     fn names_of_files_stay_in_their_folder() {
         for name in ["weather.txt", "IRIDIUM 70 [+].tle"] {
-            assert_eq!(FileName::new(name).unwrap().as_str(), name);
+            assert_eq!(FileName::new(name, &ELEMENT_FILES).unwrap().as_str(), name);
         }
         for name in ["", ".", "..", ".hidden", "a/b", "a\\b", "a,b", "şile.txt", " a"] {
-            assert!(FileName::new(name).is_err(), "{name}");
+            assert!(FileName::new(name, &ELEMENT_FILES).is_err(), "{name}");
         }
     }
 }

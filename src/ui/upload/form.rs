@@ -6,8 +6,8 @@ use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2
 
 use crate::{
     app::uploads::{Cargo, Chosen, Order},
-    controller::satrak::ELEMENT_FILE,
-    driver::files::{FACTORY_USER, FileName, Peer, TleFile, UNIT_FOLDER},
+    controller::ElementFiles,
+    driver::files::{FileName, FileNameError, Peer, TleFile},
     orbit::Catalog,
     station::Antenna,
     ui::{text, theme, widgets::card},
@@ -21,6 +21,7 @@ const SSH: &str = "22";
 
 /// What was typed for one antenna.
 pub(super) struct Form {
+    takes: &'static ElementFiles,
     pub(super) file: String,
     pub(super) host: String,
     pub(super) port: String,
@@ -44,13 +45,16 @@ struct Checked {
 }
 
 impl Form {
-    /// What is known of `antenna` without being asked.
-    pub(super) fn of(antenna: &Antenna) -> Self {
+    /// What is known of `antenna`, whose unit takes such files, without being asked.
+    pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
+        let connection = &antenna.connection;
+        let setting = connection.kind().settings.iter().find(|it| it.key == takes.setting);
         Self {
-            file: antenna.connection.text(&ELEMENT_FILE).to_owned(),
+            takes,
+            file: setting.map_or("", |setting| connection.text(setting)).to_owned(),
             host: host(&antenna.connection.address),
             port: SSH.to_owned(),
-            folder: UNIT_FOLDER.to_owned(),
+            folder: takes.folder.to_owned(),
             user: String::new(),
             uses_key: false,
             key_file: String::new(),
@@ -70,7 +74,7 @@ impl Form {
         let checked = self.checked.take().filter(is_known).unwrap_or_else(|| Checked {
             catalog: Arc::clone(catalog),
             numbers: numbers.to_vec(),
-            chosen: Chosen::of(catalog, numbers),
+            chosen: Chosen::of(catalog, numbers, self.takes),
         });
         &self.checked.insert(checked).chosen
     }
@@ -87,6 +91,11 @@ impl Form {
         favourites: &[u32],
     ) -> Result<TleFile, String> {
         self.chosen(catalog, favourites).file.clone().map_err(|error| error.to_string())
+    }
+
+    /// The name of the file, as typed.
+    pub(super) fn file_name(&self) -> Result<FileName, FileNameError> {
+        FileName::new(self.file.trim(), self.takes)
     }
 
     /// Where the unit's files are served.
@@ -107,7 +116,7 @@ impl Form {
         cargo: Result<Cargo, String>,
     ) -> Result<Order, String> {
         let cargo = cargo?;
-        let file = FileName::new(self.file.trim()).map_err(|error| error.to_string())?;
+        let file = self.file_name().map_err(|error| error.to_string())?;
         let unit = self.peer()?;
         let missing = |typed: &str, what: &str| {
             if typed.trim().is_empty() { Err(format!("the {what} is missing")) } else { Ok(()) }
@@ -119,6 +128,7 @@ impl Form {
         }
         Ok(Order {
             antenna: antenna.to_owned(),
+            takes: self.takes,
             unit,
             folder: self.folder.trim().to_owned(),
             file,
@@ -147,12 +157,13 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
         field(ui, ("Port", SSH), &mut form.port);
         field(ui, ("User", "on the unit"), &mut form.user);
         ui.horizontal_wrapped(|ui| {
-            let offered = form.user != FACTORY_USER;
+            let factory_user = form.takes.factory_user;
+            let offered = form.user != factory_user;
             let response = ui.add_enabled(offered, Button::new("Factory user"));
-            let name = format!("Take the factory user {FACTORY_USER}");
+            let name = format!("Take the factory user {factory_user}");
             response.widget_info(|| WidgetInfo::labeled(Role::Button, offered, &name));
             if response.on_hover_text(name).clicked() {
-                FACTORY_USER.clone_into(&mut form.user);
+                factory_user.clone_into(&mut form.user);
             }
             ui.radio_value(&mut form.uses_key, false, "Password");
             ui.radio_value(&mut form.uses_key, true, "Key file");
@@ -189,24 +200,30 @@ pub(super) fn field(ui: &mut Ui, (label, hint): (&str, &str), typed: &mut String
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::bundled;
+    use crate::{
+        controller::satrak::{ELEMENT_FILE, ELEMENT_FILES},
+        orbit::bundled,
+    };
 
     fn form() -> Form {
         let mut antenna = Antenna::satrak("Satrak", "192.168.10.21:4001");
         antenna.connection.put(&ELEMENT_FILE, "active.txt").unwrap();
-        Form { user: "op".to_owned(), ..Form::of(&antenna) }
+        Form { user: "op".to_owned(), ..Form::of(&antenna, &ELEMENT_FILES) }
     }
 
     fn file() -> Cargo {
         let catalog = bundled().unwrap();
-        Cargo::New(TleFile::of(catalog.get(25_544)).unwrap())
+        Cargo::New(TleFile::of(catalog.get(25_544), &ELEMENT_FILES).unwrap())
     }
 
     #[test]
     fn the_unit_is_where_the_antenna_is() {
         let order = form().order("Satrak", Ok(file())).unwrap();
         assert_eq!(order.unit, Peer { host: "192.168.10.21".to_owned(), port: 22 });
-        assert_eq!((order.file.as_str(), order.folder.as_str()), ("active.txt", UNIT_FOLDER));
+        assert_eq!(
+            (order.file.as_str(), order.folder.as_str()),
+            ("active.txt", ELEMENT_FILES.folder)
+        );
         assert_eq!(
             (host("unit.local:4001"), host("[::1]:4001")),
             ("unit.local".into(), "::1".into())

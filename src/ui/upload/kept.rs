@@ -8,7 +8,7 @@ use crate::{
         Model, UiCommand,
         uploads::{Ask, Cargo, KeptEntry, Order},
     },
-    driver::files::{FileName, Origin},
+    driver::files::Origin,
     ui::{
         confirm::Question,
         format, text, theme,
@@ -31,7 +31,7 @@ pub(super) fn show(
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
-    let (Ok(unit), Ok(file)) = (form.peer(), FileName::new(form.file.trim())) else { return };
+    let (Ok(unit), Ok(file)) = (form.peer(), form.file_name()) else { return };
     let of = (unit.to_string(), file.as_str().to_owned());
     let kept = &model.uploads.kept;
     if kept.of != of {

@@ -83,6 +83,7 @@ static MAKE: Make = Make {
     },
     groups: &[],
     actions: &[],
+    element_files: None,
     explain: None,
     why_no_question: None,
 };

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use super::*;
 use crate::{
     app::uploads::Busy,
-    controller::settings::Hindrance,
+    controller::{satrak::ELEMENT_FILES, settings::Hindrance},
     driver::files::{
         ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
     },
@@ -18,12 +18,15 @@ fn peer() -> Peer {
 
 fn order() -> Order {
     let catalog = crate::orbit::bundled().unwrap();
-    let file = TleFile::of([ISS, NOAA_20].iter().filter_map(|one| catalog.get(*one))).unwrap();
+    let file =
+        TleFile::of([ISS, NOAA_20].iter().filter_map(|one| catalog.get(*one)), &ELEMENT_FILES)
+            .unwrap();
     Order {
         antenna: "Satrak".to_owned(),
+        takes: &ELEMENT_FILES,
         unit: peer(),
         folder: "/svs/satrak/tle".to_owned(),
-        file: FileName::new("active.txt").unwrap(),
+        file: FileName::new("active.txt", &ELEMENT_FILES).unwrap(),
         user: "op".to_owned(),
         key_file: None,
         cargo: Cargo::New(file),
@@ -39,7 +42,7 @@ fn uploaded() -> Box<Uploaded> {
     let Cargo::New(file) = order().cargo else { panic!() };
     Box::new(Uploaded {
         unit: peer(),
-        file: FileName::new("active.txt").unwrap(),
+        file: FileName::new("active.txt", &ELEMENT_FILES).unwrap(),
         bytes: file.bytes().len() as u64,
         sha256: file.hash(),
         at: now(),

@@ -23,7 +23,7 @@ const fn continue_tracking() -> Field {
         .about("Off: what the unit tracks now is stopped. On: it goes on until its end.")
 }
 
-pub(super) static FILE: Group = Group {
+pub(in crate::controller::satrak) static FILE: Group = Group {
     key: "file",
     title: "File",
     is_service: false,

@@ -1,0 +1,31 @@
+//! How a Satrak is given files of elements.
+
+use super::{ELEMENT_FILE, checks::FILE_CHECKS, settings::FILE};
+use crate::{
+    controller::{
+        ElementFiles,
+        settings::{Value, Values},
+    },
+    protocol::satrak::TextValue,
+};
+
+/// As its protocol document says, section 23 and the chapter on its server.
+pub static ELEMENT_FILES: ElementFiles = ElementFiles {
+    folder: "/svs/satrak/tle",
+    factory_user: "sftpsatr",
+    factory_digest: "1cbcd885a8bcd187c65f4bbefba29967dd520511f5887bd5f4ae1011ebca100c",
+    check_name: |what, name| {
+        TextValue::new(what, name).map(|_| ()).map_err(|problem| problem.to_string())
+    },
+    setting: ELEMENT_FILE.key,
+    group: FILE.key,
+    choose: |file, satellite| {
+        Values::from([
+            ("file", Value::Text(file.to_owned())),
+            ("name", Value::Text(satellite.to_owned())),
+            ("continue_tracking", Value::Flag(false)),
+        ])
+    },
+    number: "catalog_number",
+    checks: &FILE_CHECKS,
+};
