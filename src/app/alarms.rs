@@ -277,6 +277,7 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
         | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
         | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
+        (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
         (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
             std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)
         }
@@ -434,6 +435,16 @@ mod tests {
         assert!(is_over(&raised, &[check("Drive", CheckState::Good)]));
         assert!(is_over(&raised, &[check("Drive", CheckState::Fault)]));
         assert!(is_over(&raised, &[check("Clock", CheckState::Caution)]));
+    }
+
+    #[test]
+    fn a_check_that_is_told_in_other_words_is_the_same_matter() {
+        let check = Check::new("X position sensor", CheckState::Fault, "Look at it.");
+        let told = Check { told: "Not connected".into(), ..check.clone() };
+        let mut alarms = Alarms::default();
+        alarms.raise(Some(0), AlarmKind::Check(check), time());
+        alarms.raise(Some(0), AlarmKind::Check(told), time());
+        assert_eq!(alarms.list().len(), 1);
     }
 
     #[test]

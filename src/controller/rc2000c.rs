@@ -94,6 +94,10 @@ pub struct Rc2000c {
     wants_device: bool,
     /// The operator wants to know the status.
     is_status_asked: bool,
+    /// The last status was asked for by the operator.
+    is_poll_by_hand: bool,
+    /// The operator wants to know the type of the unit.
+    is_device_asked: bool,
     device: Option<DeviceType>,
     /// The configuration of the unit takes no commands.
     is_offline: bool,
@@ -175,6 +179,8 @@ impl Rc2000c {
             past: Past::default(),
             wants_device: false,
             is_status_asked: false,
+            is_poll_by_hand: false,
+            is_device_asked: false,
             device: None,
             is_offline: false,
             names: Names::default(),
@@ -215,14 +221,21 @@ impl Rc2000c {
         if self.wants_device {
             return Some((Request::Query(Query::DeviceType), Purpose::Question));
         }
-        if std::mem::take(&mut self.is_status_asked) {
-            return Some((Request::Query(Query::Status), Purpose::Question));
-        }
-        if now.steady >= poll_at {
+        if now.steady >= poll_at || self.is_status_asked {
+            self.is_poll_by_hand = std::mem::take(&mut self.is_status_asked);
             return Some((Request::Query(Query::Status), Purpose::Poll));
+        }
+        if self.may_ask_device() {
+            self.is_device_asked = false;
+            return Some((Request::Query(Query::DeviceType), Purpose::Question));
         }
         let index = self.next_name()?;
         Some((Request::Query(Query::SatelliteName(index)), Purpose::Question))
+    }
+
+    /// The operator wants to know the type, and no position is waited for that matters.
+    fn may_ask_device(&self) -> bool {
+        self.is_device_asked && self.jog.is_none() && !self.is_watched
     }
 
     /// The entry of the list that is to be read next. While a jog has to be

@@ -47,6 +47,8 @@ pub struct AntennaState {
     pub is_other_device: bool,
     /// Who it says that it is, with its firmware or names, as told on this link.
     pub identity: Option<String>,
+    /// What it calls itself, for the head of its card.
+    pub unit_name: Option<String>,
     /// What went over the link.
     pub traffic: Traffic,
 }

@@ -218,7 +218,7 @@ impl BoundsAt<'_> {
         };
         let mut rest = self.bounds.clone();
         rest.minimum_elevation =
-            rest.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
+            self.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
         rest.keep_outs.retain(|(zone, _)| is_outside(&Barrier::KeepOut(zone.name.as_str().into())));
         rest.sun = rest.sun.filter(|_| is_outside(&Barrier::Sun));
         rest

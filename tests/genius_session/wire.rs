@@ -2,7 +2,7 @@
 
 use azel::{
     controller::{Direction, Finding, WireLine},
-    driver::Event,
+    driver::{Command, Event},
     sim::rotator_genius::Fault,
 };
 
@@ -57,4 +57,16 @@ async fn what_does_not_come_stands_in_the_log_too() {
     assert!(lines.iter().any(|line| matches!(line.finding, Finding::NoReply { .. })));
     let noise = lines.iter().find(|line| line.finding == Finding::NoHeader).unwrap();
     assert_eq!(&*noise.bytes, b"|h2");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_status_asked_by_hand_goes_out_once_and_is_no_usual_poll() {
+    let mut rig = Rig::pair().await;
+    rig.send(Command::Ask("STATUS".into()));
+    rig.send(Command::Ask("HELLO".into()));
+    rig.seconds(3.0).await;
+    let lines = lines(rig.handle.as_ref().unwrap());
+    let by_hand: Vec<_> = lines.iter().filter(|line| !line.is_poll).collect();
+    let directions: Vec<_> = by_hand.iter().map(|line| line.direction).collect();
+    assert_eq!(directions, [Direction::Sent, Direction::Received], "{by_hand:?}");
 }

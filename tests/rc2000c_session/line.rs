@@ -98,3 +98,20 @@ async fn the_log_shows_every_frame_and_what_is_wrong_with_it() {
     assert!(has(|finding| matches!(finding, Finding::NoReply { is_repeated: true, .. })));
     assert!(has(|finding| matches!(finding, Finding::NoHeader)));
 }
+
+#[tokio::test(start_paused = true)]
+async fn questions_by_hand_go_out_once_and_are_no_usual_polls() {
+    let mut rig = Rig::in_manual().await;
+    rig.seconds(5.0).await;
+    let first = rig.wire().read_from(0).len() as u64;
+    rig.send(Command::Ask("STATUS".into()));
+    rig.send(Command::Ask("DEVICE TYPE".into()));
+    rig.send(Command::Ask("HELLO".into()));
+    rig.seconds(3.0).await;
+    let lines = rig.wire().read_from(first);
+    let by_hand = lines.iter().map(|recorded| &recorded.line).filter(|line| !line.is_poll);
+    let said: Vec<_> = by_hand.map(|line| line.meaning.clone().unwrap().text).collect();
+    let wanted =
+        ["Asks for the status", "Status", "Asks for the type of the unit", "Type of the unit"];
+    assert_eq!(said, wanted);
+}

@@ -20,7 +20,7 @@ use crate::{
 
 impl Device for Rc2000c {
     fn link_up(&mut self, now: Moment) {
-        self.is_status_asked = false;
+        (self.is_status_asked, self.is_device_asked) = (false, false);
         self.link_down(now);
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
@@ -133,7 +133,7 @@ impl Device for Rc2000c {
 
     fn ask(&mut self, question: &str) {
         self.is_status_asked |= question == STATUS && self.poll_at.is_some();
-        self.wants_device |= question == DEVICE_TYPE && self.poll_at.is_some();
+        self.is_device_asked |= question == DEVICE_TYPE && self.poll_at.is_some();
     }
 
     fn motion_under_way(&self) -> bool {
@@ -177,6 +177,7 @@ impl Rc2000c {
         let is_asked = !self.orders.is_empty()
             || self.wants_device
             || self.is_status_asked
+            || self.may_ask_device()
             || self.next_name().is_some();
         let at = [poll_at].into_iter().chain(jog_at).chain(is_asked.then_some(now.steady)).min()?;
         Some(at.max(self.quiet_until.unwrap_or(at)))

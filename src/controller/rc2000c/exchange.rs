@@ -135,6 +135,7 @@ impl Rc2000c {
                 self.wants_device = false;
                 self.device = Some(*device);
                 self.state.identity = Some(device.to_string());
+                self.state.unit_name = Some(device.to_string());
             }
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {

@@ -32,7 +32,7 @@ pub(super) fn of_reply(frame: &Frame) -> Option<Meaning> {
         Reply::DeviceType(_) => (Tone::Plain, "Type of the unit"),
         Reply::Status { .. } => (Tone::Plain, "Status"),
         Reply::SatelliteName(_) => (Tone::Plain, "Name of a stored satellite"),
-        Reply::Offline { .. } => (Tone::Caution, "Remote mode is off, nothing is taken"),
+        Reply::Offline { .. } => (Tone::Plain, "Remote mode is off, nothing is taken"),
         Reply::Refused { .. } => (Tone::Bad, "Refused"),
     };
     Some(Meaning { tone, ..Meaning::plain(text) })

@@ -16,7 +16,9 @@ impl Rc2000c {
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let is_status = bytes.get(2) == Some(&Command::Status.code());
         let sent = self.outstanding.as_ref();
-        let is_poll = is_status && sent.is_some_and(|sent| sent.purpose == Purpose::Poll);
+        let is_poll = is_status
+            && !self.is_poll_by_hand
+            && sent.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let line = line(Direction::Sent, bytes, Finding::Good, now);
         let meaning = meaning::of_sent(bytes, self.address);
         self.wire.push(WireLine { meaning, is_poll, ..line });
@@ -47,7 +49,8 @@ impl Rc2000c {
         }
         let outstanding = [&self.outstanding, &self.halt].into_iter().flatten();
         let request = outstanding.into_iter().find(|sent| sent.code() == frame.code());
-        let is_poll = request.is_some_and(|sent| sent.purpose == Purpose::Poll);
+        let is_poll =
+            !self.is_poll_by_hand && request.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let reply_after =
             request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
         let line = line(Direction::Received, &bytes, Finding::Good, now);

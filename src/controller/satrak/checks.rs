@@ -9,7 +9,8 @@ use crate::{
 
 /// The names of the checks that are bad where the unit does not find a satellite in
 /// its file.
-pub(super) const FILE_CHECKS: [&str; 2] = ["Element file", "Satellite in the file"];
+pub(super) const FILE_CHECKS: [&str; 2] =
+    [name(FaultKind::TleMissing), name(FaultKind::SatelliteMissing)];
 
 /// The checks in the order of the document; of a unit that has not told any as well.
 pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
@@ -33,7 +34,7 @@ pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
 }
 
 /// What is checked.
-fn name(kind: FaultKind) -> &'static str {
+const fn name(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "Internal link",
         FaultKind::TleOutdated => "Age of the elements",

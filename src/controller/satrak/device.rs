@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    DRAIN, REPLY, Satrak, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
+    DRAIN, REPLY, Satrak, checks, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
     settings::Plan, words,
 };
 use crate::{
@@ -22,6 +22,8 @@ impl Device for Satrak {
         self.state.link_since = Some(now.steady);
         self.state.motion_lock = None;
         self.state.identity = None;
+        // What was wrong then may be mended.
+        (self.state.checks, self.state.checked_at) = (checks(None).into(), None);
         // What the unit goes by may be another since the last link.
         let unit = &mut self.reported;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);

@@ -15,7 +15,7 @@ use crate::{
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
 };
 
-/// Why a state with too many fields cannot be read.
+/// Why a state cannot be read whose numbers fall apart at their commas.
 pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 impl Satrak {
@@ -38,6 +38,7 @@ impl Satrak {
                 let others = version.others.iter().map(String::as_str);
                 let words: Vec<&str> = firmware.into_iter().flatten().chain(others).collect();
                 state.identity = Some(words.join(", "));
+                state.unit_name = Some(version.control_unit);
             }
             Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
             Reply::Faults(faults) => {

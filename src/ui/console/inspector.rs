@@ -48,7 +48,7 @@ pub(super) fn show(
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing.y = 4.0;
         if let Some(line) = state.selected() {
-            return details(ui, line, &explained(model, line));
+            return details(ui, line, explained(model, line).as_ref());
         }
         ui.label(RichText::new("No line selected").font(text::value()));
         let words = "Click a line to see its values and its bytes.";
@@ -56,7 +56,7 @@ pub(super) fn show(
     });
 }
 
-fn details(ui: &mut Ui, line: &Line, explained: &Explained) {
+fn details(ui: &mut Ui, line: &Line, explained: Option<&Explained>) {
     let t = theme::tokens(ui);
     ui.label(RichText::new(title(line, explained)).font(text::value()));
     let small = |words: String| RichText::new(words).font(text::small());
@@ -69,7 +69,7 @@ fn details(ui: &mut Ui, line: &Line, explained: &Explained) {
     };
     ui.label(RichText::new(format!("{}.", line.meaning.text)).font(text::body()).color(colour));
     ScrollArea::vertical().id_salt("details").auto_shrink(false).show(ui, |ui| {
-        let values = &explained.values;
+        let values = explained.map_or(&[][..], |explained| &explained.values);
         if !values.is_empty() {
             ui.add_space(8.0);
             ui.label(small(format!("Values, {}", values.len())).color(t.t3));
@@ -87,22 +87,22 @@ fn details(ui: &mut Ui, line: &Line, explained: &Explained) {
 }
 
 /// The line as the make of its antenna takes it apart.
-fn explained(model: &Model, line: &Line) -> Explained {
+fn explained(model: &Model, line: &Line) -> Option<Explained> {
     let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
     let explain = antenna.and_then(|antenna| antenna.make().explain);
-    explain.map(|explain| explain(line.wire())).unwrap_or_default()
+    explain.map(|explain| explain(line.wire()))
 }
 
-fn title(line: &Line, explained: &Explained) -> String {
+fn title(line: &Line, explained: Option<&Explained>) -> String {
     let kind = match (line.wire().finding, line.wire().direction) {
         (Finding::NoReply { .. }, _) => return "No reply".to_owned(),
         (_, Direction::Sent) => "request",
         (_, Direction::Received) => "reply",
     };
-    match explained.name {
-        Some(name) => format!("{name} {kind}"),
-        None if !line.wire().finding.is_good() => "No known frame".to_owned(),
-        None => words::capitalised(kind),
+    match explained {
+        Some(Explained { name: Some(name), .. }) => format!("{name} {kind}"),
+        None if line.wire().finding.is_good() => words::capitalised(kind),
+        _ => "No known frame".to_owned(),
     }
 }
 

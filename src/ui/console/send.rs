@@ -90,13 +90,17 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     if text.is_empty() {
         return None;
     }
-    let plain = |key: &str| key.trim_end_matches('?').to_owned();
     let mut questions = antenna.snapshot.state.questions.iter();
-    let found = questions.find(|it| it.key == text || plain(&it.key) == text);
+    let found = questions.find(|question| bare(&question.key) == bare(&text));
     Some(found.ok_or_else(|| match antenna.make().why_no_question {
         Some(why) => why(&text),
-        None => "This is no question that the unit answers: pick one of the list.".to_owned(),
+        None => "This is no question that the unit answers: pick one from the list.".to_owned(),
     }))
+}
+
+/// Without the sign of a question.
+fn bare(text: &str) -> &str {
+    text.strip_suffix('?').unwrap_or(text).trim_end()
 }
 
 /// What is said below the line.

@@ -167,8 +167,8 @@ fn second_line(antenna: &AntennaModel) -> String {
         Mount::AzEl { .. } => antenna.make().name,
         Mount::Xy { .. } => "X/Y mount",
     };
-    match (&antenna.snapshot.state.identity, antenna.config.mount) {
-        (Some(identity), _) => format!("{kind}, {identity}"),
+    match (&antenna.snapshot.state.unit_name, antenna.config.mount) {
+        (Some(name), _) => format!("{kind}, {name}"),
         (None, Mount::AzEl { .. }) => kind.to_owned(),
         (None, Mount::Xy { .. }) => format!("{kind} at {}", antenna.config.connection.address),
     }
@@ -238,7 +238,7 @@ fn track<'a>(
         let of_it = followed.and_then(|followed| followed.catalog_number);
         ("Followed by Azel", name, of_it.is_some() && of_it == number)
     } else {
-        // A fresh unit names no satellite at all, and decimal commas read as a name.
+        // A fresh unit names no satellite at all, and what cannot be read may pass for a name.
         let names_one = |held: &&HeldSatellite| !held.name.is_empty() && state.unreadable.is_none();
         let held = state.on_board.satellite.as_ref().filter(names_one);
         let of_it = held.map(|held| held.catalog_number);
