@@ -34,6 +34,23 @@ pub struct WireLine {
     pub is_poll: bool,
 }
 
+impl WireLine {
+    /// A whole line of which nothing more is known.
+    pub(crate) fn new(direction: Direction, bytes: &[u8], finding: Finding, at: Timestamp) -> Self {
+        Self {
+            at,
+            direction,
+            bytes: bytes.into(),
+            length: bytes.len(),
+            is_shortened: false,
+            finding,
+            meaning: None,
+            reply_after: None,
+            is_poll: false,
+        }
+    }
+}
+
 /// What a line says, in a sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Meaning {

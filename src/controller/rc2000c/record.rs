@@ -19,7 +19,7 @@ impl Rc2000c {
         let is_poll = is_status
             && !self.is_poll_by_hand
             && sent.is_some_and(|sent| sent.purpose == Purpose::Poll);
-        let line = line(Direction::Sent, bytes, Finding::Good, now);
+        let line = WireLine::new(Direction::Sent, bytes, Finding::Good, now.utc);
         let meaning = meaning::of_sent(bytes, self.address);
         self.wire.push(WireLine { meaning, is_poll, ..line });
     }
@@ -53,7 +53,7 @@ impl Rc2000c {
             !self.is_poll_by_hand && request.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let reply_after =
             request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
-        let line = line(Direction::Received, &bytes, Finding::Good, now);
+        let line = WireLine::new(Direction::Received, &bytes, Finding::Good, now.utc);
         let meaning = meaning::of_reply(frame);
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
@@ -75,27 +75,13 @@ impl Rc2000c {
     pub(super) fn record_noise(&mut self, finding: Finding, now: Moment) {
         let noise = std::mem::take(&mut self.heard);
         if !noise.is_empty() {
-            self.wire.push(line(Direction::Received, &noise, finding, now));
+            self.wire.push(WireLine::new(Direction::Received, &noise, finding, now.utc));
         }
     }
 
     /// A reply is missing, and the question goes out again or is given up.
     pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
         let finding = Finding::NoReply { waited, is_repeated };
-        self.wire.push(line(Direction::Received, &[], finding, now));
-    }
-}
-
-fn line(direction: Direction, bytes: &[u8], finding: Finding, now: Moment) -> WireLine {
-    WireLine {
-        at: now.utc,
-        direction,
-        bytes: bytes.into(),
-        length: bytes.len(),
-        is_shortened: false,
-        finding,
-        meaning: None,
-        reply_after: None,
-        is_poll: false,
+        self.wire.push(WireLine::new(Direction::Received, &[], finding, now.utc));
     }
 }

@@ -82,15 +82,5 @@ impl Genius {
 }
 
 fn line(direction: Direction, bytes: &[u8], now: Moment) -> WireLine {
-    WireLine {
-        at: now.utc,
-        direction,
-        bytes: bytes.into(),
-        length: bytes.len(),
-        is_shortened: false,
-        finding: Finding::Unchecked,
-        meaning: None,
-        reply_after: None,
-        is_poll: false,
-    }
+    WireLine::new(direction, bytes, Finding::Unchecked, now.utc)
 }

@@ -54,17 +54,7 @@ impl Satrak {
     /// A reply is missing, and the question goes out again or is given up.
     pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
         let finding = Finding::NoReply { waited, is_repeated };
-        self.wire.push(WireLine {
-            at: now.utc,
-            direction: Direction::Received,
-            bytes: Box::default(),
-            length: 0,
-            is_shortened: false,
-            finding,
-            meaning: None,
-            reply_after: None,
-            is_poll: false,
-        });
+        self.wire.push(WireLine::new(Direction::Received, &[], finding, now.utc));
     }
 
     /// Whether the line is a question that comes by itself, or its answer.
@@ -96,17 +86,8 @@ fn command(line: &Line) -> Option<(Word, Verb)> {
 
 /// A received line of which no bytes are shown.
 fn blank(line: &Line, now: Moment) -> WireLine {
-    WireLine {
-        at: now.utc,
-        direction: Direction::Received,
-        bytes: Box::default(),
-        length: line.length(),
-        is_shortened: false,
-        finding: finding(line),
-        meaning: None,
-        reply_after: None,
-        is_poll: false,
-    }
+    let length = line.length();
+    WireLine { length, ..WireLine::new(Direction::Received, &[], finding(line), now.utc) }
 }
 
 /// What is said of a good line, by the bytes that are kept: secrets are not among them.
