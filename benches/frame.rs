@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use azel::{
     app::{App, Settings},
-    driver::Clock,
+    clock::Clock,
 };
 
 const FRAMES: u32 = 500;

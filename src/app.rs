@@ -18,7 +18,6 @@ mod demo;
 pub mod effects;
 pub mod forecast;
 pub mod host_keys;
-mod job;
 mod lock_outs;
 mod log_file;
 mod logic;
@@ -51,7 +50,6 @@ use self::{
     clock_watch::ClockWatch,
     copies::CopyWork,
     demo::Demo,
-    job::Job,
     log_file::LogWork,
     mask_file::MaskWork,
     memory::Keeper,
@@ -59,7 +57,9 @@ use self::{
     sources::{Outcome, Places, SourceWork, Sources, Task},
 };
 use crate::{
-    driver::{self, Clock, Command, Driver, Unit, Wake},
+    clock::Clock,
+    driver::{self, Command, Driver, Unit},
+    job::{Job, Wake},
     makes::{self, DemoAddresses},
     plan::Bounds,
     station::{self, LoadError, LockOuts, Station},

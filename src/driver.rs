@@ -3,10 +3,8 @@
 //! nothing here waits for it.
 
 mod before_sleep;
-mod clock;
 pub mod dead_man;
 mod debts;
-pub mod files;
 mod gate;
 mod intent;
 mod link;
@@ -31,7 +29,7 @@ use std::{
 
 use tokio::sync::{Notify, mpsc, watch};
 
-pub use clock::Clock;
+pub use crate::{clock::Clock, job::Wake};
 pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
@@ -62,9 +60,6 @@ const FAREWELL: Duration = Duration::from_secs(6);
 
 /// The longest rest of a session that breaks down again and again.
 const MOST_REST: Duration = Duration::from_secs(5);
-
-/// Called after every new snapshot or event; wakes the window.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The near end of one antenna's session. Dropping it ends the session, which
 /// ends a jog with a stop first.

@@ -1,7 +1,7 @@
 //! Azel: the console of a satellite ground station.
 //!
 //! The folders are layers; a lower one never names a higher one. From the
-//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`station`],
+//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`transfer`], [`station`],
 //! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`app`], [`ui`]; [`secret`] and
 //! `whole_file` stand below them all. `docs/architecture.md` holds the picture and the
 //! invariants.
@@ -9,9 +9,11 @@
 pub mod app;
 pub mod astro;
 pub mod cli;
+pub mod clock;
 pub mod controller;
 pub mod device;
 pub mod driver;
+pub mod job;
 pub mod library;
 pub mod makes;
 pub mod orbit;
@@ -20,5 +22,6 @@ pub mod protocol;
 pub mod secret;
 pub mod sim;
 pub mod station;
+pub mod transfer;
 pub mod ui;
 mod whole_file;

@@ -14,7 +14,8 @@ use std::{
 };
 
 use azel::{
-    driver::{AntennaHandle, Clock, Command, Driver, LinkState, Snapshot, StopState, Unit},
+    clock::Clock,
+    driver::{AntennaHandle, Command, Driver, LinkState, Snapshot, StopState, Unit},
     plan::Bounds,
     sim::satrak::{Control, Options, Simulator},
     station::{Antenna, Station},

@@ -17,7 +17,8 @@ use std::{
 
 use azel::{
     astro::Site,
-    driver::{AntennaHandle, Clock, Command, Driver, Intent, LinkState},
+    clock::Clock,
+    driver::{AntennaHandle, Command, Driver, Intent, LinkState},
     plan::Bounds,
     sim::satrak::{Control, Options, Simulator},
     station::Antenna,

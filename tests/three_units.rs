@@ -7,8 +7,9 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{Angle, AzEl, time},
+    clock::Clock,
     controller::rc2000c::Calibration,
-    driver::{AntennaHandle, Clock, Command, Dial, LinkState, Session, StopState, Stream},
+    driver::{AntennaHandle, Command, Dial, LinkState, Session, StopState, Stream},
     sim::{rc2000c, rotator_genius, satrak},
     station::{Antenna, CountLine, CountPoint, Mount, Station},
 };

@@ -9,7 +9,7 @@ use std::{
     time::Duration,
 };
 
-use azel::driver::files::{
+use azel::transfer::{
     CancellationToken, ElementSource, FetchError, Interruption, KnownHosts, Limits, Trust, fetch,
 };
 

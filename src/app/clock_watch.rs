@@ -2,8 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use super::job::Job;
-use crate::driver::{TimeSync, Wake, time_sync};
+use crate::job::Job;
+use crate::{
+    driver::{TimeSync, time_sync},
+    job::Wake,
+};
 
 /// A clock that nobody keeps drifts by some milliseconds in this time.
 const PERIOD: Duration = Duration::from_mins(2);

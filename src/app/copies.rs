@@ -8,13 +8,10 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{
-    antenna::AntennaModel,
-    job::{BrokeOff, Job},
-};
+use super::antenna::AntennaModel;
 use crate::{
     controller::settings::{Change, CopyHead, Group, Held, SettingsCopy},
-    driver::Wake,
+    job::{BrokeOff, Job, Wake},
     whole_file,
 };
 

@@ -7,12 +7,13 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{App, forecast::Forecast, job::Job};
+use super::{App, forecast::Forecast};
 use crate::{
     astro::{
         Angle, AzEl, HorizonMask, Site, sun_moon,
         time::{add_seconds, seconds_between},
     },
+    job::Job,
     plan::Sample,
     station::{Entered, KeepOut, SunAvoidance},
 };

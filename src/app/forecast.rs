@@ -20,7 +20,7 @@ pub use self::{
 };
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
-    driver::Wake,
+    job::Wake,
     orbit::Catalog,
     station::Station,
 };

@@ -3,10 +3,10 @@
 
 use std::io;
 
-use super::job::Job;
-use crate::driver::{
-    Wake,
-    files::{ConnectError, KnownHosts, OfferedKey, Peer},
+use crate::job::Job;
+use crate::{
+    job::Wake,
+    transfer::{ConnectError, KnownHosts, OfferedKey, Peer},
 };
 
 /// A host key that is not the known one.

@@ -4,8 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 
-use super::{App, job::Job};
-use crate::{ui::console::Line, whole_file};
+use super::App;
+use crate::{job::Job, ui::console::Line, whole_file};
 
 /// Writes logs into one folder, one after the other.
 #[derive(Default)]

@@ -2,9 +2,10 @@
 
 use std::{fs, path::PathBuf, sync::Arc};
 
-use super::{App, job::Job};
+use super::App;
 use crate::{
     astro::{HorizonMask, MaskForm},
+    job::Job,
     whole_file,
 };
 

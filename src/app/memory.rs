@@ -11,12 +11,9 @@ use std::{
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::{
-    forecast::{ListChoice, SPANS_H, Scope},
-    job::Job,
-};
+use super::forecast::{ListChoice, SPANS_H, Scope};
 use crate::{
-    driver::Wake,
+    job::{Job, Wake},
     ui::{Kept, sky_plot::Layers, tokens::ThemeName},
     whole_file,
 };

@@ -8,8 +8,8 @@ use jiff::Timestamp;
 pub(super) use desk::Desk;
 
 use super::host_keys::DoubtfulKey;
-use crate::driver::files::{ElementSource, FileProtocol, Peer, UnitView};
 use crate::secret::Secret;
+use crate::transfer::{ElementSource, FileProtocol, Peer, UnitView};
 
 /// What is shown of the last test.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
 
-use super::job::Job;
+use crate::job::Job;
 use crate::{
-    driver::Wake,
+    job::Wake,
     library::{self, IndexError, Library, Limits, load_sources, save_sources},
     orbit::{Catalog, Source, SourceReport, bundled},
 };

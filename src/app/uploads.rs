@@ -24,8 +24,8 @@ pub use select::Busy;
 pub(super) use select::UnitNow;
 
 use super::host_keys::DoubtfulKey;
-use crate::driver::files::{FileObject, KeptFile, Progress, Uploaded};
 use crate::secret::Secret;
+use crate::transfer::{FileObject, KeptFile, Progress, Uploaded};
 
 /// What is shown of uploads.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -77,7 +77,7 @@ impl Stage {
 
     /// Whether a cancel would still be followed.
     pub fn can_cancel(&self) -> bool {
-        use crate::driver::files::UploadStep;
+        use crate::transfer::UploadStep;
         match self {
             Self::Working { progress, is_cancelled } => {
                 !is_cancelled && progress.is_none_or(|now| now.step < UploadStep::Replace)

@@ -9,7 +9,7 @@ use anyhow::{anyhow, bail};
 
 use crate::{
     app::{App, Settings},
-    driver::Clock,
+    clock::Clock,
 };
 
 /// The smallest window, in points.

@@ -21,8 +21,8 @@ use crate::{
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
     },
-    driver::files::{FileProtocol, Peer},
     secret::Secret,
+    transfer::{FileProtocol, Peer},
 };
 
 /// A source as it is typed in a form.

@@ -11,9 +11,10 @@ use std::{
 
 use azel::{
     astro::{Angle, time},
+    clock::Clock,
     controller::rotator_genius::{ROTATORS, Rotators},
     driver::{
-        AntennaHandle, Clock, Command, Dial, Event, LinkState, Session, Snapshot, StopState, Stream,
+        AntennaHandle, Command, Dial, Event, LinkState, Session, Snapshot, StopState, Stream,
     },
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions, RotatorState},

@@ -6,7 +6,8 @@ use std::{
 };
 
 use azel::{
-    driver::{AntennaHandle, Clock, Driver, LinkLoss, LinkState, Snapshot, StopState},
+    clock::Clock,
+    driver::{AntennaHandle, Driver, LinkLoss, LinkState, Snapshot, StopState},
     plan::Bounds,
     sim::rotator_genius::Simulator,
     station::Antenna,

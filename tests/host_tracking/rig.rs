@@ -13,8 +13,9 @@ use std::{
 
 use azel::{
     astro::time::add_seconds,
+    clock::Clock,
     controller::Moves,
-    driver::{AntennaHandle, Clock, Command, Dial, Event, Session, Snapshot, Stream},
+    driver::{AntennaHandle, Command, Dial, Event, Session, Snapshot, Stream},
     plan::{FollowPhase, FollowStats},
     station::Antenna,
 };

@@ -10,12 +10,13 @@ use std::{
 };
 
 use azel::{
+    clock::Clock,
     controller::{
         panel::{Act, CheckState},
         rc2000c::Calibration,
         settings::Value,
     },
-    driver::{AntennaHandle, Clock, Command, Dial, Event, Found, Session, Snapshot, Stream},
+    driver::{AntennaHandle, Command, Dial, Event, Found, Session, Snapshot, Stream},
     sim::rc2000c::{Control, Options},
     station::{Antenna, CountPoint, Mount},
 };

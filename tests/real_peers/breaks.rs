@@ -1,6 +1,6 @@
 //! Links that break, stall or are given up in the middle of an upload.
 
-use azel::driver::files::{
+use azel::transfer::{
     CancellationToken, FolderError, FolderState, TleFile, UploadError, UploadReason, UploadStep,
 };
 
@@ -52,7 +52,7 @@ fn a_stall_in_the_middle_ends_by_its_limit_and_leaves_the_old_file() {
 fn a_cancel_in_the_middle_leaves_the_folder_as_it_was() {
     let (unit, new) = (Unit::new(), elements(2000));
     let cancel = CancellationToken::new();
-    let mut tell = |progress: azel::driver::files::Progress| {
+    let mut tell = |progress: azel::transfer::Progress| {
         if progress.step == UploadStep::Write && progress.done_bytes > 0 {
             cancel.cancel();
         }

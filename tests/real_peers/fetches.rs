@@ -6,7 +6,7 @@ use std::{
     time::Duration,
 };
 
-use azel::driver::files::{
+use azel::transfer::{
     CancellationToken, ConnectError, ConnectStep, ElementSource, FetchError, FileProtocol,
     Interruption, KnownHosts, Limits, Seen, Trust, fetch, what_a_unit_sees,
 };

@@ -9,7 +9,7 @@ use std::{
     time::Duration,
 };
 
-use azel::driver::files::{
+use azel::transfer::{
     ConnectError, ConnectStep, Interruption, KeyFileProblem, Limits, Login, Proof, SecretString,
 };
 

@@ -10,13 +10,13 @@ use std::{
 };
 
 use azel::{
+    clock::Clock,
     controller::satrak::ELEMENT_FILES,
-    driver::{Clock, files},
     orbit::{Catalog, Elements, bundled},
-};
-use files::{
-    CancellationToken, ConnectError, FileName, KeptFiles, KnownHosts, Limits, Login, Peer,
-    Progress, Proof, SftpFolder, TleFile, Upload, UploadError, Uploaded, open_sftp,
+    transfer::{
+        self, CancellationToken, ConnectError, FileName, KeptFiles, KnownHosts, Limits, Login,
+        Peer, Progress, Proof, SftpFolder, TleFile, Upload, UploadError, Uploaded, open_sftp,
+    },
 };
 
 use super::{
@@ -182,7 +182,7 @@ impl Unit {
                 elements: elements.clone(),
             };
             let clock = Clock::system();
-            files::upload(&mut folder, upload, &self.kept, &clock, tell, cancel).await
+            transfer::upload(&mut folder, upload, &self.kept, &clock, tell, cancel).await
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::{fs, os::unix::fs::PermissionsExt as _, process::Command};
 
-use azel::driver::files::{
+use azel::transfer::{
     CancellationToken, FileHash, FolderError, FolderState, Origin, UploadReason, UploadStep,
 };
 

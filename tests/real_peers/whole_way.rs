@@ -15,13 +15,11 @@ use azel::{
         model::CatalogState,
         uploads::{Failure, Places, Stage},
     },
+    clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver::{
-        Clock,
-        files::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},
-    },
     sim::satrak::{Control, Options, Simulator},
     station::{self, Antenna, Station},
+    transfer::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};

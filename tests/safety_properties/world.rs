@@ -13,11 +13,12 @@ use std::{
 
 use azel::{
     astro::{Angle, AzEl, time},
+    clock::Clock,
     controller::{
         rc2000c::Calibration,
         rotator_genius::{ROTATORS, Rotators},
     },
-    driver::{AntennaHandle, Clock, Command, Dial, Event, Session, Snapshot, Stream},
+    driver::{AntennaHandle, Command, Dial, Event, Session, Snapshot, Stream},
     plan::{Barrier, Bounds},
     protocol::{rotator_genius::WholeDegrees, satrak::encode},
     sim::{rc2000c, rotator_genius, satrak},

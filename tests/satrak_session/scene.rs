@@ -10,8 +10,9 @@ use std::{
 
 use azel::{
     astro::{Angle, Site, time},
+    clock::Clock,
     controller::{TrackTarget, satrak::Satrak},
-    driver::{AntennaHandle, Clock, Command, Dial, Session},
+    driver::{AntennaHandle, Command, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
     plan::{OnBoardPass, on_board::KnownOrbit},
     sim::satrak::Options,

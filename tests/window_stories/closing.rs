@@ -4,7 +4,8 @@ use std::path::Path;
 
 use azel::{
     app::{Model, UiCommand, View, closing::CloseHow},
-    driver::{Clock, Intent, LinkState, Snapshot, StopState},
+    clock::Clock,
+    driver::{Intent, LinkState, Snapshot, StopState},
     station::{self, OnClose},
 };
 use egui::{Event, Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};

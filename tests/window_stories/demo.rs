@@ -5,8 +5,9 @@ use std::{collections::BTreeMap, net::TcpStream};
 use azel::{
     app::{Model, alarms::AlarmKind},
     astro::{Angle, AzEl},
+    clock::Clock,
     controller::{Measured, panel::Act, settings::Value},
-    driver::{Clock, Command, LinkState, StopState},
+    driver::{Command, LinkState, StopState},
     makes, station,
 };
 use egui::{Key, Role};

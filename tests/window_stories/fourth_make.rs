@@ -11,8 +11,9 @@ use std::{
 use azel::{
     app::View,
     astro::{Angle, AzEl},
+    clock::Clock,
     controller::Pointing,
-    driver::{AntennaHandle, Clock, Command, Driver, Event, Safety, Snapshot, StopState},
+    driver::{AntennaHandle, Command, Driver, Event, Safety, Snapshot, StopState},
     makes,
     plan::Bounds,
     station::{self, Antenna, Kind, Station, Value},

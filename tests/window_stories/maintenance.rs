@@ -142,7 +142,7 @@ fn until_it_is_read_back_it_is_being_locked_out() {
 }
 
 /// A window in which the lock-out was held.
-fn locked_out_by_ada(path: &std::path::Path, clock: azel::driver::Clock) -> RealWindow {
+fn locked_out_by_ada(path: &std::path::Path, clock: azel::clock::Clock) -> RealWindow {
     let mut window = open(path, clock);
     let is_up = |model: &azel::app::Model| {
         model.antenna().is_some_and(|of| of.snapshot.state.measured.is_some())

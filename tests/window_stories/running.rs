@@ -3,8 +3,9 @@
 use azel::{
     app::{Model, View, model::CatalogState},
     astro::AzEl,
+    clock::Clock,
     controller::Measured,
-    driver::{Clock, Intent, LinkState, StopState},
+    driver::{Intent, LinkState, StopState},
     makes,
     protocol::satrak::AxisMotion,
     station,

@@ -6,9 +6,9 @@ use azel::{
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, SourceTests, TestAsk, TestStage, TestedSource},
     },
-    driver::files::{FileProtocol, Peer, what_a_unit_sees},
     orbit::write_tle,
     secret::Secret,
+    transfer::{FileProtocol, Peer, what_a_unit_sees},
     ui::{
         source_test::{self, SourceTestState, TypedSource},
         theme,

@@ -13,8 +13,8 @@ use std::{
 use azel::{
     app::{App, Model, Settings},
     astro::time::add_seconds,
+    clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver::Clock,
     orbit::{Elements, bundled},
     protocol::satrak::{Frame, Reply, Status, encode},
     sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},

@@ -7,7 +7,7 @@ use azel::{
     },
     astro::time::add_seconds,
     controller::satrak::ELEMENT_FILES,
-    driver::files::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
+    transfer::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
     ui::{
         theme,
         tokens::ThemeName,

@@ -5,8 +5,8 @@ use azel::{
         host_keys::DoubtfulKey,
         uploads::{Ask, Busy, Failure, SecretWanted, Stage},
     },
-    driver::files::UploadStep,
     secret::Secret,
+    transfer::UploadStep,
 };
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;

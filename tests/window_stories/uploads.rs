@@ -6,7 +6,7 @@ use azel::{
         uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     },
     controller::satrak::ELEMENT_FILES,
-    driver::files::{FileObject, Origin, Peer, UploadStep},
+    transfer::{FileObject, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

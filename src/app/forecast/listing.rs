@@ -14,9 +14,8 @@ use super::{
     search::{Basis, Found, search},
 };
 use crate::{
-    app::job::Job,
     astro::time::{add_seconds, seconds_between},
-    driver::Wake,
+    job::{Job, Wake},
 };
 
 /// A list older than this is made anew.

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, time::add_seconds},
-    driver::Wake,
+    job::Wake,
     orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
 };
 

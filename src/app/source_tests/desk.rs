@@ -6,13 +6,11 @@ use super::{SourceOrder, SourceTests, TestAsk, TestStage};
 use crate::{
     app::{
         host_keys::{self, Decision, doubtful},
-        job::Job,
         uploads::Places,
     },
-    driver::{
-        Clock, Wake,
-        files::{FetchError, OfferedKey, Transfer, Trust, UnitView, fetch, what_a_unit_sees},
-    },
+    clock::Clock,
+    job::{Job, Wake},
+    transfer::{FetchError, OfferedKey, Transfer, Trust, UnitView, fetch, what_a_unit_sees},
 };
 
 /// The one place of tests.

@@ -4,8 +4,8 @@ use jiff::Timestamp;
 
 use crate::{
     controller::ElementFiles,
-    driver::files::{TleFile, TleFileError},
     orbit::Catalog,
+    transfer::{TleFile, TleFileError},
 };
 
 /// The chosen satellites and the file that they make.

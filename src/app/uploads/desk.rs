@@ -14,8 +14,10 @@ use super::{
     select::{Selection, UnitNow},
 };
 use crate::{
-    app::{host_keys, job::Job},
-    driver::{Clock, Wake, files::Transfer},
+    app::host_keys,
+    clock::Clock,
+    job::{Job, Wake},
+    transfer::Transfer,
 };
 
 /// A session answers long before this, whatever becomes of its link. If it does

@@ -7,16 +7,14 @@ use tokio_util::sync::CancellationToken;
 
 use super::{Cargo, Order, Places};
 use crate::{
-    app::job::Job,
-    driver::{
-        Clock, Wake,
-        files::{
-            Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, Progress,
-            Proof, SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
-            is_factory_password, open_sftp, upload,
-        },
-    },
+    clock::Clock,
+    job::{Job, Wake},
     secret::Secret,
+    transfer::{
+        Account, ConnectError, Interruption, KeyFileProblem, Keyring as _, Login, Progress, Proof,
+        SecretString, Transfer, Upload, UploadReason, Uploaded, check_host_key,
+        is_factory_password, open_sftp, upload,
+    },
 };
 
 /// One attempt to carry an order out.

@@ -10,8 +10,8 @@ use super::{
 };
 use crate::{
     app::host_keys::{Decision, doubtful},
-    driver::files::{OfferedKey, Uploaded},
     secret::Secret,
+    transfer::{OfferedKey, Uploaded},
 };
 
 /// What is to be done next.

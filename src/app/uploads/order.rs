@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     controller::ElementFiles,
-    driver::files::{Account, FileName, KeptFile, Peer, TleFile},
+    transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 
 /// A file of elements for a unit, and the way there.

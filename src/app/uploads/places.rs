@@ -2,7 +2,7 @@
 
 use std::{fmt, sync::Arc};
 
-use crate::driver::files::{KeptFiles, Keyring, KnownHosts, Limits, MemoryKeyring, SystemKeyring};
+use crate::transfer::{KeptFiles, Keyring, KnownHosts, Limits, MemoryKeyring, SystemKeyring};
 
 /// Where host keys, old uploads and secrets are kept, and how long a unit may
 /// take.

@@ -11,10 +11,8 @@ use crate::{
         panel::{Check, CheckState},
         settings::{Change, HeldGroup, Hindrance, Settled, Value},
     },
-    driver::{
-        self,
-        files::{FileObject, Uploaded},
-    },
+    driver,
+    transfer::{FileObject, Uploaded},
 };
 
 /// Tickets of selections; those of the forms are lower.

@@ -8,8 +8,9 @@ use tokio::time::Instant;
 use super::{Session, Wires};
 use crate::{
     astro::time::add_seconds,
+    clock::Clock,
     controller::satrak::Satrak,
-    driver::{AntennaHandle, Clock, Debts, Dial, Stream},
+    driver::{AntennaHandle, Debts, Dial, Stream},
     plan::Bounds,
     sim::satrak::{Control, Options},
     station::{Antenna, Station},

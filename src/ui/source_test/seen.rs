@@ -5,8 +5,8 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
-    driver::files::{FileObject, Seen, UnitView},
     orbit::Refusal,
+    transfer::{FileObject, Seen, UnitView},
     ui::{
         format,
         widgets::told::{Tone, line},
@@ -103,8 +103,8 @@ mod tests {
     use super::*;
     use crate::{
         astro::time::add_seconds,
-        driver::files::what_a_unit_sees,
         orbit::{bundled, write_tle},
+        transfer::what_a_unit_sees,
     };
 
     const NAME: &str = "NOAA 20 (JPSS-1)";

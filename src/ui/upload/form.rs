@@ -7,9 +7,9 @@ use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2
 use crate::{
     app::uploads::{Cargo, Chosen, Order},
     controller::ElementFiles,
-    driver::files::{FileName, FileNameError, Peer, TleFile},
     orbit::Catalog,
     station::Antenna,
+    transfer::{FileName, FileNameError, Peer, TleFile},
     ui::{text, theme, widgets::card},
 };
 

@@ -8,7 +8,7 @@ use crate::{
         Model, UiCommand,
         uploads::{Ask, Cargo, KeptEntry, Order},
     },
-    driver::files::Origin,
+    transfer::Origin,
     ui::{
         confirm::Question,
         format, text, theme,

@@ -9,7 +9,7 @@ use crate::{
         uploads::{Ask, Failure, Proved, Stage, Warning},
     },
     astro::time::seconds_between,
-    driver::files::{FileObject, Uploaded},
+    transfer::{FileObject, Uploaded},
     ui::{
         confirm::Question,
         dialogs, format, text, theme,

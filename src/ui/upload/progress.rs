@@ -9,7 +9,7 @@ use crate::{
         Model, UiCommand,
         uploads::{Ask, Stage},
     },
-    driver::files::{Progress, UploadStep},
+    transfer::{Progress, UploadStep},
     ui::{
         text, theme,
         widgets::{

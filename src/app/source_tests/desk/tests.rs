@@ -9,8 +9,8 @@ use std::{
 use super::*;
 use crate::{
     app::source_tests::TestedSource,
-    driver::files::{KeptFiles, KnownHosts, Limits, MemoryKeyring, Seen},
     orbit::{bundled, write_tle},
+    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring, Seen},
 };
 
 const NOAA_20: u32 = 43_013;

@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     app::uploads::Busy,
     controller::{satrak::ELEMENT_FILES, settings::Hindrance},
-    driver::files::{
+    transfer::{
         ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
     },
 };

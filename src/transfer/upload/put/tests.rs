@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, time::Duration};
 
 use super::*;
-use crate::driver::files::{FolderError, folder::Tell};
+use crate::transfer::{FolderError, folder::Tell};
 
 const FILE: &str = "weather.tle";
 const OLD: &[u8] = b"the old elements";

@@ -11,7 +11,7 @@ use tokio::{runtime, sync::watch};
 use tokio_util::sync::CancellationToken;
 
 use super::Progress;
-use crate::driver::Wake;
+use crate::job::Wake;
 
 /// A transfer under way. Dropping it cancels it.
 ///
@@ -89,7 +89,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::driver::files::UploadStep;
+    use crate::transfer::UploadStep;
 
     /// Starts `work` and hands back what tells of each wake.
     fn start<F: Future<Output = u8>>(

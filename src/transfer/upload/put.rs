@@ -5,7 +5,7 @@ use std::future::Future;
 use tokio_util::sync::CancellationToken;
 
 use super::{FolderState, Progress, UploadError, UploadReason, UploadStep};
-use crate::driver::files::{
+use crate::transfer::{
     FileHash, KeptError,
     folder::{Folder, Found},
 };

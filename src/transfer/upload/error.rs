@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::driver::files::{FolderError, KeptError};
+use crate::transfer::{FolderError, KeptError};
 
 /// A step of an upload, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

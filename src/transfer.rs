@@ -5,6 +5,7 @@
 //! The functions here are slow on purpose where cryptography wants it, so they
 //! never run on the thread of the sessions: see [`Transfer`].
 
+mod background;
 mod connect_error;
 mod fetch;
 mod folder;
@@ -17,9 +18,10 @@ mod login;
 mod sftp;
 mod ssh;
 mod tle_file;
-mod transfer;
+
 mod upload;
 
+pub use background::{BrokenOff, Transfer};
 pub use connect_error::{ConnectError, ConnectStep, KeyFileProblem, Peer};
 pub use fetch::{
     ElementSource, FetchError, FileProtocol, Seen, Trust, UnitView, fetch, what_a_unit_sees,
@@ -36,7 +38,7 @@ pub use sftp::SftpFolder;
 pub use ssh::{check_host_key, open_sftp};
 pub use tle_file::{FileName, FileNameError, FileObject, TleFile, TleFileError};
 pub use tokio_util::sync::CancellationToken;
-pub use transfer::{BrokenOff, Transfer};
+
 pub use upload::{
     FolderState, Progress, Upload, UploadError, UploadReason, UploadStep, Uploaded, upload,
 };

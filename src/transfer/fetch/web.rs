@@ -10,8 +10,8 @@ use ureq::{
 
 use super::FetchError;
 use crate::{
-    driver::files::{Limits, limits::within},
     library::disk::read_limited,
+    transfer::{Limits, limits::within},
 };
 
 /// Asks for `url` once. Where it leads elsewhere is told, not followed.

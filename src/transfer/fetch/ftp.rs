@@ -17,7 +17,7 @@ use tokio::io::AsyncReadExt as _;
 use tokio_util::sync::CancellationToken;
 
 use super::FetchError;
-use crate::driver::files::{
+use crate::transfer::{
     ConnectError, ConnectStep, Limits, Peer,
     limits::within,
     ssh::{dial, failed, interrupted},

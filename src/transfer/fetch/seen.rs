@@ -3,8 +3,8 @@
 use jiff::Timestamp;
 
 use crate::{
-    driver::files::{FileHash, FileObject},
     orbit::{Elements, Refusal, read_element_bytes},
+    transfer::{FileHash, FileObject},
 };
 
 /// Columns of a TLE line before its checksum.

@@ -10,7 +10,7 @@ use tokio_util::sync::CancellationToken;
 pub use error::{FolderState, Progress, UploadError, UploadReason, UploadStep};
 
 use super::{FileHash, FileName, FileObject, KeptFiles, Origin, Peer, SftpFolder, TleFile};
-use crate::{astro::time, driver::Clock};
+use crate::{astro::time, clock::Clock};
 use put::Put;
 
 /// What is to be put where.

@@ -12,15 +12,16 @@ use std::{
     time::Duration,
 };
 
-use crate::driver::Wake;
+/// Called from any thread when there is something new to take.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The work panicked; the log has the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the work broke off inside Azel")]
-pub(super) struct BrokeOff;
+pub struct BrokeOff;
 
 /// A piece of work under way. Dropping it cancels it.
-pub(super) struct Job<T> {
+pub struct Job<T> {
     result: mpsc::Receiver<T>,
     cancelled: Arc<AtomicBool>,
 }
@@ -28,7 +29,7 @@ pub(super) struct Job<T> {
 impl<T: Send + 'static> Job<T> {
     /// Starts `work` on a thread called `name`. It is given a question that
     /// turns true when nobody wants the result any more.
-    pub(super) fn start(
+    pub fn start(
         name: &str,
         wake: Wake,
         work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static,
@@ -49,12 +50,12 @@ impl<T: Send + 'static> Job<T> {
     }
 
     /// Waits for the end of the work, at most this long.
-    pub(super) fn wait(&self, most: Duration) -> Option<T> {
+    pub fn wait(&self, most: Duration) -> Option<T> {
         self.result.recv_timeout(most).ok()
     }
 
     /// The end of the work, once, which leaves no job; `None` while it goes on.
-    pub(super) fn take(job: &mut Option<Self>) -> Option<Result<T, BrokeOff>> {
+    pub fn take(job: &mut Option<Self>) -> Option<Result<T, BrokeOff>> {
         let end = match job.as_ref()?.result.try_recv() {
             Ok(result) => Ok(result),
             Err(mpsc::TryRecvError::Empty) => return None,

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use jiff::Timestamp;
 use tokio::time::Instant;
 
-use crate::controller::Moment;
+use crate::device::Moment;
 
 /// Where UTC comes from, and how long the computer has slept; the steady clock is
 /// tokio's, so that tests can pause it.
@@ -39,7 +39,7 @@ impl Clock {
 
     /// For how long the computer has slept in all, during which the steady clock
     /// stood.
-    pub(super) fn asleep(&self) -> Duration {
+    pub fn asleep(&self) -> Duration {
         (self.asleep)()
     }
 
