@@ -6,10 +6,7 @@
 
 use std::time::{Duration, Instant};
 
-use azel::{
-    app::{App, Settings},
-    clock::Clock,
-};
+use azel::{app::App, clock::Clock, engine::Settings};
 
 const FRAMES: u32 = 500;
 

@@ -21,7 +21,10 @@ use std::{
     panic::{self, AssertUnwindSafe},
     path::PathBuf,
     pin::Pin,
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
     task::Poll,
     thread,
     time::Duration,
@@ -64,12 +67,52 @@ const MOST_REST: Duration = Duration::from_secs(5);
 /// The near end of one antenna's session. Dropping it ends the session, which
 /// ends a jog with a stop first.
 pub struct AntennaHandle {
-    commands: mpsc::Sender<Command>,
-    stop: Arc<Notify>,
-    snapshots: watch::Receiver<Arc<Snapshot>>,
+    commands: mpsc::Sender<Asked>,
+    stopper: Stopper,
+    orders: Orders,
     events: mpsc::Receiver<Event>,
     wire: WireLog,
     orbit: Orbits,
+}
+
+/// Numbers what is asked for, over all antennas of a station.
+#[derive(Debug, Clone, Default)]
+pub struct Orders(Arc<AtomicU64>);
+
+impl Orders {
+    /// The number of what is asked for now.
+    pub fn next(&self) -> u64 {
+        self.0.fetch_add(1, Ordering::SeqCst) + 1
+    }
+}
+
+/// A command on its way to a session, with its number among all that was asked for.
+struct Asked {
+    command: Command,
+    number: u64,
+}
+
+/// Stops an antenna past every queue; it outlives the session.
+#[derive(Clone)]
+pub struct Stopper {
+    stop: Arc<Notify>,
+    /// What was asked for up to this number is void, wherever it still waits.
+    void: Arc<AtomicU64>,
+    orders: Orders,
+    snapshots: watch::Receiver<Arc<Snapshot>>,
+}
+
+impl Stopper {
+    /// Stops the antenna: never refused.
+    pub fn stop(&self) {
+        self.void.store(self.orders.next(), Ordering::SeqCst);
+        self.stop.notify_one();
+    }
+
+    /// Whether a STOP of the whole station is for this antenna too.
+    pub fn is_wanted(&self) -> bool {
+        self.snapshots.borrow().wants_stop()
+    }
 }
 
 /// The orbit of the satellite that the unit holds. It outlives a session that breaks
@@ -77,35 +120,32 @@ pub struct AntennaHandle {
 type Orbits = Arc<watch::Sender<Option<Arc<KnownOrbit>>>>;
 
 impl AntennaHandle {
-    /// The near end of `wires`, without a thread behind it.
-    pub fn new(
-        commands: mpsc::Sender<Command>,
-        stop: Arc<Notify>,
-        snapshots: watch::Receiver<Arc<Snapshot>>,
-        events: mpsc::Receiver<Event>,
-    ) -> Self {
-        Self { commands, stop, snapshots, events, wire: WireLog::default(), orbit: Arc::default() }
-    }
-
     /// Stops the antenna: past every queue, never refused.
     pub fn stop(&self) {
-        self.stop.notify_one();
+        self.stopper.stop();
     }
 
-    /// Whether a STOP of the whole station is for this antenna too.
-    pub fn wants_stop(&self) -> bool {
-        self.snapshots.borrow().wants_stop()
+    /// What stops the antenna from anywhere.
+    pub fn stopper(&self) -> Stopper {
+        self.stopper.clone()
     }
 
     /// Hands over a command. It comes back when the session is too busy to take
     /// it, which must be told to the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {
-        self.commands.try_send(command).map_err(mpsc::error::TrySendError::into_inner)
+        self.send_as(command, self.orders.next())
+    }
+
+    /// The same of a command that was asked for earlier and got this number then: a
+    /// STOP that came in between voids it.
+    pub fn send_as(&self, command: Command, number: u64) -> Result<(), Command> {
+        let asked = Asked { command, number };
+        self.commands.try_send(asked).map_err(|error| error.into_inner().command)
     }
 
     /// The newest snapshot.
     pub fn snapshot(&self) -> Arc<Snapshot> {
-        Arc::clone(&self.snapshots.borrow())
+        Arc::clone(&self.stopper.snapshots.borrow())
     }
 
     /// What went over the link.
@@ -149,6 +189,7 @@ pub struct Driver {
     sessions: tokio_util::task::TaskTracker,
     clock: Clock,
     wake: Wake,
+    orders: Orders,
     dead_man: Option<PathBuf>,
     debts: Debts,
     before_sleep: BeforeSleep,
@@ -187,6 +228,7 @@ impl Driver {
             sessions,
             clock,
             wake,
+            orders: Orders::default(),
             dead_man: None,
             debts: Debts::default(),
             before_sleep,
@@ -230,7 +272,7 @@ impl Driver {
         bounds: Bounds,
         lock_out: Option<LockOut>,
     ) -> AntennaHandle {
-        let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake));
+        let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake), &self.orders);
         let wires = wires.hearing(self.before_sleep.hear());
         let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
@@ -254,6 +296,11 @@ impl Driver {
         };
         self.sessions.spawn_on(keep_alive(open, wires), &self.runtime);
         handle
+    }
+
+    /// Numbers what is asked for of all its antennas.
+    pub fn orders(&self) -> &Orders {
+        &self.orders
     }
 
     /// The STOPs that are owed.

@@ -2,7 +2,7 @@
 //!
 //! The folders are layers; a lower one never names a higher one. From the
 //! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`transfer`], [`station`],
-//! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`app`], [`ui`]; [`secret`] and
+//! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`engine`], [`model`], [`ui`], [`app`]; [`secret`] and
 //! `whole_file` stand below them all. `docs/architecture.md` holds the picture and the
 //! invariants.
 
@@ -13,9 +13,11 @@ pub mod clock;
 pub mod controller;
 pub mod device;
 pub mod driver;
+pub mod engine;
 pub mod job;
 pub mod library;
 pub mod makes;
+pub mod model;
 pub mod orbit;
 pub mod plan;
 pub mod protocol;

@@ -179,7 +179,7 @@ fn that_a_unit_is_not_known_to_stand_outlives_a_change_of_its_settings() {
     });
     handle.send(Command::Disconnect).unwrap();
     scene.until(&handle, "let go of", |shown| shown.link == LinkState::Off);
-    assert!(handle.snapshot().unproved && handle.wants_stop());
+    assert!(handle.snapshot().unproved && handle.stopper().is_wanted());
     // Nobody reaches it, so nothing can prove that it stands.
     scene.is_cut.send(true).unwrap();
     drop(handle);

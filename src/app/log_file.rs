@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::Timestamp;
 
 use super::App;
-use crate::{job::Job, ui::console::Line, whole_file};
+use crate::{job::Job, model::Line, whole_file};
 
 /// Writes logs into one folder, one after the other.
 #[derive(Default)]

@@ -6,21 +6,12 @@ use super::App;
 use crate::{
     astro::{HorizonMask, MaskForm},
     job::Job,
+    model::MaskNews,
     whole_file,
 };
 
 /// A file with a mask is not larger, bytes.
 const MOST: u64 = 4 << 20;
-
-/// What became of a file.
-pub enum MaskNews {
-    /// A mask was read, in this form.
-    Read(HorizonMask, MaskForm),
-    /// A mask was written here.
-    Written(PathBuf),
-    /// It could not be done, and why.
-    Failed(String),
-}
 
 /// One file at a time, in one folder for those that are written.
 #[derive(Default)]

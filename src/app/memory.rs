@@ -11,10 +11,11 @@ use std::{
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::forecast::{ListChoice, SPANS_H, Scope};
 use crate::{
+    engine::forecast::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    ui::{Kept, sky_plot::Layers, tokens::ThemeName},
+    model::ThemeName,
+    ui::{Kept, sky_plot::Layers},
     whole_file,
 };
 

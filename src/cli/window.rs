@@ -7,10 +7,7 @@ use std::{
 
 use anyhow::{anyhow, bail};
 
-use crate::{
-    app::{App, Settings},
-    clock::Clock,
-};
+use crate::{app::App, clock::Clock, engine::Settings};
 
 /// The smallest window, in points.
 const SMALLEST: [f32; 2] = [1024.0, 640.0];

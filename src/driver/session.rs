@@ -39,8 +39,8 @@ use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 pub use command::Command;
 
 use super::{
-    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Snapshot, Wake,
-    WireLog,
+    AntennaHandle, Asked, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Orders,
+    Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -71,8 +71,8 @@ use wanted::Wanted;
 #[derive(Clone)]
 pub struct Wires {
     /// One session at a time reads them.
-    commands: Arc<AsyncMutex<mpsc::Receiver<Command>>>,
-    stop: Arc<Notify>,
+    commands: Arc<AsyncMutex<mpsc::Receiver<Asked>>>,
+    stopper: Stopper,
     before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
     snapshots: watch::Sender<Arc<Snapshot>>,
     events: mpsc::Sender<Event>,
@@ -85,23 +85,39 @@ pub struct Wires {
 
 impl Wires {
     /// The far and the near ends for one antenna.
-    pub(super) fn new(antenna: &Antenna, wake: Wake) -> (Self, AntennaHandle) {
+    pub(super) fn new(antenna: &Antenna, wake: Wake, orders: &Orders) -> (Self, AntennaHandle) {
         let (send_command, commands) = mpsc::channel(COMMANDS);
         let (events, read_events) = mpsc::channel(EVENTS);
-        let stop = Arc::new(Notify::new());
         let (_, link) = first_link(antenna);
         let first = Arc::new(Snapshot::before_anything(link));
         let (snapshots, read_snapshots) = watch::channel(first);
-        let handle =
-            AntennaHandle::new(send_command, Arc::clone(&stop), read_snapshots, read_events);
-        let commands = Arc::new(AsyncMutex::new(commands));
-        let (wire_log, orbit) = (handle.wire().clone(), Arc::clone(&handle.orbit));
-        let before_sleep = None;
-        let bounds = Arc::default();
-        (
-            Self { commands, stop, before_sleep, snapshots, events, wake, wire_log, orbit, bounds },
-            handle,
-        )
+        let stopper = Stopper {
+            stop: Arc::new(Notify::new()),
+            void: Arc::default(),
+            orders: orders.clone(),
+            snapshots: read_snapshots,
+        };
+        let (wire_log, orbit) = (WireLog::default(), Orbits::default());
+        let wires = Self {
+            commands: Arc::new(AsyncMutex::new(commands)),
+            stopper: stopper.clone(),
+            before_sleep: None,
+            snapshots,
+            events,
+            wake,
+            wire_log: wire_log.clone(),
+            orbit: Arc::clone(&orbit),
+            bounds: Arc::default(),
+        };
+        let handle = AntennaHandle {
+            commands: send_command,
+            stopper,
+            orders: orders.clone(),
+            events: read_events,
+            wire: wire_log,
+            orbit,
+        };
+        (wires, handle)
     }
 
     /// Told before this computer sleeps.
@@ -121,7 +137,7 @@ impl Wires {
 
     /// Puts STOP before the next word.
     pub(super) fn stop(&self) {
-        self.stop.notify_one();
+        self.stopper.stop();
     }
 
     /// Tells the window.
@@ -133,7 +149,7 @@ impl Wires {
     }
 
     fn stop_handle(&self) -> Arc<Notify> {
-        Arc::clone(&self.stop)
+        Arc::clone(&self.stopper.stop)
     }
 }
 
@@ -242,7 +258,7 @@ impl Session {
         clock: Clock,
         wake: Wake,
     ) -> (Self, AntennaHandle) {
-        let (wires, handle) = Wires::new(antenna, wake);
+        let (wires, handle) = Wires::new(antenna, wake, &Orders::default());
         let bounds = Bounds::of_antenna(antenna);
         (Self::over(controller, antenna, dial, clock, wires, Debts::default(), bounds), handle)
     }

@@ -41,7 +41,7 @@ use super::{
         paint,
     },
 };
-use crate::app::{Model, UiCommand, View};
+use crate::model::{Model, UiCommand, View};
 
 const PADDING: f32 = 16.0;
 

@@ -10,8 +10,9 @@ use super::{
     },
 };
 use crate::{
-    app::{Model, UiCommand, View, model::CatalogState},
     astro::time::seconds_between,
+    engine::CatalogState,
+    model::{Model, UiCommand, View},
     orbit::BUNDLED_SOURCE,
 };
 

@@ -14,13 +14,13 @@ use super::{
     words,
 };
 use crate::{
-    app::{
-        Model, UiCommand, View,
+    controller::Phase,
+    driver::{Command, LinkState, StopState, TimeSync},
+    engine::{
         alarms::{AlarmKind, Priority},
         antenna::AntennaModel,
     },
-    controller::Phase,
-    driver::{Command, LinkState, StopState, TimeSync},
+    model::{Model, UiCommand, View},
     plan::Barrier,
 };
 

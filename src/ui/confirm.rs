@@ -3,7 +3,7 @@
 use egui::{Key, Modal, Ui};
 
 use super::text;
-use crate::app::UiCommand;
+use crate::model::UiCommand;
 
 /// A question, and what a yes brings about.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,6 @@
 
 mod bar;
 mod inspector;
-mod line;
 mod links;
 mod log;
 mod raw;
@@ -18,8 +17,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 use egui::{Rect, Ui, ViewportId};
 
 use super::theme;
-use crate::app::{Model, UiCommand};
-pub use line::Line;
+use crate::model::{Line, Model, UiCommand};
 use log::{Filter, Log};
 use selection::Selection;
 
@@ -117,10 +115,8 @@ fn take_new_lines(ui: &Ui, model: &Model, state: &mut ConsoleState) {
     if state.is_paused {
         return;
     }
-    let logs = model.antennas.iter().map(|antenna| {
-        let name = antenna.config.name.as_str();
-        (name, antenna.handle.wire())
-    });
+    let names = model.antennas.iter().map(|antenna| antenna.config.name.as_str());
+    let logs = names.zip(&model.wires);
     if state.log.pull(logs) {
         ui.request_repaint_after_for(Duration::from_millis(5), ViewportId::ROOT);
     }

@@ -7,8 +7,9 @@ use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
 
 use super::{format, text, theme};
 use crate::{
-    app::{UiCommand, antenna::AntennaModel, copies::OpenCopy},
     controller::settings::{Difference, Field, Group, Held, SettingsCopy, Value, Verdict},
+    engine::{antenna::AntennaModel, copies::OpenCopy},
+    model::UiCommand,
 };
 
 /// Width of the dialog where the window has room for it.

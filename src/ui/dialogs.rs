@@ -15,7 +15,7 @@ use super::{
     text, theme,
     widgets::told::{Tone, fact, line},
 };
-use crate::app::{UiCommand, host_keys::DoubtfulKey};
+use crate::{engine::host_keys::DoubtfulKey, model::UiCommand};
 
 const WIDTH: f32 = 400.0;
 

@@ -9,10 +9,12 @@ mod words;
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{confirm::Question, text, theme, words::sentence};
-use crate::app::{
-    Model, UiCommand,
-    model::CatalogState,
-    sources::{SourceWork, Sources},
+use crate::{
+    engine::{
+        CatalogState,
+        sources::{SourceWork, Sources},
+    },
+    model::{Model, UiCommand},
 };
 
 /// Width of the catalogue.

@@ -9,7 +9,7 @@ use egui::{Key, Modifiers, Ui};
 use super::{
     confirm::Question, console::ConsoleState, elements::ElementsState, operate::OperateState,
 };
-use crate::app::{Model, UiCommand, View};
+use crate::model::{Model, UiCommand, View};
 use act::Act;
 
 /// One line of the list of keys.

@@ -19,9 +19,9 @@ use super::{
     theme,
     timeline::Zoom,
 };
-use crate::app::{
-    Model, UiCommand,
-    forecast::{Forecast, PassKey},
+use crate::{
+    engine::forecast::{Forecast, PassKey},
+    model::{Model, UiCommand},
 };
 use layout::Areas;
 
@@ -56,9 +56,7 @@ impl OperateState {
     pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
         let listed = model.listed();
         let found = self.found.places(model, self.passes.filter.text());
-        let listing = model.forecasts.of(model.list.scope);
-        let place = model.selected.and_then(|key| listing.place(key));
-        let place = place.filter(|place| *place < listed.len());
+        let place = model.selected.and_then(|key| listed.row(key));
         let at = match found {
             Some(found) => place.and_then(|place| found.binary_search(&place).ok()),
             None => place,

@@ -18,8 +18,8 @@ use jiff::Timestamp;
 
 use super::{format, text, theme, widgets::paint};
 use crate::{
-    app::forecast::{Scope, Work},
     astro::time::seconds_between,
+    engine::forecast::{Scope, Work},
     plan::{Loss, Sample},
 };
 

@@ -25,8 +25,9 @@ use super::{
     words,
 };
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel, mask_file::MaskNews},
     astro::MaskForm,
+    engine::antenna::AntennaModel,
+    model::{MaskNews, Model, UiCommand},
     station::{Entered, Station},
 };
 use draft::Draft;
@@ -123,8 +124,10 @@ pub fn show(
 ) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
-    let (station, mut draft) =
-        state.draft.take().unwrap_or_else(|| (model.station.clone(), Draft::of(&model.station)));
+    let (station, mut draft) = state
+        .draft
+        .take()
+        .unwrap_or_else(|| (Station::clone(&model.station), Draft::of(&model.station)));
     let before = Draft::of(&station);
     let (body, footer) = rect.split_top_bottom_at_y(rect.bottom() - FOOTER);
     let page = sections(ui, body, state);

@@ -16,11 +16,11 @@ use super::{
     words::sentence,
 };
 use crate::{
-    app::{
-        Model, UiCommand,
+    engine::{
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
     },
+    model::{Model, UiCommand},
     secret::Secret,
     transfer::{FileProtocol, Peer},
 };

@@ -13,10 +13,11 @@ use super::{
     words,
 };
 use crate::{
-    app::{Model, antenna::AntennaModel, forecast::Followed},
     astro::time::seconds_between,
     controller::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
+    engine::{antenna::AntennaModel, forecast::Followed},
+    model::Model,
 };
 
 /// A sentence with its words.

@@ -2,11 +2,8 @@
 
 use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
 
-use super::{
-    lean_shapes::LeanShapes,
-    text,
-    tokens::{ThemeName, Tokens},
-};
+use super::{lean_shapes::LeanShapes, text, tokens::Tokens};
+use crate::model::ThemeName;
 
 /// The colours in use, for everything that paints.
 pub fn tokens(ctx: &Context) -> &'static Tokens {

@@ -14,7 +14,7 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use jiff::Timestamp;
 
-use crate::app::daylight::SunSpan;
+use crate::model::daylight::SunSpan;
 
 use super::{format, text, theme, widgets::paint};
 use scale::Scale;

@@ -8,7 +8,6 @@ use egui::{Area, Id, Order, Rect, Ui, UiBuilder, pos2, vec2};
 
 use super::{
     icons, theme,
-    tokens::ThemeName,
     widgets::{
         alarm_list::{self, AlarmAction, AlarmModel},
         link_chip::ChipModel,
@@ -16,6 +15,7 @@ use super::{
         stop_button::{self, StopState},
     },
 };
+use crate::model::ThemeName;
 pub use clock::{ClockHealth, ClockModel, ClockMood};
 
 /// Height of the bar.

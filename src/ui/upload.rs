@@ -23,10 +23,12 @@ use super::{
         told::{Tone, line},
     },
 };
-use crate::app::{
-    Model, UiCommand,
-    model::CatalogState,
-    uploads::{Ask, Cargo, Order, Stage},
+use crate::{
+    engine::{
+        CatalogState,
+        uploads::{Ask, Cargo, Order, Stage},
+    },
+    model::{Model, UiCommand},
 };
 use form::Form;
 

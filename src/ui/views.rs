@@ -21,8 +21,9 @@ use super::{
     upload::{self, UploadState},
 };
 use crate::{
-    app::{Model, UiCommand, View, closing::CloseHow, mask_file::MaskNews},
     driver::Command,
+    engine::closing::CloseHow,
+    model::{MaskNews, Model, UiCommand, View},
 };
 
 /// What the operator typed, opened and folded.

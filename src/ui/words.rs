@@ -17,7 +17,7 @@ pub use safety::{
     sun_lifted, way_out,
 };
 
-use crate::{app::antenna::Stake, controller::Motion, driver::Intent, makes};
+use crate::{controller::Motion, driver::Intent, engine::antenna::Stake, makes};
 
 /// Elements older than this are worth a word, seconds: after some days a low
 /// satellite is minutes away from where they put it.

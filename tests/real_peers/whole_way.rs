@@ -10,13 +10,14 @@ use std::{
 };
 
 use azel::{
-    app::{
-        App, Model, Settings,
-        model::CatalogState,
-        uploads::{Failure, Places, Stage},
-    },
+    app::App,
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
+    engine::{
+        CatalogState, Settings,
+        uploads::{Failure, Places, Stage},
+    },
+    model::Model,
     sim::satrak::{Control, Options, Simulator},
     station::{self, Antenna, Station},
     transfer::{Account, KeptFiles, Keyring as _, MemoryKeyring, SecretString},

@@ -3,14 +3,12 @@
 use std::time::Instant;
 
 use azel::{
-    app::{
-        UiCommand,
-        alarms::{AlarmKind, Work},
-    },
     controller::{Motion, satrak::checks},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    engine::alarms::{AlarmKind, Work},
+    model::{ThemeName, UiCommand},
     station::{Note, NoteReason},
-    ui::{theme, tokens::ThemeName, words},
+    ui::{theme, words},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -104,7 +102,7 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
 #[test]
 fn a_acknowledges_the_newest_alarm_in_every_view() {
     for size in SIZES {
-        for view in [azel::app::View::Operate, azel::app::View::Preferences] {
+        for view in [azel::model::View::Operate, azel::model::View::Preferences] {
             let mut model = rig::model(states::holding());
             model.view = view;
             for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {

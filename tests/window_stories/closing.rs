@@ -1,11 +1,14 @@
 //! The window is closed while something typed is not where it belongs.
 
+use std::sync::Arc;
+
 use std::path::Path;
 
 use azel::{
-    app::{Model, UiCommand, View, closing::CloseHow},
     clock::Clock,
     driver::{Intent, LinkState, Snapshot, StopState},
+    engine::closing::CloseHow,
+    model::{Model, UiCommand, View},
     station::{self, OnClose},
 };
 use egui::{Event, Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
@@ -132,13 +135,14 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
         (OnClose::Leave, CloseHow::Leave),
     ] {
         let mut model = rig::model(states::tracking(0.1));
-        model.station.on_close = Some(on_close);
+        Arc::make_mut(&mut model.station).on_close = Some(on_close);
         let mut window = asked_about(LARGE, model);
         assert!(!rig::says(&window, "Close Azel?"));
         assert_eq!(rig::asked(&mut window), [UiCommand::CloseAfter(how)]);
     }
     let mut model = rig::model(states::tracking(0.1));
-    (model.station.on_close, model.view) = (Some(OnClose::Hold), View::Preferences);
+    (Arc::make_mut(&mut model.station).on_close, model.view) =
+        (Some(OnClose::Hold), View::Preferences);
     let mut window = rig::window(LARGE, model);
     write(&mut window, "Latitude", "40");
     let story = window.state_mut();

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use azel::{
-    app::{UiCommand, View},
     astro::time::add_seconds,
     controller::{Direction, Finding, WireLine, satrak},
     driver::WireLog,
+    model::{UiCommand, View},
     protocol::satrak::encode,
 };
 use egui::{Event, Key, Modifiers, OutputCommand, Role};
@@ -60,12 +60,12 @@ fn conversation(log: &WireLog) {
 pub(crate) fn view(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Console;
-    conversation(model.antennas[0].handle.wire());
+    conversation(&model.wires[0]);
     rig::window(size, model)
 }
 
 fn log(window: &Window) -> WireLog {
-    window.state().model.antennas[0].handle.wire().clone()
+    window.state().model.wires[0].clone()
 }
 
 /// The rows that are shown, from top to bottom.
@@ -310,8 +310,10 @@ fn the_log_of_one_antenna_can_be_chosen() {
         let mut config = window.state().model.station.antennas[0].clone();
         config.name = "Mast".to_owned();
         let mast = rig::antenna(config, states::holding());
-        mast.handle.wire().push(wire(2.05, Direction::Sent, "VERSION?"));
+        let log = WireLog::default();
+        log.push(wire(2.05, Direction::Sent, "VERSION?"));
         window.state_mut().model.antennas.push(mast);
+        window.state_mut().model.wires.push(log);
         settle(&mut window);
         assert_eq!(rows(&window).len(), 7);
         window.get_by_role_and_label(Role::ComboBox, "Log of All antennas").click();

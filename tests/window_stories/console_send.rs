@@ -4,11 +4,11 @@
 use std::{fs, time::Instant};
 
 use azel::{
-    app::{Model, UiCommand, View},
     driver::{Command, LinkLoss, LinkState},
+    model::{Model, ThemeName, UiCommand, View},
     protocol::satrak::encode,
     station,
-    ui::{theme, tokens::ThemeName},
+    ui::theme,
 };
 use egui::{Event, Key, Modifiers, Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

@@ -3,12 +3,14 @@
 use std::{collections::BTreeMap, net::TcpStream};
 
 use azel::{
-    app::{Model, alarms::AlarmKind},
     astro::{Angle, AzEl},
     clock::Clock,
     controller::{Measured, panel::Act, settings::Value},
     driver::{Command, LinkState, StopState},
-    makes, station,
+    engine::{self, alarms::AlarmKind},
+    makes,
+    model::Model,
+    station,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -45,8 +47,9 @@ fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64
 }
 
 fn send(window: &RealWindow, antenna: usize, command: Command) {
-    let handle = &window.state().model().antennas[antenna].handle;
-    assert!(handle.send(command).is_ok());
+    let id = window.state().model().antennas[antenna].id;
+    let command = engine::Command::Antenna(id, command);
+    assert!(window.state().station().send(command).is_ok());
 }
 
 fn go_to(window: &mut RealWindow, antenna: usize, azimuth_deg: f64, elevation_deg: f64) {
@@ -68,7 +71,7 @@ fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
         step_until(&mut window, "it is measured", |model| measured(model, antenna).is_some());
     }
     assert!(matches!(link(window.state().model(), RC2000C), LinkState::Off));
-    assert_eq!(window.state().model().antennas[RC2000C].handle.wire().next_number(), 0);
+    assert_eq!(window.state().model().wires[RC2000C].next_number(), 0);
 }
 
 #[test]
@@ -124,7 +127,7 @@ fn the_simulators_end_with_the_demonstration() {
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
     let saved = station::load(&folder.path().join("station.toml"), &makes::kinds()).unwrap();
     assert_eq!(saved.notes, []);
-    assert_eq!(saved.station, window.state().model().station);
+    assert_eq!(saved.station, *window.state().model().station);
     for address in addresses {
         wait_until("nobody listens", || TcpStream::connect(&address).is_err());
     }

@@ -1,9 +1,9 @@
 //! Driving the antenna from the card: track, modes, jog, go to.
 
 use azel::{
-    app::UiCommand,
     astro::Angle,
     driver::{Command, Intent, Snapshot},
+    model::UiCommand,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -205,7 +205,8 @@ fn a_jog_lasts_as_long_as_its_key_is_held() {
 #[test]
 fn another_view_and_another_antenna_end_the_jog() {
     for size in SIZES {
-        for other in [UiCommand::SelectAntenna(1), UiCommand::Show(azel::app::View::Preferences)] {
+        for other in [UiCommand::SelectAntenna(1), UiCommand::Show(azel::model::View::Preferences)]
+        {
             let mut model = rig::model(states::manual());
             let mut second = model.station.antennas[0].clone();
             second.name = "Mast".to_owned();
@@ -217,7 +218,7 @@ fn another_view_and_another_antenna_end_the_jog() {
                 UiCommand::SelectAntenna(index) => {
                     window.state_mut().model.selected_antenna = index;
                 }
-                _ => window.state_mut().model.view = azel::app::View::Preferences,
+                _ => window.state_mut().model.view = azel::model::View::Preferences,
             }
             window.state_mut().commands.clear();
             assert_eq!(asked(&mut window), [antenna(Command::EndJog)], "{other:?}");

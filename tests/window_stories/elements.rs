@@ -1,15 +1,17 @@
 //! Where the elements come from, and the catalogue.
 
+use std::sync::Arc;
+
 use std::{fs, path::PathBuf};
 
 use azel::{
-    app::{
-        Model, UiCommand, View,
-        model::CatalogState,
+    astro::time::add_seconds,
+    engine::{
+        CatalogState,
         sources::{SourceWork, Sources},
     },
-    astro::time::add_seconds,
     makes,
+    model::{Model, UiCommand, View},
     orbit::{FetchProblem, FileReport, MergeSummary, Place, Source, SourceReport},
     station,
 };
@@ -56,7 +58,7 @@ fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Elements;
     let (list, reports) = sources.into_iter().unzip();
-    model.sources = Sources { list, reports, ..Sources::default() };
+    model.sources = Arc::new(Sources { list, reports, ..Sources::default() });
     rig::window(size, model)
 }
 
@@ -189,7 +191,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
             window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
         };
         assert_eq!(path(&window), "/var/elements/own.tle", "it may not have been kept");
-        window.state_mut().model.sources.list.push(file_source());
+        Arc::make_mut(&mut window.state_mut().model.sources).list.push(file_source());
         settle(&mut window);
         assert_eq!(path(&window), "");
     }
@@ -228,7 +230,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
     for size in SIZES {
         for (lock, words) in locks {
             let mut window = view(size, vec![server(3.0)]);
-            lock(&mut window.state_mut().model.sources);
+            lock(Arc::make_mut(&mut window.state_mut().model.sources));
             settle(&mut window);
             assert!(says(&window, words));
             for button in ["Ask weather", "Remove weather", "Refresh all", "Add source"] {

@@ -1,13 +1,11 @@
 //! What seldom happens: long names, nothing there, nothing known.
 
+use std::sync::Arc;
+
 use azel::{
-    app::{
-        Model, UiCommand, View,
-        forecast::Forecasts,
-        model::{CatalogState, Sky},
-    },
     driver::{LinkLoss, LinkState, Snapshot},
-    station::Station,
+    engine::{CatalogState, forecast::Forecasts},
+    model::{Model, Sky, UiCommand, View},
 };
 use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -62,7 +60,7 @@ fn the_longest_names_cut_nothing() {
     for size in SIZES {
         for count in [1, 4] {
             let mut model = rig::model(states::tracking(0.04));
-            LONG.clone_into(&mut model.station.name);
+            LONG.clone_into(&mut Arc::make_mut(&mut model.station).name);
             let mut config = model.station.antennas[0].clone();
             model.antennas.clear();
             for index in 0..count {
@@ -96,7 +94,7 @@ fn a_station_without_antennas_offers_to_set_one_up() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         model.antennas.clear();
-        model.station.antennas.clear();
+        Arc::make_mut(&mut model.station).antennas.clear();
         let mut window = rig::window(size, model);
         nothing_is_cut(&window, size);
         window.get_by_role_and_label(Role::Button, "Set up an antenna").click();
@@ -153,7 +151,7 @@ fn the_demo_station_without_elements_says_so() {
     for size in SIZES {
         let mut model = without_elements(rig::model(states::holding()));
         model.demo = true;
-        model.station = Station { antennas: Vec::new(), ..model.station };
+        Arc::make_mut(&mut model.station).antennas.clear();
         model.antennas.clear();
         let window = rig::window(size, model);
         assert!(says(&window, "Demo station without elements: they could not be read."));

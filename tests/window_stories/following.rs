@@ -1,10 +1,14 @@
 //! An antenna that this program sends from position to position.
 
 use azel::{
-    app::{Model, UiCommand, forecast::Forecast},
-    astro::{Angle, AzEl, time::add_seconds},
+    astro::{
+        Angle, AzEl,
+        time::{add_seconds, seconds_between},
+    },
     controller::AxisMotion,
     driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
+    engine::forecast::Forecast,
+    model::{Model, UiCommand},
     plan::{Follow, FollowPhase, FollowStats, Sample, Target},
     station::{Antenna, Mount},
     ui::bar::activity,
@@ -148,19 +152,22 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
     let of = |number: u32| passes.iter().filter(move |forecast| forecast.number() == number);
     let rises_again = |forecast: &&Forecast| of(forecast.number()).count() > 1;
     let first = passes.iter().find(rises_again).unwrap();
-    let follow = model.follow_of(first);
+    let floor = model.station.elevation_floor();
+    let follow = first.follow(floor);
     assert_eq!(follow.target.catalog_number(), Some(first.number()));
-    let times = |forecast: &Forecast| (forecast.pass.aos.time, forecast.pass.los.time);
-    assert_eq!(follow.passes, of(first.number()).map(times).collect::<Vec<_>>());
-    let last = of(first.number()).last().unwrap();
-    assert_eq!(model.follow_of(last).passes, [times(last)]);
+    let listed: Vec<_> = of(first.number()).collect();
+    assert!(follow.passes.len() > listed.len(), "a week ahead, whatever is listed");
+    for (pass, (aos, los)) in listed.iter().zip(&follow.passes) {
+        let off_s = seconds_between(pass.pass.aos.time, *aos).abs();
+        assert!(off_s < 0.01 && seconds_between(pass.pass.los.time, *los).abs() < 0.01);
+    }
 
     let fixed = passes.iter().find(|forecast| forecast.is_always_up()).unwrap();
-    assert_eq!(model.follow_of(fixed).passes, []);
+    assert_eq!(fixed.follow(floor).passes, []);
 }
 
 /// What is asked for by this entry of the menu beside Track.
-fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Follow {
+fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     let mut snapshot = states::holding();
     snapshot.link = LinkState::Up { since: Instant::now() };
     snapshot.state.motion_lock = Some(false);
@@ -173,7 +180,11 @@ fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Follow {
     window.get_by_role_and_label(Role::Button, "Follow something else").click();
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, entry).click();
-    match rig::asked(&mut window).as_slice() {
+    rig::asked(&mut window)
+}
+
+fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> Follow {
+    match chosen(size, antenna, entry).as_slice() {
         [UiCommand::Antenna(0, Command::Follow(follow))] => (**follow).clone(),
         other => panic!("{other:?}"),
     }
@@ -185,9 +196,9 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
     for size in rig::SIZES {
         let site = rig::station().site;
         let always = |target| Follow { target, site, passes: Vec::new() };
-        assert_eq!(chosen(size, genius(), "Follow the Sun"), always(Target::Sun));
-        assert_eq!(chosen(size, genius(), "Follow the Moon"), always(Target::Moon));
-        let kept = chosen(size, genius(), "Keep pointing to 343°, 5°");
+        assert_eq!(followed(size, genius(), "Follow the Sun"), always(Target::Sun));
+        assert_eq!(followed(size, genius(), "Follow the Moon"), always(Target::Moon));
+        let kept = followed(size, genius(), "Keep pointing to 343°, 5°");
         let Target::Fixed(direction) = kept.target else { panic!("{kept:?}") };
         assert!(direction.separation(AzEl::from_degrees(343.1, 5.0)).degrees() < 1e-6);
     }
@@ -197,7 +208,7 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
 fn a_unit_that_tracks_by_itself_can_be_sent_from_here_all_the_same() {
     let satrak = Antenna::satrak("Dish", "192.168.10.21:4001");
     let entry = "Follow NOAA 20 position by position, from here";
-    let follow = chosen(rig::LARGE, satrak, entry);
-    assert_eq!(follow.target.catalog_number(), Some(rig::NOAA_20));
-    assert!(!follow.passes.is_empty());
+    let Some(UiCommand::Track { pass, .. }) = Some(rig::track_noaa_20()) else { unreachable!() };
+    let wanted = [UiCommand::FollowPass { antenna: 0, pass }];
+    assert_eq!(chosen(rig::LARGE, satrak, entry), wanted);
 }

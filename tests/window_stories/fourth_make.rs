@@ -9,12 +9,12 @@ use std::{
 };
 
 use azel::{
-    app::View,
     astro::{Angle, AzEl},
     clock::Clock,
     controller::Pointing,
     driver::{AntennaHandle, Command, Driver, Event, Safety, Snapshot, StopState},
     makes,
+    model::View,
     plan::Bounds,
     station::{self, Antenna, Kind, Station, Value},
 };
@@ -82,7 +82,8 @@ fn its_own_settings_are_fields_of_the_form() {
     for size in SIZES {
         let antenna = KIND.antenna("Lever", KIND.usual_address);
         let mut model = crate::window_stories::makes::model(antenna.clone(), rig::quiet());
-        (model.view, model.station.antennas) = (View::Preferences, vec![antenna]);
+        (model.view, Arc::make_mut(&mut model.station).antennas) =
+            (View::Preferences, vec![antenna]);
         let mut window = rig::window(size, model);
         assert!(says(&window, "Antenna 1: Archimedes Lever"));
         assert!(says(&window, "It takes no orders so.") && says(&window, "Drive"));

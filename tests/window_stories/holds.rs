@@ -1,12 +1,15 @@
 //! What the operator answers for by a hold.
 
+use std::sync::Arc;
+
 use azel::{
-    app::{Model, UiCommand, alarms::AlarmKind},
     astro::AzEl,
     controller::{panel::Act, settings::Values},
     driver::{
         Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
     },
+    engine::alarms::AlarmKind,
+    model::{Model, UiCommand},
     plan::{Barrier, Target},
     station::{Antenna, Entered, KeepOut, SunAvoidance},
 };
@@ -122,7 +125,8 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
         assert_eq!(follow(&mut window), (Target::Sun, false));
 
         let mut model = shows(states::holding());
-        model.station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
+        Arc::make_mut(&mut model.station).sun_avoidance =
+            Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
         let mut window = choose_the_sun(model);
         assert_eq!(asked(&mut window), [], "it is asked for first");
         assert!(says(&window, "The Sun avoidance keeps Satrak 5.0° away from the Sun."));
@@ -166,7 +170,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
 fn a_keep_out_is_told_of_with_its_reason() {
     let mut model = shows(states::manual());
     let zone = KeepOut::zone_of(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]);
-    model.station.keep_outs = vec![KeepOut {
+    Arc::make_mut(&mut model.station).keep_outs = vec![KeepOut {
         name: "mast".to_owned(),
         reason: "Steel mast, 24 m away".to_owned(),
         entered: Entered::Hard,

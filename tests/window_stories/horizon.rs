@@ -1,13 +1,15 @@
 //! Keep-outs: added, drawn, typed, undone, tried against the passes and saved.
 
+use std::sync::Arc;
+
 use std::fs;
 
 use azel::{
-    app::{Model, UiCommand, View, effects},
     astro::{Angle, HorizonMask},
     device::AxisMotion,
     driver::{Intent, Snapshot, StoppingWay},
     makes,
+    model::{Model, UiCommand, View, effects},
     station::{self, Entered, KeepOut, Station, SunAvoidance},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
@@ -61,7 +63,7 @@ fn page_of(size: [f32; 2], mut model: Model) -> Window {
 /// The page of a station with a mast in the east.
 fn page(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
-    model.station.keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     page_of(size, model)
 }
 
@@ -317,7 +319,7 @@ fn the_sun_is_kept_away_from_once_that_is_set() {
 fn a_keep_out_is_tightened_while_the_antenna_moves_and_loosened_only_when_it_stands() {
     let moving = |margin: &str| {
         let mut model = rig::model(states::moving());
-        model.station.keep_outs = vec![mast()];
+        Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
         let mut window = page_of(LARGE, model);
         choose(&mut window, "mast");
         field(&mut window, "Safety margin", margin);
@@ -335,7 +337,7 @@ fn a_keep_out_around_an_antenna_is_saved_by_a_hold() {
     let measured = model.antennas[0].snapshot.state.measured.unwrap();
     let at = measured.direction().unwrap();
     let (az, el) = (at.azimuth_deg(), at.elevation_deg());
-    model.station.keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
     for (corner, (azimuth, elevation)) in
@@ -402,7 +404,7 @@ fn the_skyline_is_recorded_by_pointing() {
 #[test]
 fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
     let mut model = rig::model(manual(10.0, 5.4, AxisMotion::Still));
-    model.station.horizon_mask = HorizonMask::parse("0 3").ok();
+    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 3").ok();
     let mut window = page_of(LARGE, model);
     let click = |window: &mut Window, button: &str| {
         window.get_by_role_and_label(Role::Button, button).scroll_to_me();
@@ -439,7 +441,7 @@ fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
 #[test]
 fn a_mask_is_read_from_a_file_and_written_to_one() {
     let mut model = rig::model(states::holding());
-    model.station.horizon_mask = HorizonMask::parse("0 3").ok();
+    Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 3").ok();
     let mut window = page_of(LARGE, model);
     window.get_by_role_and_label(Role::Button, "Export").click();
     let mask = HorizonMask::parse("0 3").unwrap();
@@ -450,7 +452,7 @@ fn a_mask_is_read_from_a_file_and_written_to_one() {
     window.get_by_role_and_label(Role::Button, "Read file").click();
     assert_eq!(asked(&mut window), [UiCommand::ImportMask("/tmp/hills.csv".into())]);
     let (mask, form) = HorizonMask::import("az,el\n0,2\n90,14").unwrap();
-    let news = azel::app::mask_file::MaskNews::Read(mask.clone(), form);
+    let news = azel::model::MaskNews::Read(mask.clone(), form);
     window.state_mut().views.mask_news(news);
     settle(&mut window);
     window.get_by_label_contains("2 points read from a table.");
@@ -465,7 +467,7 @@ fn what_holds_is_drawn_in_the_sky_plot() {
         let mut model = rig::model(states::holding());
         let overhead = KeepOut { name: "overhead".to_owned(), zone: cap.clone(), ..mast() };
         assert!(overhead.zone.clearance(azel::astro::AzEl::from_degrees(0.0, 90.0)) < Angle::ZERO);
-        model.station.keep_outs = vec![mast(), overhead];
+        Arc::make_mut(&mut model.station).keep_outs = vec![mast(), overhead];
         rig::window(size, model);
     }
 }
@@ -474,7 +476,7 @@ fn what_holds_is_drawn_in_the_sky_plot() {
 fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
     let stopping_way = StoppingWay { run_out_s: 0.4, stops: 0, is_learned: false };
     let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
-    model.station.keep_outs = vec![mast()];
+    Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
     // A Satrak of 3° a second.
@@ -484,7 +486,8 @@ fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
 #[test]
 fn the_reason_of_a_keep_out_is_shown_where_the_pointer_rests() {
     let mut model = rig::model(states::holding());
-    model.station.keep_outs = vec![KeepOut { reason: "Steel mast".to_owned(), ..mast() }];
+    Arc::make_mut(&mut model.station).keep_outs =
+        vec![KeepOut { reason: "Steel mast".to_owned(), ..mast() }];
     let mut window = page_of(LARGE, model);
     window.get_by_label_contains("mast, Keep-out, hard").hover();
     window.run_steps(8);

@@ -1,7 +1,8 @@
 //! The keys and their list.
 
 use azel::{
-    app::{UiCommand, View, alarms::AlarmKind, forecast::Forecast},
+    engine::{alarms::AlarmKind, forecast::Forecast},
+    model::{UiCommand, View},
     ui::keys::{ALL, Binding, Place, list::in_words},
 };
 use egui::{Key, Modifiers, Role};

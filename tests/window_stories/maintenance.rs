@@ -1,8 +1,11 @@
 //! A unit that is locked out for work at the antenna.
 
+use std::sync::Arc;
+
 use azel::{
-    app::{UiCommand, alarms::AlarmKind},
     driver::{Command, Intent, LinkState, Snapshot},
+    engine::alarms::AlarmKind,
+    model::UiCommand,
     station::{self, LockOut},
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -144,7 +147,7 @@ fn until_it_is_read_back_it_is_being_locked_out() {
 /// A window in which the lock-out was held.
 fn locked_out_by_ada(path: &std::path::Path, clock: azel::clock::Clock) -> RealWindow {
     let mut window = open(path, clock);
-    let is_up = |model: &azel::app::Model| {
+    let is_up = |model: &azel::model::Model| {
         model.antenna().is_some_and(|of| of.snapshot.state.measured.is_some())
     };
     step_until(&mut window, "the antenna is measured", is_up);
@@ -163,7 +166,7 @@ fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
     let path = folder.path().join("station.toml");
     station::save(&unit.station(), &path).unwrap();
     let mut window = locked_out_by_ada(&path, clock_from(utc));
-    let is_locked = |model: &azel::app::Model| {
+    let is_locked = |model: &azel::model::Model| {
         let snapshot = &model.antenna().unwrap().snapshot;
         snapshot.lock_out.is_some() && !snapshot.locking
     };
@@ -200,7 +203,7 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
     let path = folder.path().join("station.toml");
     station::save(&unit.station(), &path).unwrap();
     let mut window = locked_out_by_ada(&path, clock_from(utc));
-    let is_locked = |model: &azel::app::Model| {
+    let is_locked = |model: &azel::model::Model| {
         model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some())
     };
     step_until(&mut window, "it is locked out", is_locked);
@@ -216,11 +219,11 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
     window.event(Event::Text(address.clone()));
     window.run_steps(2);
     window.get_by_role_and_label(Role::Button, "Save and use").click();
-    let is_moved = |model: &azel::app::Model| {
+    let is_moved = |model: &azel::model::Model| {
         model.antenna().is_some_and(|antenna| antenna.config.connection.address == address)
     };
     step_until(&mut window, "the new address is used", is_moved);
-    let snapshot = window.state().model().antenna().unwrap().handle.snapshot();
+    let snapshot = Arc::clone(&window.state().model().antenna().unwrap().snapshot);
     let by = snapshot.lock_out.as_ref().map(|lock_out| lock_out.by.as_str());
     assert!(by.is_none_or(|by| by == "Ada"), "{by:?}");
     step_until(&mut window, "it is locked out too", is_locked);

@@ -3,7 +3,6 @@
 use std::{sync::Arc, time::Instant};
 
 use azel::{
-    app::Model,
     astro::Angle,
     controller::{
         AxisMotion, Measured, Pointing,
@@ -11,6 +10,7 @@ use azel::{
         rotator_genius::{ROTATORS, Rotators},
     },
     driver::{Intent, LinkState, Snapshot},
+    model::Model,
     station::{Antenna, Mount},
 };
 
@@ -43,7 +43,7 @@ pub(crate) fn rc2000c() -> Antenna {
 /// The station with `config` as its antenna in the state of `snapshot`.
 pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
     let mut model = rig::model(quiet());
-    model.station.antennas = vec![config.clone()];
+    Arc::make_mut(&mut model.station).antennas = vec![config.clone()];
     model.antennas = vec![rig::antenna(config, snapshot)];
     for antenna in &mut model.antennas {
         antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));

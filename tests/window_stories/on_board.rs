@@ -7,10 +7,11 @@ use std::{
 };
 
 use azel::{
-    app::{Model, UiCommand, alarms::AlarmKind},
     astro::{Angle, time::add_seconds},
     controller::{Place, settings::Value},
     driver::{OnBoardView, Snapshot},
+    engine::alarms::AlarmKind,
+    model::{Model, UiCommand},
     orbit::{bundled, read_elements},
     plan::{
         Supervision,

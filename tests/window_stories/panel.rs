@@ -4,10 +4,10 @@
 use std::time::Instant;
 
 use azel::{
-    app::{Model, UiCommand, View},
     astro::Angle,
     controller::AxisMotion,
     driver::{Command, Intent, LinkState},
+    model::{Model, UiCommand, View},
     station::Antenna,
 };
 use egui::{Key, Role};

@@ -1,12 +1,13 @@
 //! The card of every make fits every window in every theme.
 
 use azel::{
-    app::{Model, UiCommand, track_again::TrackAgain},
     astro::AzEl,
     driver::{Command, Event, Inside, Intent, Refusal, Snapshot, StopState},
+    engine::{self, track_again::TrackAgain},
+    model::{Model, ThemeName},
     plan::Barrier,
     station::Antenna,
-    ui::{theme, tokens::ThemeName},
+    ui::theme,
 };
 use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -125,7 +126,7 @@ fn told(refusal: Refusal) -> Model {
 
 fn offered_again() -> Model {
     let mut model = rig::model(states::manual());
-    let command = UiCommand::Antenna(0, Command::Resume);
+    let command = engine::Command::Antenna(model.antennas[0].id, Command::Resume);
     let name = "NOAA 20 (JPSS-1)".to_owned();
     model.antennas[0].track_again = Some(TrackAgain { name, command, until: rig::now() });
     model

@@ -2,13 +2,13 @@
 //! command.
 
 use azel::{
-    app::{Model, UiCommand},
     controller::{
         Make,
         panel::{Act, Action},
         settings::{Field, Kind, Value, Values},
     },
     driver::{Command, Intent},
+    model::{Model, UiCommand},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;

@@ -1,11 +1,11 @@
 //! Choosing a pass: in the list, on the sky, on the strip, by keys.
 
+use std::sync::Arc;
+
 use azel::{
-    app::{
-        Model, UiCommand,
-        forecast::{Forecast, Scope},
-    },
     astro::time::add_seconds,
+    engine::forecast::{Forecast, Scope},
+    model::{Model, UiCommand},
     ui::{Kept, Views, sky_plot::Layers},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Role};
@@ -208,7 +208,7 @@ fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
     assert!(0 < listed && listed < all);
     let mut window = rig::window(LARGE, model);
     window.get_by_label(&format!("Next passes, {listed}"));
-    window.state_mut().model.forecasts.favourites.passes.clear();
+    Arc::make_mut(&mut window.state_mut().model.forecasts.favourites.passes).clear();
     settle(&mut window);
     assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));
 }
@@ -289,7 +289,8 @@ fn a_pass_that_is_over_leaves_nothing_selected() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         model.now = add_seconds(states::los(), 1.0);
-        model.forecasts.favourites.passes.retain(|forecast| forecast.pass.los.time > model.now);
+        Arc::make_mut(&mut model.forecasts.favourites.passes)
+            .retain(|forecast| forecast.pass.los.time > model.now);
         model.refresh_sky();
         let window = rig::window(size, model);
         window.get_by_label("No pass is selected. Choose one from the list.");

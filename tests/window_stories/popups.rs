@@ -1,6 +1,6 @@
 //! Whatever opens over the window closes without Esc too, which is STOP besides.
 
-use azel::app::View;
+use azel::model::View;
 use egui::{Key, Role, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

@@ -1,10 +1,12 @@
 //! The settings of the station, typed, corrected, saved and reverted.
 
+use std::sync::Arc;
+
 use std::time::Instant;
 
 use azel::{
-    app::{Model, UiCommand, View},
     driver::{LinkLoss, LinkState, Snapshot},
+    model::{Model, UiCommand, View},
     station::Station,
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -159,7 +161,7 @@ fn the_demo_station_is_taken_over_without_a_change() {
         let mut window = rig::window(size, model);
         assert!(says(&window, "Saving ends the demonstration and uses these antennas."));
         window.get_by_role_and_label(Role::Button, "Save and use").click();
-        assert_eq!(saved(asked(&mut window)), station);
+        assert_eq!(saved(asked(&mut window)), *station);
     }
 }
 
@@ -181,7 +183,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         (model.demo, model.view) = (true, View::Preferences);
-        model.station.favourites = Station::default().favourites;
+        Arc::make_mut(&mut model.station).favourites = Station::default().favourites;
         let window = rig::window(size, model);
         let bar = window.get_by_role_and_label(Role::Button, "Save and use").rect();
         assert!(bar.right() <= size[0] && bar.bottom() <= size[1], "{bar:?}");

@@ -1,13 +1,15 @@
 //! Antennas of every make, added in the form, filled in wrong and right, saved
 //! and read back.
 
+use std::sync::Arc;
+
 use azel::{
-    app::View,
     controller::{
         rc2000c::{BAUD, BUS_ADDRESS, Calibration},
         rotator_genius::Rotators,
     },
     makes,
+    model::View,
     station::{self, AfterPass, Antenna, Mount, Station},
 };
 use egui::Role;
@@ -28,7 +30,7 @@ fn bare(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Preferences;
     model.antennas.clear();
-    model.station.antennas.clear();
+    Arc::make_mut(&mut model.station).antennas.clear();
     rig::window(size, model)
 }
 
@@ -90,7 +92,8 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
         assert_eq!(reloaded(&station), station);
 
         let mut model = rig::model(states::holding());
-        (model.demo, model.view, model.station) = (true, View::Preferences, reloaded(&station));
+        (model.demo, model.view) = (true, View::Preferences);
+        model.station = reloaded(&station).into();
         let mut window = rig::window(size, model);
         assert_eq!(save(&mut window), station, "read back into the form and saved untouched");
     }

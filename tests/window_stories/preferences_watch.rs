@@ -54,7 +54,7 @@ fn a_station_that_asks_says_so_and_comes_back_from_another_choice() {
 fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
     let shown = |stopping_way: StoppingWay| {
         let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
-        model.view = azel::app::View::Preferences;
+        model.view = azel::model::View::Preferences;
         rig::window(rig::LARGE, model)
     };
     let window = shown(StoppingWay { run_out_s: 0.4, stops: 1, is_learned: false });

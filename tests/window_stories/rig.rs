@@ -7,24 +7,19 @@ use std::{
 };
 
 use azel::{
-    app::{
-        Model, UiCommand, View,
-        alarms::Alarms,
-        antenna::AntennaModel,
-        copies::Copies,
-        effects::Effects,
-        forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
-        model::{CatalogState, Sky},
-        source_tests::SourceTests,
-        sources::Sources,
-        uploads::Uploads,
-    },
     astro::time::add_seconds,
     controller::satrak,
-    driver::{AntennaHandle, LinkState, Snapshot, TimeSync},
+    driver::{LinkState, Snapshot, TimeSync, WireLog},
+    engine::{
+        CatalogState,
+        alarms::Alarms,
+        antenna::{AntennaId, AntennaModel},
+        forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
+    },
+    model::{Model, Sky, ThemeName, UiCommand, View, effects::Effects},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     station::{Antenna, Station},
-    ui::{Views, theme, tokens::ThemeName},
+    ui::{Views, theme},
 };
 use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Role, TouchPhase, UiBuilder, vec2,
@@ -34,7 +29,6 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 use jiff::Timestamp;
-use tokio::sync::{Notify, mpsc, watch};
 
 /// The usual window and the smallest one.
 pub(crate) const SIZES: [[f32; 2]; 2] = [LARGE, SMALL];
@@ -71,7 +65,8 @@ fn orbits() -> &'static Orbits {
         let catalog = Arc::new(bundled().unwrap());
         let satellites: Vec<Arc<Followed>> =
             FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
-        let mut passes: Vec<Forecast> = satellites.iter().flat_map(forecasts).collect();
+        let mut passes: Vec<Forecast> =
+            satellites.iter().flat_map(|satellite| forecasts(satellite, now())).collect();
         passes.sort_by_key(|forecast| forecast.pass.aos.time);
         // Shared by all stories with what is drawn of them.
         for forecast in &passes {
@@ -87,11 +82,11 @@ fn followed(catalog: &Catalog, number: u32) -> Followed {
     Followed { elements, propagator }
 }
 
-/// The passes of the next 12 h, with the one that is under way.
-fn forecasts(satellite: &Arc<Followed>) -> Vec<Forecast> {
+/// The passes of the 12 h after `now`, with the one that is under way.
+pub(crate) fn forecasts(satellite: &Arc<Followed>, now: Timestamp) -> Vec<Forecast> {
     let station = station();
     let vantage = Arc::new(Vantage::of(&station));
-    let (from, to) = (add_seconds(now(), -3600.0), add_seconds(now(), 12.0 * 3600.0));
+    let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));
     let search = PassSearch {
         aos_elevation: vantage.horizon,
         floor: station.elevation_floor(),
@@ -99,7 +94,7 @@ fn forecasts(satellite: &Arc<Followed>) -> Vec<Forecast> {
     };
     passes(&satellite.propagator, &search, &|| false)
         .into_iter()
-        .filter(|pass| pass.los.time > now())
+        .filter(|pass| pass.los.time > now)
         .map(|pass| Forecast::new(Arc::clone(satellite), pass, Arc::clone(&vantage)))
         .collect()
 }
@@ -119,11 +114,7 @@ pub(crate) fn quiet() -> Snapshot {
 /// An antenna that shows `snapshot` for ever.
 pub(crate) fn antenna(config: Antenna, mut snapshot: Snapshot) -> AntennaModel {
     snapshot.state.questions = Arc::clone(&config.controller().state().questions);
-    let (commands, _) = mpsc::channel(1);
-    let (_, snapshots) = watch::channel(Arc::new(snapshot));
-    let (_, events) = mpsc::channel(1);
-    let handle = AntennaHandle::new(commands, Arc::new(Notify::new()), snapshots, events);
-    AntennaModel::new(config, handle)
+    AntennaModel::new(AntennaId(0), config, Arc::new(snapshot))
 }
 
 /// The station with its antenna in the state of `snapshot`, NOAA 20 selected.
@@ -134,28 +125,29 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     }
     let (station, orbits) = (station(), orbits());
     let mut forecasts = Forecasts::default();
-    forecasts.favourites.satellites.clone_from(&orbits.satellites);
-    forecasts.favourites.passes.clone_from(&orbits.passes);
+    forecasts.favourites.satellites = orbits.satellites.clone().into();
+    forecasts.favourites.passes = orbits.passes.clone().into();
     let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
     let mut model = Model {
         now: now(),
         steady: Instant::now(),
         time_sync: TimeSync::Synchronised,
-        station,
+        station: Arc::new(station),
         demo: false,
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
-        sources: Sources::default(),
+        sources: Arc::default(),
+        wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
         selected_antenna: 0,
         forecasts,
         list: ListChoice::default(),
         selected: None,
         sky: Sky::default(),
-        uploads: Uploads::default(),
-        source_tests: SourceTests::default(),
+        uploads: Arc::default(),
+        source_tests: Arc::default(),
         effects: Effects::default(),
         alarms: Alarms::default(),
-        copies: Copies::default(),
+        copies: Arc::default(),
         view: View::Operate,
         closing: None,
     };

@@ -1,15 +1,16 @@
 //! The real app with a simulated unit behind a real socket.
 
 use azel::{
-    app::{Model, View, model::CatalogState},
     astro::AzEl,
     clock::Clock,
     controller::Measured,
     driver::{Intent, LinkState, StopState},
+    engine::CatalogState,
     makes,
+    model::{Model, ThemeName, View},
     protocol::satrak::AxisMotion,
     station,
-    ui::{theme, tokens::ThemeName},
+    ui::theme,
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -236,7 +237,7 @@ fn saving_writes_the_file_and_ends_the_demonstration() {
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
     let saved = station::load(&path, &makes::kinds()).unwrap();
     assert_eq!(saved.notes, []);
-    assert_eq!(saved.station, window.state().model().station);
+    assert_eq!(saved.station, *window.state().model().station);
     assert!((saved.station.site.latitude().degrees() + 33.5).abs() < 1e-9);
     window.run_steps(2);
     window.get_by_label_contains("Saved ");

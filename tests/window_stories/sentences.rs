@@ -1,12 +1,15 @@
 //! The sentence of the antenna in every case.
 
+use std::sync::Arc;
+
 use std::time::Duration;
 
 use azel::{
-    app::{Model, forecast::Forecast},
     astro::{AzEl, time::add_seconds},
     controller::{AxisMotion, Motion, Phase, PrepareError},
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
+    engine::forecast::Forecast,
+    model::Model,
 };
 
 use crate::window_stories::{makes, rig, states};
@@ -55,8 +58,9 @@ fn tracking_says_how_far_off_and_when_it_ends() {
     }
     let by_itself = Snapshot { intent: Intent::Standby, target: None, ..states::tracking(0.04) };
     assert!(told(by_itself, unchanged).starts_with("Tracking NOAA 20 by its own program. "));
-    let unknown =
-        told(states::tracking(0.04), |model, _| model.forecasts.favourites.satellites.clear());
+    let unknown = told(states::tracking(0.04), |model, _| {
+        Arc::make_mut(&mut model.forecasts.favourites.satellites).clear();
+    });
     assert!(unknown.ends_with("We have no elements of it to compare with."), "{unknown}");
 }
 

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use azel::{
-    app::{UiCommand, View},
     controller::settings::{
         Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value,
     },
     driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
+    model::{UiCommand, View},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};

@@ -1,9 +1,9 @@
 //! What the cards of a unit show beside its settings.
 
 use azel::{
-    app::UiCommand,
     controller::{Program, settings::Value},
     driver::Command,
+    model::UiCommand,
 };
 
 use crate::window_stories::{

@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use azel::{
-    app::View,
     controller::{
         satrak::GROUPS,
         settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
     },
     driver::Snapshot,
+    model::View,
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use azel::{app::UiCommand, controller::settings::Value, driver::Command};
+use azel::{controller::settings::Value, driver::Command, model::UiCommand};
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

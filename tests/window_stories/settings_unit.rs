@@ -97,9 +97,8 @@ impl Scene {
         control.set_fault(Fault::HangUp, true);
         press(&mut self.window);
         crate::window_stories::unit::wait_until("the link is lost", || {
-            let handle = &self.window.state().model().antennas[0].handle;
             let is_lost = |settled: &Settled| settled.result == Err(SettleError::LinkLost);
-            let shown = handle.snapshot();
+            let shown = &self.window.state().model().antennas[0].snapshot;
             let state = shown.state.held.get(group);
             if state.is_some_and(|state| state.settled.as_deref().is_some_and(is_lost)) {
                 control.drop_clients();

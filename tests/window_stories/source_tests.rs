@@ -1,18 +1,17 @@
 //! "Test from here" beside a form of a unit's source.
 
 use azel::{
-    app::{
-        Model, UiCommand,
+    engine::{
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, SourceTests, TestAsk, TestStage, TestedSource},
     },
+    model::{Model, ThemeName, UiCommand},
     orbit::write_tle,
     secret::Secret,
     transfer::{FileProtocol, Peer, what_a_unit_sees},
     ui::{
         source_test::{self, SourceTestState, TypedSource},
         theme,
-        tokens::ThemeName,
     },
 };
 use egui::{Key, Role, UiBuilder};
@@ -44,7 +43,7 @@ type Window = Harness<'static, Form>;
 
 fn form(width: f32, is_web: bool, tests: SourceTests) -> Window {
     let mut model = rig::model(states::tracking(0.0));
-    model.source_tests = tests;
+    model.source_tests = tests.into();
     let form = Form {
         model,
         state: SourceTestState::default(),
@@ -163,7 +162,7 @@ fn a_server_is_spoken_to_as_its_port_says_or_as_the_operator_wants() {
 
 #[test]
 fn what_the_unit_will_see_is_told() {
-    let azel::app::model::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let azel::engine::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
         panic!("the bundled elements")
     };
     let mut bytes = Vec::new();

@@ -3,12 +3,12 @@
 use std::time::Instant;
 
 use azel::{
-    app::Model,
     astro::{AzEl, time::add_seconds},
     controller::{
         Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget, satrak::checks,
     },
     driver::{Intent, Snapshot},
+    model::Model,
     protocol::satrak::{Frame, Reply},
 };
 use jiff::Timestamp;

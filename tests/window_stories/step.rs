@@ -1,6 +1,6 @@
 //! Turning an axis by a set amount, and the rate of a jog.
 
-use azel::{app::UiCommand, driver::Command};
+use azel::{driver::Command, model::UiCommand};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

@@ -1,8 +1,11 @@
 //! STOP, whatever is open and whatever became of the last one.
 
+use std::time::Instant;
+
 use azel::{
-    app::{UiCommand, View, alarms::AlarmKind},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    engine::alarms::AlarmKind,
+    model::{UiCommand, View},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -145,7 +148,7 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
         ] {
             let mut model = rig::model(snapshot);
             let site = model.station.site;
-            model.antennas[0].press_stop();
+            model.antennas[0].stop_pressed = Some(Instant::now());
             for _ in 0..2 {
                 model.antennas[0].refresh(site, |_| None);
             }
@@ -191,7 +194,7 @@ fn stop_shows_as_pressed_until_the_session_tells_of_it() {
     ] {
         let snapshot = Snapshot { stop: told, ..states::moving() };
         model.antennas = vec![rig::antenna(model.station.antennas[0].clone(), snapshot)];
-        model.antennas[0].press_stop();
+        model.antennas[0].stop_pressed = Some(Instant::now());
         model.antennas[0].refresh(site, |_| None);
         assert_eq!(model.antennas[0].stop_pressed, None, "{told:?}");
     }

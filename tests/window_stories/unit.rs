@@ -11,10 +11,12 @@ use std::{
 };
 
 use azel::{
-    app::{App, Model, Settings},
+    app::App,
     astro::time::add_seconds,
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
+    engine::Settings,
+    model::Model,
     orbit::{Elements, bundled},
     protocol::satrak::{Frame, Reply, Status, encode},
     sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},

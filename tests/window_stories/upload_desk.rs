@@ -1,16 +1,13 @@
 //! The part that sends elements to a unit, alone, and what its stories share.
 
 use azel::{
-    app::{
-        Model, UiCommand,
-        uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
-    },
     astro::time::add_seconds,
     controller::satrak::ELEMENT_FILES,
+    engine::uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
+    model::{Model, ThemeName, UiCommand},
     transfer::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
     ui::{
         theme,
-        tokens::ThemeName,
         upload::{self, UploadState},
     },
 };
@@ -41,7 +38,7 @@ pub(crate) type Window = Harness<'static, Part>;
 /// The part alone, as wide as this.
 pub(crate) fn part(width: f32, uploads: Uploads) -> Window {
     let mut model = rig::model(states::holding());
-    model.uploads = uploads;
+    model.uploads = uploads.into();
     let part = Part { model, state: UploadState::default(), commands: Vec::new() };
     let mut window = Harness::builder()
         .with_size([width, 1800.0])
@@ -105,7 +102,7 @@ pub(crate) fn peer() -> Peer {
 }
 
 pub(crate) fn file() -> TleFile {
-    let azel::app::model::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
+    let azel::engine::CatalogState::Ready(catalog) = rig::model(rig::quiet()).catalog else {
         panic!("the bundled elements")
     };
     TleFile::of([ISS, NOAA_20].iter().filter_map(|number| catalog.get(*number)), &ELEMENT_FILES)

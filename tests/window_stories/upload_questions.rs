@@ -1,7 +1,7 @@
 //! What the operator is asked while elements are on their way to a unit.
 
 use azel::{
-    app::{
+    engine::{
         host_keys::DoubtfulKey,
         uploads::{Ask, Busy, Failure, SecretWanted, Stage},
     },

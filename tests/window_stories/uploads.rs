@@ -1,11 +1,11 @@
 //! Elements on their way to a unit: what is chosen, typed, asked and told.
 
+use std::sync::Arc;
+
 use azel::{
-    app::{
-        UiCommand, View,
-        uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
-    },
     controller::satrak::ELEMENT_FILES,
+    engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
+    model::{UiCommand, View},
     transfer::{FileObject, Origin, Peer, UploadStep},
 };
 use egui::{Key, Role};
@@ -78,8 +78,8 @@ fn an_object_that_a_tle_cannot_carry_is_refused_at_its_line_before_anything_is_t
     let mut catalog = azel::orbit::bundled().unwrap();
     catalog.merge(azel::orbit::read_elements(text), "own");
     let model = &mut window.state_mut().model;
-    model.catalog = azel::app::model::CatalogState::Ready(std::sync::Arc::new(catalog));
-    model.station.favourites.push(340_000);
+    model.catalog = azel::engine::CatalogState::Ready(std::sync::Arc::new(catalog));
+    Arc::make_mut(&mut model.station).favourites.push(340_000);
     settle(&mut window);
     assert!(says(&window, "Object 340000: a TLE carries"));
     assert!(is_disabled(&window, "Upload and prove"));
@@ -149,7 +149,7 @@ fn what_went_wrong_is_told_and_what_was_typed_stays() {
         "the user has no right to do this in the folder",
     ] {
         let mut window = typed(WIDTHS[0], Uploads::default());
-        window.state_mut().model.uploads = failed(words);
+        window.state_mut().model.uploads = failed(words).into();
         settle(&mut window);
         assert!(says(&window, words.get(1..).unwrap()), "{words}");
         let user = window.get_by_role_and_label(Role::TextInput, "User").value();
@@ -203,11 +203,11 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
     let ask = UiCommand::Upload(Ask::ListKept { unit: unit.clone(), file: FILE.to_owned() });
     assert!(window.state().commands.contains(&ask));
     let of = (unit, FILE.to_owned());
-    window.state_mut().model.uploads.kept = Kept { of: of.clone(), list: None };
+    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of: of.clone(), list: None };
     settle(&mut window);
     assert!(says(&window, "The list is being read."));
     let problem = Some(Err("the list of kept files cannot be read".to_owned()));
-    window.state_mut().model.uploads.kept = Kept { of, list: problem };
+    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list: problem };
     settle(&mut window);
     assert!(says(&window, "The list of kept files cannot be read."));
 }
@@ -223,12 +223,12 @@ fn an_order_of_another_antenna_is_told_and_waited_for() {
 #[test]
 fn without_elements_an_old_file_can_still_be_put_back() {
     let mut window = typed(WIDTHS[0], Uploads::default());
-    window.state_mut().model.catalog = azel::app::model::CatalogState::Failed;
+    window.state_mut().model.catalog = azel::engine::CatalogState::Failed;
     let of = (peer().to_string(), FILE.to_owned());
     let entry = kept_entry(Origin::Found, 2.0);
     let back = put_back("Wed 2026-08-12 09:15:30Z, was on the unit", &entry);
     let list = Some(Ok(vec![entry]));
-    window.state_mut().model.uploads.kept = Kept { of, list };
+    Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list };
     settle(&mut window);
     assert!(is_disabled(&window, "Upload and prove"));
     assert!(!is_disabled(&window, &back));

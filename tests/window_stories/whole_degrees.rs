@@ -1,9 +1,9 @@
 //! A unit that works in whole degrees shows no decimals of its own.
 
 use azel::{
-    app::antenna::Prediction,
     astro::AzEl,
     driver::{Intent, Snapshot},
+    engine::antenna::Prediction,
 };
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;

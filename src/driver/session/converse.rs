@@ -1,15 +1,15 @@
 //! The loop of a session: dial, talk, lose, dial again.
 
-use std::{io, time::Duration};
+use std::{io, sync::atomic::Ordering, time::Duration};
 
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
     time::{sleep_until, timeout},
 };
 
-use super::{Command, Session, Wires, wanted::Wanted};
+use super::{Asked, Command, Session, Wires, wanted::Wanted};
 use crate::{
-    controller::{Extent, Moment},
+    controller::Extent,
     driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
 };
 
@@ -169,7 +169,7 @@ impl Session {
         let now = self.now();
         match turn {
             Turn::Over => return false,
-            Turn::Stop => self.halt_and_forget(now),
+            Turn::Stop => self.halt(now),
             Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
             Turn::Sleep(awake) => self.before_sleep(awake, now),
@@ -182,15 +182,6 @@ impl Session {
         }
         self.publish(now);
         true
-    }
-
-    /// What was asked for before a stop is void, also where it still waits to
-    /// be read.
-    pub(super) fn halt_and_forget(&mut self, now: Moment) {
-        if let Ok(mut commands) = self.wires.commands.try_lock() {
-            while commands.try_recv().is_ok() {}
-        }
-        self.halt(now);
     }
 
     /// Talks until the link is lost; `None` when the session is to end.
@@ -249,7 +240,7 @@ impl Session {
                 Turn::Lost(loss) => return Some(loss),
                 Turn::Stop => {
                     let now = self.now();
-                    self.halt_and_forget(now);
+                    self.halt(now);
                 }
                 Turn::Sleep(awake) => {
                     let now = self.now();
@@ -327,7 +318,7 @@ impl Session {
 pub(super) async fn next_word(wires: &Wires) -> Turn {
     tokio::select! {
         biased;
-        () = wires.stop.notified() => Turn::Stop,
+        () = wires.stopper.stop.notified() => Turn::Stop,
         awake = next_sleep(wires) => Turn::Sleep(awake),
         command = next_command(wires) => command.map_or(Turn::Over, Turn::Command),
     }
@@ -346,8 +337,17 @@ async fn next_sleep(wires: &Wires) -> Awake {
 /// begun any more.
 async fn next_command(wires: &Wires) -> Option<Command> {
     let mut commands = wires.commands.lock().await;
-    let command = commands.recv().await?;
-    (!commands.is_closed()).then_some(command)
+    loop {
+        let Asked { command, number } = commands.recv().await?;
+        if commands.is_closed() {
+            return None;
+        }
+        // Another station and a lock-out forbid; a stop does not take that back.
+        let forbids = matches!(command, Command::Within(_) | Command::LockOut(_));
+        if forbids || wires.stopper.void.load(Ordering::SeqCst) < number {
+            return Some(command);
+        }
+    }
 }
 
 pub(super) async fn write(

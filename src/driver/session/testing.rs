@@ -10,7 +10,7 @@ use crate::{
     astro::time::add_seconds,
     clock::Clock,
     controller::satrak::Satrak,
-    driver::{AntennaHandle, Debts, Dial, Stream},
+    driver::{AntennaHandle, Debts, Dial, Orders, Stream},
     plan::Bounds,
     sim::satrak::{Control, Options},
     station::{Antenna, Station},
@@ -40,7 +40,7 @@ pub(in crate::driver) fn start(
     });
     let started = Instant::now();
     let clock = Clock::new(move || add_seconds(START, started.elapsed().as_secs_f64()));
-    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}));
+    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}), &Orders::default());
     let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
     let bounds = Bounds::of_antenna(&antenna);
     let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts, bounds);

@@ -44,7 +44,7 @@ impl Session {
             match turn {
                 Turn::Over => return false,
                 Turn::Stop => {
-                    self.halt_and_forget(now);
+                    self.halt(now);
                     self.wanted = Wanted::ForStop;
                 }
                 Turn::Command(command) => self.turn_down(command, now),

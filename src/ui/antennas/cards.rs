@@ -12,8 +12,8 @@ use super::{
     unit::Unit,
 };
 use crate::{
-    app::UiCommand,
     controller::settings::{Access, Field},
+    model::UiCommand,
     ui::{icons::Icon, text, theme},
 };
 

@@ -7,7 +7,7 @@ use egui::{Align2, Color32, Galley, Key, Modifiers, Rect, Ui, pos2, vec2};
 
 use super::{form::Form, unit::Unit};
 use crate::{
-    app::UiCommand,
+    model::UiCommand,
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -16,9 +16,9 @@ use super::{
     unlock::Unlock,
 };
 use crate::{
-    app::UiCommand,
     controller::settings::{Access, Change, Group, Guard, Hindrance, Values},
     driver::Command,
+    model::UiCommand,
     ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
 };
 

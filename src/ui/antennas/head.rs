@@ -4,9 +4,9 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::unit::Unit;
 use crate::{
-    app::UiCommand,
     astro::time::seconds_between,
     driver::Command,
+    model::UiCommand,
     ui::{
         format, text, theme,
         widgets::{

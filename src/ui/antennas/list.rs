@@ -4,8 +4,9 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{form::Form, section::Section, unit::Unit};
 use crate::{
-    app::{Model, UiCommand, View, antenna::AntennaModel},
     controller::settings::Value,
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand, View},
     ui::{
         bar,
         icons::{self, Icon},

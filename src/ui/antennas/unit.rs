@@ -3,10 +3,11 @@
 use jiff::Timestamp;
 
 use crate::{
-    app::{Model, antenna::AntennaModel},
     astro::time::add_seconds,
     controller::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
     driver::Intent,
+    engine::antenna::AntennaModel,
+    model::Model,
 };
 
 /// A unit as this frame shows it, with what its form may do.

@@ -7,7 +7,7 @@ use egui::{
 
 use super::{ConsoleState, PADDING};
 use crate::{
-    app::{Model, UiCommand},
+    model::{Model, UiCommand},
     ui::{
         format, text, theme,
         widgets::{

@@ -3,10 +3,11 @@
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
-use super::{ConsoleState, PADDING, line::Line};
+use super::{ConsoleState, PADDING};
+use crate::model::Line;
 use crate::{
-    app::Model,
     controller::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
+    model::Model,
     ui::{
         format, text, theme,
         widgets::{

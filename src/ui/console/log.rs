@@ -3,8 +3,8 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use super::line::Line;
 use crate::driver::{MOST_LINES, WireLog};
+use crate::model::Line;
 
 /// What is shown of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -184,8 +184,9 @@ impl Log {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::line::testing::wire, *};
+    use super::*;
     use crate::controller::{Direction, WireLine};
+    use crate::model::testing::wire;
 
     fn sent(second: i64, text: &str) -> WireLine {
         wire(second, Direction::Sent, text)

@@ -5,7 +5,7 @@ use egui::{
     text::{LayoutJob, TextFormat, TextWrapping},
 };
 
-use super::line::{Piece, pieces};
+use crate::model::{Piece, pieces};
 use crate::ui::{text, theme};
 
 /// Size of the names of bytes that cannot be printed.

@@ -2,7 +2,8 @@
 
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
-use super::{PADDING, line::Line, raw};
+use super::{PADDING, raw};
+use crate::model::Line;
 use crate::{
     controller::{Direction, Finding, panel::Tone},
     ui::{

@@ -8,9 +8,10 @@ use egui::{
 
 use super::{PADDING, raw};
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel},
     controller::Question,
     driver,
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
     ui::{
         bar::glyph,
         icons::{self, Icon},

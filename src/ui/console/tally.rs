@@ -4,8 +4,9 @@ use std::{sync::Arc, time::Duration};
 
 use jiff::{SignedDuration, Timestamp};
 
-use super::{line::Line, log::Log};
+use super::log::Log;
 use crate::controller::{Finding, panel::Tone};
+use crate::model::Line;
 
 /// How far back it is counted.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);
@@ -68,7 +69,8 @@ fn tally(antenna: &Arc<str>, now: Timestamp, log: &Log) -> Tally {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::line::testing::wire, *};
+    use super::*;
+    use crate::model::testing::wire;
     use crate::{
         controller::{Direction, WireLine},
         driver::WireLog,

@@ -3,11 +3,11 @@
 use egui::{Button, Id, Modal, RichText, Ui, vec2};
 
 use crate::{
-    app::{
-        Model, UiCommand,
+    engine::{
         antenna::{AntennaModel, Stake},
         closing::{CloseHow, Wanted},
     },
+    model::{Model, UiCommand},
     ui::{
         format, text, theme,
         widgets::told::{Tone, line},

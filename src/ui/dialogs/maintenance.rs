@@ -3,8 +3,9 @@
 use egui::{Frame, Id, Modal, RichText, Sense, TextEdit, Ui, vec2};
 
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel},
     driver::Command,
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
     station::LockOut,
     ui::{
         confirm::Question,

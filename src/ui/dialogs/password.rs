@@ -4,7 +4,7 @@ use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
 
 use super::WIDTH;
 use crate::{
-    app::uploads::SecretWanted,
+    engine::uploads::SecretWanted,
     secret::Secret,
     ui::{
         text, theme,

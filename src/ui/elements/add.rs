@@ -6,8 +6,9 @@ use egui::{Align, Layout, RichText, TextEdit, Ui, vec2};
 
 use super::sources::named_button;
 use crate::{
-    app::{UiCommand, sources::Sources},
+    engine::sources::Sources,
     library::check_source,
+    model::UiCommand,
     orbit::{Place, Source},
     ui::{text, theme, widgets::card},
 };

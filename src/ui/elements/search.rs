@@ -9,8 +9,9 @@ use egui::{
 
 use super::{sources::named_button, words};
 use crate::{
-    app::{Model, UiCommand, model::CatalogState},
     astro::time::seconds_between,
+    engine::CatalogState,
+    model::{Model, UiCommand},
     orbit::{Catalog, Elements},
     ui::{
         format, text, theme,

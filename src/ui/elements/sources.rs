@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::words;
 use crate::{
-    app::{Model, UiCommand},
+    model::{Model, UiCommand},
     orbit::{Place, Source, SourceReport},
     ui::{
         confirm::Question,

@@ -4,8 +4,9 @@ use egui::{FocusDirection, Ui};
 
 use super::Desk;
 use crate::{
-    app::{Model, UiCommand, View, antenna::AntennaModel},
     driver::{self, Intent},
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand, View},
     ui::{confirm::Question, theme},
 };
 

@@ -12,10 +12,11 @@ use super::antenna_card::{
     LockOutModel, MoreModel, OtherAntenna, Reach, TrackModel, WayOutModel,
 };
 use crate::{
-    app::{Model, UiCommand, View, antenna::AntennaModel, model::CatalogState},
     astro::Angle,
     controller::{Capabilities, HeldSatellite, Pointing},
     driver::{Intent, LinkState, Snapshot},
+    engine::{CatalogState, antenna::AntennaModel},
+    model::{Model, UiCommand, View},
     station::Mount,
     ui::{
         bar,

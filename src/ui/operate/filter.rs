@@ -1,9 +1,9 @@
 //! The passes of the list whose satellite has the name or number that is
 //! looked for.
 
-use crate::app::{
-    Model,
-    forecast::{Forecast, Scope},
+use crate::{
+    engine::forecast::{Forecast, Scope},
+    model::Model,
 };
 
 /// The passes that were found, kept until the list or the text changes.

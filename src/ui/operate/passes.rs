@@ -6,12 +6,12 @@ use jiff::Timestamp;
 use super::filter::Found;
 
 use crate::{
-    app::{
-        Model, UiCommand,
-        forecast::{Forecast, PassKey, Work},
-        model::CatalogState,
-    },
     astro::time::{add_seconds, seconds_between},
+    engine::{
+        CatalogState,
+        forecast::{Forecast, PassKey, Work},
+    },
+    model::{Model, UiCommand},
     orbit::Pass,
     plan::{Sample, Trackability},
     ui::{
@@ -65,10 +65,10 @@ pub(super) fn list(
         })
     };
     let place = |key| {
-        let place = listing.place(key).filter(|place| *place < passes.len())?;
+        let place = passes.row(key)?;
         found.map_or(Some(place), |found| found.binary_search(&place).ok())
     };
-    let work = listing.work();
+    let work = listing.work;
     let none = format!("No pass in the next {} h. Choose a lower elevation.", model.list.span_h());
     let empty = match &model.catalog {
         CatalogState::Loading => "The elements are being read.",
@@ -90,7 +90,7 @@ pub(super) fn list(
         span_h: model.list.span_h(),
         floor_deg: model.station.elevation_floor_deg,
         work,
-        made: listing.made_at().map(|at| (listing.satellites.len(), at)),
+        made: listing.made_at.map(|at| (listing.satellites.len(), at)),
         thumbnails,
         empty,
     };
@@ -241,7 +241,7 @@ pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
     let antenna = model.antenna().filter(|antenna| antenna.tracked_number() == Some(number));
     let errors: Vec<(Timestamp, f32)> = antenna
         .into_iter()
-        .flat_map(|antenna| &antenna.errors)
+        .flat_map(|antenna| antenna.errors.iter())
         .map(|error| (error.time, error.off_beam.degrees() as f32))
         .collect();
     let beam_width_deg = model.antenna().map_or(1.0, |antenna| antenna.config.beam_width_deg);

@@ -4,9 +4,10 @@ use egui::{Rect, Ui};
 
 use super::OperateState;
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel},
     astro::{Angle, AzEl, time::seconds_between},
     driver::{LinkState, StopState},
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
     orbit::PassPoint,
     plan::Sample,
     ui::{

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, Filter, PassListAction, PassListModel};
 use crate::{
-    app::forecast::{SPANS_H, Scope},
+    engine::forecast::{SPANS_H, Scope},
     ui::{
         format,
         icons::{self, Icon},

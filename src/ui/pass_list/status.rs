@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
 use super::{PassListAction, PassListModel};
 use crate::{
-    app::forecast::Work,
+    engine::forecast::Work,
     ui::{
         format, text, theme,
         widgets::{

@@ -10,8 +10,8 @@ use super::{
     fields::{Field, Look, Standing},
 };
 use crate::{
-    app::Model,
     makes,
+    model::Model,
     ui::{
         text, theme,
         widgets::{

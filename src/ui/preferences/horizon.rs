@@ -14,12 +14,12 @@ use jiff::Timestamp;
 
 use self::{draft::Skies, history::History, skyline::Recording};
 use crate::{
-    app::{
+    astro::{Angle, AzEl, Site, sun_moon, time::add_seconds},
+    engine::antenna::AntennaModel,
+    model::{
         Model, UiCommand,
-        antenna::AntennaModel,
         effects::{Obstacles, Question},
     },
-    astro::{Angle, AzEl, Site, sun_moon, time::add_seconds},
     station::{Mount, Station},
     ui::{
         format,
@@ -425,7 +425,7 @@ fn ask_for_effect(
         site: station.site,
     };
     if model.effects.wanted() != Some(&question) {
-        ui.ctx().request_repaint_after_for(crate::app::effects::DEBOUNCE, egui::ViewportId::ROOT);
+        ui.ctx().request_repaint_after_for(crate::model::effects::DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowEffects(Box::new(question)));
     }
 }

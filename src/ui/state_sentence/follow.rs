@@ -2,9 +2,10 @@
 
 use super::{Spoken, place, short};
 use crate::{
-    app::{Model, antenna::AntennaModel},
     astro::time::seconds_between,
     driver::FollowView,
+    engine::antenna::AntennaModel,
+    model::Model,
     plan::FollowPhase,
     ui::{format, widgets::sentence::SentenceKind},
 };

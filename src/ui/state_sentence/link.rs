@@ -2,8 +2,9 @@
 
 use super::{Spoken, short};
 use crate::{
-    app::{Model, antenna::AntennaModel},
     driver::{LinkLoss, LinkState, StopState},
+    engine::antenna::AntennaModel,
+    model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 

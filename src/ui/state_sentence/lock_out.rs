@@ -2,8 +2,8 @@
 
 use super::Spoken;
 use crate::{
-    app::antenna::AntennaModel,
     driver::{LinkState, StopState},
+    engine::antenna::AntennaModel,
     ui::{format, widgets::sentence::SentenceKind},
 };
 

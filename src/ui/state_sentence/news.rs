@@ -2,9 +2,10 @@
 
 use super::{Spoken, short};
 use crate::{
-    app::{Model, antenna::AntennaModel},
     astro::time::seconds_between,
     driver::{Event, Found},
+    engine::antenna::AntennaModel,
+    model::Model,
     plan::FollowStats,
     ui::{format, widgets::sentence::SentenceKind, words},
 };

@@ -3,12 +3,14 @@
 use egui::{Align2, Button, Popup, Rect, Role, Ui, pos2, vec2};
 
 use super::{TopBarAction, TopBarModel};
-use crate::ui::{
-    icons::{self, Icon},
-    text::{self, Weight},
-    theme,
-    tokens::ThemeName,
-    widgets::paint,
+use crate::{
+    model::ThemeName,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
 };
 
 /// Width of the selector without coordinates.

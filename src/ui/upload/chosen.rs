@@ -6,11 +6,9 @@ use egui::{Align, Button, Label, Layout, RichText, Role, TextEdit, Ui, WidgetInf
 
 use super::form::Form;
 use crate::{
-    app::{
-        Model,
-        uploads::{Chosen, ChosenObject},
-    },
     astro::time::seconds_between,
+    engine::uploads::{Chosen, ChosenObject},
+    model::Model,
     orbit::{Catalog, Elements},
     ui::{
         format, text, theme,

@@ -5,8 +5,8 @@ use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::{
-    app::uploads::{Cargo, Chosen, Order},
     controller::ElementFiles,
+    engine::uploads::{Cargo, Chosen, Order},
     orbit::Catalog,
     station::Antenna,
     transfer::{FileName, FileNameError, Peer, TleFile},

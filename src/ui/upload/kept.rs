@@ -4,10 +4,8 @@ use egui::{RichText, Ui};
 
 use super::{chosen::named, form::Form, outcome};
 use crate::{
-    app::{
-        Model, UiCommand,
-        uploads::{Ask, Cargo, KeptEntry, Order},
-    },
+    engine::uploads::{Ask, Cargo, KeptEntry, Order},
+    model::{Model, UiCommand},
     transfer::Origin,
     ui::{
         confirm::Question,

@@ -4,11 +4,9 @@ use egui::{Frame, Margin, RichText, Stroke, Ui};
 use jiff::Timestamp;
 
 use crate::{
-    app::{
-        Model, UiCommand,
-        uploads::{Ask, Failure, Proved, Stage, Warning},
-    },
     astro::time::seconds_between,
+    engine::uploads::{Ask, Failure, Proved, Stage, Warning},
+    model::{Model, UiCommand},
     transfer::{FileObject, Uploaded},
     ui::{
         confirm::Question,

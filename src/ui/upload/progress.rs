@@ -5,10 +5,8 @@ use std::cmp::Ordering;
 use egui::{ProgressBar, RichText, Ui};
 
 use crate::{
-    app::{
-        Model, UiCommand,
-        uploads::{Ask, Stage},
-    },
+    engine::uploads::{Ask, Stage},
+    model::{Model, UiCommand},
     transfer::{Progress, UploadStep},
     ui::{
         text, theme,

@@ -3,10 +3,8 @@
 use egui::Ui;
 
 use crate::{
-    app::{
-        Model, UiCommand,
-        uploads::{Ask, Busy, Stage},
-    },
+    engine::uploads::{Ask, Busy, Stage},
+    model::{Model, UiCommand},
     ui::dialogs::{self, Answer, PasswordDialog, SecretAnswer},
 };
 

@@ -3,7 +3,7 @@
 use egui::{Ui, Vec2};
 use egui_kittest::Harness;
 
-use crate::ui::{theme, tokens::ThemeName};
+use crate::{model::ThemeName, ui::theme};
 
 /// A window of `size` with the fonts and colours of the program.
 pub(crate) fn window<'a, State: 'a>(

@@ -1,8 +1,8 @@
 //! The alarm list.
 
 use crate::{
-    app::alarms::{AlarmKind, Work},
     driver::LinkLoss,
+    engine::alarms::{AlarmKind, Work},
     station::NoteReason,
     ui::format,
 };

@@ -1,10 +1,11 @@
 //! What was asked for on the card.
 
 use crate::{
-    app::{Model, UiCommand, antenna::AntennaModel, forecast::Forecast},
     astro::{Angle, AzEl},
     controller::panel::Act,
     driver::{Command, Intent},
+    engine::{antenna::AntennaModel, forecast::Forecast},
+    model::{Model, UiCommand},
     plan::{self, Follow},
     ui::{
         antenna_card::{CardAction, FollowChoice},
@@ -34,11 +35,7 @@ impl Desk<'_> {
             CardAction::Select(index) => {
                 return self.commands.push(UiCommand::SelectAntenna(index));
             }
-            CardAction::Follow(choice) => match (choice, self.follow(choice)) {
-                (FollowChoice::IntoSun, Some(follow)) => Command::FollowIntoSun(Box::new(follow)),
-                (_, Some(follow)) => Command::Follow(Box::new(follow)),
-                (_, None) => return,
-            },
+            CardAction::Follow(choice) => return self.follow(choice),
             CardAction::SetMode(Mode::Standby) => Command::Standby,
             CardAction::SetMode(Mode::Manual) => Command::Manual,
             CardAction::SetMode(Mode::Position) => Command::Hold,
@@ -48,7 +45,9 @@ impl Desk<'_> {
             }
             CardAction::TrackAgain => {
                 let again = self.antenna.track_again.as_ref();
-                return self.commands.extend(again.map(|again| again.command.clone()));
+                return self
+                    .commands
+                    .extend(again.map(|again| UiCommand::Station(again.command.clone())));
             }
             CardAction::TrackAnyway => {
                 let pass = self.model.selected_pass().map(Forecast::key);
@@ -85,10 +84,13 @@ impl Desk<'_> {
         UiCommand::Antenna(self.model.selected_antenna, command)
     }
 
-    fn follow(&self, choice: FollowChoice) -> Option<Follow> {
+    fn follow(&mut self, choice: FollowChoice) {
         let target = match choice {
             FollowChoice::Selected => {
-                return self.model.selected_pass().map(|forecast| self.model.follow_of(forecast));
+                let pass = self.model.selected_pass().map(Forecast::key);
+                let antenna = self.model.selected_antenna;
+                let command = pass.map(|pass| UiCommand::FollowPass { antenna, pass });
+                return self.commands.extend(command);
             }
             FollowChoice::Sun | FollowChoice::IntoSun => plan::Target::Sun,
             FollowChoice::Moon => plan::Target::Moon,
@@ -97,7 +99,13 @@ impl Desk<'_> {
                 plan::Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg))
             }
         };
-        Some(Follow { target, site: self.model.station.site, passes: Vec::new() })
+        let site = self.model.station.site;
+        let follow = Box::new(Follow { target, site, passes: Vec::new() });
+        let command = match choice {
+            FollowChoice::IntoSun => Command::FollowIntoSun(follow),
+            _ => Command::Follow(follow),
+        };
+        self.commands.push(self.for_antenna(command));
     }
 
     /// Asked about while something would go on unwatched.

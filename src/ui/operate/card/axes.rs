@@ -1,9 +1,9 @@
 //! The axes of an antenna as the card shows them.
 
 use crate::{
-    app::antenna::AntennaModel,
     astro::Angle,
     controller::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
+    engine::antenna::AntennaModel,
     station::Mount,
     ui::{
         format,

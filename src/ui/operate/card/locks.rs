@@ -1,8 +1,8 @@
 //! Why something cannot be asked for now.
 
 use crate::{
-    app::antenna::AntennaModel,
     driver::{Intent, LinkState},
+    engine::antenna::AntennaModel,
 };
 
 /// Why something cannot be asked for now, each in a sentence.

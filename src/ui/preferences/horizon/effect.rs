@@ -1,7 +1,7 @@
 //! What the edits do to the passes to come, in two lines.
 
 use crate::{
-    app::effects::{Effect, Tally},
+    model::effects::{Effect, Tally},
     ui::format,
 };
 
@@ -11,7 +11,7 @@ pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
     if of == 0 {
         return ["No pass of a favourite in the next 48 h.".to_owned(), String::new()];
     }
-    let toll = |tally: &Tally, obstacles: &crate::app::effects::Obstacles| {
+    let toll = |tally: &Tally, obstacles: &crate::model::effects::Obstacles| {
         let place = obstacles.keep_outs.iter().position(|of| Some(&*of.name) == zone)?;
         tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
     };

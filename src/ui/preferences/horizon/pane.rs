@@ -11,7 +11,8 @@ use super::{
     edit, skyline,
 };
 use crate::{
-    app::{Model, antenna::AntennaModel},
+    engine::antenna::AntennaModel,
+    model::Model,
     station::{Entered, Mount},
     ui::{
         format,

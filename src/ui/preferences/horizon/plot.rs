@@ -8,7 +8,7 @@ use egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use super::{Chosen, HorizonState, Tool, draft::Skies};
 use crate::{
-    app::Model,
+    model::Model,
     ui::{
         format,
         sky_plot::{

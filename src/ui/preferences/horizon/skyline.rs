@@ -6,9 +6,9 @@ use egui::{Align2, Key, Rect, Sense, Ui, pos2, vec2};
 
 use super::{HorizonState, draft::Skies, pane, plot};
 use crate::{
-    app::{Model, UiCommand},
     astro::{Angle, AzEl},
     driver::{Intent, LinkState},
+    model::{Model, UiCommand},
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -4,12 +4,13 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 
 use crate::ui::antennas::cards::{fields, is_reported};
 use crate::{
-    app::{Model, UiCommand, forecast::Forecast},
     astro::time::add_seconds,
     controller::{
         satrak::{FROM_GPS, FROM_THIS_PC},
         settings::{Value, Values},
     },
+    engine::forecast::Forecast,
+    model::{Model, UiCommand},
     ui::{
         antennas::{draft::Mark, form::Form, row, unit::Unit},
         format,

@@ -4,12 +4,13 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use crate::ui::antennas::cards::fields;
 use crate::{
-    app::{UiCommand, forecast::Forecast, on_board},
     controller::{
         Motion,
         settings::{Kind, Value},
     },
     driver::{Command, Event, Refusal},
+    engine::{forecast::Forecast, on_board},
+    model::UiCommand,
     ui::{
         antennas::{
             form::Form,

@@ -14,12 +14,12 @@ use super::{
     label,
 };
 use crate::{
-    app::{
+    astro::{Angle, Zone},
+    engine::antenna::AntennaModel,
+    model::{
         Model,
-        antenna::AntennaModel,
         effects::{Effect, Toll},
     },
-    astro::{Angle, Zone},
     station::{Antenna, Mount},
     ui::{
         format,

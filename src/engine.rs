@@ -1,0 +1,407 @@
+//! A running station: its antennas, elements, passes, alarms and the work on units, on
+//! a thread of its own. A client sends [`Command`]s and takes [`Snapshot`]s and
+//! [`Event`]s; the station does not know whether there is one.
+
+pub mod alarms;
+pub mod antenna;
+mod carry_out;
+mod clock_watch;
+pub mod closing;
+mod command;
+pub mod copies;
+mod demo;
+pub mod forecast;
+mod handle;
+pub mod host_keys;
+mod lock_outs;
+pub mod on_board;
+mod owed;
+mod settle;
+mod snapshot;
+pub mod source_tests;
+pub mod sources;
+pub mod track_again;
+mod turn;
+pub mod uploads;
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+use tokio::sync::{Notify, mpsc, watch};
+
+use self::{
+    alarms::{AlarmKind, Alarms},
+    antenna::{AntennaId, AntennaModel},
+    clock_watch::ClockWatch,
+    closing::Closing,
+    copies::{Copies, CopyWork},
+    demo::Demo,
+    forecast::{Forecasts, Searches},
+    handle::{AntennaEnds, NearEnd, Published, Request},
+    source_tests::SourceTests,
+    sources::{Outcome, Places, SourceWork, Sources, Task},
+    uploads::Uploads,
+};
+pub use self::{
+    command::{Attention, Command},
+    handle::{Event, Handle},
+    snapshot::{CatalogState, Snapshot},
+};
+use crate::{
+    clock::Clock,
+    driver::{self, AntennaHandle, Driver, TimeSync, Unit},
+    job::{Job, Wake},
+    makes::{self, DemoAddresses},
+    plan::Bounds,
+    station::{self, LoadError, LockOuts, Station},
+};
+
+/// What has come in is taken at most this often: a change is shown with the next frame
+/// of a window.
+const BREATH: Duration = Duration::from_millis(10);
+
+/// Where a station keeps what it keeps.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Where the station file is; `None` for the user's own.
+    pub path: Option<PathBuf>,
+    /// Where elements from servers are kept; `None` for the user's own folder.
+    pub library: Option<PathBuf>,
+    /// Where host keys, old uploads and secrets are kept; `None` for the user's
+    /// own places.
+    pub upload_places: Option<uploads::Places>,
+    /// The program that is started as the dead-man; `None` for none.
+    pub dead_man: Option<PathBuf>,
+    /// Where motions by hand are marked; `None` for nowhere.
+    pub marks: Option<PathBuf>,
+}
+
+impl Settings {
+    /// Where the station file is, if this user has a place for one.
+    pub fn station_path(&self) -> Option<PathBuf> {
+        self.path.clone().or_else(station::settings_path)
+    }
+
+    /// Where elements from servers are kept, if this user has a place for them.
+    pub fn library_path(&self) -> Option<PathBuf> {
+        let station = self.station_path();
+        let places = Places::new(station.as_deref(), self.library.clone());
+        places.library().map(Path::to_path_buf)
+    }
+}
+
+/// Where a station tells its client what happens.
+struct Outbox {
+    events: mpsc::Sender<Event>,
+    wake: Wake,
+}
+
+/// A running station, on its thread.
+struct Engine {
+    /// UTC of this turn.
+    now: Timestamp,
+    /// The steady clock of this turn, for ages.
+    steady: Instant,
+    time_sync: TimeSync,
+    station: Arc<Station>,
+    demo: Option<DemoStation>,
+    catalog: CatalogState,
+    sources: Sources,
+    antennas: Vec<Antenna>,
+    next_id: u64,
+    attention: Attention,
+    searches: Searches,
+    forecasts: Forecasts,
+    uploads: Uploads,
+    source_tests: SourceTests,
+    alarms: Alarms,
+    copies: Copies,
+    closing: Option<Closing>,
+    // The sessions end before their thread does.
+    driver: Driver,
+    clock: Clock,
+    clock_watch: ClockWatch,
+    wake: Wake,
+    woken: Arc<Notify>,
+    settings_path: Option<PathBuf>,
+    places: Places,
+    elements_job: Option<Job<Outcome>>,
+    /// The last reading of the elements broke off.
+    elements_broke_off: bool,
+    copy_work: CopyWork,
+    upload_desk: uploads::Desk,
+    source_desk: source_tests::Desk,
+    lock_outs: LockOuts,
+    /// The settings on disk could not be read: only the operator may replace them.
+    settings_unread: bool,
+    /// The number of what a client asked for, while it is carried out.
+    asked: Option<u64>,
+    outbox: Outbox,
+    publish: watch::Sender<Published>,
+}
+
+/// One antenna and its session.
+struct Antenna {
+    shown: AntennaModel,
+    handle: AntennaHandle,
+}
+
+/// The station with simulated antennas, before and after they run.
+enum DemoStation {
+    /// The addresses are known once the simulators run.
+    Coming,
+    Running(#[allow(dead_code, reason = "dropping it ends the simulators")] Demo),
+}
+
+impl Engine {
+    /// A station as its settings say.
+    fn new(settings: &Settings, clock: Clock, outbox: Outbox) -> io::Result<(Self, NearEnd)> {
+        let settings_path = settings.station_path();
+        let woken = Arc::new(Notify::new());
+        let wake: Wake = {
+            let woken = Arc::clone(&woken);
+            Arc::new(move || woken.notify_one())
+        };
+        let driver = Driver::start(clock.clone(), Arc::clone(&wake))?
+            .guarded_by(settings.dead_man.clone())
+            .marking_in(settings.marks.clone());
+        let places = Places::new(settings_path.as_deref(), settings.library.clone());
+        let elements_job =
+            sources::start(&places, Task::default(), clock.utc(), Arc::clone(&wake))?;
+        let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
+        let upload_desk =
+            uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
+        let source_desk = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
+        let snapshot = Arc::new(Snapshot::before_anything());
+        let published = Published { snapshot, ends: Arc::new([]) };
+        let (publish, published) = watch::channel(published);
+        let mut engine = Self {
+            now: clock.utc(),
+            steady: Instant::now(),
+            time_sync: TimeSync::NotKnown,
+            station: Arc::default(),
+            demo: None,
+            catalog: CatalogState::Loading,
+            sources: Sources { work: SourceWork::Reading, ..Sources::default() },
+            antennas: Vec::new(),
+            next_id: 0,
+            attention: Attention::default(),
+            searches: Searches::default(),
+            forecasts: Forecasts::default(),
+            uploads: Uploads::default(),
+            source_tests: SourceTests::default(),
+            alarms: Alarms::default(),
+            copies: Copies::default(),
+            closing: None,
+            driver,
+            clock,
+            clock_watch: ClockWatch::default(),
+            wake,
+            woken,
+            copy_work: CopyWork::beside(settings_path.as_deref()),
+            settings_path,
+            places,
+            elements_job: Some(elements_job),
+            elements_broke_off: false,
+            upload_desk,
+            source_desk,
+            lock_outs: LockOuts::default(),
+            settings_unread: false,
+            asked: None,
+            outbox,
+            publish,
+        };
+        engine.load_lock_outs();
+        engine.load_station();
+        engine.publish();
+        let orders = engine.driver.orders().clone();
+        Ok((engine, NearEnd { published, orders }))
+    }
+
+    /// Runs until nobody is there to send requests.
+    async fn run(mut self, mut inbox: mpsc::Receiver<Request>) {
+        let woken = Arc::clone(&self.woken);
+        loop {
+            let mut request = tokio::select! {
+                biased;
+                request = inbox.recv() => match request {
+                    Some(request) => Some(request),
+                    None => return,
+                },
+                () = woken.notified() => {
+                    // More comes in at the same moment; a request is not kept waiting.
+                    match tokio::time::timeout(BREATH, inbox.recv()).await {
+                        Ok(Some(request)) => Some(request),
+                        Ok(None) => return,
+                        Err(_) => None,
+                    }
+                }
+                () = tokio::time::sleep(to_next_second(self.clock.utc())) => {
+                    self.turn();
+                    self.publish();
+                    continue;
+                }
+            };
+            self.set_time();
+            while let Some(next) = request {
+                self.take_request(next);
+                request = inbox.try_recv().ok();
+            }
+            self.turn();
+            self.publish();
+            (self.outbox.wake)();
+        }
+    }
+
+    fn take_request(&mut self, request: Request) {
+        match request {
+            Request::Command(command, number) => {
+                self.asked = Some(number);
+                self.carry_out(command);
+                self.asked = None;
+            }
+            Request::Stopped(antennas, at) => self.note_stops(&antennas, at),
+            Request::EndUnasked => self.end_unasked(),
+        }
+    }
+
+    fn set_time(&mut self) {
+        self.now = self.clock.utc();
+        self.steady = Instant::now();
+    }
+
+    /// Shows the station as it is now.
+    fn publish(&mut self) {
+        let last = Arc::clone(&self.publish.borrow().snapshot);
+        let snapshot = Arc::new(Snapshot {
+            time_sync: self.time_sync,
+            station: Arc::clone(&self.station),
+            demo: self.demo.is_some(),
+            catalog: self.catalog.clone(),
+            sources: shared(&self.sources, &last.sources),
+            antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
+            forecasts: self.forecasts.clone(),
+            uploads: shared(&self.uploads, &last.uploads),
+            source_tests: shared(&self.source_tests, &last.source_tests),
+            alarms: self.alarms.clone(),
+            copies: shared(&self.copies, &last.copies),
+            closing: self.closing.clone(),
+        });
+        let is_same = {
+            let ends = &self.publish.borrow().ends;
+            let ids = self.antennas.iter().map(|antenna| antenna.shown.id);
+            ends.iter().map(|ends| ends.id).eq(ids)
+        };
+        let ends = if is_same {
+            Arc::clone(&self.publish.borrow().ends)
+        } else {
+            let ends = self.antennas.iter().map(|antenna| AntennaEnds {
+                id: antenna.shown.id,
+                stopper: antenna.handle.stopper(),
+                wire: antenna.handle.wire().clone(),
+            });
+            ends.collect()
+        };
+        self.publish.send_replace(Published { snapshot, ends });
+    }
+
+    /// Tells the client, unless it has left hundreds of events unread.
+    fn tell(&self, event: Event) {
+        if self.outbox.events.try_send(event).is_err() {
+            tracing::warn!("an event is not told: nobody reads them");
+        }
+    }
+
+    fn load_station(&mut self) {
+        let loaded = match &self.settings_path {
+            Some(path) => station::load(path, &makes::kinds()),
+            None => Err(LoadError::Missing),
+        };
+        match loaded {
+            Ok(loaded) => {
+                for note in loaded.notes {
+                    self.alarms.raise(None, AlarmKind::Setting(note), self.now);
+                }
+                self.use_station(loaded.station);
+            }
+            Err(LoadError::Missing) => {
+                self.demo = Some(DemoStation::Coming);
+                self.use_station(Station {
+                    antennas: Vec::new(),
+                    ..Station::demo(&DemoAddresses::default())
+                });
+            }
+            Err(error) => {
+                let text = error.to_string();
+                tracing::error!("{text}");
+                self.alarms.raise(None, AlarmKind::Settings(text), self.now);
+                // Nothing is connected and nothing is overwritten by itself.
+                self.settings_unread = true;
+                self.use_station(Station::default());
+            }
+        }
+    }
+
+    /// Takes a station into use. Antennas that stay as they are keep their session.
+    fn use_station(&mut self, station: Station) {
+        self.keep_rows_locked_out(&station.antennas);
+        let mut before = std::mem::take(&mut self.antennas);
+        // The antenna may be the same one at a new address: then STOP is owed to both.
+        let debts = self.driver.debts().clone();
+        let owed: Vec<String> = (before.iter())
+            .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
+            .map(|antenna| antenna.shown.config.name.clone())
+            .collect();
+        // A unit has one place for a client: the old session leaves first.
+        before.retain(|antenna| station.antennas.contains(&antenna.shown.config));
+        for config in &station.antennas {
+            let bounds = Bounds::of(&station, config);
+            let kept = before.iter().position(|antenna| antenna.shown.config == *config);
+            let antenna = if let Some(kept) = kept {
+                let antenna = before.swap_remove(kept);
+                // Not taken only where the session is too busy to take anything.
+                if antenna.handle.send(driver::Command::Within(Box::new(bounds))).is_err() {
+                    self.alarms.raise(None, AlarmKind::NotTaken, self.now);
+                }
+                antenna
+            } else {
+                let antenna = self.open_antenna(config.clone(), bounds);
+                if owed.contains(&config.name) {
+                    antenna.handle.stop();
+                }
+                antenna
+            };
+            self.antennas.push(antenna);
+        }
+        self.station = Arc::new(station);
+    }
+
+    fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
+        let lock_out = self.lock_outs.of(&config.connection).cloned();
+        let handle = self.driver.open(&config, bounds, lock_out);
+        let id = AntennaId(self.next_id);
+        self.next_id += 1;
+        Antenna { shown: AntennaModel::new(id, config, handle.snapshot()), handle }
+    }
+
+    /// The place of an antenna, if the station still has it.
+    fn place(&self, id: AntennaId) -> Option<usize> {
+        self.antennas.iter().position(|antenna| antenna.shown.id == id)
+    }
+}
+
+/// What is shared, made anew where it has changed.
+fn shared<T: Clone + PartialEq>(now: &T, last: &Arc<T>) -> Arc<T> {
+    if *now == **last { Arc::clone(last) } else { Arc::new(now.clone()) }
+}
+
+fn to_next_second(now: Timestamp) -> Duration {
+    let into = u64::from(now.subsec_nanosecond().unsigned_abs());
+    // A clock that stands at the second must not make a turn at once, again and again.
+    Duration::from_nanos(1_000_000_000 - into).max(Duration::from_millis(5))
+}

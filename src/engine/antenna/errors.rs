@@ -1,0 +1,97 @@
+//! How far an antenna was from where it should have been, over the present track.
+
+use std::{collections::VecDeque, sync::Arc};
+
+use jiff::Timestamp;
+
+use crate::astro::{Angle, time::seconds_between};
+
+/// The errors of this long are kept for the profile of a pass.
+const KEPT_S: f64 = 3600.0;
+/// So many samples are shared at once.
+const CHUNK: usize = 256;
+
+/// How far a measured direction was from the predicted one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorSample {
+    /// When.
+    pub time: Timestamp,
+    /// Between the beam axis and the satellite.
+    pub off_beam: Angle,
+    /// Measured less predicted azimuth, the short way round.
+    pub azimuth: Angle,
+    /// Measured less predicted elevation.
+    pub elevation: Angle,
+}
+
+/// The errors of the present track, oldest first. A copy shares all but the newest few
+/// hundred with what it was copied from.
+#[derive(Debug, Clone, Default)]
+pub struct Errors {
+    chunks: VecDeque<Arc<Vec<ErrorSample>>>,
+}
+
+impl Errors {
+    /// The oldest first.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &ErrorSample> {
+        self.chunks.iter().flat_map(|chunk| chunk.iter())
+    }
+
+    /// The newest.
+    pub fn back(&self) -> Option<&ErrorSample> {
+        self.chunks.back().and_then(|chunk| chunk.last())
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.back().is_none()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.chunks.clear();
+    }
+
+    /// Adds the newest and forgets what is too old, a chunk at a time.
+    pub(super) fn push(&mut self, sample: ErrorSample) {
+        match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
+            Some(chunk) => Arc::make_mut(chunk).push(sample),
+            None => self.chunks.push_back(Arc::new(vec![sample])),
+        }
+        let is_old = |chunk: &Arc<Vec<ErrorSample>>| {
+            chunk.last().is_some_and(|last| seconds_between(last.time, sample.time) > KEPT_S)
+        };
+        while self.chunks.front().is_some_and(is_old) {
+            self.chunks.pop_front();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::time::add_seconds;
+
+    fn sample(second: f64) -> ErrorSample {
+        let time = add_seconds(Timestamp::UNIX_EPOCH, second);
+        ErrorSample { time, off_beam: Angle::ZERO, azimuth: Angle::ZERO, elevation: Angle::ZERO }
+    }
+
+    #[test]
+    fn an_hour_is_kept_in_order_and_a_copy_stays_as_it_was() {
+        let mut errors = Errors::default();
+        assert!(errors.is_empty());
+        for second in 0..300 {
+            errors.push(sample(f64::from(second)));
+        }
+        let copy = errors.clone();
+        for second in 300..5000 {
+            errors.push(sample(f64::from(second)));
+        }
+        assert_eq!((copy.iter().count(), copy.back().unwrap().time.as_second()), (300, 299));
+        let kept: Vec<i64> = errors.iter().map(|sample| sample.time.as_second()).collect();
+        assert!(kept.is_sorted() && kept.last() == Some(&4999));
+        assert!((3600..3600 + 300).contains(&kept.len()), "{}", kept.len());
+        errors.clear();
+        assert!(errors.is_empty());
+    }
+}

@@ -1,0 +1,205 @@
+//! Carries out what a client asked for.
+
+use std::sync::Arc;
+
+use super::{
+    Command, Engine, Event,
+    alarms::AlarmKind,
+    antenna::AntennaId,
+    forecast::{Forecast, PassKey},
+    sources::{self, SourceWork, Task},
+};
+use crate::{
+    driver,
+    station::{self, Station},
+};
+
+impl Engine {
+    pub(super) fn carry_out(&mut self, command: Command) {
+        self.note_track(&command);
+        match command {
+            Command::Antenna(id, driver::Command::Settle(change)) => {
+                self.with(id, |engine, index| engine.settle(index, change));
+            }
+            Command::Antenna(id, driver::Command::LockOut(lock_out)) => {
+                self.with(id, |engine, index| engine.set_lock_out(index, Some(lock_out)));
+            }
+            Command::Antenna(id, driver::Command::Unlock) => {
+                self.with(id, |engine, index| engine.set_lock_out(index, None));
+            }
+            Command::Antenna(id, command) => {
+                self.with(id, |engine, index| engine.send(index, command));
+            }
+            Command::Track { antenna, pass, is_agreed } => {
+                self.with(antenna, |engine, index| engine.track(index, pass, is_agreed));
+            }
+            Command::FollowPass { antenna, pass } => {
+                self.with(antenna, |engine, index| engine.follow_pass(index, pass));
+            }
+            Command::SaveSettings(id) => self.with(id, Self::save_copy),
+            Command::CompareSettings(id) => self.with(id, Self::open_copies),
+            Command::ReadCopy { antenna, path } => self.with(antenna, |engine, index| {
+                if let Some(antenna) = engine.antennas.get(index) {
+                    engine.copy_work.read(path, &antenna.shown);
+                }
+            }),
+            Command::CloseCopy => self.copies.open = None,
+            Command::SetElevationFloor(floor_deg) => {
+                Arc::make_mut(&mut self.station).elevation_floor_deg = floor_deg;
+            }
+            Command::CancelSearch(scope) => self.searches.of_mut(scope).cancel(),
+            Command::ResumeSearch(scope) => self.searches.of_mut(scope).resume(),
+            Command::SetFavourite { number, is_favourite } => {
+                self.set_favourite(number, is_favourite);
+            }
+            Command::AddSource(source) => {
+                let ask = vec![source.name.clone()];
+                let mut list = self.sources.list.clone();
+                list.push(source);
+                self.begin_elements(Task { list: Some(list), ask, forced: false });
+            }
+            Command::RemoveSource(name) => {
+                let mut list = self.sources.list.clone();
+                list.retain(|source| source.name != name);
+                self.begin_elements(Task { list: Some(list), ..Task::default() });
+            }
+            Command::RefreshSources { names, forced } => {
+                self.begin_elements(Task { list: None, ask: names, forced });
+            }
+            Command::OpenedAlarms => self.alarms.unopened = false,
+            Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id),
+            Command::SaveStation(station) => self.save_station(*station),
+            Command::TestSource(ask) => self.source_desk.ask(ask, &mut self.source_tests),
+            Command::Upload(ask) => self.ask_about_upload(ask),
+            Command::CloseAfter(how) => self.close_after(how),
+            Command::StayOpen => self.closing = None,
+            Command::Look(attention) => self.attention = attention,
+        }
+    }
+
+    /// Does `work` with the place of an antenna, if the station still has it.
+    fn with(&mut self, id: AntennaId, work: impl FnOnce(&mut Self, usize)) {
+        if let Some(index) = self.place(id) {
+            work(self, index);
+        }
+    }
+
+    /// Past every queue, also to a unit that has to be connected for it.
+    pub(super) fn stop_one(&mut self, index: usize) {
+        if let Some(antenna) = self.antennas.get(index) {
+            antenna.handle.stop();
+            let id = antenna.shown.id;
+            self.note_stops(&[id], self.steady);
+        }
+    }
+
+    pub(super) fn send(&mut self, index: usize, command: driver::Command) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        if !matches!(command, driver::Command::ReadGroup(_) | driver::Command::EndJog) {
+            antenna.shown.asks_unseen = None;
+        }
+        match command {
+            driver::Command::AllowUnguarded => antenna.shown.asks_unguarded = false,
+            // By the operator's word, whatever the unit says of itself.
+            driver::Command::SeenStanding => {
+                let alarms = &mut self.alarms;
+                alarms.clear(Some(index), |kind| *kind == AlarmKind::StopNotConfirmed);
+            }
+            _ => {}
+        }
+        let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
+        let Err(command) = antenna.handle.send_as(command, number) else { return };
+        tracing::error!(?command, "the session is too busy to take a command");
+        // What ends a motion must not get lost: stop instead.
+        if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
+            self.stop_one(index);
+        }
+        self.alarms.raise(Some(index), AlarmKind::NotTaken, self.now);
+    }
+
+    fn track(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        if antenna.shown.make().capabilities.has_program {
+            return self.track_on_board(index, pass, is_agreed);
+        }
+        self.follow_pass(index, pass);
+    }
+
+    fn follow_pass(&mut self, index: usize, pass: PassKey) {
+        // A pass that is over since it was asked for is not replaced by another.
+        let Some(forecast) = self.pass(pass) else { return };
+        let follow = forecast.follow(self.station.elevation_floor());
+        self.send(index, driver::Command::Follow(Box::new(follow)));
+    }
+
+    /// A pass that is not over.
+    pub(super) fn pass(&self, key: PassKey) -> Option<&Forecast> {
+        self.forecasts.find(key).filter(|forecast| forecast.pass.los.time > self.now)
+    }
+
+    /// One at a time: two would write the same files.
+    pub(super) fn begin_elements(&mut self, task: Task) {
+        if self.elements_job.is_some() || self.sources.is_locked {
+            return;
+        }
+        let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
+        match sources::start(&self.places, task, self.now, Arc::clone(&self.wake)) {
+            Ok(job) => {
+                self.elements_job = Some(job);
+                self.sources.work = work;
+            }
+            Err(error) => tracing::error!(%error, "no thread for the elements"),
+        }
+    }
+
+    /// The demo station has no file, and one that could not be read is left
+    /// alone: there the change lasts as long as the program.
+    fn set_favourite(&mut self, number: u32, is_favourite: bool) {
+        let mut station = Station::clone(&self.station);
+        station.favourites.retain(|known| *known != number);
+        if is_favourite {
+            station.favourites.push(number);
+        }
+        if self.demo.is_none()
+            && !self.settings_unread
+            && let Some(path) = &self.settings_path
+            && let Err(error) = station::save(&station, path)
+        {
+            let text = error.to_string();
+            tracing::error!("{text}");
+            self.alarms.raise(None, AlarmKind::Settings(text), self.now);
+            return;
+        }
+        self.station = Arc::new(station);
+        self.tell(Event::Changed);
+    }
+
+    /// The new settings are used once they are safe on disk.
+    fn save_station(&mut self, station: station::Station) {
+        let now = self.now;
+        let saved = match &self.settings_path {
+            Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
+            None => Err("this user has no folder for settings".to_owned()),
+        };
+        match saved {
+            Ok(()) => {
+                self.alarms.clear(None, |kind| {
+                    matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
+                });
+                let demo = self.demo.take();
+                if demo.is_some() {
+                    self.load_lock_outs();
+                }
+                self.settings_unread = false;
+                self.use_station(station);
+                drop(demo);
+                self.tell(Event::Saved(Ok(now)));
+            }
+            Err(text) => {
+                tracing::error!("{text}");
+                self.tell(Event::Saved(Err(text.clone())));
+                self.alarms.raise(None, AlarmKind::Settings(text), now);
+            }
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The end while antennas move: first what the operator has said, then the end.
+
+use std::time::{Duration, Instant};
+
+use super::{Engine, Event as Told, antenna::Stake};
+use crate::{
+    driver::{Command, Event, Intent, StopState},
+    station::{OnClose, Station},
+};
+
+/// A STOP is told as not proved before that.
+const STOPPED_IN: Duration = Duration::from_secs(6);
+/// By then a session has taken up what it was asked.
+const TAKEN_IN: Duration = Duration::from_secs(2);
+
+/// What becomes of antennas that move or are tracked at the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CloseHow {
+    /// They are stopped and hold.
+    Hold,
+    /// They are parked; what cannot be parked is stopped.
+    Park,
+    /// What a unit tracks by itself goes on; what else moves is stopped.
+    Leave,
+}
+
+/// The end comes when these antennas are done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Closing {
+    /// What the operator has said.
+    pub how: CloseHow,
+    /// The antennas that are waited for, by their index.
+    pub waits_for: Vec<(usize, Wanted)>,
+    since: Instant,
+}
+
+/// What is waited for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// Proved standstill.
+    Still,
+    /// Arrival at the park position.
+    Parked,
+}
+
+impl CloseHow {
+    /// What the station says; `None` where the operator is asked.
+    pub fn of(station: &Station) -> Option<Self> {
+        Some(match station.on_close? {
+            OnClose::Hold => Self::Hold,
+            OnClose::Park => Self::Park,
+            OnClose::Leave => Self::Leave,
+        })
+    }
+}
+
+impl Engine {
+    /// Does what the operator has said and closes when it is done.
+    pub(super) fn close_after(&mut self, how: CloseHow) {
+        let mut waits_for = Vec::new();
+        for index in 0..self.antennas.len() {
+            let Some(antenna) = self.antennas.get(index) else { continue };
+            let antenna = &antenna.shown;
+            let Some(stake) = antenna.stake() else { continue };
+            if how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
+                continue;
+            }
+            if how == CloseHow::Park && antenna.can_park() {
+                self.send(index, Command::Park);
+                waits_for.push((index, Wanted::Parked));
+                continue;
+            }
+            // What was told as not proved once is not waited for again: a unit that
+            // cannot be reached must not keep the window open.
+            let was_told = matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
+            self.stop_one(index);
+            if !was_told {
+                waits_for.push((index, Wanted::Still));
+            }
+        }
+        self.closing = Some(Closing { how, waits_for, since: self.steady });
+    }
+
+    /// Takes what an antenna has told while it is waited for.
+    pub(super) fn take_closing_event(&mut self, index: usize, event: &Event) {
+        let Some(closing) = &mut self.closing else { return };
+        let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == index) else { return };
+        let Some((_, wanted)) = closing.waits_for.get(place) else { return };
+        let is_done = match (wanted, event) {
+            (Wanted::Still, Event::Stopped) | (Wanted::Parked, Event::Arrived(_)) => true,
+            (_, Event::StopNotConfirmed)
+            | (
+                Wanted::Parked,
+                Event::NotSent(_)
+                | Event::Refused(..)
+                | Event::Unanswered(_)
+                | Event::EndedShort { .. }
+                | Event::LinkLost(_),
+            ) => false,
+            _ => return,
+        };
+        if is_done {
+            closing.waits_for.remove(place);
+        } else {
+            // What went wrong stands on its card and in the alarms.
+            self.closing = None;
+        }
+    }
+
+    /// Ends a closing that does not come to its end.
+    pub(super) fn watch_closing(&mut self) {
+        let Some(closing) = &self.closing else { return };
+        let age = self.steady.saturating_duration_since(closing.since);
+        let fails = |(index, wanted): &(usize, Wanted)| {
+            let Some(antenna) = self.antennas.get(*index) else { return false };
+            match wanted {
+                Wanted::Still => age > STOPPED_IN,
+                Wanted::Parked => age > TAKEN_IN && antenna.shown.snapshot.intent != Intent::Park,
+            }
+        };
+        if closing.waits_for.iter().any(fails) {
+            self.closing = None;
+        } else if closing.waits_for.is_empty() {
+            self.closing = None;
+            self.tell(Told::MayEnd);
+        }
+    }
+
+    /// The program ends and nobody can be asked.
+    pub(super) fn end_unasked(&mut self) {
+        match CloseHow::of(&self.station) {
+            // Parking takes longer than the operating system waits.
+            None | Some(CloseHow::Hold | CloseHow::Park) => {
+                for antenna in &self.antennas {
+                    if antenna.shown.stake().is_some() {
+                        antenna.handle.stop();
+                    }
+                }
+            }
+            Some(CloseHow::Leave) => {}
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The demo station's antennas: simulators in this process, behind real
+//! sockets on the loopback and a pseudo-terminal. The rest of the program does
+//! not know.
+
+use std::{
+    collections::BTreeMap,
+    io,
+    net::{IpAddr, Ipv4Addr, SocketAddr},
+    sync::mpsc,
+    thread,
+};
+
+use jiff::Timestamp;
+
+use crate::{
+    makes::DemoAddresses,
+    orbit::Elements,
+    protocol::rotator_genius::WholeDegrees,
+    sim::{Serving, rc2000c, rotator_genius, satrak},
+    station::Station,
+};
+
+/// Any free port that only this machine reaches.
+const LOOPBACK: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
+
+/// Running simulators. Dropping it ends them.
+pub(super) struct Demo {
+    /// Where they answer.
+    pub(super) addresses: DemoAddresses,
+    _end: tokio::sync::oneshot::Sender<()>,
+}
+
+impl Demo {
+    /// Starts the simulators of `station`, whose Satrak holds `elements`.
+    pub(super) fn start(station: &Station, elements: Vec<Elements>) -> io::Result<Self> {
+        let satrak = satrak::Options {
+            elements: BTreeMap::from([(satrak::BUNDLED_FILE.to_owned(), elements)]),
+            ..satrak::Options::new(station.site, Timestamp::now())
+        };
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (end, ended) = tokio::sync::oneshot::channel::<()>();
+        let (tell, told) = mpsc::sync_channel(1);
+        thread::Builder::new().name("azel-simulators".to_owned()).spawn(move || {
+            runtime.block_on(async {
+                let (addresses, serving) = match serve(satrak).await {
+                    Ok(served) => served,
+                    Err(error) => return drop(tell.send(Err(error))),
+                };
+                // Nobody may be waiting any more.
+                drop(tell.send(Ok(addresses)));
+                tokio::select! {
+                    () = serving => {}
+                    _ = ended => {}
+                }
+            });
+        })?;
+        let gone = |_| io::Error::other("the simulators broke down");
+        let addresses = told.recv().map_err(gone)??;
+        Ok(Self { addresses, _end: end })
+    }
+}
+
+/// The simulators and where they answer.
+async fn serve(satrak: satrak::Options) -> io::Result<(DemoAddresses, Serving)> {
+    let satrak = satrak::Simulator::bind(LOOPBACK, satrak).await?;
+    let genius = rotator_genius::Simulator::bind(LOOPBACK, genius()).await?;
+    let (rc2000c, rc2000c_address) = rc2000c().await?;
+    let addresses = DemoAddresses {
+        satrak: satrak.local_addr()?.to_string(),
+        genius: genius.local_addr()?.to_string(),
+        rc2000c: rc2000c_address,
+    };
+    let serving = async {
+        tokio::select! {
+            () = satrak.run() => {}
+            () = genius.run() => {}
+            () = rc2000c => {}
+        }
+    };
+    Ok((addresses, Box::pin(serving)))
+}
+
+/// Azimuth all around and elevation to the zenith.
+fn genius() -> rotator_genius::Options {
+    let azimuth = rotator_genius::RotatorOptions {
+        limit_cw: WholeDegrees::MAX,
+        ..rotator_genius::RotatorOptions::default()
+    };
+    rotator_genius::Options {
+        rotators: [azimuth, rotator_genius::RotatorOptions::elevation()],
+        ..rotator_genius::Options::default()
+    }
+}
+
+/// On a pseudo-terminal, as on a serial port, where there are such; else as
+/// behind a serial server. The work of serving it, and where it answers.
+async fn rc2000c() -> io::Result<(Serving, String)> {
+    let options = rc2000c::Options::default();
+    #[cfg(unix)]
+    match rc2000c::PtySimulator::open(&options) {
+        Ok(simulator) => {
+            let path = simulator.path().display().to_string();
+            return Ok((Box::pin(simulator.run()), path));
+        }
+        Err(error) => tracing::warn!(%error, "no pseudo-terminal for the simulated RC2000C"),
+    }
+    let simulator = rc2000c::Simulator::bind(LOOPBACK, &options).await?;
+    let address = simulator.local_addr()?.to_string();
+    Ok((Box::pin(simulator.run()), address))
+}

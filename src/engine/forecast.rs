@@ -1,0 +1,141 @@
+//! The passes to come, computed in the background.
+
+mod choice;
+mod listing;
+mod outlook;
+mod search;
+
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+pub use self::{
+    choice::{ListChoice, SPANS_H, Scope},
+    listing::{Listed, Listing, Work},
+    outlook::{Followed, Forecast, Vantage},
+};
+use self::{
+    listing::Search,
+    search::{Basis, Whose},
+};
+use crate::{
+    astro::{AzEl, Site, time::add_seconds},
+    job::Wake,
+    orbit::Catalog,
+    station::Station,
+};
+
+/// How far ahead the passes of the favourites are known: the strip shows as
+/// much, whatever the list does.
+const FAVOURITES_H: u32 = 48;
+
+/// Which pass: the satellite and its AOS.
+pub type PassKey = (u32, Timestamp);
+
+/// The passes to come.
+#[derive(Debug, Clone, Default)]
+pub struct Forecasts {
+    /// Those of the followed satellites.
+    pub favourites: Listing,
+    /// Those of all satellites, searched for when the operator wants the list.
+    pub all: Listing,
+}
+
+/// The searches for them.
+#[derive(Default)]
+pub(in crate::engine) struct Searches {
+    favourites: Search,
+    all: Search,
+}
+
+impl Searches {
+    /// Takes what has been found and begins what is to be searched for.
+    pub(in crate::engine) fn refresh(
+        &mut self,
+        catalog: &Arc<Catalog>,
+        station: &Station,
+        choice: ListChoice,
+        now: Timestamp,
+        wake: &Wake,
+    ) {
+        let basis = Basis {
+            catalog: Arc::clone(catalog),
+            whose: Whose::Favourites(station.favourites.clone()),
+            vantage: Arc::new(Vantage::of(station)),
+            floor: station.elevation_floor(),
+            span_h: FAVOURITES_H,
+        };
+        self.favourites.refresh(&basis, now, wake);
+        let basis = Basis { whose: Whose::All, span_h: choice.all_h, ..basis };
+        match choice.scope {
+            Scope::All => self.all.refresh(&basis, now, wake),
+            Scope::Favourites => self.all.keep_only_from(&basis),
+        }
+    }
+
+    /// The lists.
+    pub(in crate::engine) fn shown(&self) -> Forecasts {
+        Forecasts { favourites: self.favourites.shown(), all: self.all.shown() }
+    }
+
+    /// The search for the list of `scope`.
+    pub(in crate::engine) fn of_mut(&mut self, scope: Scope) -> &mut Search {
+        match scope {
+            Scope::Favourites => &mut self.favourites,
+            Scope::All => &mut self.all,
+        }
+    }
+
+    /// A search broke off.
+    pub(in crate::engine) fn broke_off(&self) -> bool {
+        self.favourites.broke_off() || self.all.broke_off()
+    }
+}
+
+impl Forecasts {
+    /// The list of `scope`.
+    pub fn of(&self, scope: Scope) -> &Listing {
+        match scope {
+            Scope::Favourites => &self.favourites,
+            Scope::All => &self.all,
+        }
+    }
+
+    /// The pass of `key`, of a followed satellite or any other.
+    pub fn find(&self, key: PassKey) -> Option<&Forecast> {
+        self.favourites.find(key).or_else(|| self.all.find(key))
+    }
+
+    /// The pass of a followed satellite that is under way or comes next.
+    pub fn next(&self, now: Timestamp) -> Option<&Forecast> {
+        let moving = |forecast: &&Forecast| !forecast.satellite.elements.is_geosynchronous();
+        let passes = self.favourites.listed(now);
+        passes.iter().find(moving).or_else(|| passes.iter().next())
+    }
+
+    /// The satellite with this number, if a list has it.
+    pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<Followed>> {
+        let number = |known: &Arc<Followed>| known.elements.catalog_number();
+        let followed = &self.favourites.satellites;
+        followed.iter().find(|known| number(known) == catalog_number).or_else(|| {
+            let all = &self.all.satellites;
+            let place = all.binary_search_by_key(&catalog_number, number).ok()?;
+            all.get(place)
+        })
+    }
+}
+
+/// Where a satellite goes in the next `span_s`, in steps of 30 s.
+pub fn ahead(satellite: &Followed, site: Site, now: Timestamp, span_s: f64) -> Vec<AzEl> {
+    let steps = (span_s / 30.0) as usize;
+    (0..=steps)
+        .map_while(|step| {
+            let look = satellite.propagator.look_from(site, add_seconds(now, step as f64 * 30.0));
+            look.ok().map(|look| look.direction)
+        })
+        .take_while(|direction| direction.elevation_deg() > 0.0)
+        .collect()
+}

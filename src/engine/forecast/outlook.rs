@@ -1,0 +1,231 @@
+//! One pass of one satellite. What is drawn of it is made when it is first
+//! looked at: a list may hold a hundred thousand passes.
+
+use std::sync::{Arc, OnceLock};
+
+use jiff::Timestamp;
+
+use super::PassKey;
+use crate::{
+    astro::{Angle, Site, time::add_seconds},
+    orbit::{Elements, Pass, PassSearch, Propagator, passes},
+    plan::{Follow, Reach, Sample, Target, Trackability, trackability},
+    station::{Antenna, Station},
+};
+
+/// A track is drawn from at most this many samples.
+const MOST_SAMPLES: f64 = 600.0;
+/// For so long ahead the passes of a satellite that is tracked from here are known.
+const LATER_S: f64 = 7.0 * 86_400.0;
+
+/// Samples of the outline are at least so far apart: one point of a thumbnail.
+const OUTLINE_STEP_DEG: f64 = 3.0;
+
+/// A satellite of a list.
+#[derive(Debug)]
+pub struct Followed {
+    /// Its elements.
+    pub elements: Elements,
+    /// Where it goes.
+    pub propagator: Propagator,
+}
+
+impl Followed {
+    /// The name without what stands in brackets behind it.
+    pub fn short_name(&self) -> &str {
+        let name = self.elements.name();
+        name.split_once(" (").map_or(name, |(short, _)| short)
+    }
+}
+
+/// From where passes are seen, and with what.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vantage {
+    /// The place.
+    pub site: Site,
+    /// Elevation of AOS and LOS.
+    pub horizon: Angle,
+    /// What each antenna can reach, in their order.
+    pub antennas: Vec<Reach>,
+}
+
+impl Vantage {
+    /// The vantage of a station: its first antenna sets the horizon.
+    pub fn of(station: &Station) -> Self {
+        let antenna = station.antennas.first();
+        Self {
+            site: station.site,
+            horizon: Angle::from_degrees(
+                antenna.map_or(0.0, |antenna| antenna.limits.minimum_elevation_deg),
+            ),
+            antennas: station.antennas.iter().map(reach).collect(),
+        }
+    }
+}
+
+/// A pass with all that is shown of it.
+#[derive(Debug, Clone)]
+pub struct Forecast {
+    /// Its satellite.
+    pub satellite: Arc<Followed>,
+    /// Its three events.
+    pub pass: Pass,
+    vantage: Arc<Vantage>,
+    outline: OnceLock<Box<Outline>>,
+}
+
+/// What is shown of a pass.
+#[derive(Debug, Clone)]
+struct Outline {
+    path: Vec<Sample>,
+    /// By the place of the antenna.
+    trackability: Vec<Trackability>,
+    track: OnceLock<Vec<Sample>>,
+}
+
+impl Forecast {
+    /// A pass of `satellite` seen from `vantage`.
+    pub fn new(satellite: Arc<Followed>, pass: Pass, vantage: Arc<Vantage>) -> Self {
+        Self { satellite, pass, vantage, outline: OnceLock::new() }
+    }
+
+    /// Which pass this is.
+    pub fn key(&self) -> PassKey {
+        (self.number(), self.pass.aos.time)
+    }
+
+    /// What an antenna has to follow for this pass and those of its satellite in the
+    /// next days that get as high as `floor`.
+    pub fn follow(&self, floor: Angle) -> Follow {
+        let los = self.pass.los.time;
+        let search = PassSearch {
+            aos_elevation: self.vantage.horizon,
+            floor,
+            ..PassSearch::new(self.vantage.site, los, add_seconds(los, LATER_S))
+        };
+        let mut spans = Vec::new();
+        if !self.is_always_up() {
+            let later = passes(&self.satellite.propagator, &search, &|| false);
+            let later = later.iter().filter(|pass| !pass.starts_before);
+            spans.push((self.pass.aos.time, los));
+            spans.extend(later.map(|pass| (pass.aos.time, pass.los.time)));
+        }
+        let elements = Box::new(self.satellite.elements.clone());
+        let target = Target::Satellite(elements);
+        Follow { target, site: self.vantage.site, passes: spans }
+    }
+
+    /// Catalogue number of its satellite.
+    pub fn number(&self) -> u32 {
+        self.satellite.elements.catalog_number()
+    }
+
+    /// Whether the satellite neither rises nor sets in the time of the list.
+    pub fn is_always_up(&self) -> bool {
+        self.pass.starts_before && self.pass.ends_after
+    }
+
+    /// Whether the satellite is up at `now`.
+    pub fn in_progress(&self, now: Timestamp) -> bool {
+        self.pass.aos.time <= now && now < self.pass.los.time
+    }
+
+    /// The way across the sky, AOS to LOS, every 2 s or a little more. Made and
+    /// kept at the first call.
+    pub fn track(&self) -> &[Sample] {
+        self.outline().track.get_or_init(|| self.sampled())
+    }
+
+    /// The same with no more points than a small picture needs.
+    pub fn path(&self) -> &[Sample] {
+        &self.outline().path
+    }
+
+    /// What this antenna makes of it; `None` without one.
+    pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
+        self.outline().trackability.get(antenna).copied()
+    }
+
+    fn outline(&self) -> &Outline {
+        self.outline.get_or_init(|| {
+            let track = self.sampled();
+            let antennas = self.vantage.antennas.iter();
+            Box::new(Outline {
+                trackability: antennas.map(|reach| trackability(&track, *reach)).collect(),
+                path: thinned(&track),
+                track: OnceLock::new(),
+            })
+        })
+    }
+
+    fn sampled(&self) -> Vec<Sample> {
+        let duration_s = self.pass.duration_s();
+        let step_s = (duration_s / MOST_SAMPLES).max(2.0);
+        let count = (duration_s / step_s).ceil() as usize;
+        (0..=count)
+            .map(|index| add_seconds(self.pass.aos.time, (index as f64 * step_s).min(duration_s)))
+            .filter_map(|time| {
+                let look = self.satellite.propagator.look_from(self.vantage.site, time).ok()?;
+                Some(Sample { time, direction: look.direction })
+            })
+            .collect()
+    }
+}
+
+fn reach(antenna: &Antenna) -> Reach {
+    Reach {
+        mount: antenna.mount,
+        maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
+        half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
+        has_elevation: antenna.connection.make().capabilities.has_elevation,
+    }
+}
+
+fn thinned(track: &[Sample]) -> Vec<Sample> {
+    let mut path: Vec<Sample> = Vec::new();
+    let last = track.len().saturating_sub(1);
+    for (index, sample) in track.iter().enumerate() {
+        let is_far = path.last().is_none_or(|kept| {
+            kept.direction.separation(sample.direction).degrees() >= OUTLINE_STEP_DEG
+        });
+        if is_far || index == last {
+            path.push(*sample);
+        }
+    }
+    path.shrink_to_fit();
+    path
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{makes::DemoAddresses, orbit::bundled};
+
+    #[test]
+    fn an_outline_has_the_ends_and_the_verdict_of_the_whole_track() {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let station = Station::demo(&DemoAddresses::default());
+        let search = PassSearch::new(station.site, from, add_seconds(from, 86_400.0));
+        let vantage = Arc::new(Vantage::of(&station));
+        let found = passes(&propagator, &search, &|| false);
+        let satellite = Arc::new(Followed { elements, propagator });
+        assert!(found.len() > 3);
+        for pass in found {
+            let forecast = Forecast::new(Arc::clone(&satellite), pass, Arc::clone(&vantage));
+            let (path, track) = (forecast.path(), forecast.track());
+            assert_eq!((path.first(), path.last()), (track.first(), track.last()));
+            assert!(path.len() > 10 && path.len() < 70, "{}", path.len());
+            assert!(track.len() as f64 >= pass.duration_s() / 2.0);
+            for (index, reach) in vantage.antennas.iter().enumerate() {
+                assert_eq!(forecast.trackability(index), Some(trackability(track, *reach)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_hundred_thousand_passes_are_small() {
+        assert!(size_of::<Forecast>() * 100_000 < 15_000_000, "{}", size_of::<Forecast>());
+    }
+}

@@ -1,0 +1,213 @@
+use std::{
+    sync::mpsc::{self, Receiver},
+    time::Duration,
+};
+
+use super::*;
+use crate::{
+    makes::DemoAddresses,
+    orbit::{bundled, read_element_bytes, write_omm_json},
+};
+
+const ISS: u32 = 25_544;
+const NOAA_20: u32 = 43_013;
+const METEOSAT_12: u32 = 54_743;
+
+fn now() -> Timestamp {
+    "2026-08-12T11:15:30Z".parse().unwrap()
+}
+
+/// Lists of a station that follows one of the satellites of a small catalog.
+struct Desk {
+    searches: Searches,
+    forecasts: Forecasts,
+    catalog: Arc<Catalog>,
+    station: Station,
+    choice: ListChoice,
+    now: Timestamp,
+    wake: Wake,
+    woken: Receiver<()>,
+}
+
+impl Desk {
+    fn new() -> Self {
+        let (send, woken) = mpsc::sync_channel(1000);
+        let bundled = bundled().unwrap();
+        let some = [ISS, NOAA_20, METEOSAT_12].map(|number| bundled.get(number).unwrap());
+        let mut catalog = Catalog::default();
+        let mut text = Vec::new();
+        write_omm_json(some, &mut text).unwrap();
+        catalog.merge(read_element_bytes(&text), "test");
+        Self {
+            searches: Searches::default(),
+            forecasts: Forecasts::default(),
+            catalog: Arc::new(catalog),
+            station: Station {
+                favourites: vec![NOAA_20],
+                ..Station::demo(&DemoAddresses::default())
+            },
+            choice: ListChoice { scope: Scope::All, ..ListChoice::default() },
+            now: now(),
+            wake: Arc::new(move || {
+                let _ = send.try_send(());
+            }),
+            woken,
+        }
+    }
+
+    fn refresh(&mut self) {
+        let (catalog, station) = (&self.catalog, &self.station);
+        self.searches.refresh(catalog, station, self.choice, self.now, &self.wake);
+        self.forecasts = self.searches.shown();
+    }
+
+    /// Until nothing is under way any more.
+    fn finish(&mut self) {
+        self.refresh();
+        while [Scope::Favourites, Scope::All]
+            .iter()
+            .any(|scope| matches!(self.forecasts.of(*scope).work, Work::UnderWay { .. }))
+        {
+            self.woken.recv_timeout(Duration::from_mins(1)).expect("a sign of life");
+            self.refresh();
+        }
+    }
+
+    fn all(&self) -> &Listing {
+        &self.forecasts.all
+    }
+}
+
+#[test]
+fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let followed = &desk.forecasts.favourites.passes;
+    assert!(!followed.is_empty() && followed.iter().all(|pass| pass.number() == NOAA_20));
+    let iss: Vec<_> = desk.all().passes.iter().filter(|pass| pass.number() == ISS).collect();
+    assert!(!iss.is_empty());
+    let key = iss[0].key();
+    assert_eq!(desk.forecasts.find(key).map(Forecast::key), Some(key));
+    let shifted = (key.0, add_seconds(key.1, 2.0));
+    assert_eq!(desk.forecasts.find(shifted).map(Forecast::key), Some(key));
+    assert!(desk.forecasts.find((key.0, add_seconds(key.1, 600.0))).is_none());
+    // One that never sets is found whenever its pass began in an older list.
+    let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
+    assert!(desk.forecasts.find(always).is_some());
+    assert!(desk.forecasts.satellite(ISS).is_some() && desk.forecasts.satellite(7).is_none());
+}
+
+#[test]
+fn what_never_sets_stands_behind_the_passes_of_all_satellites() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let passes = &desk.all().passes;
+    assert!(passes.len() > 1 && passes[passes.len() - 1].number() == METEOSAT_12);
+    assert!(passes[..passes.len() - 1].is_sorted_by_key(|pass| pass.pass.aos.time));
+}
+
+#[test]
+fn another_floor_span_or_site_searches_again_and_keeps_what_is_prepared() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let prepared = Arc::clone(&desk.all().satellites[0]);
+    let changes: [fn(&mut Desk); 3] = [
+        |desk| desk.station.elevation_floor_deg = 30.0,
+        |desk| desk.choice.set_span_h(48),
+        |desk| desk.station.site = Site::new(60.0, 10.0, 0.0).unwrap(),
+    ];
+    for change in changes {
+        let (edition, before) = (desk.all().edition, desk.all().passes.len());
+        change(&mut desk);
+        desk.refresh();
+        assert!(matches!(desk.all().work, Work::UnderWay { .. }));
+        assert_eq!(desk.all().passes.len(), before, "the old list stays");
+        desk.finish();
+        assert!(desk.all().edition > edition);
+        assert!(Arc::ptr_eq(&prepared, &desk.all().satellites[0]));
+    }
+    assert!(desk.all().passes.iter().all(|pass| pass.pass.max_elevation().degrees() >= 30.0));
+}
+
+#[test]
+fn new_elements_are_prepared_and_searched() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let prepared = Arc::clone(&desk.all().satellites[0]);
+    desk.catalog = Arc::new(Catalog::clone(&desk.catalog));
+    desk.finish();
+    assert!(!Arc::ptr_eq(&prepared, &desk.all().satellites[0]));
+}
+
+#[test]
+fn a_cancelled_search_stays_cancelled_until_something_else_is_asked_for() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let before = desk.all().passes.len();
+    for resume in [true, false] {
+        desk.choice.set_span_h(if resume { 12 } else { 24 });
+        desk.refresh();
+        desk.searches.of_mut(Scope::All).cancel();
+        desk.now = add_seconds(desk.now, 1.0);
+        desk.refresh();
+        assert_eq!(desk.all().work, Work::Cancelled);
+        assert!(desk.all().passes.len() >= before.min(1), "the old list stays");
+        if resume {
+            desk.searches.of_mut(Scope::All).resume();
+        } else {
+            desk.station.elevation_floor_deg = 20.0;
+        }
+        desk.refresh();
+        assert!(matches!(desk.all().work, Work::UnderWay { .. }), "{resume}");
+        desk.finish();
+        assert_eq!(desk.all().work, Work::Nothing);
+    }
+}
+
+#[test]
+fn what_was_cancelled_is_forgotten_where_the_list_is_right_again() {
+    let mut desk = Desk::new();
+    desk.finish();
+    desk.choice.set_span_h(24);
+    desk.refresh();
+    desk.searches.of_mut(Scope::All).cancel();
+    desk.choice.set_span_h(6);
+    desk.refresh();
+    assert_eq!(desk.all().work, Work::Nothing);
+}
+
+#[test]
+fn what_is_over_leaves_the_list_and_an_old_list_is_made_anew() {
+    let mut desk = Desk::new();
+    desk.choice.scope = Scope::Favourites;
+    desk.finish();
+    let first = desk.forecasts.favourites.passes[0].clone();
+    desk.now = first.pass.los.time.max(add_seconds(now(), 601.0));
+    desk.refresh();
+    let favourites = &desk.forecasts.favourites;
+    assert!(favourites.listed(desk.now).iter().all(|pass| pass.key() != first.key()));
+    assert!(matches!(favourites.work, Work::UnderWay { .. }), "it is old");
+}
+
+#[test]
+fn the_list_of_another_place_is_not_kept_behind_the_favourites() {
+    let mut desk = Desk::new();
+    desk.finish();
+    desk.choice.scope = Scope::Favourites;
+    desk.finish();
+    assert!(!desk.all().passes.is_empty(), "what was selected in it stays");
+    desk.station.site = Site::new(60.0, 10.0, 0.0).unwrap();
+    desk.finish();
+    assert!(desk.all().passes.is_empty());
+}
+
+#[test]
+fn a_shorter_span_shows_the_beginning_of_the_list() {
+    let mut desk = Desk::new();
+    desk.finish();
+    let favourites = &desk.forecasts.favourites;
+    let (short, long) = (favourites.within(now(), 6), favourites.within(now(), 48));
+    assert!(short.len() < long.len() && long.len() == favourites.passes.len());
+    let end = add_seconds(now(), 6.0 * 3600.0);
+    assert!(short.iter().all(|pass| pass.pass.aos.time < end));
+}

@@ -1,0 +1,95 @@
+//! Which units are locked out: the file beside the station file, and the sessions
+//! that are to know.
+
+use std::{path::Path, sync::Arc};
+
+use super::{Engine, alarms::AlarmKind, uploads::Ask};
+use crate::{
+    driver::Command,
+    station::{Antenna, LOCK_OUTS_FILE, LockOut, LockOuts},
+};
+
+impl Engine {
+    /// Reads the list anew. One that cannot be read locks out every unit.
+    pub(super) fn load_lock_outs(&mut self) {
+        let folder = self.settings_path.as_deref().and_then(Path::parent);
+        let path = folder.map(|folder| folder.join(LOCK_OUTS_FILE));
+        let loaded = path.map(|path| LockOuts::load(&path, self.now));
+        let (lock_outs, problem) = loaded.unwrap_or_default();
+        self.lock_outs = lock_outs;
+        if let Some(problem) = problem {
+            tracing::error!("{LOCK_OUTS_FILE} cannot be read: {problem}");
+            let text = format!(
+                "every unit is locked out until you take it off, because the list of lock-outs \
+                 cannot be read: {problem}"
+            );
+            self.alarms.raise(None, AlarmKind::LockOuts(text), self.now);
+        }
+    }
+
+    /// Locks out the unit of an antenna, or locks it out no longer.
+    pub(super) fn set_lock_out(&mut self, index: usize, lock_out: Option<LockOut>) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let config = &antenna.shown.config;
+        let (name, connection) = (config.name.clone(), config.connection.clone());
+        let is_locked = lock_out.is_some();
+        let station = Arc::clone(&self.station);
+        let all = station.antennas.iter().map(|antenna| &antenna.connection);
+        self.lock_outs.set(&connection, lock_out, all);
+        self.keep_lock_outs();
+        if is_locked && self.uploads.antenna == name {
+            self.ask_about_upload(Ask::Cancel);
+        }
+        for index in 0..self.antennas.len() {
+            self.tell_lock_out(index);
+        }
+    }
+
+    /// Other antennas are taken into use: a lock-out stays with its row.
+    pub(super) fn keep_rows_locked_out(&mut self, after: &[Antenna]) {
+        let antennas = self.antennas.iter();
+        let before: Vec<Antenna> = antennas.map(|antenna| antenna.shown.config.clone()).collect();
+        if self.lock_outs.stay_with_rows(&before, after) {
+            self.keep_lock_outs();
+        }
+    }
+
+    /// The units of the demo station have no lasting address.
+    fn keep_lock_outs(&mut self) {
+        if self.demo.is_some() {
+            return;
+        }
+        let folder = self.settings_path.as_deref().and_then(Path::parent);
+        let saved = match folder {
+            Some(folder) => {
+                self.lock_outs.save(&folder.join(LOCK_OUTS_FILE)).map_err(|error| error.to_string())
+            }
+            None => Err("this user has no folder for settings".to_owned()),
+        };
+        let now = self.now;
+        self.alarms.clear(None, |kind| matches!(kind, AlarmKind::LockOuts(_)));
+        if let Err(why) = saved {
+            tracing::error!("{why}");
+            let text = format!("what is locked out is not kept for the next start: {why}");
+            self.alarms.raise(None, AlarmKind::LockOuts(text), now);
+        }
+    }
+
+    /// Tells a session what it does not know yet. A command may be lost to a STOP, so
+    /// it is asked until the session says the same.
+    pub(super) fn tell_lock_out(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let wanted = self.lock_outs.of(&antenna.shown.config.connection);
+        let told = antenna.handle.snapshot();
+        if told.lock_out.as_ref() == wanted {
+            return;
+        }
+        let command = wanted.cloned().map_or(Command::Unlock, Command::LockOut);
+        if antenna.handle.send(command).is_err() {
+            tracing::warn!(
+                antenna = antenna.shown.config.name,
+                "the lock-out waits for the session"
+            );
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! Passes that units track by themselves: the window that a unit is sent, and what
+//! its antenna makes of it by what the unit tells of itself.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use super::{
+    Antenna, CatalogState, Engine,
+    alarms::AlarmKind,
+    antenna::AntennaModel,
+    forecast::{Forecast, PassKey},
+};
+use crate::{
+    astro::{Angle, Site, time::add_seconds},
+    controller::{OnBoard, TrackTarget, UnitClock},
+    driver::{self, Event, Refusal, Snapshot},
+    orbit::{PassSearch, passes},
+    plan::{
+        OnBoardPass, Supervision,
+        on_board::{Ability, Judge, KnownOrbit},
+    },
+    station,
+};
+
+/// A pass is searched over its own stay, and a little more: its ends are exact to a
+/// millisecond.
+const EDGE_S: f64 = 0.002;
+
+/// What was found of a unit, and by what.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// How it would follow; `None` where the pass is none for its antenna.
+    pub found: Option<Arc<Supervision>>,
+    of: (PassKey, OnBoard),
+}
+
+/// From when to when `antenna` may point to the satellite of `forecast`: whole
+/// seconds within the first stay above its lowest elevation that is not over. An
+/// error where there is none.
+pub fn window(
+    forecast: &Forecast,
+    antenna: &station::Antenna,
+    site: Site,
+    now: Timestamp,
+) -> Result<(Timestamp, Timestamp), Refusal> {
+    let lowest_deg = antenna.limits.minimum_elevation_deg;
+    let lowest = Angle::from_degrees(lowest_deg);
+    let (aos, los) = (forecast.pass.aos.time, forecast.pass.los.time);
+    let search = PassSearch {
+        aos_elevation: lowest,
+        floor: lowest,
+        ..PassSearch::new(site, add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
+    };
+    let stays = passes(&forecast.satellite.propagator, &search, &|| false);
+    let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
+    let mut whole = within.map(|(from, until)| (first_second(from), last_second(until)));
+    whole
+        .find(|(from, until)| from < until && now < *until)
+        .ok_or(Refusal::TooLow { highest_deg: forecast.pass.max_elevation().degrees(), lowest_deg })
+}
+
+fn first_second(time: Timestamp) -> Timestamp {
+    let cut = last_second(time);
+    if cut == time { time } else { add_seconds(cut, 1.0) }
+}
+
+fn last_second(time: Timestamp) -> Timestamp {
+    Timestamp::from_second(time.as_second()).unwrap_or(time)
+}
+
+/// What the unit of `antenna` is told to track the pass of `forecast`.
+fn pass_for(
+    forecast: &Forecast,
+    antenna: &station::Antenna,
+    site: Site,
+    now: Timestamp,
+) -> Result<OnBoardPass, Refusal> {
+    let (from, until) = window(forecast, antenna, site, now)?;
+    let elements = forecast.satellite.elements.clone();
+    let target = TrackTarget {
+        catalog_number: elements.catalog_number(),
+        name: elements.name().to_owned(),
+        // When a pass is under way its window begins now.
+        from: from.max(add_seconds(now, -1.0)),
+        until,
+    };
+    Ok(OnBoardPass { target, elements, site, is_agreed: false })
+}
+
+impl Engine {
+    /// Lets the unit of an antenna track a pass by itself. `is_agreed` says that the
+    /// operator knows that it may miss.
+    pub(super) fn track_on_board(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
+        // A pass that is over since it was asked for is not replaced by another.
+        let Some(forecast) = self.pass(pass) else { return };
+        let (site, now) = (self.station.site, self.now);
+        let Some(antenna) = self.antennas.get(index) else { return };
+        match pass_for(forecast, &antenna.shown.config, site, now) {
+            Ok(pass) => {
+                let pass = OnBoardPass { is_agreed, ..pass };
+                self.send(index, driver::Command::Track(Box::new(pass)));
+            }
+            Err(refusal) => {
+                if let Some(antenna) = self.antennas.get_mut(index) {
+                    antenna.shown.news = Some((Event::NotSent(refusal), now));
+                }
+            }
+        }
+    }
+
+    /// Judges how the unit of an antenna would follow the pass that is selected, or
+    /// comes next.
+    pub(super) fn judge_unit(&mut self, index: usize) {
+        let judged = self.antennas.get(index).and_then(|antenna| self.judged(&antenna.shown));
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.shown.judged = judged;
+        }
+    }
+
+    /// What is found of the unit of `antenna`: as before where nothing has changed.
+    fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
+        let unit = &antenna.snapshot.state.on_board;
+        let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
+        let can = antenna.make().capabilities.has_program && antenna.snapshot.link.is_open();
+        if !can || !is_told {
+            return None;
+        }
+        let selected = self.attention.selected.and_then(|key| self.pass(key));
+        let forecast = selected.or_else(|| self.forecasts.next(self.now))?;
+        let of = (forecast.key(), rounded(unit));
+        if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.of == of) {
+            return Some(before.clone());
+        }
+        let pass = pass_for(forecast, &antenna.config, self.station.site, self.now);
+        let judge = pass.ok().and_then(|pass| Judge::new(pass, Ability::of(&antenna.config)).ok());
+        let found = judge.map(|judge| Arc::new(judge.supervise(&of.1, false)));
+        Some(Judged { found, of })
+    }
+}
+
+impl Engine {
+    /// Tells the session of an antenna by which orbit to judge what its unit does by
+    /// itself.
+    pub(super) fn tell_orbit(&mut self, index: usize) {
+        let CatalogState::Ready(catalog) = &self.catalog else { return };
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let shown = &mut antenna.shown;
+        let held = shown.snapshot.state.on_board.satellite.as_ref();
+        let elements = held.and_then(|held| catalog.get(held.catalog_number));
+        let site = self.station.site;
+        let is_told = match (elements, &shown.orbit) {
+            (Some(elements), Some(told)) => told.elements == *elements && told.site == site,
+            (None, None) => true,
+            _ => false,
+        };
+        if is_told {
+            return;
+        }
+        let orbit = elements.map(|it| Arc::new(KnownOrbit { elements: it.clone(), site }));
+        shown.orbit.clone_from(&orbit);
+        antenna.handle.know_orbit(orbit);
+    }
+
+    /// Alarms that follow from how a unit tracks by itself, or would.
+    pub(super) fn watch_on_board(&mut self, index: usize) {
+        let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
+        let (alarms, now, of) = (&mut self.alarms, self.now, Some(index));
+        let running = antenna.snapshot.on_board.as_ref();
+        let missed = running.and_then(|view| {
+            let cause = view.found.causes.first().cloned();
+            Some(AlarmKind::OffTarget { off: view.missing?, cause })
+        });
+        match missed {
+            Some(kind) => alarms.raise(of, kind, now),
+            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::OffTarget { .. })),
+        }
+        let differs = antenna.misses().and_then(|found| found.causes.first().cloned());
+        match differs {
+            Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
+            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
+        }
+        let is_loading = matches!(self.catalog, CatalogState::Loading);
+        match antenna.not_compared().filter(|_| !is_loading) {
+            Some(kind) => alarms.raise(of, kind, now),
+            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
+        }
+    }
+}
+
+impl AntennaModel {
+    /// What the operator has to watch alone: the unit tracks by itself what cannot be
+    /// compared with elements.
+    fn not_compared(&self) -> Option<AlarmKind> {
+        let Snapshot { state, following, link, .. } = &*self.snapshot;
+        let tracks = state.program.is_some_and(|program| program.enabled);
+        if !tracks || !link.is_open() || following.is_some() || self.orbit.is_some() {
+            return None;
+        }
+        match &state.on_board.satellite {
+            Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
+            Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
+            // A unit that is given satellites from here tells soon which it holds.
+            None if self.make().capabilities.has_program => None,
+            None => Some(AlarmKind::NotCompared { satellite: None }),
+        }
+    }
+
+    /// How its unit would follow by what it tells of itself, or does.
+    pub fn supervision(&self) -> Option<&Supervision> {
+        let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);
+        running.or(self.judged.as_ref().and_then(|judged| judged.found.as_deref()))
+    }
+
+    /// The same where by it the satellite is missed.
+    pub fn misses(&self) -> Option<&Supervision> {
+        self.supervision().filter(|found| !found.is_within_beam)
+    }
+}
+
+/// Without what differs from one reading to the next.
+fn rounded(unit: &OnBoard) -> OnBoard {
+    let tenths = |seconds: f64| (seconds * 5.0).round() / 5.0;
+    OnBoard {
+        clock: unit.clock.map(|clock| UnitClock {
+            ahead_s: tenths(clock.ahead_s),
+            read_at: Timestamp::UNIX_EPOCH,
+            ..clock
+        }),
+        satellite: None,
+        window: None,
+        ..unit.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::time::seconds_between,
+        engine::forecast::{Followed, Vantage},
+        orbit::{Pass, Propagator, bundled},
+        station::Station,
+    };
+
+    fn length_s((from, until): (Timestamp, Timestamp)) -> f64 {
+        seconds_between(from, until)
+    }
+
+    fn now() -> Timestamp {
+        "2026-08-12T00:00:00Z".parse().unwrap()
+    }
+
+    fn station(lowest_deg: [f64; 2]) -> Station {
+        let mut antennas =
+            vec![station::Antenna::genius("First", ""), station::Antenna::satrak("Second", "")];
+        for (antenna, lowest_deg) in antennas.iter_mut().zip(lowest_deg) {
+            antenna.limits.minimum_elevation_deg = lowest_deg;
+        }
+        Station { antennas, ..Station::default() }
+    }
+
+    /// The first pass over 60 degrees as the station lists it.
+    fn forecast(station: &Station) -> Forecast {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let vantage = Vantage::of(station);
+        let search = PassSearch {
+            aos_elevation: vantage.horizon,
+            ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
+        };
+        let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;
+        let pass = passes(&propagator, &search, &|| false).into_iter().find(high).unwrap();
+        Forecast::new(Arc::new(Followed { elements, propagator }), pass, Arc::new(vantage))
+    }
+
+    #[test]
+    fn the_window_of_an_antenna_keeps_to_its_own_lowest_elevation() {
+        let station = station([0.0, 45.0]);
+        let forecast = forecast(&station);
+        let [first, second] = [0, 1]
+            .map(|index| window(&forecast, &station.antennas[index], station.site, now()).unwrap());
+        assert!(length_s(first) > 500.0 && length_s(second) < 200.0, "{first:?} {second:?}");
+        let aos = forecast.pass.aos.time;
+        assert!((0.0..1.01).contains(&seconds_between(aos, first.0)), "{aos} {first:?}");
+        let elevation = |at| {
+            let look = forecast.satellite.propagator.look_from(station.site, at).unwrap();
+            look.direction.elevation_deg()
+        };
+        for (from, until) in [second] {
+            for at in [from, until] {
+                assert!((45.0..46.0).contains(&elevation(at)), "{} {at}", elevation(at));
+            }
+            assert_eq!((from.subsec_nanosecond(), until.subsec_nanosecond()), (0, 0));
+        }
+    }
+
+    #[test]
+    fn a_pass_that_stays_too_low_has_no_window() {
+        let station = station([0.0, 89.5]);
+        let forecast = forecast(&station);
+        let highest_deg = forecast.pass.max_elevation().degrees();
+        let refused = window(&forecast, &station.antennas[1], station.site, now());
+        assert_eq!(refused, Err(Refusal::TooLow { highest_deg, lowest_deg: 89.5 }));
+    }
+}

@@ -1,0 +1,103 @@
+//! Changes of settings on their way to a session: those of service settings wait
+//! until what was there before is safe in a file.
+
+use super::{
+    Engine,
+    alarms::AlarmKind,
+    copies::{OpenCopy, Outcome, Saving, Waiting},
+};
+use crate::{
+    controller::settings::{Change, Guard},
+    driver,
+};
+
+impl Engine {
+    /// The name and index of the antenna of a change that must wait for a copy.
+    fn needs_copy(&self, index: usize, change: &Change) -> bool {
+        let Some(antenna) = self.antennas.get(index) else { return false };
+        let group = antenna.shown.groups().iter().find(|group| group.key == change.group);
+        change.is_unlocked && group.is_some_and(|it| it.guard(&change.values) == Guard::Service)
+    }
+
+    /// Hands a change to the session, a service setting after a copy was saved.
+    pub(super) fn settle(&mut self, index: usize, change: Change) {
+        if !self.needs_copy(index, &change) {
+            return self.send(index, driver::Command::Settle(change));
+        }
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let name = antenna.shown.config.name.clone();
+        if let Some(waiting) = self.copy_work.waiting.as_mut().filter(|it| it.antenna == name) {
+            return waiting.changes.push(change);
+        }
+        match self.copy_work.save(&antenna.shown, self.now) {
+            Ok(()) => {
+                self.copy_work.waiting = Some(Waiting { antenna: name, changes: vec![change] });
+            }
+            Err(why) => self.service_not_sent(index, &why),
+        }
+    }
+
+    fn service_not_sent(&mut self, index: usize, why: &str) {
+        let text = format!(
+            "no service setting was sent, for the old values could not be saved first: {why}"
+        );
+        tracing::error!("{text}");
+        self.alarms.raise(Some(index), AlarmKind::Settings(text), self.now);
+    }
+
+    /// Saves what is known of the settings of an antenna.
+    pub(super) fn save_copy(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        if let Err(why) = self.copy_work.save(&antenna.shown, self.now) {
+            let (antenna, at) = (antenna.shown.config.name.clone(), self.now);
+            self.copies.saved = Some(Saving { antenna, at, result: Err(why) });
+        }
+    }
+
+    /// Opens the comparison of an antenna with a file.
+    pub(super) fn open_copies(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let name = antenna.shown.config.name.clone();
+        self.copy_work.list(&name);
+        self.copies.open = Some(OpenCopy { antenna: name, listed: Vec::new(), read: None });
+    }
+
+    /// Takes what the thread of the copies has done.
+    pub(super) fn take_copies(&mut self) {
+        let Some(outcome) = self.copy_work.turn(&self.wake) else { return };
+        let now = self.now;
+        match outcome {
+            Outcome::Saved { antenna, result } => {
+                self.after_copy(&antenna, result.as_ref().err().cloned());
+                self.copies.saved = Some(Saving { antenna, at: now, result });
+            }
+            Outcome::Listed(paths) => {
+                if let Some(open) = &mut self.copies.open {
+                    open.listed = paths;
+                }
+            }
+            Outcome::Read(path, copy) => {
+                if let Some(open) = &mut self.copies.open {
+                    open.read = Some((path, copy));
+                }
+            }
+        }
+    }
+
+    /// Sends what waited for the copy of `antenna`, unless there is none.
+    fn after_copy(&mut self, antenna: &str, failure: Option<String>) {
+        let Some(waiting) = self.copy_work.waiting.take_if(|it| it.antenna == antenna) else {
+            return;
+        };
+        let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
+        let Some(index) = names.into_iter().position(|name| name == antenna) else { return };
+        match failure {
+            Some(why) => self.service_not_sent(index, &why),
+            None => {
+                for change in waiting.changes {
+                    self.send(index, driver::Command::Settle(change));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What a running station shows of itself.
+
+use std::sync::Arc;
+
+use super::{
+    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, forecast::Forecasts,
+    source_tests::SourceTests, sources::Sources, uploads::Uploads,
+};
+use crate::{driver::TimeSync, orbit::Catalog, station::Station};
+
+/// The elements.
+#[derive(Debug, Clone)]
+pub enum CatalogState {
+    /// They are being read.
+    Loading,
+    /// They are here.
+    Ready(Arc<Catalog>),
+    /// There are none, and why.
+    Failed,
+}
+
+/// A station at one instant. A copy shares what is large.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// How the clock of this computer is kept.
+    pub time_sync: TimeSync,
+    /// The station as saved.
+    pub station: Arc<Station>,
+    /// The station is the demo station with simulated antennas.
+    pub demo: bool,
+    /// The elements.
+    pub catalog: CatalogState,
+    /// Where the elements come from.
+    pub sources: Arc<Sources>,
+    /// The antennas of the station, in its order.
+    pub antennas: Vec<AntennaModel>,
+    /// The passes to come.
+    pub forecasts: Forecasts,
+    /// Files of elements on their way to units.
+    pub uploads: Arc<Uploads>,
+    /// The sources that units are told to use, tested from here.
+    pub source_tests: Arc<SourceTests>,
+    /// What must not be missed.
+    pub alarms: Alarms,
+    /// Copies of the settings of units.
+    pub copies: Arc<Copies>,
+    /// The station is about to end, and what it waits for.
+    pub closing: Option<Closing>,
+}
+
+impl Snapshot {
+    /// What there is to show before the first turn.
+    pub(super) fn before_anything() -> Self {
+        Self {
+            time_sync: TimeSync::NotKnown,
+            station: Arc::default(),
+            demo: false,
+            catalog: CatalogState::Loading,
+            sources: Arc::default(),
+            antennas: Vec::new(),
+            forecasts: Forecasts::default(),
+            uploads: Arc::default(),
+            source_tests: Arc::default(),
+            alarms: Alarms::default(),
+            copies: Arc::default(),
+            closing: None,
+        }
+    }
+}

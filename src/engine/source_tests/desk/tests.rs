@@ -1,0 +1,102 @@
+use std::{
+    io::{Read as _, Write as _},
+    net::TcpListener,
+    sync::mpsc,
+    thread,
+    time::Duration,
+};
+
+use super::*;
+use crate::{
+    engine::source_tests::TestedSource,
+    orbit::{bundled, write_tle},
+    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring, Seen},
+};
+
+const NOAA_20: u32 = 43_013;
+
+/// A desk, what it shows, and what tells of each wake.
+fn desk(folder: &tempfile::TempDir) -> (Desk, SourceTests, mpsc::Receiver<()>) {
+    let places = Places {
+        known_hosts: KnownHosts::new(folder.path().join("known_hosts")),
+        kept: KeptFiles::new(folder.path().join("uploads")),
+        keyring: Arc::new(MemoryKeyring::default()),
+        session: Arc::default(),
+        limits: Limits { connect: Duration::from_secs(2), ..Limits::default() },
+    };
+    let (send, woken) = mpsc::sync_channel(16);
+    let wake: Wake = Arc::new(move || {
+        // More than one wake is no more than one.
+        let _ = send.try_send(());
+    });
+    (Desk::new(Some(places), Clock::system(), wake), SourceTests::default(), woken)
+}
+
+fn begin(url: String, satellite: &str) -> TestAsk {
+    let source = TestedSource::Web { url };
+    let (antenna, satellite) = ("Satrak".to_owned(), satellite.to_owned());
+    TestAsk::Begin(Box::new(SourceOrder { antenna, source, satellite }))
+}
+
+/// Serves `body` once.
+fn serve(body: Vec<u8>) -> String {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("http://{}/weather.txt", listener.local_addr().unwrap());
+    let answer = move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let _ = stream.read(&mut [0; 4096]).unwrap();
+        let head = format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", body.len());
+        stream.write_all(&[head.as_bytes(), &body].concat()).unwrap();
+    };
+    thread::Builder::new().name("server".to_owned()).spawn(answer).unwrap();
+    url
+}
+
+fn wait(desk: &mut Desk, shown: &mut SourceTests, woken: &mpsc::Receiver<()>) {
+    while shown.stage == TestStage::Working {
+        woken.recv_timeout(Duration::from_secs(20)).unwrap();
+        desk.poll(shown);
+    }
+}
+
+#[test]
+fn a_source_is_seen_as_the_unit_will_see_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut desk, mut shown, woken) = desk(&folder);
+    let mut body = Vec::new();
+    let catalog = bundled().unwrap();
+    write_tle(catalog.get(NOAA_20), &mut body).unwrap();
+    desk.ask(begin(serve(body), "NOAA 20 (JPSS-1)"), &mut shown);
+    assert_eq!(shown.stage, TestStage::Working);
+    wait(&mut desk, &mut shown, &woken);
+    let TestStage::Seen { view, .. } = &shown.stage else { panic!("{:?}", shown.stage) };
+    assert!(matches!(&view.satellite, Seen::Found(object) if object.catalog_number == NOAA_20));
+    desk.ask(TestAsk::Dismiss, &mut shown);
+    assert_eq!(shown.stage, TestStage::Idle);
+}
+
+#[test]
+fn what_is_wrong_with_a_source_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut desk, mut shown, woken) = desk(&folder);
+    desk.ask(begin("gopher://x".to_owned(), "A"), &mut shown);
+    wait(&mut desk, &mut shown, &woken);
+    assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("https")));
+    let mut homeless = Desk { places: None, ..desk };
+    homeless.ask(begin("http://127.0.0.1/".to_owned(), "A"), &mut shown);
+    assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("no folder")));
+}
+
+#[test]
+fn a_test_can_be_cancelled_and_only_one_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut desk, mut shown, woken) = desk(&folder);
+    let silent = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("http://{}/", silent.local_addr().unwrap());
+    desk.ask(begin(url, "A"), &mut shown);
+    desk.ask(begin("http://127.0.0.1/other".to_owned(), "B"), &mut shown);
+    assert_eq!(shown.order.as_ref().unwrap().satellite, "A");
+    desk.ask(TestAsk::Cancel, &mut shown);
+    wait(&mut desk, &mut shown, &woken);
+    assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("cancelled")));
+}

@@ -1,0 +1,281 @@
+//! Where the elements come from: the bundled ones and the operator's sources.
+//! Reading, keeping and asking servers are done on a thread of their own.
+
+use std::path::{Path, PathBuf};
+
+use jiff::Timestamp;
+
+use crate::job::Job;
+use crate::{
+    job::Wake,
+    library::{self, IndexError, Library, Limits, load_sources, save_sources},
+    orbit::{Catalog, Source, SourceReport, bundled},
+};
+
+/// The sources, as they were when they were last read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sources {
+    /// All of them, in the order of the operator.
+    pub list: Vec<Source>,
+    /// What came of each, in the same order; empty while the library cannot be
+    /// used.
+    pub reports: Vec<SourceReport>,
+    /// What is being done.
+    pub work: SourceWork,
+    /// What went wrong with the list or the library as a whole.
+    pub problem: Option<String>,
+    /// The list cannot be read: it is left as it is and takes no change.
+    pub is_locked: bool,
+}
+
+/// What is being done for the sources.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SourceWork {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Files are being read.
+    Reading,
+    /// Servers are being asked.
+    Asking,
+}
+
+impl Sources {
+    /// Whether a change would be taken now.
+    pub fn is_free(&self) -> bool {
+        self.work == SourceWork::Nothing && !self.is_locked
+    }
+}
+
+/// Where the list and the library are; `None` on a machine without a home.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    list: Option<PathBuf>,
+    library: Option<PathBuf>,
+}
+
+impl Places {
+    /// The list stands beside the station file.
+    pub(super) fn new(station: Option<&Path>, library: Option<PathBuf>) -> Self {
+        Self {
+            list: station.map(|station| station.with_file_name("sources.toml")),
+            library: library.or_else(library::library_folder),
+        }
+    }
+
+    /// The folder of the library.
+    pub(super) fn library(&self) -> Option<&Path> {
+        self.library.as_deref()
+    }
+}
+
+/// What is to be done before everything is read anew.
+#[derive(Debug, Default)]
+pub(super) struct Task {
+    /// The list to keep, when it is another one.
+    pub(super) list: Option<Vec<Source>>,
+    /// The names of the sources whose servers are to be asked, where they may be.
+    pub(super) ask: Vec<String>,
+    /// The operator wants it although they were asked lately.
+    pub(super) forced: bool,
+}
+
+/// What was read.
+pub(super) struct Outcome {
+    /// The elements of all sources.
+    pub(super) catalog: Catalog,
+    /// Why the bundled elements are not among them.
+    pub(super) bundled_problem: Option<String>,
+    /// The sources.
+    pub(super) sources: Sources,
+}
+
+/// Begins `task` at `now`.
+pub(super) fn start(
+    places: &Places,
+    task: Task,
+    now: Timestamp,
+    wake: Wake,
+) -> std::io::Result<Job<Outcome>> {
+    let places = places.clone();
+    Job::start("azel-elements", wake, move |cancelled| carry_out(&places, &task, now, cancelled))
+}
+
+fn carry_out(
+    places: &Places,
+    task: &Task,
+    now: Timestamp,
+    cancelled: &dyn Fn() -> bool,
+) -> Outcome {
+    let mut sources = Sources::default();
+    if let Some(list) = &task.list {
+        let saved = places.list.as_deref().map(|path| save_sources(list, path));
+        sources.problem = match saved {
+            Some(Ok(())) => None,
+            Some(Err(error)) => Some(error.to_string()),
+            None => Some("this user has no folder for settings".to_owned()),
+        };
+    }
+    // What stands on disk counts, whatever was asked for.
+    match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
+        Ok(list) => sources.list = list,
+        Err(error) => (sources.problem, sources.is_locked) = (Some(error.to_string()), true),
+    }
+    let (mut catalog, bundled_problem) = match bundled() {
+        Ok(catalog) => (catalog, None),
+        Err(error) => (Catalog::default(), Some(error.to_string())),
+    };
+    if !sources.list.is_empty() {
+        match read(places, &sources.list, task, now, &mut catalog, cancelled) {
+            Ok(reports) => sources.reports = reports,
+            Err(problem) => sources.problem = Some(problem),
+        }
+    }
+    Outcome { catalog, bundled_problem, sources }
+}
+
+fn read(
+    places: &Places,
+    list: &[Source],
+    task: &Task,
+    now: Timestamp,
+    catalog: &mut Catalog,
+    cancelled: &dyn Fn() -> bool,
+) -> Result<Vec<SourceReport>, String> {
+    let folder = places.library.as_deref().ok_or("this user has no folder for data")?;
+    let in_words = |error: IndexError| error.to_string();
+    let mut library = Library::open(folder, Limits::default()).map_err(in_words)?;
+    let asked: Vec<Source> =
+        list.iter().filter(|source| task.ask.contains(&source.name)).cloned().collect();
+    library.refresh(&asked, now, task.forced, cancelled).map_err(in_words)?;
+    library.read_again(list, &task.ask);
+    Ok(library.load_into(list, catalog))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::orbit::{BUNDLED_SOURCE, Place, write_omm_json};
+
+    const ISS: u32 = 25_544;
+
+    struct Desk {
+        folder: tempfile::TempDir,
+        places: Places,
+    }
+
+    impl Desk {
+        fn new() -> Self {
+            let folder = tempfile::tempdir().unwrap();
+            let station = folder.path().join("config/station.toml");
+            let places = Places::new(Some(&station), Some(folder.path().join("data")));
+            Self { folder, places }
+        }
+
+        fn run(&self, task: &Task) -> Outcome {
+            let now = "2026-08-12T12:00:00Z".parse().unwrap();
+            carry_out(&self.places, task, now, &|| false)
+        }
+
+        /// A file that holds the ISS a day after the bundled elements.
+        fn newer_file(&self) -> Source {
+            let bundled = bundled().unwrap();
+            let mut text = Vec::new();
+            write_omm_json([bundled.get(ISS).unwrap()], &mut text).unwrap();
+            let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
+            list[0]["EPOCH"] = "2026-08-12T10:00:00.000000".into();
+            let path = self.folder.path().join("own.json");
+            fs::write(&path, list.to_string()).unwrap();
+            Source { name: "own".to_owned(), place: Place::File(path) }
+        }
+    }
+
+    #[test]
+    fn without_sources_the_bundled_elements_are_there_and_nothing_is_written() {
+        let desk = Desk::new();
+        let outcome = desk.run(&Task::default());
+        assert_eq!(outcome.catalog.source(ISS), Some(BUNDLED_SOURCE));
+        assert!(outcome.bundled_problem.is_none() && outcome.sources.problem.is_none());
+        assert_eq!(fs::read_dir(desk.folder.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn an_added_source_is_kept_and_its_newer_elements_win() {
+        let desk = Desk::new();
+        let list = Some(vec![desk.newer_file()]);
+        let first = desk.run(&Task { list, ask: vec!["own".to_owned()], forced: false });
+        for outcome in [first, desk.run(&Task::default())] {
+            assert_eq!(outcome.catalog.source(ISS), Some("own"));
+            assert_eq!(outcome.catalog.len(), 16_089);
+            assert_eq!(outcome.sources.reports[0].objects(), 1);
+            assert!(outcome.sources.is_free());
+        }
+        let gone = desk.run(&Task { list: Some(Vec::new()), ..Task::default() });
+        assert_eq!(gone.catalog.source(ISS), Some(BUNDLED_SOURCE));
+        assert!(gone.sources.list.is_empty());
+    }
+
+    #[test]
+    fn a_source_that_is_not_there_says_so_and_costs_only_itself() {
+        let desk = Desk::new();
+        let missing =
+            Source { name: "missing".to_owned(), place: Place::File("/no/such/file.tle".into()) };
+        let list = Some(vec![missing, desk.newer_file()]);
+        let outcome = desk.run(&Task { list, ..Task::default() });
+        assert!(outcome.sources.reports[0].files[0].problem.is_some());
+        assert_eq!(outcome.sources.reports[1].objects(), 1);
+        assert_eq!(outcome.catalog.len(), 16_089);
+    }
+
+    #[test]
+    fn a_source_whose_reading_ended_the_program_is_read_when_it_is_asked_for() {
+        let desk = Desk::new();
+        let own = desk.newer_file();
+        desk.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
+        let marker = desk.folder.path().join("data/unfinished.toml");
+        assert!(!marker.exists(), "the reading came to its end");
+        // What a program that was ended at this point leaves.
+        fs::write(&marker, toml::to_string(&serde_json::json!({ "source": [own] })).unwrap())
+            .unwrap();
+        for _ in 0..2 {
+            let outcome = desk.run(&Task::default());
+            assert!(outcome.sources.reports[0].is_set_aside);
+            assert_eq!(outcome.catalog.source(ISS), Some(BUNDLED_SOURCE));
+        }
+        let outcome = desk.run(&Task { ask: vec!["own".to_owned()], ..Task::default() });
+        assert!(!outcome.sources.reports[0].is_set_aside && !marker.exists());
+        assert_eq!(outcome.catalog.source(ISS), Some("own"));
+    }
+
+    #[test]
+    fn a_list_that_cannot_be_read_takes_no_change() {
+        let desk = Desk::new();
+        fs::create_dir_all(desk.folder.path().join("config")).unwrap();
+        fs::write(desk.folder.path().join("config/sources.toml"), "source = 7").unwrap();
+        let outcome = desk.run(&Task::default());
+        assert!(outcome.sources.is_locked && outcome.sources.problem.is_some());
+        assert_eq!(outcome.catalog.len(), 16_089);
+    }
+
+    #[test]
+    fn a_list_that_cannot_be_kept_leaves_the_one_on_disk() {
+        let desk = Desk::new();
+        let own = desk.newer_file();
+        // A file stands where the folder should be.
+        fs::write(desk.folder.path().join("config"), "").unwrap();
+        let outcome = desk.run(&Task { list: Some(vec![own]), ..Task::default() });
+        assert!(outcome.sources.problem.is_some() && outcome.sources.list.is_empty());
+    }
+
+    #[test]
+    fn a_machine_without_a_home_has_the_bundled_elements() {
+        let places = Places { list: None, library: None };
+        let now = "2026-08-12T12:00:00Z".parse().unwrap();
+        let task = Task { list: Some(Vec::new()), ..Task::default() };
+        let outcome = carry_out(&places, &task, now, &|| false);
+        assert_eq!(outcome.catalog.len(), 16_089);
+        assert!(outcome.sources.problem.is_some());
+    }
+}

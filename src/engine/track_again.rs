@@ -1,0 +1,140 @@
+//! A track that STOP has ended is offered again for a while.
+
+use std::time::Instant;
+
+use jiff::Timestamp;
+
+use super::{
+    Command, Engine,
+    antenna::{AntennaId, AntennaModel},
+    closing::CloseHow,
+};
+use crate::{
+    astro::time::add_seconds,
+    driver::{self, Intent},
+    plan::Follow,
+};
+
+/// For so long it is offered, seconds.
+const OFFERED_S: f64 = 600.0;
+
+/// A track, and what begins it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrackAgain {
+    /// Name of the target.
+    pub name: String,
+    /// What the operator asked for.
+    pub command: Command,
+    /// When there is nothing more to track.
+    pub until: Timestamp,
+}
+
+impl Engine {
+    /// Keeps in mind what an antenna was asked to track. Whatever else is chosen ends
+    /// the offer.
+    pub(super) fn note_track(&mut self, command: &Command) {
+        let (id, ordered) = match command {
+            Command::Track { antenna, pass, is_agreed: false }
+            | Command::FollowPass { antenna, pass } => {
+                let Some(forecast) = self.forecasts.find(*pass) else { return };
+                let name = forecast.satellite.short_name().to_owned();
+                let until = forecast.pass.los.time;
+                (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
+            }
+            Command::Antenna(antenna, driver::Command::Follow(follow)) => {
+                let name = follow.target.name().into_owned();
+                let until = end_of(follow, self.now);
+                (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
+            }
+            Command::Antenna(antenna, other) if chooses_something_else(other) => (*antenna, None),
+            _ => return,
+        };
+        if let Some(antenna) = self.shown_mut(id) {
+            antenna.ordered_track = ordered;
+            antenna.track_again = None;
+        }
+    }
+
+    fn shown_mut(&mut self, id: AntennaId) -> Option<&mut AntennaModel> {
+        let place = self.place(id)?;
+        self.antennas.get_mut(place).map(|antenna| &mut antenna.shown)
+    }
+
+    /// A target that waits for the operator's word is offered as one that STOP has
+    /// ended.
+    pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
+        let until = add_seconds(self.now, OFFERED_S);
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let command = Command::Antenna(antenna.shown.id, driver::Command::Resume);
+        antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, until });
+    }
+
+    /// STOP went to these antennas.
+    pub(super) fn note_stops(&mut self, stopped: &[AntennaId], at: Instant) {
+        self.upload_desk.stopped();
+        // While the antennas are parked for the end: the operator is needed here.
+        self.closing.take_if(|closing| closing.how == CloseHow::Park);
+        let latest = add_seconds(self.now, OFFERED_S);
+        for antenna in self.antennas.iter_mut().filter(|of| stopped.contains(&of.shown.id)) {
+            let told = antenna.handle.snapshot();
+            let shown = &mut antenna.shown;
+            shown.asks_unseen = None;
+            shown.stop_pressed = Some(at);
+            shown.last_stop = Some(at);
+            if told.intent != Intent::Track {
+                continue;
+            }
+            shown.track_again = shown.ordered_track.take().map(|ordered| {
+                let until = ordered.until.min(latest);
+                TrackAgain { until, ..ordered }
+            });
+        }
+    }
+
+    /// Ends the offers whose time is over.
+    pub(super) fn forget_tracks(&mut self) {
+        let (now, forecasts) = (self.now, &self.forecasts);
+        for antenna in &mut self.antennas {
+            let antenna = &mut antenna.shown;
+            let snapshot = &antenna.snapshot;
+            let chosen = !matches!(snapshot.intent, Intent::Standby | Intent::Track);
+            let is_locked_out = snapshot.lock_out.is_some();
+            antenna.track_again.take_if(|again| {
+                let is_gone = match again.command {
+                    Command::Track { pass, .. } | Command::FollowPass { pass, .. } => {
+                        forecasts.find(pass).is_none()
+                    }
+                    _ => false,
+                };
+                now >= again.until || chosen || is_locked_out || is_gone
+            });
+        }
+    }
+}
+
+/// When the pass that is followed is over; never for what does not set.
+fn end_of(follow: &Follow, now: Timestamp) -> Timestamp {
+    let passes = follow.passes.iter();
+    passes.map(|(_, los)| *los).find(|los| *los > now).unwrap_or(Timestamp::MAX)
+}
+
+fn chooses_something_else(command: &driver::Command) -> bool {
+    matches!(
+        command,
+        driver::Command::Standby
+            | driver::Command::Manual
+            | driver::Command::Hold
+            | driver::Command::Jog { .. }
+            | driver::Command::Step { .. }
+            | driver::Command::Position { .. }
+            | driver::Command::MoveAway
+            | driver::Command::FollowIntoSun(_)
+            | driver::Command::Track(_)
+            | driver::Command::Park
+            | driver::Command::Resume
+            | driver::Command::Act(_)
+            | driver::Command::ActUnseen(_)
+            | driver::Command::LockOut(_)
+            | driver::Command::Disconnect
+    )
+}

@@ -1,0 +1,236 @@
+//! One turn: take what has come in and keep what is shown right.
+
+use std::sync::Arc;
+
+use super::{
+    Antenna, CatalogState, DemoStation, Engine,
+    alarms::{AlarmKind, Work, alarm_of, is_over},
+    demo::Demo,
+    owed,
+    sources::{SourceWork, Task},
+};
+use crate::{
+    controller::panel::CheckState,
+    driver::{Event, LinkState, Refusal, Safety, StopState},
+    job::Job,
+    station::Station,
+};
+
+/// A unit whose clock is further off than this misses a low satellite.
+const CLOCK_OFF_S: f64 = 1.0;
+
+impl Engine {
+    /// Takes everything that has come in since the last turn.
+    pub(super) fn turn(&mut self) {
+        self.set_time();
+        let time_sync = self.clock_watch.poll(self.steady, &self.wake);
+        self.time_sync = time_sync.unwrap_or(self.time_sync);
+        self.watch_driver();
+        self.take_catalog();
+        self.take_copies();
+        self.look_for_passes();
+        for index in 0..self.antennas.len() {
+            self.take_antenna(index);
+        }
+        let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
+        let strangers = owed::strangers(self.driver.debts().units(), antennas);
+        owed::tell(&mut self.alarms, strangers, self.now);
+        self.forget_tracks();
+        self.watch_closing();
+        self.poll_uploads();
+        self.source_desk.poll(&mut self.source_tests);
+    }
+
+    fn look_for_passes(&mut self) {
+        let CatalogState::Ready(catalog) = &self.catalog else { return };
+        let list = self.attention.list;
+        self.searches.refresh(catalog, &self.station, list, self.now, &self.wake);
+        self.forecasts = self.searches.shown();
+        let kind = AlarmKind::BrokeOff(Work::Passes);
+        if self.searches.broke_off() {
+            self.alarms.raise(None, kind, self.now);
+        } else {
+            self.alarms.clear(None, |known| *known == kind);
+        }
+    }
+
+    fn watch_driver(&mut self) {
+        match self.driver.stood_for() {
+            Some(stood) => {
+                self.alarms.raise(None, AlarmKind::DriverStands(stood), self.now);
+            }
+            None => {
+                self.alarms.clear(None, |kind| matches!(kind, AlarmKind::DriverStands(_)));
+            }
+        }
+    }
+
+    fn take_catalog(&mut self) {
+        let Some(end) = Job::take(&mut self.elements_job) else { return };
+        let (alarms, now) = (&mut self.alarms, self.now);
+        let Ok(outcome) = end else {
+            alarms.raise(None, AlarmKind::BrokeOff(Work::Elements), now);
+            self.sources.work = SourceWork::Nothing;
+            // Once: the source that it broke off at is set aside now.
+            if !std::mem::replace(&mut self.elements_broke_off, true) {
+                self.begin_elements(Task::default());
+            } else if matches!(self.catalog, CatalogState::Loading) {
+                self.catalog = CatalogState::Failed;
+            }
+            return;
+        };
+        self.elements_broke_off = false;
+        alarms.clear(None, |kind| {
+            matches!(
+                kind,
+                AlarmKind::Elements(_)
+                    | AlarmKind::SourceSetAside(_)
+                    | AlarmKind::BrokeOff(Work::Elements)
+            )
+        });
+        for report in outcome.sources.reports.iter().filter(|report| report.is_set_aside) {
+            alarms.raise(None, AlarmKind::SourceSetAside(report.source.clone()), now);
+        }
+        for text in outcome.bundled_problem.iter().chain(&outcome.sources.problem) {
+            tracing::error!("{text}");
+            alarms.raise(None, AlarmKind::Elements(text.clone()), now);
+        }
+        self.sources = outcome.sources;
+        if outcome.catalog.is_empty() {
+            self.catalog = CatalogState::Failed;
+            return;
+        }
+        self.catalog = CatalogState::Ready(Arc::new(outcome.catalog));
+        if matches!(self.demo, Some(DemoStation::Coming)) {
+            self.start_demo();
+        }
+    }
+
+    fn start_demo(&mut self) {
+        let CatalogState::Ready(catalog) = &self.catalog else { return };
+        // Whatever can be selected can be tracked.
+        let elements = catalog.iter().cloned().collect();
+        match Demo::start(&self.station, elements) {
+            Ok(demo) => {
+                let antennas = Station::demo(&demo.addresses).antennas;
+                self.demo = Some(DemoStation::Running(demo));
+                let station = Station { antennas, ..Station::clone(&self.station) };
+                self.use_station(station);
+            }
+            Err(error) => tracing::error!(%error, "the demo station did not start"),
+        }
+    }
+
+    fn take_antenna(&mut self, index: usize) {
+        let forecasts = &self.forecasts;
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        antenna.shown.snapshot = antenna.handle.snapshot();
+        antenna.shown.refresh(self.station.site, |number| forecasts.satellite(number));
+        let mut events = Vec::new();
+        while let Some(event) = antenna.handle.next_event() {
+            events.push(event);
+        }
+        for event in events {
+            self.take_event(index, event);
+        }
+        self.tell_lock_out(index);
+        self.tell_orbit(index);
+        self.judge_unit(index);
+        self.watch_state(index);
+        self.watch_on_board(index);
+    }
+
+    fn take_event(&mut self, index: usize, event: Event) {
+        let now = self.now;
+        let antenna = Some(index);
+        match &event {
+            Event::Back { .. } | Event::Connected(_) => {
+                self.alarms.clear(antenna, |kind| matches!(kind, AlarmKind::LinkLost(_)));
+            }
+            Event::Stopped => {
+                self.alarms.clear(antenna, |kind| *kind == AlarmKind::StopNotConfirmed);
+            }
+            _ => {}
+        }
+        self.take_closing_event(index, &event);
+        if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {
+            self.offer_resume(index, name);
+        }
+        if let Some(kind) = alarm_of(&event) {
+            self.alarms.raise(antenna, kind, now);
+        }
+        if let Some(Antenna { shown: antenna, .. }) = self.antennas.get_mut(index) {
+            if event == Event::NotSent(Refusal::Unguarded) {
+                antenna.asks_unguarded = true;
+            }
+            if let Event::NotSent(Refusal::Unseen { act, .. }) = &event {
+                antenna.asks_unseen = Some(act.clone());
+            }
+            if event == Event::Stopped {
+                // The snapshots between press and standstill may all have been missed.
+                antenna.stop_pressed = None;
+            }
+            antenna.news = Some((event, now));
+        }
+    }
+
+    /// Alarms that follow from the state rather than from an event.
+    fn watch_state(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let snapshot = Arc::clone(&antenna.shown.snapshot);
+        let (alarms, now, of) = (&mut self.alarms, self.now, Some(index));
+        if snapshot.stop == StopState::Ready
+            && snapshot.state.measured.is_some_and(|measured| !measured.moving())
+        {
+            alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+        }
+        match snapshot.left_moving {
+            Some(since) => {
+                let matter = Safety::LeftMoving { since, asks: true };
+                alarms.raise(of, AlarmKind::Safety(matter), now);
+            }
+            None => alarms.clear(of, |kind| {
+                matches!(kind, AlarmKind::Safety(Safety::LeftMoving { asks: true, .. }))
+            }),
+        }
+        let silent = AlarmKind::Safety(Safety::SilentInMotion);
+        if snapshot.silent {
+            alarms.raise(of, silent, now);
+        } else {
+            alarms.clear(of, |kind| *kind == silent);
+        }
+        if !snapshot.locking {
+            alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);
+        }
+        let checks = &snapshot.state.checks;
+        if snapshot.link == LinkState::Off {
+            // Nobody wants to know while the unit is left to others.
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_)));
+        } else {
+            for check in checks.iter() {
+                if matches!(check.state, CheckState::Caution | CheckState::Fault) {
+                    alarms.raise(of, AlarmKind::Check(check.clone()), now);
+                }
+            }
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)));
+        }
+        if let Some(why) = snapshot.state.unreadable {
+            alarms.raise(of, AlarmKind::Unreadable(why), now);
+        } else {
+            alarms.clear(of, |kind| matches!(kind, AlarmKind::Unreadable(_)));
+        }
+        if let Some(clock) = snapshot.state.on_board.clock {
+            let off = clock.is_set && clock.ahead_s.abs() > CLOCK_OFF_S;
+            if off {
+                alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
+            } else {
+                alarms.clear(of, |kind| matches!(kind, AlarmKind::ClockOff(_)));
+            }
+            if clock.is_set {
+                alarms.clear(of, |kind| *kind == AlarmKind::ClockNotSet);
+            } else {
+                alarms.raise(of, AlarmKind::ClockNotSet, now);
+            }
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Carries out what an order needs, on threads of their own, and shows how far
+//! it is.
+
+use std::{
+    io,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use super::{
+    Ask, Kept, KeptEntry, Places, Stage, Uploads, Warning,
+    errand::{self, Report},
+    flow::{Flow, Next},
+    select::{Selection, UnitNow},
+};
+use crate::{
+    clock::Clock,
+    engine::host_keys,
+    job::{Job, Wake},
+    transfer::Transfer,
+};
+
+/// A session answers long before this, whatever becomes of its link. If it does
+/// not, the operator is told rather than left waiting.
+const SELECTING: Duration = Duration::from_secs(90);
+
+/// What the session of an antenna is told.
+pub(in crate::engine) enum Told {
+    /// To end tracking, and not to begin it by itself.
+    Rest,
+    /// To use a file.
+    Use(Selection),
+}
+
+/// The one place of orders.
+pub(in crate::engine) struct Desk {
+    places: Option<Places>,
+    clock: Clock,
+    wake: Wake,
+    flow: Flow,
+    transfer: Option<Transfer<Report>>,
+    deciding: Option<Job<Result<(), String>>>,
+    keeping: Option<Job<Result<(), String>>>,
+    listing: Option<Job<Kept>>,
+    selecting_since: Option<Instant>,
+}
+
+impl Desk {
+    pub(in crate::engine) fn new(places: Option<Places>, clock: Clock, wake: Wake) -> Self {
+        Self {
+            places,
+            clock,
+            wake,
+            flow: Flow::default(),
+            transfer: None,
+            deciding: None,
+            keeping: None,
+            listing: None,
+            selecting_since: None,
+        }
+    }
+
+    /// Carries out what a view asked for. `unit_of` tells how the unit of an
+    /// antenna is. What comes back is for the session of the shown antenna.
+    pub(in crate::engine) fn ask(
+        &mut self,
+        ask: Ask,
+        unit_of: impl Fn(&str) -> UnitNow,
+        shown: &mut Uploads,
+    ) -> Option<Told> {
+        let next = match ask {
+            Ask::Begin(order) => {
+                let unit = unit_of(&order.antenna);
+                self.flow.begin(*order, &unit, shown)
+            }
+            Ask::AgreeToTracking => self.flow.agree(&unit_of(&shown.antenna), shown),
+            Ask::TrustHostKey => self.flow.trust(shown),
+            Ask::ForgetHostKey => self.flow.forget_host(shown),
+            Ask::Secret { secret, keep } => self.flow.type_secret(secret, keep, shown),
+            Ask::Cancel => {
+                if self.flow.cancel(shown)
+                    && let Some(transfer) = &self.transfer
+                {
+                    transfer.cancel();
+                }
+                None
+            }
+            Ask::Dismiss => {
+                if !shown.stage.is_open() {
+                    shown.stage = Stage::Idle;
+                }
+                None
+            }
+            Ask::ListKept { unit, file } => {
+                self.list(unit, file, shown);
+                None
+            }
+        };
+        self.carry_out(next, shown)
+    }
+
+    /// The operator has stopped the antennas.
+    pub(in crate::engine) fn stopped(&mut self) {
+        self.flow.stopped();
+    }
+
+    /// Takes what has come in. What comes back is for the session of the shown
+    /// antenna.
+    pub(in crate::engine) fn poll(
+        &mut self,
+        unit: &UnitNow,
+        steady: Instant,
+        shown: &mut Uploads,
+    ) -> Option<Told> {
+        match Job::take(&mut self.listing) {
+            Some(Ok(kept)) => shown.kept = kept,
+            Some(Err(broke_off)) => shown.kept.list = Some(Err(broke_off.to_string())),
+            None => {}
+        }
+        if let Some(Err(problem)) = take(&mut self.keeping) {
+            shown.warnings.push(Warning::NotKept(problem));
+        }
+        self.watch_selection(unit, steady, shown);
+        let decided = take(&mut self.deciding).and_then(|result| self.flow.decided(result, shown));
+        let reported = self.poll_transfer(unit, shown);
+        let next = decided.or(reported).or_else(|| self.flow.rested(unit));
+        self.carry_out(next, shown)
+    }
+
+    fn poll_transfer(&mut self, unit: &UnitNow, shown: &mut Uploads) -> Option<Next> {
+        let transfer = self.transfer.as_ref()?;
+        if let Stage::Working { progress, .. } = &mut shown.stage {
+            *progress = transfer.progress();
+        }
+        let report = match transfer.poll()? {
+            Ok(report) => report,
+            Err(broken) => Report::failed(broken.to_string()),
+        };
+        self.transfer = None;
+        if report.is_logged_in
+            && let Some(secret) = self.flow.secret_to_keep()
+            && let Some((places, order)) = self.places.as_ref().zip(self.flow.order())
+        {
+            let wake = Arc::clone(&self.wake);
+            self.keeping = logged(errand::keep_secret(places, order.account(), secret, wake));
+        }
+        let next = self.flow.reported(report, unit, shown);
+        let kept = shown.kept.of.clone();
+        if !kept.1.is_empty() {
+            self.list(kept.0, kept.1, shown);
+        }
+        next
+    }
+
+    fn watch_selection(&mut self, unit: &UnitNow, steady: Instant, shown: &mut Uploads) {
+        if !matches!(shown.stage, Stage::Selecting(_)) {
+            self.selecting_since = None;
+            return;
+        }
+        let since = *self.selecting_since.get_or_insert(steady);
+        self.flow.answered(unit, shown);
+        let is_open = matches!(shown.stage, Stage::Selecting(_));
+        if is_open && steady.saturating_duration_since(since) > SELECTING {
+            self.not_selected("the unit did not say whether it uses the file".to_owned(), shown);
+        }
+    }
+
+    /// The unit cannot be told to use the file.
+    pub(in crate::engine) fn not_selected(&mut self, text: String, shown: &mut Uploads) {
+        self.flow.selected(Err(text), self.clock.utc(), shown);
+    }
+
+    fn carry_out(&mut self, next: Option<Next>, shown: &mut Uploads) -> Option<Told> {
+        let next = next?;
+        let Some(places) = &self.places else {
+            let text = "this user has no folder for data".to_owned();
+            return self.end_early(text, shown);
+        };
+        let wake = Arc::clone(&self.wake);
+        let started = match next {
+            Next::Rest => return Some(Told::Rest),
+            Next::Select(selection) => return Some(Told::Use(selection)),
+            Next::Run(errand) => errand::start(*errand, places, &self.clock, wake)
+                .map(|transfer| self.transfer = Some(transfer)),
+            Next::Decide(decision) => host_keys::decide(&places.known_hosts, decision, wake)
+                .map(|job| self.deciding = Some(job)),
+        };
+        match started {
+            Ok(()) => None,
+            Err(error) => self.end_early(format!("no thread for the upload: {error}"), shown),
+        }
+    }
+
+    fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<Told> {
+        let unit = UnitNow::default();
+        // A failure leads to nothing more.
+        let _ = self.flow.reported(Report::failed(text), &unit, shown);
+        None
+    }
+
+    fn list(&mut self, unit: String, file: String, shown: &mut Uploads) {
+        let of = (unit, file);
+        if shown.kept.of != of {
+            shown.kept = Kept { of: of.clone(), list: None };
+        }
+        let Some(places) = &self.places else { return };
+        let kept = places.kept.clone();
+        let job = Job::start("azel-kept-uploads", Arc::clone(&self.wake), move |_| {
+            let (unit, file) = &of;
+            let list = kept.list(unit, file).map_err(|error| error.to_string());
+            let entry = |file| {
+                let objects = kept.read(&file).map(|content| content.objects().to_vec());
+                KeptEntry { file, objects: objects.map_err(|error| error.to_string()) }
+            };
+            let list = list.map(|files| files.into_iter().map(entry).collect());
+            Kept { of, list: Some(list) }
+        });
+        self.listing = logged(job);
+    }
+}
+
+/// The result of `job`, once.
+fn take(job: &mut Option<Job<Result<(), String>>>) -> Option<Result<(), String>> {
+    Job::take(job).map(|end| end.unwrap_or_else(|broke_off| Err(broke_off.to_string())))
+}
+
+fn logged<T>(started: io::Result<T>) -> Option<T> {
+    started.inspect_err(|error| tracing::error!(%error, "no thread beside an upload")).ok()
+}

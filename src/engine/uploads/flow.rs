@@ -1,0 +1,317 @@
+//! What follows on what: an order from the operator's word to the unit's.
+//! No threads and no clock; the desk carries out what comes out of here.
+
+use jiff::Timestamp;
+
+use super::{
+    Cargo, Failure, Order, Proved, SecretWanted, Stage, Uploads, Warning,
+    errand::{Errand, Outcome, Report},
+    select::{Selection, TICKETS, UnitNow, pick},
+};
+use crate::{
+    engine::host_keys::{Decision, doubtful},
+    secret::Secret,
+    transfer::{OfferedKey, Uploaded},
+};
+
+/// What is to be done next.
+pub(super) enum Next {
+    /// This attempt.
+    Run(Box<Errand>),
+    /// What the operator has decided about a host key.
+    Decide(Decision),
+    /// The unit is to end tracking, and not to begin it by itself: what decides
+    /// where it points passes the gate at rest.
+    Rest,
+    /// The unit is to use this.
+    Select(Selection),
+}
+
+/// One order on its way.
+#[derive(Default)]
+pub(super) struct Flow {
+    order: Option<Order>,
+    secret: Option<Secret>,
+    /// The secret is to be kept once it has opened the door.
+    keeps: bool,
+    /// Why the keyring could not be asked; it is asked once.
+    keyring_problem: Option<String>,
+    offered: Option<Box<OfferedKey>>,
+    /// The tracking of the unit may end.
+    is_agreed: bool,
+    /// On the unit, which does not use it yet.
+    uploaded: Option<Box<Uploaded>>,
+    selection: Option<Selection>,
+    /// The selection waits until the unit is at rest.
+    awaits_rest: bool,
+    selections: u64,
+}
+
+impl Flow {
+    pub(super) fn order(&self) -> Option<&Order> {
+        self.order.as_ref()
+    }
+
+    pub(super) fn begin(
+        &mut self,
+        order: Order,
+        unit: &UnitNow,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        if shown.stage.is_open() {
+            return None;
+        }
+        shown.antenna.clone_from(&order.antenna);
+        shown.is_roll_back = matches!(order.cargo, Cargo::Kept(_));
+        shown.warnings.clear();
+        *self = Self { order: Some(order), selections: self.selections, ..Self::default() };
+        if let Some(why) = &unit.locked_out {
+            let text = format!("nothing was sent, the unit is in maintenance, locked out by {why}");
+            fail(shown, text);
+            return None;
+        }
+        if let Some(busy) = unit.busy {
+            shown.stage = Stage::AsksAboutTracking(busy);
+            return None;
+        }
+        self.run(shown)
+    }
+
+    fn run(&self, shown: &mut Uploads) -> Option<Next> {
+        let order = self.order.clone()?;
+        shown.stage = Stage::Working { progress: None, is_cancelled: false };
+        Some(Next::Run(Box::new(Errand { order, secret: self.secret.clone() })))
+    }
+
+    pub(super) fn agree(&mut self, unit: &UnitNow, shown: &mut Uploads) -> Option<Next> {
+        if !matches!(shown.stage, Stage::AsksAboutTracking(_)) {
+            return None;
+        }
+        self.is_agreed = true;
+        match self.uploaded.take() {
+            Some(uploaded) => self.select(uploaded, unit, shown),
+            None => self.run(shown),
+        }
+    }
+
+    /// The operator has stopped the antennas: nothing may end or begin to track
+    /// any more without being asked about again.
+    pub(super) fn stopped(&mut self) {
+        self.is_agreed = false;
+    }
+
+    pub(super) fn trust(&mut self, shown: &mut Uploads) -> Option<Next> {
+        if !matches!(shown.stage, Stage::AsksAboutHostKey(_)) {
+            return None;
+        }
+        let offered = self.offered.take()?;
+        shown.stage = Stage::Working { progress: None, is_cancelled: false };
+        Some(Next::Decide(Decision::Trust(offered)))
+    }
+
+    /// The order begins again afterwards, with the question about the new key.
+    pub(super) fn forget_host(&mut self, shown: &mut Uploads) -> Option<Next> {
+        let Stage::Failed(Failure { changed_key: Some(_), .. }) = &shown.stage else { return None };
+        let peer = self.order.as_ref()?.unit.clone();
+        shown.stage = Stage::Working { progress: None, is_cancelled: false };
+        Some(Next::Decide(Decision::Forget(peer)))
+    }
+
+    pub(super) fn decided(
+        &mut self,
+        result: Result<(), String>,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        let is_cancelled = matches!(shown.stage, Stage::Working { is_cancelled: true, .. });
+        match result {
+            Err(text) => fail(shown, text),
+            Ok(()) if is_cancelled => cancelled(shown, "nothing was changed on the unit"),
+            Ok(()) => return self.run(shown),
+        }
+        None
+    }
+
+    pub(super) fn type_secret(
+        &mut self,
+        secret: Secret,
+        keep: bool,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        if !matches!(shown.stage, Stage::AsksForSecret(_)) {
+            return None;
+        }
+        (self.secret, self.keeps) = (Some(secret), keep);
+        self.run(shown)
+    }
+
+    /// What is to be kept in the keyring, once.
+    pub(super) fn secret_to_keep(&mut self) -> Option<Secret> {
+        std::mem::take(&mut self.keeps).then(|| self.secret.clone()).flatten()
+    }
+
+    /// Whether what is under way is to be told.
+    pub(super) fn cancel(&mut self, shown: &mut Uploads) -> bool {
+        let can_cancel = shown.stage.can_cancel();
+        match &mut shown.stage {
+            Stage::Working { is_cancelled, .. } if can_cancel => {
+                *is_cancelled = true;
+                return true;
+            }
+            Stage::AsksAboutTracking(_) => {
+                let uploaded = self.uploaded.take();
+                let state = if uploaded.is_some() {
+                    "the file is on the unit, which was not told to use it"
+                } else {
+                    "nothing was changed on the unit"
+                };
+                cancelled(shown, state);
+                if let Stage::Failed(failure) = &mut shown.stage {
+                    failure.uploaded = uploaded;
+                }
+            }
+            Stage::AsksAboutHostKey(_) | Stage::AsksForSecret(_) => {
+                cancelled(shown, "nothing was changed on the unit");
+            }
+            _ => {}
+        }
+        false
+    }
+
+    pub(super) fn reported(
+        &mut self,
+        report: Report,
+        unit: &UnitNow,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        self.keyring_problem = report.keyring_problem.or(self.keyring_problem.take());
+        if report.is_factory && !shown.warnings.contains(&Warning::FactoryPassword) {
+            shown.warnings.push(Warning::FactoryPassword);
+        }
+        match report.outcome {
+            Outcome::Uploaded(uploaded) => return self.use_file(uploaded, unit, shown),
+            Outcome::HostKey(error) => {
+                let text = error.to_string();
+                match doubtful(error) {
+                    Ok((_, key)) if key.is_changed() => {
+                        let changed_key = Some(key);
+                        let failure = Failure { text, changed_key, ..Failure::default() };
+                        shown.stage = Stage::Failed(failure);
+                    }
+                    Ok((offered, key)) => {
+                        self.offered = Some(offered);
+                        shown.stage = Stage::AsksAboutHostKey(key);
+                    }
+                    Err(error) => fail(shown, error.to_string()),
+                }
+            }
+            Outcome::Secret { refused } => {
+                self.secret = None;
+                let order = self.order.as_ref()?;
+                let account = order.account();
+                shown.stage = Stage::AsksForSecret(SecretWanted {
+                    user: account.user,
+                    address: account.address,
+                    is_passphrase: order.key_file.is_some(),
+                    refused,
+                    keyring_problem: self.keyring_problem.clone(),
+                });
+            }
+            Outcome::Cancelled(state) => cancelled(shown, &state),
+            Outcome::Failed(text) => fail(shown, text),
+        }
+        None
+    }
+
+    /// Only now is the unit's own state asked about: it may have begun to track
+    /// while the file was on its way.
+    fn use_file(
+        &mut self,
+        uploaded: Box<Uploaded>,
+        unit: &UnitNow,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        if let Some(busy) = unit.busy.filter(|_| !self.is_agreed) {
+            self.uploaded = Some(uploaded);
+            shown.stage = Stage::AsksAboutTracking(busy);
+            return None;
+        }
+        self.select(uploaded, unit, shown)
+    }
+
+    fn select(
+        &mut self,
+        uploaded: Box<Uploaded>,
+        unit: &UnitNow,
+        shown: &mut Uploads,
+    ) -> Option<Next> {
+        let order = self.order.as_ref()?;
+        let (wanted, takes) = (order.satellite, order.takes);
+        let Some(satellite) = pick(&uploaded, wanted, unit.held).cloned() else {
+            fail_after(shown, "the file holds no elements that Azel can read".to_owned(), uploaded);
+            return None;
+        };
+        self.selections += 1;
+        let ticket = TICKETS + self.selections;
+        let file = uploaded.file.as_str().to_owned();
+        let selection = Selection { ticket, takes, since: unit.at, file, satellite };
+        self.selection = Some(selection.clone());
+        shown.stage = Stage::Selecting(uploaded);
+        self.awaits_rest = unit.busy.is_some();
+        Some(if self.awaits_rest { Next::Rest } else { Next::Select(selection) })
+    }
+
+    /// Goes on once the unit is at rest.
+    pub(super) fn rested(&mut self, unit: &UnitNow) -> Option<Next> {
+        self.awaits_rest &= self.selection.is_some();
+        if !self.awaits_rest || unit.hindrance.is_some() {
+            return None;
+        }
+        self.awaits_rest = false;
+        self.selection.clone().map(Next::Select)
+    }
+
+    /// Takes the unit's answer, if it is here.
+    pub(super) fn answered(&mut self, unit: &UnitNow, shown: &mut Uploads) {
+        let selection = self.selection.as_ref();
+        let end = selection.zip(unit.answer.as_ref()).and_then(|(one, answer)| one.end(answer));
+        if let Some((at, result)) = end {
+            self.selected(result, at, shown);
+        }
+    }
+
+    /// The unit has said whether it uses the file.
+    pub(super) fn selected(
+        &mut self,
+        result: Result<(), String>,
+        at: Timestamp,
+        shown: &mut Uploads,
+    ) {
+        let Some(selection) = self.selection.take() else { return };
+        let Stage::Selecting(uploaded) = std::mem::take(&mut shown.stage) else { return };
+        match result {
+            Ok(()) => {
+                let satellite = selection.satellite;
+                shown.stage =
+                    Stage::Proved(Box::new(Proved { uploaded: *uploaded, satellite, at }));
+            }
+            Err(text) => fail_after(shown, text, uploaded),
+        }
+    }
+}
+
+fn fail(shown: &mut Uploads, text: String) {
+    shown.stage = Stage::Failed(Failure { text, ..Failure::default() });
+}
+
+fn fail_after(shown: &mut Uploads, text: String, uploaded: Box<Uploaded>) {
+    let uploaded = Some(uploaded);
+    shown.stage = Stage::Failed(Failure { text, uploaded, ..Failure::default() });
+}
+
+fn cancelled(shown: &mut Uploads, state: &str) {
+    let text = format!("cancelled; {state}");
+    shown.stage = Stage::Failed(Failure { text, is_cancel: true, ..Failure::default() });
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,320 @@
+use std::path::PathBuf;
+
+use super::*;
+use crate::{
+    controller::{satrak::ELEMENT_FILES, settings::Hindrance},
+    engine::uploads::Busy,
+    transfer::{
+        ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,
+    },
+};
+
+const ISS: u32 = 25_544;
+const NOAA_20: u32 = 43_013;
+
+fn peer() -> Peer {
+    Peer { host: "192.168.10.21".to_owned(), port: 22 }
+}
+
+fn order() -> Order {
+    let catalog = crate::orbit::bundled().unwrap();
+    let file =
+        TleFile::of([ISS, NOAA_20].iter().filter_map(|one| catalog.get(*one)), &ELEMENT_FILES)
+            .unwrap();
+    Order {
+        antenna: "Satrak".to_owned(),
+        takes: &ELEMENT_FILES,
+        unit: peer(),
+        folder: "/svs/satrak/tle".to_owned(),
+        file: FileName::new("active.txt", &ELEMENT_FILES).unwrap(),
+        user: "op".to_owned(),
+        key_file: None,
+        cargo: Cargo::New(file),
+        satellite: Some(NOAA_20),
+    }
+}
+
+fn now() -> Timestamp {
+    "2026-08-12T11:15:30Z".parse().unwrap()
+}
+
+fn uploaded() -> Box<Uploaded> {
+    let Cargo::New(file) = order().cargo else { panic!() };
+    Box::new(Uploaded {
+        unit: peer(),
+        file: FileName::new("active.txt", &ELEMENT_FILES).unwrap(),
+        bytes: file.bytes().len() as u64,
+        sha256: file.hash(),
+        at: now(),
+        objects: file.objects().to_vec(),
+    })
+}
+
+fn report(outcome: Outcome) -> Report {
+    Report { outcome, is_logged_in: true, is_factory: false, keyring_problem: None }
+}
+
+/// An order on its way, and what is shown of it.
+#[derive(Default)]
+struct Desk {
+    flow: Flow,
+    shown: Uploads,
+    unit: UnitNow,
+}
+
+impl Desk {
+    fn begin(&mut self) -> Option<Next> {
+        self.flow.begin(order(), &self.unit, &mut self.shown)
+    }
+
+    fn reported(&mut self, outcome: Outcome) -> Option<Next> {
+        self.flow.reported(report(outcome), &self.unit, &mut self.shown)
+    }
+
+    /// Tracking and auto-track end first, and the unit is told when they have.
+    fn assert_rests_before_it_is_told(&mut self, go_on: impl FnOnce(&mut Self) -> Option<Next>) {
+        self.unit.hindrance = Some(Hindrance::Tracks);
+        assert!(matches!(go_on(self), Some(Next::Rest)));
+        assert!(self.flow.rested(&self.unit).is_none());
+        (self.unit.hindrance, self.unit.busy) = (None, None);
+        selection(self.flow.rested(&self.unit));
+        assert!(self.flow.rested(&self.unit).is_none(), "once");
+    }
+
+    fn failure(&self) -> &Failure {
+        let Stage::Failed(failure) = &self.shown.stage else { panic!("{:?}", self.shown.stage) };
+        failure
+    }
+}
+
+fn assert_runs(next: Option<Next>) -> Errand {
+    let Some(Next::Run(errand)) = next else { panic!("nothing runs") };
+    *errand
+}
+
+fn selection(next: Option<Next>) -> Selection {
+    let Some(Next::Select(selection)) = next else { panic!("nothing is selected") };
+    selection
+}
+
+#[test]
+fn green_comes_after_the_unit_has_named_the_satellite_and_not_before() {
+    let mut desk = Desk::default();
+    assert_runs(desk.begin());
+    assert!(matches!(desk.shown.stage, Stage::Working { .. }));
+    assert!(desk.begin().is_none(), "one at a time");
+    let selection = selection(desk.reported(Outcome::Uploaded(uploaded())));
+    assert_eq!(
+        (selection.file.as_str(), selection.satellite.catalog_number),
+        ("active.txt", NOAA_20)
+    );
+    assert!(matches!(desk.shown.stage, Stage::Selecting(_)));
+    desk.flow.selected(Ok(()), now(), &mut desk.shown);
+    let Stage::Proved(proved) = &desk.shown.stage else { panic!("{:?}", desk.shown.stage) };
+    assert_eq!(proved.satellite.catalog_number, NOAA_20);
+    assert_eq!(proved.uploaded, *uploaded());
+}
+
+#[test]
+fn a_unit_that_does_not_find_the_satellite_is_no_success() {
+    let mut desk = Desk::default();
+    desk.begin();
+    desk.reported(Outcome::Uploaded(uploaded()));
+    desk.flow.selected(Err("satellite not found".to_owned()), now(), &mut desk.shown);
+    let failure = desk.failure();
+    assert_eq!(failure.text, "satellite not found");
+    assert_eq!(failure.uploaded, Some(uploaded()));
+    assert_runs(desk.begin());
+}
+
+#[test]
+fn a_unit_that_tracks_is_left_alone_until_the_operator_agrees() {
+    let mut desk = Desk::default();
+    desk.unit.busy = Some(Busy::Tracks);
+    assert!(desk.begin().is_none());
+    assert_eq!(desk.shown.stage, Stage::AsksAboutTracking(Busy::Tracks));
+    assert!(!desk.flow.cancel(&mut desk.shown));
+    assert!(desk.failure().is_cancel);
+
+    desk.begin();
+    assert_runs(desk.flow.agree(&desk.unit, &mut desk.shown));
+    desk.assert_rests_before_it_is_told(|desk| desk.reported(Outcome::Uploaded(uploaded())));
+}
+
+#[test]
+fn tracking_that_began_meanwhile_or_a_stop_asks_again() {
+    let mut desk = Desk::default();
+    desk.begin();
+    desk.unit.busy = Some(Busy::MayTrack);
+    assert!(desk.reported(Outcome::Uploaded(uploaded())).is_none());
+    assert_eq!(desk.shown.stage, Stage::AsksAboutTracking(Busy::MayTrack));
+    desk.assert_rests_before_it_is_told(|desk| desk.flow.agree(&desk.unit, &mut desk.shown));
+    desk.unit.busy = Some(Busy::MayTrack);
+    desk.flow.selected(Ok(()), now(), &mut desk.shown);
+
+    desk.begin();
+    assert_runs(desk.flow.agree(&desk.unit, &mut desk.shown));
+    desk.flow.stopped();
+    assert!(desk.reported(Outcome::Uploaded(uploaded())).is_none());
+    assert!(matches!(desk.shown.stage, Stage::AsksAboutTracking(_)));
+    desk.flow.cancel(&mut desk.shown);
+    assert_eq!(desk.failure().uploaded, Some(uploaded()), "the file is there all the same");
+}
+
+#[test]
+fn a_password_is_asked_for_and_asked_again_when_it_is_wrong() {
+    let mut desk = Desk::default();
+    assert_eq!(assert_runs(desk.begin()).secret, None);
+    desk.reported(Outcome::Secret { refused: None });
+    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    assert_eq!((wanted.user.as_str(), wanted.address.as_str()), ("op", "192.168.10.21:22"));
+    let wrong = Secret::new("tr0ub4dor");
+    let errand = assert_runs(desk.flow.type_secret(wrong.clone(), true, &mut desk.shown));
+    assert_eq!(errand.secret, Some(wrong));
+    desk.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
+    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    assert_eq!(wanted.refused.as_deref(), Some("log-in refused"));
+    assert!(!format!("{:?}", desk.shown).contains("tr0ub4dor"));
+    let right = Secret::new("hunter2");
+    assert_runs(desk.flow.type_secret(right.clone(), true, &mut desk.shown));
+    assert_eq!(desk.flow.secret_to_keep(), Some(right));
+    assert_eq!(desk.flow.secret_to_keep(), None, "kept once");
+    desk.reported(Outcome::Secret { refused: None });
+    desk.flow.cancel(&mut desk.shown);
+    assert!(desk.failure().is_cancel);
+}
+
+#[test]
+fn a_missing_keyring_is_remembered_while_the_password_is_typed_again() {
+    let mut desk = Desk::default();
+    desk.begin();
+    let keyring_problem = Some("no keyring".to_owned());
+    let first = Report { keyring_problem, ..report(Outcome::Secret { refused: None }) };
+    desk.flow.reported(first, &desk.unit, &mut desk.shown);
+    desk.flow.type_secret(Secret::new("tr0ub4dor"), false, &mut desk.shown);
+    desk.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
+    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    assert_eq!(wanted.keyring_problem.as_deref(), Some("no keyring"));
+}
+
+#[test]
+fn a_secret_without_a_tick_is_not_kept() {
+    let mut desk = Desk::default();
+    desk.begin();
+    desk.reported(Outcome::Secret { refused: None });
+    desk.flow.type_secret(Secret::new("hunter2"), false, &mut desk.shown);
+    assert_eq!(desk.flow.secret_to_keep(), None);
+}
+
+fn offered() -> Box<OfferedKey> {
+    Box::new(OfferedKey::example(&peer().host, peer().port))
+}
+
+#[test]
+fn a_new_host_key_is_the_operator_s_to_trust() {
+    let mut desk = Desk::default();
+    desk.begin();
+    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    let Stage::AsksAboutHostKey(key) = &desk.shown.stage else { panic!() };
+    assert!(key.fingerprint.starts_with("SHA256:") && !key.is_changed());
+    let Some(Next::Decide(Decision::Trust(key))) = desk.flow.trust(&mut desk.shown) else {
+        panic!()
+    };
+    assert_eq!(key, offered());
+    assert_runs(desk.flow.decided(Ok(()), &mut desk.shown));
+
+    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    desk.flow.cancel(&mut desk.shown);
+    assert!(desk.failure().is_cancel && desk.flow.trust(&mut desk.shown).is_none());
+}
+
+#[test]
+fn a_changed_host_key_is_refused_until_the_old_one_is_forgotten() {
+    let mut desk = Desk::default();
+    desk.begin();
+    let pinned = vec!["SHA256:old".to_owned()];
+    desk.reported(Outcome::HostKey(ConnectError::HostKeyChanged { pinned, offered: offered() }));
+    let failure = desk.failure();
+    assert!(failure.text.contains("SHA256:old"), "{}", failure.text);
+    assert!(failure.changed_key.as_ref().unwrap().is_changed());
+    assert!(desk.flow.trust(&mut desk.shown).is_none(), "there is no way past it");
+    let next = desk.flow.forget_host(&mut desk.shown);
+    assert!(matches!(next, Some(Next::Decide(Decision::Forget(host))) if host == peer()));
+    assert_runs(desk.flow.decided(Ok(()), &mut desk.shown));
+    // Nothing to forget without such a refusal.
+    assert!(desk.flow.forget_host(&mut desk.shown).is_none());
+}
+
+#[test]
+fn known_hosts_that_cannot_be_written_end_it() {
+    let mut desk = Desk::default();
+    desk.begin();
+    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    desk.flow.trust(&mut desk.shown);
+    assert!(desk.flow.decided(Err("disk".to_owned()), &mut desk.shown).is_none());
+    assert_eq!(desk.failure().text, "disk");
+}
+
+#[test]
+fn a_cancel_is_told_until_the_file_takes_its_place() {
+    let mut desk = Desk::default();
+    desk.begin();
+    let at = |step| Stage::Working {
+        progress: Some(Progress { step, done_bytes: 0, file_bytes: 9 }),
+        is_cancelled: false,
+    };
+    desk.shown.stage = at(UploadStep::Replace);
+    assert!(!desk.flow.cancel(&mut desk.shown));
+    desk.shown.stage = at(UploadStep::Write);
+    assert!(desk.flow.cancel(&mut desk.shown));
+    assert!(!desk.flow.cancel(&mut desk.shown), "once is enough");
+    desk.reported(Outcome::Cancelled("the unit has its old file".to_owned()));
+    assert!(desk.failure().is_cancel && desk.failure().text.contains("old file"));
+}
+
+#[test]
+fn the_factory_s_password_is_warned_about_once() {
+    let mut desk = Desk::default();
+    desk.begin();
+    for _ in 0..2 {
+        let outcome = Outcome::Failed("full".to_owned());
+        let report = Report { is_factory: true, ..report(outcome) };
+        desk.flow.reported(report, &desk.unit, &mut desk.shown);
+    }
+    assert_eq!(desk.shown.warnings, [Warning::FactoryPassword]);
+    desk.begin();
+    assert!(desk.shown.warnings.is_empty());
+}
+
+#[test]
+fn a_roll_back_takes_the_satellite_that_the_unit_holds_or_the_first() {
+    let kept = KeptFile {
+        unit: peer().to_string(),
+        file: "active.txt".to_owned(),
+        sha256: uploaded().sha256,
+        bytes: 1,
+        at: now(),
+        origin: Origin::Found,
+    };
+    for (held, picked) in [(Some(NOAA_20), NOAA_20), (Some(7), ISS), (None, ISS)] {
+        let mut desk = Desk::default();
+        desk.unit.held = held;
+        let back = Order { cargo: Cargo::Kept(kept.clone()), satellite: None, ..order() };
+        assert_runs(desk.flow.begin(back, &desk.unit, &mut desk.shown));
+        assert!(desk.shown.is_roll_back);
+        let selection = selection(desk.reported(Outcome::Uploaded(uploaded())));
+        assert_eq!(selection.satellite.catalog_number, picked);
+    }
+    let mut desk = Desk::default();
+    desk.begin();
+    let empty = Box::new(Uploaded { objects: Vec::<FileObject>::new(), ..*uploaded() });
+    assert!(desk.reported(Outcome::Uploaded(empty)).is_none());
+    assert!(desk.failure().uploaded.is_some());
+}
+
+#[test]
+fn a_passphrase_is_kept_under_its_key_file() {
+    let key_file = Some(PathBuf::from("/home/op/key"));
+    let account = Order { key_file, ..order() }.account();
+    assert_eq!(account.to_string(), "/home/op/key@192.168.10.21:22");
+}

@@ -1,0 +1,241 @@
+//! Tells a unit to use a file that was put on it.
+
+use std::{sync::Arc, time::Instant};
+
+use jiff::Timestamp;
+
+use crate::{
+    controller::{
+        ElementFiles,
+        panel::{Check, CheckState},
+        settings::{Change, HeldGroup, Hindrance, Settled, Value},
+    },
+    driver,
+    engine::antenna::AntennaModel,
+    transfer::{FileObject, Uploaded},
+};
+
+/// Tickets of selections; those of the forms are lower.
+pub(super) const TICKETS: u64 = 1 << 63;
+
+/// Why the operator has to agree before a unit is told to use a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Busy {
+    /// It tracks. It is stopped.
+    Tracks,
+    /// Its auto-track is on: it may begin to track by itself. It is switched off.
+    MayTrack,
+}
+
+impl Busy {
+    /// What the unit of `antenna` is about.
+    fn of(antenna: &AntennaModel) -> Option<Self> {
+        let program = antenna.snapshot.state.program?;
+        if program.enabled {
+            return Some(Self::Tracks);
+        }
+        (program.auto == Some(true)).then_some(Self::MayTrack)
+    }
+}
+
+/// How the unit of an antenna is.
+#[derive(Debug, Clone, Default)]
+pub(in crate::engine) struct UnitNow {
+    /// UTC of this.
+    pub(super) at: Timestamp,
+    /// Why the operator has to agree before it is told to use a file.
+    pub(super) busy: Option<Busy>,
+    /// It is locked out for maintenance: by whom and why.
+    pub(super) locked_out: Option<String>,
+    /// Why the driver would not tell it to use a file now.
+    pub(super) hindrance: Option<Hindrance>,
+    /// The catalogue number of the satellite that it holds.
+    pub(super) held: Option<u32>,
+    /// The last selection that is over.
+    pub(super) answer: Option<Answer>,
+}
+
+/// How a selection ended.
+#[derive(Debug, Clone)]
+pub(super) struct Answer {
+    settled: Arc<Settled>,
+    /// What the unit holds now.
+    held: Option<HeldGroup>,
+    checks: Arc<[Check]>,
+    /// When the checks were read.
+    checked_at: Option<Timestamp>,
+}
+
+impl UnitNow {
+    /// As the session of `antenna` knows it.
+    pub(in crate::engine) fn of(
+        antenna: Option<&AntennaModel>,
+        at: Timestamp,
+        steady: Instant,
+    ) -> Self {
+        let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
+        let state = &antenna.snapshot.state;
+        let takes = antenna.make().element_files;
+        let group = takes.and_then(|takes| state.held.get(takes.group));
+        let answer = group.and_then(|group| {
+            Some(Answer {
+                settled: group.settled.clone()?,
+                held: group.held.clone(),
+                checks: Arc::clone(&state.checks),
+                checked_at: state.checked_at,
+            })
+        });
+        let held = state.on_board.satellite.as_ref().map(|held| held.catalog_number);
+        let locked_out = antenna.snapshot.lock_out.as_ref();
+        let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
+        let hindrance = antenna.snapshot.hindrance(antenna.make().capabilities, steady);
+        Self { at, busy: Busy::of(antenna), locked_out, hindrance, held, answer }
+    }
+}
+
+/// A satellite of a file that a unit is to use.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::engine) struct Selection {
+    /// Tells one from another; [`TICKETS`] and up.
+    pub(super) ticket: u64,
+    /// How the unit takes files.
+    pub(super) takes: &'static ElementFiles,
+    /// When it was made.
+    pub(super) since: Timestamp,
+    /// The file.
+    pub(super) file: String,
+    /// The satellite.
+    pub(super) satellite: FileObject,
+}
+
+impl Selection {
+    /// What the session is told. The present track ends.
+    pub(in crate::engine) fn command(&self) -> driver::Command {
+        let values = (self.takes.choose)(&self.file, &self.satellite.name);
+        driver::Command::Settle(Change {
+            ticket: self.ticket,
+            group: self.takes.group,
+            values,
+            seen: None,
+            is_unlocked: false,
+        })
+    }
+
+    /// When and how it ended; `None` while it has not. Good only when the unit
+    /// has named the very object and its checks were read since.
+    pub(super) fn end(&self, answer: &Answer) -> Option<(Timestamp, Result<(), String>)> {
+        let settled = &answer.settled;
+        if settled.change.ticket != self.ticket {
+            return None;
+        }
+        let result = settled.result.clone().map_err(|error| error.to_string());
+        Some((settled.at, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
+    }
+
+    fn judge(&self, answer: &Answer) -> Result<(), &'static str> {
+        let number = answer
+            .held
+            .as_ref()
+            .filter(|held| held.read_at >= self.since)
+            .and_then(|held| self.takes.found(&held.values));
+        if number != Some(&Value::Integer(self.satellite.catalog_number.into())) {
+            return Err("the unit names another object than the one that was chosen");
+        }
+        if answer.checked_at.is_none_or(|read_at| read_at < self.since) {
+            return Err("the unit did not tell its checks after it was told to use the file");
+        }
+        let is_bad = |check: &Check| {
+            self.takes.checks.contains(&check.name) && check.state == CheckState::Fault
+        };
+        if answer.checks.iter().any(is_bad) {
+            return Err("the unit does not find the satellite in the file");
+        }
+        Ok(())
+    }
+}
+
+/// The satellite to use out of `uploaded`: the `wanted` one, or the one that
+/// the unit holds, or the first.
+pub(super) fn pick(
+    uploaded: &Uploaded,
+    wanted: Option<u32>,
+    held: Option<u32>,
+) -> Option<&FileObject> {
+    let objects = &uploaded.objects;
+    let find = |number: u32| objects.iter().find(|object| object.catalog_number == number);
+    wanted.and_then(find).or_else(|| held.and_then(find)).or(objects.first())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        controller::{satrak::ELEMENT_FILES, settings::SettleError},
+        driver::Command,
+    };
+
+    const NUMBER: u32 = 43_013;
+
+    fn time(seconds: i64) -> Timestamp {
+        Timestamp::from_second(1_786_000_000 + seconds).unwrap()
+    }
+
+    fn selection() -> Selection {
+        let satellite =
+            FileObject { name: "NOAA 20".to_owned(), catalog_number: NUMBER, epoch: time(-9000) };
+        Selection {
+            ticket: TICKETS + 1,
+            takes: &ELEMENT_FILES,
+            since: time(0),
+            file: "active.txt".to_owned(),
+            satellite,
+        }
+    }
+
+    fn checks(file: CheckState) -> Arc<[Check]> {
+        ELEMENT_FILES.checks.iter().map(|name| Check::new(name, file, "")).collect()
+    }
+
+    fn answer(result: Result<(), SettleError>) -> Answer {
+        let Command::Settle(change) = selection().command() else { panic!() };
+        let values = [("catalog_number", Value::Integer(NUMBER.into()))].into();
+        Answer {
+            settled: Arc::new(Settled { change, at: time(3), result }),
+            held: Some(HeldGroup { values, read_at: time(1) }),
+            checks: checks(CheckState::Good),
+            checked_at: Some(time(2)),
+        }
+    }
+
+    fn problem(answer: &Answer) -> String {
+        selection().end(answer).unwrap().1.unwrap_err()
+    }
+
+    #[test]
+    fn the_unit_is_told_to_end_its_track_and_to_keep_its_period() {
+        let Command::Settle(change) = selection().command() else { panic!() };
+        assert_eq!(change.values.get("continue_tracking"), Some(&Value::Flag(false)));
+        assert_eq!(change.values.get("name"), Some(&Value::Text("NOAA 20".to_owned())));
+        assert!(!change.values.contains_key("period"));
+    }
+
+    #[test]
+    fn only_the_unit_s_own_words_since_then_are_proof() {
+        assert_eq!(selection().end(&answer(Ok(()))), Some((time(3), Ok(()))));
+        let other = Selection { ticket: TICKETS + 2, ..selection() };
+        assert_eq!(other.end(&answer(Ok(()))), None, "of another order");
+        let failed = answer(Err(SettleError::LinkLost));
+        assert!(problem(&failed).contains("link was lost"));
+        let old = Answer { checked_at: Some(time(-1)), ..answer(Ok(())) };
+        assert!(problem(&old).contains("did not tell its checks"));
+        let missing = Answer { checks: checks(CheckState::Fault), ..answer(Ok(())) };
+        assert!(problem(&missing).contains("does not find the satellite"));
+        let mut wrong = answer(Ok(()));
+        let held = wrong.held.as_mut().unwrap();
+        held.values.insert("catalog_number", Value::Integer(0));
+        assert!(problem(&wrong).contains("another object"));
+        let stale = answer(Ok(()));
+        let held = stale.held.clone().map(|held| HeldGroup { read_at: time(-1), ..held });
+        assert!(problem(&Answer { held, ..stale }).contains("another object"));
+    }
+}

@@ -1,0 +1,45 @@
+//! Where uploads meet the antennas' sessions.
+
+use super::{Ask, Told, UnitNow};
+use crate::{
+    driver::Command,
+    engine::{Antenna, Engine},
+};
+
+impl Engine {
+    pub(in crate::engine) fn ask_about_upload(&mut self, ask: Ask) {
+        let (antennas, now, steady) = (&self.antennas, self.now, self.steady);
+        let find = |name: &str| antennas.iter().find(|one| one.shown.config.name == name);
+        let unit_of = |name: &str| UnitNow::of(find(name).map(|one| &one.shown), now, steady);
+        let told = self.upload_desk.ask(ask, unit_of, &mut self.uploads);
+        self.tell_unit(told);
+    }
+
+    pub(in crate::engine) fn poll_uploads(&mut self) {
+        let antenna = self.upload_antenna().map(|antenna| &antenna.shown);
+        let unit = UnitNow::of(antenna, self.now, self.steady);
+        let told = self.upload_desk.poll(&unit, self.steady, &mut self.uploads);
+        self.tell_unit(told);
+    }
+
+    fn upload_antenna(&self) -> Option<&Antenna> {
+        let name = &self.uploads.antenna;
+        self.antennas.iter().find(|antenna| antenna.shown.config.name == *name)
+    }
+
+    fn tell_unit(&mut self, told: Option<Told>) {
+        let Some(told) = told else { return };
+        let Some(antenna) = self.upload_antenna() else {
+            let text = "the antenna is not in the station any more".to_owned();
+            return self.upload_desk.not_selected(text, &mut self.uploads);
+        };
+        let commands = match told {
+            Told::Rest => vec![Command::Standby, Command::AutoTrack(false)],
+            Told::Use(selection) => vec![selection.command()],
+        };
+        if commands.into_iter().any(|command| antenna.handle.send(command).is_err()) {
+            let text = "the session of the antenna is too busy to take it".to_owned();
+            self.upload_desk.not_selected(text, &mut self.uploads);
+        }
+    }
+}

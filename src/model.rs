@@ -1,0 +1,270 @@
+//! What the views show, and what they ask for. The window's shell alone changes it; a
+//! view reads it and queues commands.
+
+pub mod clearance;
+pub mod command;
+pub mod daylight;
+pub mod effects;
+mod line;
+mod theme_name;
+
+use std::{path::PathBuf, sync::Arc, time::Instant};
+
+use jiff::Timestamp;
+
+#[cfg(test)]
+pub(crate) use self::line::testing;
+use self::{clearance::Clearance, daylight::SunSpan, effects::Effects};
+pub use self::{
+    command::UiCommand,
+    line::{Line, Piece, pieces},
+    theme_name::ThemeName,
+};
+use crate::{
+    astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
+    driver::{TimeSync, WireLog},
+    engine::{
+        CatalogState, Handle,
+        alarms::Alarms,
+        antenna::AntennaModel,
+        closing::Closing,
+        copies::Copies,
+        forecast::{Followed, Forecast, Forecasts, ListChoice, Listed, PassKey, Scope, ahead},
+        source_tests::SourceTests,
+        sources::Sources,
+        uploads::Uploads,
+    },
+    orbit::{LookAngles, is_sunlit},
+    station::Station,
+};
+
+/// For how long the way of a satellite that is not selected is drawn.
+const AHEAD_S: f64 = 300.0;
+
+/// Which view fills the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum View {
+    /// Watch and drive.
+    #[default]
+    Operate,
+    /// The catalogue and where it comes from.
+    Elements,
+    /// The settings of the units.
+    Antennas,
+    /// What goes over the links.
+    Console,
+    /// The station's settings.
+    Preferences,
+}
+
+/// What became of a file with a horizon mask.
+pub enum MaskNews {
+    /// A mask was read, in this form.
+    Read(HorizonMask, MaskForm),
+    /// A mask was written here.
+    Written(PathBuf),
+    /// It could not be done, and why.
+    Failed(String),
+}
+
+/// Everything that is shown.
+pub struct Model {
+    /// UTC of this frame.
+    pub now: Timestamp,
+    /// The steady clock of this frame, for ages.
+    pub steady: Instant,
+    /// How the clock behind [`now`](Self::now) is kept.
+    pub time_sync: TimeSync,
+    /// The station as saved.
+    pub station: Arc<Station>,
+    /// The station is the demo station with simulated antennas.
+    pub demo: bool,
+    /// The elements.
+    pub catalog: CatalogState,
+    /// Where the elements come from.
+    pub sources: Arc<Sources>,
+    /// The antennas of the station.
+    pub antennas: Vec<AntennaModel>,
+    /// What goes over their links, in the same order.
+    pub wires: Vec<WireLog>,
+    /// Which of them the card shows.
+    pub selected_antenna: usize,
+    /// The passes to come.
+    pub forecasts: Forecasts,
+    /// Which of them the list shows.
+    pub list: ListChoice,
+    /// The pass that is shown.
+    pub selected: Option<PassKey>,
+    /// The sky at `now`.
+    pub sky: Sky,
+    /// Files of elements on their way to units.
+    pub uploads: Arc<Uploads>,
+    /// The sources that units are told to use, tested from here.
+    pub source_tests: Arc<SourceTests>,
+    /// What the keep-outs do to the passes to come.
+    pub effects: Effects,
+    /// What must not be missed.
+    pub alarms: Alarms,
+    /// Copies of the settings of units.
+    pub copies: Arc<Copies>,
+    /// Which view fills the window.
+    pub view: View,
+    /// The window is about to close, and what it waits for.
+    pub closing: Option<Closing>,
+}
+
+/// The sky of the site.
+#[derive(Debug, Default)]
+pub struct Sky {
+    /// The satellites of the list that are up.
+    pub satellites: Vec<Seen>,
+    /// The satellite of the selected pass, up or not.
+    pub selected: Option<Selected>,
+    /// What the horizon mask leaves of the selected pass.
+    pub clearance: Clearance,
+    /// The Sun.
+    pub sun: Option<AzEl>,
+    /// The Moon.
+    pub moon: Option<AzEl>,
+    /// Day and night from a little before now for the next hours.
+    pub sun_spans: Vec<SunSpan>,
+    seconds: Option<i64>,
+    sun_spans_of: Option<(Site, i64)>,
+}
+
+/// A satellite above the horizon.
+#[derive(Debug)]
+pub struct Seen {
+    /// Which.
+    pub satellite: Arc<Followed>,
+    /// Where.
+    pub direction: AzEl,
+    /// Where it goes in the next minutes.
+    pub ahead: Vec<AzEl>,
+}
+
+/// The satellite of the selected pass.
+#[derive(Debug, Clone, Copy)]
+pub struct Selected {
+    /// Where it stands and how it moves.
+    pub look: LookAngles,
+    /// The Sun shines on it.
+    pub sunlit: bool,
+}
+
+impl Model {
+    /// The selected antenna.
+    pub fn antenna(&self) -> Option<&AntennaModel> {
+        self.antennas.get(self.selected_antenna)
+    }
+
+    /// The selected pass, while it is not over.
+    pub fn selected_pass(&self) -> Option<&Forecast> {
+        let selected = self.forecasts.find(self.selected?);
+        selected.filter(|forecast| forecast.pass.los.time > self.now)
+    }
+
+    /// The pass of a followed satellite that is under way, or else its next one.
+    pub fn pass_of(&self, catalog_number: u32) -> Option<&Forecast> {
+        let passes = self.forecasts.favourites.listed(self.now);
+        passes.iter().find(|forecast| forecast.number() == catalog_number)
+    }
+
+    /// The pass of a followed satellite that is under way or comes next.
+    pub fn next_pass(&self) -> Option<&Forecast> {
+        self.forecasts.next(self.now)
+    }
+
+    /// The passes that the list shows.
+    pub fn listed(&self) -> Listed<'_> {
+        match self.list.scope {
+            Scope::Favourites => self.forecasts.favourites.within(self.now, self.list.span_h()),
+            Scope::All => self.forecasts.all.listed(self.now),
+        }
+    }
+
+    /// Takes what the station shows of itself.
+    pub fn take(&mut self, station: &mut Handle) {
+        let shown = Arc::clone(station.take());
+        let renewed = self.forecasts.favourites.edition != shown.forecasts.favourites.edition;
+        self.time_sync = shown.time_sync;
+        self.station = Arc::clone(&shown.station);
+        self.demo = shown.demo;
+        self.catalog = shown.catalog.clone();
+        self.sources = Arc::clone(&shown.sources);
+        self.forecasts = shown.forecasts.clone();
+        self.uploads = Arc::clone(&shown.uploads);
+        self.source_tests = Arc::clone(&shown.source_tests);
+        self.alarms = shown.alarms.clone();
+        self.copies = Arc::clone(&shown.copies);
+        self.closing.clone_from(&shown.closing);
+        let mut antennas = shown.antennas.clone();
+        for antenna in &mut antennas {
+            let known = self.antennas.iter().find(|known| known.id == antenna.id);
+            antenna.keep_pressed(known.and_then(|known| known.stop_pressed));
+        }
+        let is_same = antennas.iter().map(|of| of.id).eq(self.antennas.iter().map(|of| of.id));
+        self.antennas = antennas;
+        if !is_same || self.wires.len() != self.antennas.len() {
+            let wire = |antenna: &AntennaModel| station.wire(antenna.id).unwrap_or_default();
+            self.wires = self.antennas.iter().map(wire).collect();
+        }
+        if renewed && self.selected_pass().is_none() {
+            self.selected = self.next_pass().map(Forecast::key);
+        }
+    }
+
+    /// Puts everything at its place for `now`.
+    pub fn refresh_sky(&mut self) {
+        let (site, now) = (self.station.site, self.now);
+        let pass = self.selected.and_then(|key| self.forecasts.find(key));
+        self.sky.clearance.refresh(pass, site, self.station.horizon_mask.as_ref());
+        let selected = self.selected_pass().map(|forecast| Arc::clone(&forecast.satellite));
+        self.sky.refresh(&self.forecasts.favourites.satellites, selected.as_deref(), site, now);
+    }
+}
+
+impl Sky {
+    fn refresh(
+        &mut self,
+        satellites: &[Arc<Followed>],
+        selected: Option<&Followed>,
+        site: Site,
+        now: Timestamp,
+    ) {
+        // The one that is compared with the antenna moves with every frame.
+        self.selected = selected.and_then(|satellite| {
+            let look = satellite.propagator.look_from(site, now).ok()?;
+            let state = satellite.propagator.state_at(now).ok()?;
+            Some(Selected { look, sunlit: is_sunlit(&state, now) })
+        });
+        if self.seconds == Some(now.as_second()) {
+            return;
+        }
+        self.seconds = Some(now.as_second());
+        self.sun = Some(sun_moon::sun(site, now));
+        self.refresh_sun_spans(site, now);
+        self.moon = Some(sun_moon::moon(site, now));
+        self.satellites = satellites
+            .iter()
+            .filter_map(|satellite| {
+                let look = satellite.propagator.look_from(site, now).ok()?;
+                (look.direction.elevation_deg() > 0.0).then(|| Seen {
+                    satellite: Arc::clone(satellite),
+                    direction: look.direction,
+                    ahead: ahead(satellite, site, now, AHEAD_S),
+                })
+            })
+            .collect();
+    }
+
+    /// Made anew every minute.
+    fn refresh_sun_spans(&mut self, site: Site, now: Timestamp) {
+        let made_of = (site, now.as_second() / 60);
+        if self.sun_spans_of == Some(made_of) {
+            return;
+        }
+        self.sun_spans_of = Some(made_of);
+        self.sun_spans = daylight::spans(site, now);
+    }
+}

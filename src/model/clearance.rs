@@ -1,0 +1,46 @@
+//! When the selected pass is clear of the horizon mask.
+
+use crate::{
+    astro::{HorizonMask, Site},
+    engine::forecast::Forecast,
+    orbit::{Pass, clear_stretches},
+};
+
+/// How the horizon mask cuts a pass. Made anew only for another pass or mask.
+#[derive(Debug, Default)]
+pub struct Clearance {
+    cut: Option<Vec<Pass>>,
+    made_of: Option<(u32, Pass, Site, HorizonMask)>,
+}
+
+impl Clearance {
+    /// The stretches above the mask, in order: none at all where the mask hides
+    /// the whole pass, `None` where it cuts nothing off.
+    pub fn cut(&self) -> Option<&[Pass]> {
+        self.cut.as_deref()
+    }
+
+    pub(super) fn refresh(
+        &mut self,
+        selected: Option<&Forecast>,
+        site: Site,
+        mask: Option<&HorizonMask>,
+    ) {
+        let (Some(forecast), Some(mask)) = (selected, mask) else {
+            *self = Self::default();
+            return;
+        };
+        let (number, pass) = (forecast.satellite.elements.catalog_number(), forecast.pass);
+        let same = self.made_of.as_ref().is_some_and(|(of_number, of_pass, of_site, of_mask)| {
+            (*of_number, *of_pass, *of_site) == (number, pass, site) && of_mask == mask
+        });
+        if same {
+            return;
+        }
+        let clear = clear_stretches(&forecast.satellite.propagator, site, mask, &pass);
+        let is_whole = matches!(clear[..], [only]
+            if only.aos.time == pass.aos.time && only.los.time == pass.los.time);
+        self.cut = (!is_whole).then_some(clear);
+        self.made_of = Some((number, pass, site, mask.clone()));
+    }
+}

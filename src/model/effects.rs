@@ -1,0 +1,369 @@
+//! What the horizon mask and the keep-outs do to the passes of the favourites in
+//! the next 48 hours, as saved and as edited. Worked out on a thread.
+
+use std::{
+    ops::Range,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use crate::{
+    astro::{
+        Angle, AzEl, HorizonMask, Site, sun_moon,
+        time::{add_seconds, seconds_between},
+    },
+    engine::forecast::Forecast,
+    plan::Sample,
+    station::{Entered, KeepOut, SunAvoidance},
+};
+
+/// So long nothing may change before the work begins.
+pub const DEBOUNCE: Duration = Duration::from_millis(300);
+/// Of the samples of a track, each so many is looked at: every 6 s.
+const EVERY: usize = 3;
+/// The Sun is looked at each so many seconds: it moves a tenth of a degree.
+const SUN_STEP_S: f64 = 24.0;
+
+/// What stands in the way of an antenna.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacles {
+    /// What blocks the sky.
+    pub mask: Option<HorizonMask>,
+    /// Where antennas must not point.
+    pub keep_outs: Vec<KeepOut>,
+    /// How far antennas stay away from the Sun.
+    pub sun: Option<SunAvoidance>,
+}
+
+/// What is to be compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// As saved.
+    pub before: Obstacles,
+    /// As edited.
+    pub after: Obstacles,
+    /// The antenna whose passes are looked at; `None` at a site without one.
+    pub antenna: Option<String>,
+    /// Half of the width of its beam.
+    pub half_beam: Angle,
+    /// From where the Sun is seen.
+    pub site: Site,
+}
+
+/// The way of a satellite through one pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Way {
+    /// Catalogue number.
+    pub number: u32,
+    /// In the order of time.
+    pub samples: Vec<Sample>,
+}
+
+/// What a keep-out does to the passes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Toll {
+    /// How many passes it touches.
+    pub passes: usize,
+    /// Time of all these passes in it, seconds.
+    pub time_s: f64,
+    /// Which samples of which ways lie in it.
+    pub blocked: Vec<(usize, Range<usize>)>,
+}
+
+/// What all obstacles together do to the passes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tally {
+    /// Passes that a keep-out or the Sun touches.
+    pub touched: usize,
+    /// Time lost to the Sun, and in keep-outs that do more than warn, seconds.
+    pub lost_s: f64,
+    /// Passes of which these leave nothing.
+    pub impossible: usize,
+    /// Passes that the mask cuts.
+    pub masked: usize,
+    /// Of each keep-out, in their order.
+    pub of_each: Vec<Toll>,
+    /// Of the Sun; `None` where it is not kept away from.
+    pub of_sun: Option<Toll>,
+}
+
+/// The answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect {
+    /// To what.
+    pub question: Question,
+    /// The passes of the next 48 hours.
+    pub ways: Arc<[Way]>,
+    /// As saved.
+    pub before: Tally,
+    /// As edited.
+    pub after: Tally,
+    /// The number of the list of passes that it is about.
+    pub edition: u64,
+}
+
+/// What was asked, and the last answer.
+#[derive(Default)]
+pub struct Effects {
+    /// Stays until the next one, so that the view does not flicker.
+    pub effect: Option<Effect>,
+    /// What is asked, and since when.
+    pub asked: Option<(Question, Instant)>,
+}
+
+impl Effects {
+    /// Asks anew. The work begins once nothing was asked for a while.
+    pub fn ask(&mut self, question: Question, now: Instant) {
+        if self.wanted() != Some(&question) {
+            self.asked = Some((question, now));
+        }
+    }
+
+    /// The last question.
+    pub fn wanted(&self) -> Option<&Question> {
+        self.asked.as_ref().map(|(question, _)| question)
+    }
+}
+
+/// The ways of all passes, or of those that there was time for.
+pub fn ways(passes: &[Forecast], cancelled: &dyn Fn() -> bool) -> Arc<[Way]> {
+    let wanted = passes.iter().filter(|forecast| !forecast.is_always_up());
+    let way = |forecast: &Forecast| Way {
+        number: forecast.number(),
+        samples: forecast.track().iter().step_by(EVERY).copied().collect(),
+    };
+    wanted.take_while(|_| !cancelled()).map(way).collect()
+}
+
+/// Works out the answer.
+pub fn answer(question: Question, ways: &Arc<[Way]>, edition: u64) -> Effect {
+    let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
+    let (before, after) = (tally(&question.before), tally(&question.after));
+    Effect { ways: Arc::clone(ways), before, after, edition, question }
+}
+
+fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
+    let mut tally = Tally::default();
+    tally.of_each.resize(obstacles.keep_outs.len(), Toll::default());
+    tally.of_sun = obstacles.sun.map(|_| Toll::default());
+    for (index, way) in ways.iter().enumerate() {
+        let is_masked = |sample: &Sample| {
+            let skyline =
+                obstacles.mask.as_ref().map(|of| of.elevation_at(sample.direction.azimuth));
+            skyline.is_some_and(|skyline| sample.direction.elevation < skyline)
+        };
+        let seen: Vec<bool> = way.samples.iter().map(|sample| !is_masked(sample)).collect();
+        tally.masked += usize::from(seen.contains(&false));
+        let mut free = seen.clone();
+        let mut is_touched = false;
+        for (keep_out, toll) in obstacles.keep_outs.iter().zip(&mut tally.of_each) {
+            let holds = question.antenna.as_ref().is_none_or(|name| keep_out.holds_for(name));
+            if !holds {
+                continue;
+            }
+            let inside: Vec<bool> = way
+                .samples
+                .iter()
+                .zip(&seen)
+                .map(|(sample, seen)| {
+                    let margin = keep_out.margin() + question.half_beam;
+                    *seen && keep_out.zone.clearance(sample.direction) < margin
+                })
+                .collect();
+            let stretches = stretches(&inside);
+            if stretches.is_empty() {
+                continue;
+            }
+            is_touched = true;
+            toll.add(index, way, stretches);
+            if keep_out.entered != Entered::Warn {
+                for (free, inside) in free.iter_mut().zip(&inside) {
+                    *free &= !inside;
+                }
+            }
+        }
+        if let (Some(sun), Some(toll)) = (obstacles.sun, &mut tally.of_sun) {
+            let inside = near_sun(sun, question.site, way, &seen);
+            let stretches = stretches(&inside);
+            if !stretches.is_empty() {
+                is_touched = true;
+                toll.add(index, way, stretches);
+                for (free, inside) in free.iter_mut().zip(&inside) {
+                    *free &= !inside;
+                }
+            }
+        }
+        tally.touched += usize::from(is_touched);
+        let blocked: Vec<bool> =
+            seen.iter().zip(&free).map(|(seen, free)| *seen && !free).collect();
+        let lost_s: f64 = stretches(&blocked).iter().map(|of| time_s(way, of)).sum();
+        tally.lost_s += lost_s;
+        tally.impossible += usize::from(lost_s > 0.0 && !free.contains(&true));
+    }
+    tally
+}
+
+impl Toll {
+    fn add(&mut self, index: usize, way: &Way, stretches: Vec<Range<usize>>) {
+        self.passes += 1;
+        self.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
+        self.blocked.extend(stretches.into_iter().map(|of| (index, of)));
+    }
+}
+
+/// Which of the samples that are `seen` lie too near to the Sun, now or in its time
+/// ahead.
+fn near_sun(sun: SunAvoidance, site: Site, way: &Way, seen: &[bool]) -> Vec<bool> {
+    let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
+        return Vec::new();
+    };
+    let span_s = seconds_between(first.time, last.time) + sun.ahead_min * 60.0;
+    let steps = (span_s / SUN_STEP_S).ceil().max(0.0) as u32;
+    let suns: Vec<AzEl> = (0..=steps)
+        .map(|step| sun_moon::sun(site, add_seconds(first.time, f64::from(step) * SUN_STEP_S)))
+        .collect();
+    let place = |after_s: f64| (after_s / SUN_STEP_S).max(0.0) as usize;
+    let is_near = |(sample, seen): (&Sample, &bool)| {
+        let after_s = seconds_between(first.time, sample.time);
+        let ahead = suns.iter().take(place(after_s + sun.ahead_min * 60.0) + 1);
+        let mut ahead = ahead.skip(place(after_s));
+        *seen && ahead.any(|at| sample.direction.separation(*at).degrees() < sun.radius_deg)
+    };
+    way.samples.iter().zip(seen).map(is_near).collect()
+}
+
+/// Where `inside` holds without a break.
+fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for (index, _) in inside.iter().enumerate().filter(|(_, inside)| **inside) {
+        match found.last_mut() {
+            Some(last) if last.end == index => last.end = index + 1,
+            _ => found.push(index..index + 1),
+        }
+    }
+    found
+}
+
+/// How long a stretch takes: half a step more at each end, where the way goes on.
+fn time_s(way: &Way, stretch: &Range<usize>) -> f64 {
+    let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
+    let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {
+        return 0.0;
+    };
+    let before = stretch.start.checked_sub(1).and_then(at).unwrap_or(first);
+    let after = at(stretch.end).unwrap_or(last);
+    seconds_between(first, last)
+        + seconds_between(before, first) / 2.0
+        + seconds_between(last, after) / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::Timestamp;
+
+    use super::*;
+    /// At 20 degrees of elevation from north over east to south, a degree each 6 s.
+    fn way() -> Way {
+        let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
+        let samples = (0..=180).map(|step| Sample {
+            time: add_seconds(start, f64::from(step) * 6.0),
+            direction: AzEl::from_degrees(f64::from(step), 20.0),
+        });
+        Way { number: 1, samples: samples.collect() }
+    }
+
+    fn keep_out(from_deg: f64, to_deg: f64, entered: Entered) -> KeepOut {
+        let corners = [(from_deg, 0.0), (from_deg, 30.0), (to_deg, 30.0), (to_deg, 0.0)];
+        KeepOut {
+            name: from_deg.to_string(),
+            reason: String::new(),
+            entered,
+            antenna: None,
+            margin_deg: 0.0,
+            zone: KeepOut::zone_of(&corners).unwrap(),
+        }
+    }
+
+    fn effect(keep_outs: Vec<KeepOut>, mask: &str) -> Tally {
+        let after = Obstacles { mask: HorizonMask::parse(mask).ok(), keep_outs, sun: None };
+        let question = question(after);
+        let effect = answer(question, &[way()].into(), 0);
+        assert_eq!(effect.before, Tally::default());
+        effect.after
+    }
+
+    fn question(after: Obstacles) -> Question {
+        Question {
+            before: Obstacles { mask: None, keep_outs: Vec::new(), sun: None },
+            after,
+            antenna: Some("Satrak".to_owned()),
+            half_beam: Angle::ZERO,
+            site: Site::new(41.0, 29.0, 100.0).unwrap(),
+        }
+    }
+
+    #[test]
+    fn a_pass_through_the_surroundings_of_the_sun_is_counted() {
+        let site = Site::new(41.0, 29.0, 100.0).unwrap();
+        let start: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
+        let through = |place: AzEl| {
+            // From 20 degrees below to 20 above it, a degree each 6 s.
+            let samples = (-20..=20).map(|step| Sample {
+                time: add_seconds(start, f64::from(step + 20) * 6.0),
+                direction: AzEl {
+                    elevation: place.elevation + Angle::from_degrees(f64::from(step)),
+                    ..place
+                },
+            });
+            Way { number: 1, samples: samples.collect() }
+        };
+        let tally = |way: &Way, sun| {
+            let after = Obstacles { mask: None, keep_outs: Vec::new(), sun };
+            answer(question(after), &[way.clone()].into(), 0).after
+        };
+        let radius_deg = 5.5;
+        let now = Some(SunAvoidance { radius_deg, ahead_min: 0.0 });
+        let way = through(sun_moon::sun(site, start));
+        assert_eq!(tally(&way, None), Tally::default());
+        let held = tally(&way, now);
+        let toll = held.of_sun.clone().unwrap();
+        assert_eq!((held.touched, toll.passes, held.impossible), (1, 1, 0));
+        assert!((held.lost_s - 66.0).abs() < 7.0, "{held:?}");
+
+        let later = through(sun_moon::sun(site, add_seconds(start, 50.0 * 60.0)));
+        assert_eq!(tally(&later, now).touched, 0);
+        let ahead = Some(SunAvoidance { radius_deg, ahead_min: 60.0 });
+        assert_eq!(tally(&later, ahead).touched, 1, "where it will be");
+    }
+
+    #[test]
+    fn the_time_in_a_keep_out_is_counted() {
+        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Hard)], "");
+        assert_eq!((tally.touched, tally.impossible, tally.masked), (1, 0, 0));
+        assert!((tally.lost_s - 120.0).abs() < 1e-6, "{}", tally.lost_s);
+        assert_eq!(tally.of_each[0].blocked, [(0, 40..60)]);
+    }
+
+    #[test]
+    fn what_only_warns_costs_nothing_and_what_is_hidden_is_not_lost_twice() {
+        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Warn)], "");
+        assert_eq!((tally.touched, tally.of_each[0].passes), (1, 1));
+        assert!(tally.lost_s.abs() < 1e-9);
+        let hidden = "0 0\n38 0\n39 25\n61 25\n62 0";
+        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Hard)], hidden);
+        assert_eq!((tally.touched, tally.masked), (0, 1));
+        assert!(tally.lost_s.abs() < 1e-9);
+    }
+
+    #[test]
+    fn keep_outs_that_leave_nothing_make_a_pass_impossible() {
+        let both =
+            vec![keep_out(-1.0, 90.5, Entered::Hard), keep_out(80.0, 181.0, Entered::GoRound)];
+        let tally = effect(both, "");
+        assert_eq!((tally.touched, tally.impossible), (1, 1));
+        assert!((tally.lost_s - 1080.0).abs() < 1e-6, "an overlap counts once: {}", tally.lost_s);
+        let other =
+            KeepOut { antenna: Some("Genius".to_owned()), ..keep_out(-1.0, 181.0, Entered::Hard) };
+        assert_eq!(effect(vec![other], "").touched, 0);
+    }
+}

@@ -1,0 +1,29 @@
+//! The themes by name.
+
+/// Which of the three themes is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ThemeName {
+    /// The default, for the operations room.
+    #[default]
+    Dark,
+    /// For bright rooms and projectors.
+    Light,
+    /// One red hue, for outdoor and observatory work.
+    Night,
+}
+
+impl ThemeName {
+    /// All themes, in the order in which the key for the next theme walks.
+    pub const ALL: [Self; 3] = [Self::Dark, Self::Light, Self::Night];
+
+    /// The next theme in the ring.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Self::Dark => Self::Light,
+            Self::Light => Self::Night,
+            Self::Night => Self::Dark,
+        }
+    }
+}
