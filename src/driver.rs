@@ -130,6 +130,11 @@ impl AntennaHandle {
         self.stopper.clone()
     }
 
+    /// Numbers what is asked for.
+    pub fn orders(&self) -> &Orders {
+        &self.orders
+    }
+
     /// Hands over a command. It comes back when the session is too busy to take
     /// it, which must be told to the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {

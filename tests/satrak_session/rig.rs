@@ -231,6 +231,11 @@ impl Rig {
         self.control.received().into_iter().map(|(_, payload)| payload).collect()
     }
 
+    /// The near end of the session.
+    pub(super) fn handle(&self) -> &AntennaHandle {
+        self.handle.as_ref().unwrap()
+    }
+
     /// The received payloads with this word.
     pub(super) fn sent(&self, word: &str) -> Vec<String> {
         self.payloads().into_iter().filter(|payload| payload.starts_with(word)).collect()

@@ -51,6 +51,21 @@ async fn a_stop_in_a_goto_is_sent_at_once_and_shown_until_proved() {
     assert_eq!(rig.sent("GOTO=").len(), 1);
 }
 
+/// The station may hand over late what was asked for in time.
+#[tokio::test(start_paused = true)]
+async fn what_was_asked_for_before_a_stop_is_void_wherever_it_waited() {
+    let mut rig = Rig::usual().await;
+    let before = rig.handle().orders().next();
+    rig.stop();
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.handle().send_as(position(90.0, 30.0), before).unwrap();
+    rig.seconds(1.0).await;
+    assert_eq!(rig.sent("GOTO="), [""; 0]);
+    rig.send(position(90.0, 30.0));
+    rig.seconds(1.0).await;
+    assert_eq!(rig.sent("GOTO=").len(), 1);
+}
+
 #[tokio::test(start_paused = true)]
 async fn a_stop_at_rest_is_sent_and_proved_too() {
     let mut rig = Rig::usual().await;
