@@ -16,7 +16,6 @@ use std::{
         Arc,
         atomic::{AtomicBool, Ordering},
     },
-    thread,
     time::{Duration, Instant},
 };
 
@@ -24,8 +23,10 @@ use self::{effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::
 use crate::{
     clock::Clock,
     controller::AxisMotion,
-    driver::{self, TimeSync},
-    engine::{self, CatalogState, Handle, Settings, alarms::Alarms, forecast::Forecasts},
+    driver::TimeSync,
+    engine::{
+        self, CatalogState, Client, Handle, Settings, alarms::Alarms, forecast::Forecasts, signals,
+    },
     job::Wake,
     model::{self, Model, UiCommand, View},
     ui,
@@ -89,7 +90,8 @@ impl App {
             closing: None,
         };
         let (may_close, told_to_end) = (Arc::default(), Arc::default());
-        close_on_signals([Arc::clone(&may_close), Arc::clone(&told_to_end)], ctx.clone())?;
+        let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
+        close_on_signals(station.client().clone(), flags, ctx.clone())?;
         Ok(Self {
             model,
             views: ui::Views::with(keeper.memory.views),
@@ -156,7 +158,7 @@ impl App {
         let (list, selected) = (self.model.list, self.model.selected);
         let attention = engine::Attention { list, selected };
         let look = engine::Command::Look(attention);
-        if attention != self.told && self.station.send(look).is_ok() {
+        if attention != self.told && self.station.client().send(look).is_ok() {
             self.told = attention;
         }
     }
@@ -213,20 +215,18 @@ impl Drop for App {
 
 /// A log-out or Ctrl C in the terminal closes the window in order, so that a
 /// jog ends with STOP.
-fn close_on_signals(flags: [Arc<AtomicBool>; 2], ctx: egui::Context) -> io::Result<()> {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
-    let wait = move || {
-        if let Err(error) = runtime.block_on(driver::told_to_end()) {
-            return tracing::error!(%error, "signals are not heard");
-        }
+fn close_on_signals(
+    station: Client,
+    flags: [Arc<AtomicBool>; 2],
+    ctx: egui::Context,
+) -> io::Result<()> {
+    signals::watch(station, move || {
         for flag in flags {
             flag.store(true, Ordering::Relaxed);
         }
         ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         ctx.request_repaint_after_for(Duration::from_millis(1), egui::ViewportId::ROOT);
-    };
-    thread::Builder::new().name("azel-signals".to_owned()).spawn(wait)?;
-    Ok(())
+    })
 }
 
 /// Asks for a frame soon. A delay that is not zero gives one frame, not two,

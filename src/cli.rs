@@ -2,6 +2,9 @@
 
 pub mod log;
 mod passes;
+#[cfg(unix)]
+mod remote;
+pub mod serve;
 mod simulate;
 mod window;
 
@@ -17,6 +20,7 @@ use clap_complete::Shell;
 
 #[cfg(unix)]
 use crate::driver::dead_man;
+use crate::engine::claim::claims_folder;
 
 /// Console for the operator of a satellite ground station.
 ///
@@ -26,7 +30,7 @@ use crate::driver::dead_man;
 #[command(version, max_term_width = 100)]
 pub struct Cli {
     /// Station file to use instead of the user's own
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", global = true)]
     station: Option<PathBuf>,
     #[command(subcommand)]
     command: Option<Command>,
@@ -36,6 +40,17 @@ pub struct Cli {
 enum Command {
     /// Predict passes from element files
     Passes(passes::Options),
+    /// Run the station without a window, until SIGTERM or Ctrl C
+    Serve(serve::Options),
+    /// Stop the antennas of the Azel that has the station open, and wait for the proof
+    #[cfg(unix)]
+    Stop(remote::StopOptions),
+    /// Tell how the antennas of the Azel that has the station open are
+    #[cfg(unix)]
+    Status(remote::StatusOptions),
+    /// Lock out an antenna of the Azel that has the station open
+    #[cfg(unix)]
+    LockOut(remote::LockOutOptions),
     /// Stop a unit when the beat on standard input ends; started by the window
     #[cfg(unix)]
     #[command(name = dead_man::SUBCOMMAND, hide = true)]
@@ -77,6 +92,21 @@ impl Cli {
         match self.command {
             None => window::run(self.station)?,
             Some(Command::Passes(options)) => return passes::run(&options),
+            Some(Command::Serve(options)) => {
+                return serve::run(
+                    self.station,
+                    &options,
+                    this_program(),
+                    marks(),
+                    claims_folder(),
+                );
+            }
+            #[cfg(unix)]
+            Some(Command::Stop(options)) => return remote::stop(self.station, &options),
+            #[cfg(unix)]
+            Some(Command::Status(options)) => return remote::status(self.station, &options),
+            #[cfg(unix)]
+            Some(Command::LockOut(options)) => return remote::lock_out(self.station, &options),
             #[cfg(unix)]
             Some(Command::DeadMan { stop }) => {
                 let bytes = from_hexadecimal(&stop).context("STOP is not in hexadecimal digits")?;
@@ -93,6 +123,17 @@ impl Cli {
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// In the user's data folder.
+fn marks() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("marks"))
+}
+
+/// On Linux a name that holds also after the file was replaced by a newer one.
+fn this_program() -> Option<PathBuf> {
+    let running = PathBuf::from("/proc/self/exe");
+    if running.exists() { Some(running) } else { std::env::current_exe().ok() }
 }
 
 #[cfg(unix)]

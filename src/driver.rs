@@ -303,6 +303,11 @@ impl Driver {
         handle
     }
 
+    /// An antenna that is driven from elsewhere: it has no session, and takes nothing.
+    pub fn leave_alone(antenna: &Antenna) -> AntennaHandle {
+        Wires::closed(antenna)
+    }
+
     /// Numbers what is asked for of all its antennas.
     pub fn orders(&self) -> &Orders {
         &self.orders

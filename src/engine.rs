@@ -5,6 +5,8 @@
 pub mod alarms;
 pub mod antenna;
 mod carry_out;
+pub mod claim;
+mod claims;
 mod clock_watch;
 pub mod closing;
 mod command;
@@ -17,9 +19,13 @@ mod lock_outs;
 pub mod on_board;
 mod owed;
 mod settle;
+pub mod signals;
 mod snapshot;
+#[cfg(unix)]
+pub mod socket;
 pub mod source_tests;
 pub mod sources;
+pub mod status;
 pub mod track_again;
 mod turn;
 pub mod uploads;
@@ -37,19 +43,20 @@ use tokio::sync::{Notify, mpsc, watch};
 use self::{
     alarms::{AlarmKind, Alarms},
     antenna::{AntennaId, AntennaModel},
+    claim::{Claim, Claims, HeldBy, HolderKind},
     clock_watch::ClockWatch,
     closing::Closing,
     copies::{Copies, CopyWork},
     demo::Demo,
     forecast::{Forecasts, Searches},
-    handle::{AntennaEnds, NearEnd, Published, Request},
+    handle::{AntennaEnds, Published, Request},
     source_tests::SourceTests,
     sources::{Outcome, Places, SourceWork, Sources, Task},
     uploads::Uploads,
 };
 pub use self::{
     command::{Attention, Command},
-    handle::{Event, Handle},
+    handle::{Client, Event, Handle},
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{
@@ -79,6 +86,9 @@ pub struct Settings {
     pub dead_man: Option<PathBuf>,
     /// Where motions by hand are marked; `None` for nowhere.
     pub marks: Option<PathBuf>,
+    /// Where the station and its units are claimed, and in which role; `None` where no
+    /// other Azel is looked for.
+    pub claims: Option<(PathBuf, HolderKind)>,
 }
 
 impl Settings {
@@ -137,11 +147,18 @@ struct Engine {
     upload_desk: uploads::Desk,
     source_desk: source_tests::Desk,
     lock_outs: LockOuts,
+    claims: Option<Claims>,
+    station_claim: StationClaim,
+    /// The second of the clock in which the claims were looked at.
+    claims_looked_at: i64,
     /// The settings on disk could not be read: only the operator may replace them.
     settings_unread: bool,
     /// The number of what a client asked for, while it is carried out.
     asked: Option<u64>,
     outbox: Outbox,
+    /// What its socket does with it.
+    #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
+    client: Client,
     publish: watch::Sender<Published>,
 }
 
@@ -149,18 +166,37 @@ struct Engine {
 struct Antenna {
     shown: AntennaModel,
     handle: AntennaHandle,
+    /// Of its unit, where claims are made.
+    _claim: Option<Claim>,
+}
+
+/// Who has the station file open.
+enum StationClaim {
+    /// There is no file yet, or no claim is made.
+    None,
+    /// This station.
+    Ours { _claim: Claim },
+    /// Another Azel of this machine.
+    Theirs(HeldBy),
 }
 
 /// The station with simulated antennas, before and after they run.
 enum DemoStation {
     /// The addresses are known once the simulators run.
     Coming,
-    Running(#[allow(dead_code, reason = "dropping it ends the simulators")] Demo),
+    Running {
+        _demo: Demo,
+    },
 }
 
 impl Engine {
     /// A station as its settings say.
-    fn new(settings: &Settings, clock: Clock, outbox: Outbox) -> io::Result<(Self, NearEnd)> {
+    fn new(
+        settings: &Settings,
+        clock: Clock,
+        outbox: Outbox,
+        requests: mpsc::WeakSender<Request>,
+    ) -> io::Result<(Self, Client)> {
         let settings_path = settings.station_path();
         let woken = Arc::new(Notify::new());
         let wake: Wake = {
@@ -180,6 +216,7 @@ impl Engine {
         let snapshot = Arc::new(Snapshot::before_anything());
         let published = Published { snapshot, ends: Arc::new([]) };
         let (publish, published) = watch::channel(published);
+        let client = Client::new(requests, driver.orders().clone(), published);
         let mut engine = Self {
             now: clock.utc(),
             steady: Instant::now(),
@@ -211,16 +248,20 @@ impl Engine {
             upload_desk,
             source_desk,
             lock_outs: LockOuts::default(),
+            claims: None,
+            station_claim: StationClaim::None,
+            claims_looked_at: 0,
             settings_unread: false,
             asked: None,
             outbox,
+            client: client.clone(),
             publish,
         };
+        engine.take_claims(settings.claims.clone());
         engine.load_lock_outs();
         engine.load_station();
         engine.publish();
-        let orders = engine.driver.orders().clone();
-        Ok((engine, NearEnd { published, orders }))
+        Ok((engine, client))
     }
 
     /// Runs until nobody is there to send requests.
@@ -330,6 +371,7 @@ impl Engine {
                 self.use_station(loaded.station);
             }
             Err(LoadError::Missing) => {
+                self.station_claim = StationClaim::None;
                 self.demo = Some(DemoStation::Coming);
                 self.use_station(Station {
                     antennas: Vec::new(),
@@ -382,11 +424,18 @@ impl Engine {
     }
 
     fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
-        let lock_out = self.lock_outs.of(&config.connection).cloned();
-        let handle = self.driver.open(&config, bounds, lock_out);
         let id = AntennaId(self.next_id);
         self.next_id += 1;
-        Antenna { shown: AntennaModel::new(id, config, handle.snapshot()), handle }
+        let (handle, claim, held_by) = match self.claim_unit(&config) {
+            Ok(claim) => {
+                let lock_out = self.lock_outs.of(&config.connection).cloned();
+                (self.driver.open(&config, bounds, lock_out), claim, None)
+            }
+            Err(held_by) => (Driver::leave_alone(&config), None, Some(held_by)),
+        };
+        let mut shown = AntennaModel::new(id, config, handle.snapshot());
+        shown.held_by = held_by;
+        Antenna { shown, handle, _claim: claim }
     }
 
     /// The place of an antenna, if the station still has it.

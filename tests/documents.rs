@@ -157,7 +157,8 @@ fn every_test_file_is_part_of_a_test_binary() {
 fn may_name_a_make(path: &str) -> bool {
     let own = ["satrak", "rotator_genius", "rc2000c"];
     let mut parts = path.split('/').map(|part| part.trim_end_matches(".rs"));
-    let lists = ["controller.rs", "protocol.rs", "sim.rs", "engine/demo.rs", "ui/antennas/makes.rs"];
+    let lists =
+        ["controller.rs", "protocol.rs", "sim.rs", "engine/demo.rs", "ui/antennas/makes.rs"];
     parts.any(|part| own.contains(&part))
         || path.starts_with("makes")
         || path.starts_with("sim/")

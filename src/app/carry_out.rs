@@ -13,14 +13,14 @@ use crate::{
 impl App {
     /// Past every queue, to every antenna that it concerns.
     pub(super) fn stop_all(&mut self) {
-        let stopped = self.station.stop_all();
+        let stopped = self.station.client().stop_all();
         self.show_stopped(&stopped);
     }
 
     /// Past every queue, also to a unit that has to be connected for it.
     fn stop_one(&mut self, index: usize) {
         let Some(id) = self.id(index) else { return };
-        let stopped = self.station.stop(id);
+        let stopped = self.station.client().stop(id);
         self.show_stopped(&stopped);
     }
 
@@ -129,11 +129,11 @@ impl App {
     }
 
     fn send(&mut self, command: Command) {
-        let Err(command) = self.station.send(command) else { return };
+        let Err(command) = self.station.client().send(command) else { return };
         tracing::error!(?command, "the station is too busy to take a command");
         // What ends a motion must not get lost: stop instead.
         if let Command::Antenna(id, driver::Command::Standby | driver::Command::EndJog) = command {
-            let stopped = self.station.stop(id);
+            let stopped = self.station.client().stop(id);
             self.show_stopped(&stopped);
         }
     }

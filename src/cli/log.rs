@@ -27,8 +27,17 @@ const FAREWELL: Duration = Duration::from_secs(1);
 /// The near end of the log.
 #[derive(Clone)]
 pub struct Log {
+    lines: Lines,
+}
+
+/// Lines on their way to a reader who is never waited for.
+#[derive(Clone)]
+pub struct Lines {
     queue: Arc<Queue>,
 }
+
+/// What is written of lines that found no room.
+type OfDropped = fn(u64) -> String;
 
 #[derive(Default)]
 struct Queue {
@@ -51,7 +60,7 @@ impl Log {
     /// Starts the log of this process. `AZEL_LOG` chooses what is in it, or
     /// `filter` where that is missing or wrong.
     pub fn start(filter: &str) -> io::Result<Self> {
-        let log = Self::on(standard_error()?)?;
+        let log = Self { lines: Lines::to(standard(io::stderr())?, of_dropped_in_log)? };
         let filter = EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new(filter));
         let wants_plain = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         tracing_subscriber::fmt()
@@ -62,20 +71,45 @@ impl Log {
         Ok(log)
     }
 
-    fn on(mut sink: impl Write + Send + 'static) -> io::Result<Self> {
+    /// Adds a line, whatever the filter is.
+    pub fn say(&self, line: &str) {
+        self.lines.say(line);
+    }
+
+    /// Waits until everything is written, a second at most.
+    pub fn finish(&self) {
+        self.lines.finish();
+    }
+}
+
+fn of_dropped_in_log(dropped: u64) -> String {
+    let now = Timestamp::now();
+    format!(
+        "{now:.6}  WARN azel::cli::log: {dropped} lines of the log were dropped: \
+         standard error was not read"
+    )
+}
+
+impl Lines {
+    /// Lines to standard output.
+    pub fn to_standard_output(of_dropped: OfDropped) -> io::Result<Self> {
+        Self::to(standard(io::stdout())?, of_dropped)
+    }
+
+    fn to(mut sink: impl Write + Send + 'static, of_dropped: OfDropped) -> io::Result<Self> {
         let queue = Arc::<Queue>::default();
         let far = Arc::clone(&queue);
         thread::Builder::new().name("azel-log".to_owned()).spawn(move || {
             loop {
                 let (text, dropped) = far.take();
-                write(&mut sink, &text, dropped);
+                write(&mut sink, &text, dropped, of_dropped);
                 far.wrote();
             }
         })?;
         Ok(Self { queue })
     }
 
-    /// Adds a line, whatever the filter is.
+    /// Adds a line.
     pub fn say(&self, line: &str) {
         self.queue.push(format!("{line}\n").as_bytes());
     }
@@ -124,33 +158,26 @@ impl Queue {
 }
 
 /// Writes `text` and how many lines were `dropped` behind it.
-fn write(sink: &mut impl Write, text: &[u8], dropped: u64) {
-    // Nobody is left to be told that standard error is closed.
+fn write(sink: &mut impl Write, text: &[u8], dropped: u64, of_dropped: OfDropped) {
+    // Nobody is left to be told that the stream is closed.
     let _ = sink.write_all(text);
     if dropped > 0 {
-        let now = Timestamp::now();
-        let _ = writeln!(
-            sink,
-            "{now:.6}  WARN azel::cli::log: {dropped} lines of the log were dropped: \
-             standard error was not read"
-        );
+        let _ = writeln!(sink, "{}", of_dropped(dropped));
     }
     let _ = sink.flush();
 }
 
-/// Standard error past the standard library's lock: a thread that waits in it
-/// would hold up every other one that writes there.
+/// A standard stream past the standard library's lock: a thread that waits in it would
+/// hold up every other one that writes there.
 #[cfg(unix)]
-fn standard_error() -> io::Result<std::fs::File> {
-    use std::os::fd::AsFd as _;
-
-    Ok(io::stderr().as_fd().try_clone_to_owned()?.into())
+fn standard(stream: impl std::os::fd::AsFd) -> io::Result<std::fs::File> {
+    Ok(stream.as_fd().try_clone_to_owned()?.into())
 }
 
 /// A console of Windows takes text by way of the standard library alone.
 #[cfg(not(unix))]
-fn standard_error() -> io::Result<io::Stderr> {
-    Ok(io::stderr())
+fn standard<T: Write + Send + 'static>(stream: T) -> io::Result<T> {
+    Ok(stream)
 }
 
 /// One line, as the subscriber writes it: whole.
@@ -171,7 +198,7 @@ impl<'a> MakeWriter<'a> for Log {
     type Writer = Line<'a>;
 
     fn make_writer(&'a self) -> Line<'a> {
-        Line(&self.queue)
+        Line(&self.lines.queue)
     }
 }
 
@@ -205,11 +232,11 @@ mod tests {
         }
     }
 
-    fn blocked() -> (Log, SyncSender<()>, Arc<Mutex<String>>) {
+    fn blocked() -> (Lines, SyncSender<()>, Arc<Mutex<String>>) {
         let (open, opened) = sync_channel(1);
         let text = Arc::default();
         let sink = Sink { opened, is_open: false, text: Arc::clone(&text) };
-        (Log::on(sink).unwrap(), open, text)
+        (Lines::to(sink, of_dropped_in_log).unwrap(), open, text)
     }
 
     #[test]

@@ -7,7 +7,15 @@ use std::{
 
 use anyhow::{anyhow, bail};
 
-use crate::{app::App, clock::Clock, engine::Settings};
+use crate::{
+    app::App,
+    cli::{marks, this_program},
+    clock::Clock,
+    engine::{
+        Settings,
+        claim::{HolderKind, claims_folder},
+    },
+};
 
 /// The smallest window, in points.
 const SMALLEST: [f32; 2] = [1024.0, 640.0];
@@ -19,8 +27,13 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
              Start it in a desktop session."
         );
     }
-    let settings =
-        Settings { path: station, dead_man: this_program(), marks: marks(), ..Settings::default() };
+    let settings = Settings {
+        path: station,
+        dead_man: this_program(),
+        marks: marks(),
+        claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
+        ..Settings::default()
+    };
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
@@ -54,17 +67,6 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
             bail!("The window broke down: {why}")
         }
     }
-}
-
-/// In the user's data folder.
-fn marks() -> Option<PathBuf> {
-    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("marks"))
-}
-
-/// On Linux a name that holds also after the file was replaced by a newer one.
-fn this_program() -> Option<PathBuf> {
-    let running = PathBuf::from("/proc/self/exe");
-    if running.exists() { Some(running) } else { std::env::current_exe().ok() }
 }
 
 fn has_display() -> bool {

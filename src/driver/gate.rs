@@ -55,6 +55,9 @@ pub enum Refusal {
         /// By whom.
         by: String,
     },
+    /// Another program of this computer drives the unit; which, in words.
+    #[error("the unit is driven by {0}")]
+    Elsewhere(String),
     /// No link, or nothing was read yet.
     #[error("the position is not known")]
     PositionUnknown,

@@ -120,6 +120,14 @@ impl Wires {
         (wires, handle)
     }
 
+    /// The near end of an antenna that no session drives: nothing is taken.
+    pub(super) fn closed(antenna: &Antenna) -> AntennaHandle {
+        let (wires, handle) = Self::new(antenna, Arc::new(|| {}), &Orders::default());
+        let off = Snapshot::before_anything(LinkState::Off);
+        wires.snapshots.send_replace(Arc::new(off));
+        handle
+    }
+
     /// Told before this computer sleeps.
     pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));

@@ -4,6 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
+use super::claim::HeldBy;
 use crate::{
     astro::Angle,
     controller::{
@@ -86,6 +87,9 @@ pub enum AlarmKind {
     /// The part of the program that talks to the antennas has not responded for
     /// this long.
     DriverStands(Duration),
+    /// Another Azel of this machine has this station open, or drives this unit: nothing
+    /// is driven from here.
+    Elsewhere(HeldBy),
     /// Work of the program itself broke off.
     BrokeOff(Work),
     /// A source of elements, by its name, is not read: the last reading of it
@@ -146,6 +150,7 @@ impl Alarm {
             | AlarmKind::Safety(_)
             | AlarmKind::Owed(_)
             | AlarmKind::DriverStands(_)
+            | AlarmKind::Elsewhere(_)
             | AlarmKind::LockOutUnproved
             | AlarmKind::LockOuts(_)
             | AlarmKind::StartedByItself
@@ -253,6 +258,7 @@ impl AlarmKind {
                 | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
                 | Self::Owed(_)
                 | Self::DriverStands(_)
+                | Self::Elsewhere(_)
                 | Self::BrokeOff(_)
                 | Self::SourceSetAside(_)
                 | Self::LockOutUnproved
@@ -277,6 +283,7 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
         | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
+        | (AlarmKind::Elsewhere(_), AlarmKind::Elsewhere(_))
         | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
         (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
         (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {

@@ -11,7 +11,7 @@ pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::{forecast::Followed, on_board::Judged, track_again::TrackAgain};
+use super::{claim::HeldBy, forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     controller::{Make, Measured, Phase, panel::Act, settings::Group},
@@ -71,6 +71,8 @@ pub struct AntennaModel {
     /// An action was refused because nobody here knows where it leads, and nothing
     /// else was asked for since.
     pub asks_unseen: Option<Act>,
+    /// Another Azel of this machine drives its unit.
+    pub held_by: Option<HeldBy>,
     /// By which orbit its session judges what its unit does by itself.
     pub orbit: Option<Arc<KnownOrbit>>,
     recent: VecDeque<Measured>,
@@ -94,6 +96,7 @@ impl AntennaModel {
             track_again: None,
             asks_unguarded: false,
             asks_unseen: None,
+            held_by: None,
             orbit: None,
             recent: VecDeque::new(),
         }

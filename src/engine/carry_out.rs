@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{
-    Command, Engine, Event,
+    Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
     antenna::AntennaId,
     forecast::{Forecast, PassKey},
@@ -16,6 +16,9 @@ use crate::{
 
 impl Engine {
     pub(super) fn carry_out(&mut self, command: Command) {
+        if self.is_elsewhere(&command) {
+            return;
+        }
         self.note_track(&command);
         match command {
             Command::Antenna(id, driver::Command::Settle(change)) => {
@@ -75,6 +78,24 @@ impl Engine {
             Command::StayOpen => self.closing = None,
             Command::Look(attention) => self.attention = attention,
         }
+    }
+
+    /// Whether what is asked for is for an antenna that another Azel drives, which is
+    /// told then.
+    fn is_elsewhere(&mut self, command: &Command) -> bool {
+        let (Command::Antenna(id, _)
+        | Command::Track { antenna: id, .. }
+        | Command::FollowPass { antenna: id, .. }) = command
+        else {
+            return false;
+        };
+        let Some(antenna) = self.place(*id).and_then(|place| self.antennas.get_mut(place)) else {
+            return false;
+        };
+        let Some(by) = &antenna.shown.held_by else { return false };
+        let refusal = driver::Refusal::Elsewhere(by.to_string());
+        antenna.shown.news = Some((driver::Event::NotSent(refusal), self.now));
+        true
     }
 
     /// Does `work` with the place of an antenna, if the station still has it.
@@ -162,6 +183,7 @@ impl Engine {
         }
         if self.demo.is_none()
             && !self.settings_unread
+            && !matches!(self.station_claim, StationClaim::Theirs(_))
             && let Some(path) = &self.settings_path
             && let Err(error) = station::save(&station, path)
         {
@@ -177,7 +199,11 @@ impl Engine {
     /// The new settings are used once they are safe on disk.
     fn save_station(&mut self, station: station::Station) {
         let now = self.now;
+        self.claim_station();
         let saved = match &self.settings_path {
+            _ if let StationClaim::Theirs(by) = &self.station_claim => {
+                Err(format!("it is open in {by}: save it there, or close it there first"))
+            }
             Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
             None => Err("this user has no folder for settings".to_owned()),
         };

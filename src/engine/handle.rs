@@ -51,12 +51,6 @@ pub(super) struct Published {
     pub(super) ends: Arc<[AntennaEnds]>,
 }
 
-/// What a client is given when the station runs.
-pub(super) struct NearEnd {
-    pub(super) published: watch::Receiver<Published>,
-    pub(super) orders: Orders,
-}
-
 /// What goes past the station to and from an antenna.
 pub(super) struct AntennaEnds {
     pub(super) id: AntennaId,
@@ -64,62 +58,29 @@ pub(super) struct AntennaEnds {
     pub(super) wire: WireLog,
 }
 
-/// The near end of a running station. Dropping it ends the station: each jog with a
-/// stop first.
-pub struct Handle {
-    requests: mpsc::Sender<Request>,
+/// What any client of a station can do. It does not keep the station running.
+#[derive(Clone)]
+pub struct Client {
+    requests: mpsc::WeakSender<Request>,
     orders: Orders,
     published: watch::Receiver<Published>,
-    shown: Published,
-    events: mpsc::Receiver<Event>,
-    ended: std::sync::mpsc::Receiver<()>,
 }
 
-impl Handle {
-    /// Starts a station on a thread of its own. `wake` is called from it after every
-    /// change that is worth showing.
-    pub fn start(settings: Settings, clock: Clock, wake: Wake) -> io::Result<Self> {
-        let (requests, inbox) = mpsc::channel(REQUESTS);
-        let (tell, events) = mpsc::channel(EVENTS);
-        let (begun, begin) = std::sync::mpsc::sync_channel(1);
-        let (tell_ended, ended) = std::sync::mpsc::sync_channel(1);
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
-        std::thread::Builder::new().name("azel-station".to_owned()).spawn(move || {
-            let outbox = super::Outbox { events: tell, wake };
-            match Engine::new(&settings, clock, outbox) {
-                Ok((engine, near_end)) => {
-                    // Nobody may be waiting any more.
-                    let _ = begun.send(Ok(near_end));
-                    runtime.block_on(engine.run(inbox));
-                }
-                Err(error) => drop(begun.send(Err(error))),
-            }
-            let _ = tell_ended.send(());
-        })?;
-        let gone = || io::Error::other("the station broke down");
-        let NearEnd { published, orders } = begin.recv().map_err(|_| gone())??;
-        let shown = published.borrow().clone();
-        Ok(Self { requests, orders, published, shown, events, ended })
+impl Client {
+    pub(super) fn new(
+        requests: mpsc::WeakSender<Request>,
+        orders: Orders,
+        published: watch::Receiver<Published>,
+    ) -> Self {
+        Self { requests, orders, published }
     }
 
-    /// Takes what is published last.
-    pub fn take(&mut self) -> &Arc<Snapshot> {
-        if self.published.has_changed().unwrap_or_default() {
-            self.shown = self.published.borrow_and_update().clone();
-        }
-        &self.shown.snapshot
-    }
-
-    /// What was taken last.
-    pub fn snapshot(&self) -> &Arc<Snapshot> {
-        &self.shown.snapshot
-    }
-
-    /// Hands over a command. It comes back when the station is too busy to take it,
-    /// which must be told to the operator.
+    /// Hands over a command. It comes back when the station is too busy to take it or
+    /// has ended, which must be told to the operator.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         let number = self.orders.next();
-        match self.requests.try_reserve() {
+        let Some(requests) = self.requests.upgrade() else { return Err(command) };
+        match requests.try_reserve() {
             Ok(place) => {
                 place.send(Request::Command(command, number));
                 Ok(())
@@ -149,8 +110,76 @@ impl Handle {
             })
             .collect();
         // A station that is too busy to hear of it shows what the sessions tell.
-        drop(self.requests.try_send(Request::Stopped(stopped.clone(), Instant::now())));
+        self.request(Request::Stopped(stopped.clone(), Instant::now()));
         stopped
+    }
+
+    fn request(&self, request: Request) {
+        if let Some(requests) = self.requests.upgrade() {
+            drop(requests.try_send(request));
+        }
+    }
+
+    /// What is published last.
+    pub fn snapshot(&self) -> Arc<Snapshot> {
+        Arc::clone(&self.published.borrow().snapshot)
+    }
+
+    /// Waits for the next snapshot; `false` when the station has ended.
+    pub async fn changed(&mut self) -> bool {
+        self.published.changed().await.is_ok()
+    }
+}
+
+/// The near end of a running station. Dropping it ends the station: each jog with a
+/// stop first.
+pub struct Handle {
+    client: Client,
+    requests: mpsc::Sender<Request>,
+    shown: Published,
+    events: mpsc::Receiver<Event>,
+    ended: std::sync::mpsc::Receiver<()>,
+}
+
+impl Handle {
+    /// Starts a station on a thread of its own. `wake` is called from it after every
+    /// change that is worth showing.
+    pub fn start(settings: Settings, clock: Clock, wake: Wake) -> io::Result<Self> {
+        let (requests, inbox) = mpsc::channel(REQUESTS);
+        let (tell, events) = mpsc::channel(EVENTS);
+        let (begun, begin) = std::sync::mpsc::sync_channel(1);
+        let (tell_ended, ended) = std::sync::mpsc::sync_channel(1);
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
+        let weak = requests.downgrade();
+        std::thread::Builder::new().name("azel-station".to_owned()).spawn(move || {
+            let outbox = super::Outbox { events: tell, wake };
+            match Engine::new(&settings, clock, outbox, weak) {
+                Ok((engine, client)) => {
+                    // Nobody may be waiting any more.
+                    drop(begun.send(Ok(client)));
+                    runtime.block_on(engine.run(inbox));
+                }
+                Err(error) => drop(begun.send(Err(error))),
+            }
+            let _ = tell_ended.send(());
+        })?;
+        let gone = |_| io::Error::other("the station broke down");
+        let client = begin.recv().map_err(gone)??;
+        let shown = client.published.borrow().clone();
+        Ok(Self { client, requests, shown, events, ended })
+    }
+
+    /// What else may send commands and stop.
+    pub fn client(&self) -> &Client {
+        &self.client
+    }
+
+    /// Takes what is published last.
+    pub fn take(&mut self) -> &Arc<Snapshot> {
+        if self.client.published.has_changed().unwrap_or_default() {
+            self.shown = self.client.published.borrow_and_update().clone();
+        }
+        &self.shown.snapshot
     }
 
     /// What went over the link of an antenna.
@@ -171,7 +200,7 @@ impl Handle {
 
     /// Does what the station file says for the end, where nobody can be asked.
     pub fn end_unasked(&self) {
-        drop(self.requests.try_send(Request::EndUnasked));
+        self.client.request(Request::EndUnasked);
     }
 }
 

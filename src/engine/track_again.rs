@@ -72,6 +72,7 @@ impl Engine {
     /// STOP went to these antennas.
     pub(super) fn note_stops(&mut self, stopped: &[AntennaId], at: Instant) {
         self.upload_desk.stopped();
+        self.stop_elsewhere();
         // While the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.how == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);

@@ -26,6 +26,7 @@ impl Engine {
         let time_sync = self.clock_watch.poll(self.steady, &self.wake);
         self.time_sync = time_sync.unwrap_or(self.time_sync);
         self.watch_driver();
+        self.watch_claims();
         self.take_catalog();
         self.take_copies();
         self.look_for_passes();
@@ -113,7 +114,7 @@ impl Engine {
         match Demo::start(&self.station, elements) {
             Ok(demo) => {
                 let antennas = Station::demo(&demo.addresses).antennas;
-                self.demo = Some(DemoStation::Running(demo));
+                self.demo = Some(DemoStation::Running { _demo: demo });
                 let station = Station { antennas, ..Station::clone(&self.station) };
                 self.use_station(station);
             }

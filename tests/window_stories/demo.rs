@@ -49,7 +49,7 @@ fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64
 fn send(window: &RealWindow, antenna: usize, command: Command) {
     let id = window.state().model().antennas[antenna].id;
     let command = engine::Command::Antenna(id, command);
-    assert!(window.state().station().send(command).is_ok());
+    assert!(window.state().station().client().send(command).is_ok());
 }
 
 fn go_to(window: &mut RealWindow, antenna: usize, azimuth_deg: f64, elevation_deg: f64) {

@@ -12,6 +12,13 @@ use crate::{
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
     match kind {
+        AlarmKind::Elsewhere(by) if antenna.is_empty() => format!(
+            "This station is open in {by}: nothing is driven from here. Esc stops its antennas \
+             there."
+        ),
+        AlarmKind::Elsewhere(by) => {
+            format!("{antenna} is driven by {by}: nothing goes to it from here.")
+        }
         AlarmKind::LinkLost(LinkLoss::Unreadable) => {
             format!("{antenna} answers, but what it says cannot be read.")
         }

@@ -14,6 +14,8 @@ pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
 pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without dead-man";
 
 /// Why a motion was not sent.
+// One arm a kind.
+#[allow(clippy::too_many_lines)]
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
         Refusal::LockedOut { by, reason } => {
@@ -23,6 +25,7 @@ pub fn refusal(refusal: &Refusal) -> String {
             "Not connected: in maintenance by {by}, and even a question would take the panel of \
              this unit from the person working at it. STOP still goes out. Take off the lock-out first."
         ),
+        Refusal::Elsewhere(by) => format!("Not sent: {by} drives this unit."),
         Refusal::PositionUnknown => {
             "Not sent: the position of the antenna is not known.".to_owned()
         }

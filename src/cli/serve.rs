@@ -1,0 +1,323 @@
+//! The station without a window: it runs until the operating system asks for the end, and
+//! tells on standard output what it does.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::PathBuf,
+    process::ExitCode,
+    sync::{Arc, mpsc},
+    time::{Duration, Instant},
+};
+
+use anyhow::{Context as _, bail};
+use clap::{Args, ValueEnum};
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::log::Lines;
+use crate::{
+    clock::Clock,
+    engine::{
+        Command, Event, Handle, Settings, Snapshot,
+        antenna::{AntennaModel, Stake},
+        claim::HolderKind,
+        closing::CloseHow,
+        signals,
+        status::{AntennaStatus, LinkStatus},
+    },
+    ui::words,
+};
+
+/// The end is not waited for longer: what is not proved by then is told.
+const ENDS_WITHIN: Duration = Duration::from_secs(9);
+/// Exit code when an antenna is not known to stand at the end.
+const NOT_PROVED: u8 = 4;
+
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// Form of the lines on standard output
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// How a line is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people
+    Text,
+    /// One JSON object a line
+    Json,
+}
+
+/// Something that happened at a station.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Told {
+    /// When.
+    pub time: Timestamp,
+    /// The antenna that it is about, by its name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub antenna: Option<String>,
+    /// What it is about.
+    pub about: About,
+    /// What happened, in words.
+    pub text: String,
+}
+
+/// What a line is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum About {
+    /// The station as a whole.
+    Station,
+    /// A link came or went.
+    Link,
+    /// What is wanted of an antenna.
+    Intent,
+    /// An antenna moves, or stands.
+    Motion,
+    /// What is tracked.
+    Track,
+    /// A STOP.
+    Stop,
+    /// A lock-out.
+    LockOut,
+    /// An alarm was raised.
+    Alarm,
+    /// An alarm is over.
+    AlarmOver,
+}
+
+impl Told {
+    fn line(&self, format: Format) -> String {
+        match format {
+            Format::Json => serde_json::to_string(self).unwrap_or_default(),
+            Format::Text => {
+                let time = self.time.strftime("%FT%TZ");
+                let antenna = self.antenna.as_ref().map(|name| format!(" {name}:"));
+                format!("{time}{} {}", antenna.unwrap_or_default(), self.text)
+            }
+        }
+    }
+}
+
+pub(super) fn run(
+    station: Option<PathBuf>,
+    options: &Options,
+    dead_man: Option<PathBuf>,
+    marks: Option<PathBuf>,
+    claims: Option<PathBuf>,
+) -> anyhow::Result<ExitCode> {
+    let claims = claims.map(|folder| (folder, HolderKind::Serve));
+    let settings = Settings { path: station, dead_man, marks, claims, ..Settings::default() };
+    let path = settings.station_path().context("this user has no folder for settings")?;
+    if !path.exists() {
+        bail!(
+            "There is no station file at {}. Set the station up in the window first, or name its \
+             file with --station.",
+            path.display()
+        );
+    }
+    let format = options.format;
+    let lines = Lines::to_standard_output(match format {
+        Format::Text => |dropped| format!("{dropped} lines were dropped: nobody read them"),
+        Format::Json => |dropped| format!("{{\"dropped\":{dropped}}}"),
+    })?;
+    // One wake that waits is as good as many.
+    let (wake, woken) = mpsc::sync_channel(1);
+    let end = wake.clone();
+    let woken_by = wake.clone();
+    let station = Handle::start(
+        settings,
+        Clock::system(),
+        Arc::new(move || {
+            let _ = woken_by.try_send(Wake::Station);
+        }),
+    )?;
+    drop(wake);
+    signals::watch(station.client().clone(), move || {
+        let _ = end.send(Wake::End);
+    })?;
+    let ended = until_the_end(station, &woken, &mut |told: &Told| lines.say(&told.line(format)));
+    lines.finish();
+    if ended.not_proved.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let antennas = ended.not_proved.join(", ");
+    tracing::error!("not known to stand at the end: {antennas}");
+    Ok(ExitCode::from(NOT_PROVED))
+}
+
+/// Why the main loop goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wake {
+    /// The station has something new.
+    Station,
+    /// It is to end.
+    End,
+}
+
+/// How a station has ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Ended {
+    /// The names of the antennas that are not known to stand, as the station file wants
+    /// it.
+    pub not_proved: Vec<String>,
+}
+
+/// Tells what happens at a station until it is to end; then its antennas are stopped or
+/// left, as the station file says, and that is proved.
+pub fn until_the_end(
+    mut station: Handle,
+    woken: &mpsc::Receiver<Wake>,
+    tell: &mut dyn FnMut(&Told),
+) -> Ended {
+    let mut reporter = Reporter::default();
+    loop {
+        // A second: what is shown by ages alone.
+        let wake = woken.recv_timeout(Duration::from_secs(1));
+        while station.next_event().is_some() {}
+        reporter.tell(station.take(), tell);
+        if wake == Ok(Wake::End) || !station.runs() {
+            break;
+        }
+    }
+    let how = match CloseHow::of(&station.take().station) {
+        // Parking takes longer than the operating system waits.
+        None | Some(CloseHow::Hold | CloseHow::Park) => CloseHow::Hold,
+        Some(CloseHow::Leave) => CloseHow::Leave,
+    };
+    say(tell, None, About::Station, "Ends.".to_owned());
+    if station.client().send(Command::CloseAfter(how)).is_err() {
+        station.client().stop_all();
+    }
+    let end = Instant::now() + ENDS_WITHIN;
+    let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
+    let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));
+    loop {
+        let left = end.saturating_duration_since(Instant::now());
+        // Further signals do not change what is done already.
+        let _ = woken.recv_timeout(left.min(Duration::from_millis(100)));
+        let snapshot = Arc::clone(station.take());
+        reporter.tell(&snapshot, tell);
+        let may_end = std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
+        let stand = !snapshot.antennas.iter().any(open);
+        if (may_end && stand) || left.is_zero() || !station.runs() {
+            let names = snapshot.antennas.iter().filter(|antenna| open(antenna));
+            return Ended { not_proved: names.map(|of| of.config.name.clone()).collect() };
+        }
+    }
+}
+
+/// Tells what has changed from one snapshot to the next.
+#[derive(Default)]
+struct Reporter {
+    antennas: BTreeMap<String, AntennaStatus>,
+    /// The alarms that stand, by their numbers.
+    alarms: BTreeMap<u64, (Option<String>, String)>,
+    begun: bool,
+}
+
+impl Reporter {
+    fn tell(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Told)) {
+        if !std::mem::replace(&mut self.begun, true) {
+            let count = station.antennas.len();
+            let plural = if count == 1 { "" } else { "s" };
+            let text = format!("{}, {count} antenna{plural}.", station.station.name);
+            say(tell, None, About::Station, text);
+        }
+        let now = AntennaStatus::of_all(station);
+        for status in &now {
+            let before = self.antennas.get(&status.antenna);
+            for (about, text) in changes(before, status) {
+                say(tell, Some(&status.antenna), about, text);
+            }
+        }
+        self.antennas = now.into_iter().map(|status| (status.antenna.clone(), status)).collect();
+        self.tell_alarms(station, tell);
+    }
+
+    fn tell_alarms(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Told)) {
+        let mut standing = BTreeSet::new();
+        for alarm in station.alarms.list().iter().filter(|alarm| !alarm.cleared) {
+            standing.insert(alarm.id);
+            if self.alarms.contains_key(&alarm.id) {
+                continue;
+            }
+            let antenna = alarm.antenna.and_then(|index| station.antennas.get(index));
+            let name = antenna.map(|antenna| antenna.config.name.clone());
+            let text = words::alarm(&alarm.kind, name.as_deref().unwrap_or_default());
+            say(tell, name.as_deref(), About::Alarm, text.clone());
+            self.alarms.insert(alarm.id, (name, text));
+        }
+        let over: Vec<u64> =
+            self.alarms.keys().filter(|id| !standing.contains(id)).copied().collect();
+        for id in over {
+            if let Some((name, text)) = self.alarms.remove(&id) {
+                say(tell, name.as_deref(), About::AlarmOver, format!("Over: {text}"));
+            }
+        }
+    }
+}
+
+fn say(tell: &mut dyn FnMut(&Told), antenna: Option<&str>, about: About, text: String) {
+    let antenna = antenna.map(str::to_owned);
+    tell(&Told { time: Timestamp::now(), antenna, about, text });
+}
+
+/// What differs between two states of an antenna, in words.
+fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(About, String)> {
+    let mut told = Vec::new();
+    if before.map(|before| before.link) != Some(now.link) {
+        told.push((About::Link, link(now.link).to_owned()));
+    }
+    let known = before.is_some();
+    let was = |differs: fn(&AntennaStatus, &AntennaStatus) -> bool| {
+        before.is_some_and(|before| differs(before, now))
+    };
+    if was(|before, now| before.owes_stop != now.owes_stop) {
+        let text = if now.owes_stop { "STOP, not proved yet." } else { "STOP is proved." };
+        told.push((About::Stop, text.to_owned()));
+    }
+    if !known || was(|before, now| before.locked_out != now.locked_out) {
+        match &now.locked_out {
+            Some(by) => told.push((About::LockOut, format!("Locked out by {by}"))),
+            None if known => told.push((About::LockOut, "Not locked out any more.".to_owned())),
+            None => {}
+        }
+    }
+    if was(|before, now| before.intent != now.intent) {
+        told.push((About::Intent, format!("Intent: {}.", now.intent)));
+    }
+    if before.and_then(|before| before.tracks.as_ref()) != now.tracks.as_ref() {
+        told.push((
+            About::Track,
+            now.tracks.as_ref().map_or_else(
+                || "Tracks nothing any more.".to_owned(),
+                |name| format!("Tracks {name}."),
+            ),
+        ));
+    }
+    if before.and_then(|before| before.moves) != now.moves
+        && let Some(moves) = now.moves
+    {
+        let place = match (now.azimuth_deg, now.elevation_deg) {
+            (Some(azimuth), Some(elevation)) => format!(" at {azimuth:.1}, {elevation:.1}"),
+            (Some(azimuth), None) => format!(" at {azimuth:.1}"),
+            _ => String::new(),
+        };
+        let verb = if moves { "Moves" } else { "Stands" };
+        told.push((About::Motion, format!("{verb}{place}.")));
+    }
+    told
+}
+
+fn link(link: LinkStatus) -> &'static str {
+    match link {
+        LinkStatus::Off => "No link is wanted.",
+        LinkStatus::Connecting => "Connects.",
+        LinkStatus::Up => "The link is up.",
+        LinkStatus::Stale => "The last answer is old.",
+        LinkStatus::Lost => "The link is lost.",
+        LinkStatus::Elsewhere => "Driven by another Azel of this machine.",
+    }
+}

@@ -1,0 +1,211 @@
+//! What only one Azel of this machine may hold at a time: a station file, and each unit.
+//! A claim is a locked file, which the operating system frees with the process, however
+//! that ends.
+
+use std::{
+    fmt::Write as _,
+    fs::{self, File, OpenOptions, TryLockError},
+    io::{self, Read as _, Write as _},
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+use crate::station::Antenna;
+
+/// Who holds something.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Holder {
+    /// What it is: the window or `azel serve`.
+    pub kind: HolderKind,
+    /// Its process.
+    pub process: u32,
+    /// Since when.
+    pub since: Timestamp,
+}
+
+/// What kind of Azel holds something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HolderKind {
+    /// One with a window.
+    #[default]
+    Window,
+    /// `azel serve`.
+    Serve,
+}
+
+/// Another Azel of this machine holds it; it may not say who it is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HeldBy(pub Option<Holder>);
+
+impl std::fmt::Display for HeldBy {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Some(Holder { kind, process, since }) = &self.0 else {
+            return write!(f, "another Azel");
+        };
+        let kind = match kind {
+            HolderKind::Window => "another window of Azel",
+            HolderKind::Serve => "azel serve",
+        };
+        write!(f, "{kind} (process {process}, since {})", since.strftime("%F %H:%MZ"))
+    }
+}
+
+/// Something is held for as long as this lives.
+pub(super) struct Claim {
+    _locked: File,
+}
+
+/// Why something cannot be claimed.
+pub(super) enum Unclaimed {
+    /// Another one holds it.
+    Held(HeldBy),
+    /// The file cannot be had.
+    Io(io::Error),
+}
+
+/// The folder of claims, and in whose name they are made.
+#[derive(Debug, Clone)]
+pub(super) struct Claims {
+    folder: PathBuf,
+    kind: HolderKind,
+}
+
+impl Claims {
+    /// Makes the folder, which nobody else may look into.
+    pub(super) fn new(folder: PathBuf, kind: HolderKind) -> io::Result<Self> {
+        let mut builder = fs::DirBuilder::new();
+        builder.recursive(true);
+        #[cfg(unix)]
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        builder.create(&folder)?;
+        Ok(Self { folder, kind })
+    }
+
+    /// Claims the station file at `path`.
+    pub(super) fn station(&self, path: &Path) -> Result<Claim, Unclaimed> {
+        self.claim(&lock_name("station", whole_path(path).to_string_lossy().as_bytes()))
+    }
+
+    /// The socket of whoever holds the station file at `path`.
+    #[cfg(unix)]
+    pub(super) fn socket(&self, path: &Path) -> PathBuf {
+        socket_path(&self.folder, path)
+    }
+
+    /// Claims the unit of `antenna`.
+    pub(super) fn unit(&self, antenna: &Antenna) -> Result<Claim, Unclaimed> {
+        let connection = &antenna.connection;
+        let address = connection.address.trim().to_lowercase();
+        let unit = format!("{} {address}", connection.kind().key);
+        self.claim(&lock_name("unit", unit.as_bytes()))
+    }
+
+    fn claim(&self, name: &str) -> Result<Claim, Unclaimed> {
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        let mut file = options.open(self.folder.join(name)).map_err(Unclaimed::Io)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let mut text = String::new();
+                // Whoever it is, it is held.
+                let _ = file.read_to_string(&mut text);
+                return Err(Unclaimed::Held(HeldBy(serde_json::from_str(&text).ok())));
+            }
+            Err(TryLockError::Error(error)) => return Err(Unclaimed::Io(error)),
+        }
+        let me = Holder { kind: self.kind, process: std::process::id(), since: Timestamp::now() };
+        let text = serde_json::to_string(&me).map_err(|error| Unclaimed::Io(error.into()))?;
+        let written = file.set_len(0).and_then(|()| file.write_all(text.as_bytes()));
+        written.map_err(Unclaimed::Io)?;
+        Ok(Claim { _locked: file })
+    }
+}
+
+/// The socket of whoever holds the station file at `path`. A name in a folder of its own,
+/// because the path of a socket must be short.
+#[cfg(unix)]
+pub fn socket_path(folder: &Path, path: &Path) -> PathBuf {
+    let path = whole_path(path);
+    folder.join(format!("{}.sock", digest("station", path.to_string_lossy().as_bytes())))
+}
+
+/// Where claims and sockets of this user are; `None` on a machine without a home.
+pub fn claims_folder() -> Option<PathBuf> {
+    let dirs = directories::ProjectDirs::from("", "", "azel")?;
+    let own = dirs.runtime_dir().map(Path::to_path_buf);
+    Some(own.unwrap_or_else(|| dirs.data_dir().join("run")))
+}
+
+/// The one name of a station file, however it is spelled.
+fn whole_path(path: &Path) -> PathBuf {
+    let whole = path.canonicalize().or_else(|_| {
+        // The file need not be there yet.
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize()?;
+        Ok::<_, io::Error>(folder.join(path.file_name().unwrap_or_default()))
+    });
+    whole.unwrap_or_else(|_| path.to_owned())
+}
+
+fn lock_name(kind: &str, of: &[u8]) -> String {
+    format!("{}.lock", digest(kind, of))
+}
+
+fn digest(kind: &str, of: &[u8]) -> String {
+    let mut name = format!("{kind}-");
+    for byte in Sha256::digest(of).iter().take(8) {
+        // Writing to a text cannot fail.
+        let _ = write!(name, "{byte:02x}");
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claims(folder: &Path) -> Claims {
+        Claims::new(folder.join("run"), HolderKind::Serve).unwrap()
+    }
+
+    #[test]
+    fn what_is_held_is_held_by_one_who_says_who_it_is_until_it_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let claims = claims(folder.path());
+        let path = folder.path().join("station.toml");
+        let held = claims.station(&path).ok().unwrap();
+        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = claims.station(&path) else {
+            panic!("free")
+        };
+        assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
+        drop(held);
+        assert!(claims.station(&path).is_ok());
+    }
+
+    #[test]
+    fn a_unit_is_one_whatever_its_antenna_is_called() {
+        let folder = tempfile::tempdir().unwrap();
+        let claims = claims(folder.path());
+        let dish = Antenna::satrak("Dish", "Unit.Local:4001");
+        let other = Antenna::satrak("Other", "unit.local:4001 ");
+        let held = claims.unit(&dish).ok().unwrap();
+        assert!(matches!(claims.unit(&other), Err(Unclaimed::Held(HeldBy(Some(_))))));
+        assert!(claims.unit(&Antenna::satrak("Dish", "unit.local:4002")).is_ok());
+        drop(held);
+    }
+
+    #[test]
+    fn a_station_file_has_one_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("station.toml");
+        let spelled = folder.path().join(".").join("station.toml");
+        assert_eq!(whole_path(&path), whole_path(&spelled), "before it is there");
+        fs::write(&path, "").unwrap();
+        assert_eq!(whole_path(&path), whole_path(&spelled));
+    }
+}

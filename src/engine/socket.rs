@@ -1,0 +1,260 @@
+//! The socket of a station: other programs of the same user stop its antennas, lock them
+//! out and ask how they are. One line of JSON asks, one line answers.
+
+use std::{io, os::unix::fs::PermissionsExt as _, path::Path, thread, time::Duration};
+
+use serde::{Deserialize, Serialize};
+use tokio::{
+    io::{AsyncBufReadExt as _, AsyncReadExt as _, AsyncWriteExt as _, BufReader},
+    net::{UnixListener, UnixStream},
+    time::{Instant, timeout, timeout_at},
+};
+
+use super::{
+    Client, Command,
+    antenna::{AntennaId, AntennaModel},
+    status::AntennaStatus,
+};
+use crate::{
+    driver::{self, StopState},
+    station::LockOut,
+};
+
+/// A question is not longer, bytes.
+const MOST_BYTES: u64 = 64 * 1024;
+/// Whoever connects has to ask within this.
+const ASKS_WITHIN: Duration = Duration::from_secs(5);
+/// A session tells after six seconds whether a STOP is proved.
+const PROVED_WITHIN: Duration = Duration::from_secs(8);
+/// A unit is stopped, and its own program switched off, before it is locked out.
+const LOCKED_WITHIN: Duration = Duration::from_secs(15);
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ask {
+    /// Stop an antenna, or all that are connected or were moved.
+    Stop {
+        /// Its name; `None` for all.
+        antenna: Option<String>,
+    },
+    /// How the antennas are.
+    Status,
+    /// Lock out an antenna, or no longer.
+    LockOut {
+        /// Its name.
+        antenna: String,
+        /// Who locks it out, and why; `None` to take that off.
+        lock_out: Option<LockOut>,
+    },
+}
+
+/// What is answered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// To whom STOP went, and whether their standstill is proved.
+    Stopped(Vec<Stopped>),
+    /// How the antennas are.
+    Status(Vec<AntennaStatus>),
+    /// It is locked out, or is no longer; `proved`: it stands and will not start by
+    /// itself.
+    LockOut {
+        /// Read back from the unit.
+        proved: bool,
+    },
+    /// It cannot be done, and why.
+    Refused(String),
+}
+
+/// A STOP that went to an antenna.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Stopped {
+    /// Its name.
+    pub antenna: String,
+    /// The unit has told that it stands since.
+    pub proved: bool,
+}
+
+/// Asks whoever serves the socket at `path`, and waits for the answer.
+pub fn ask(path: &Path, ask: &Ask) -> io::Result<Answer> {
+    use std::io::{BufRead as _, Write as _};
+    let mut stream = std::os::unix::net::UnixStream::connect(path)?;
+    stream.set_write_timeout(Some(ASKS_WITHIN))?;
+    stream.set_read_timeout(Some(LOCKED_WITHIN + ASKS_WITHIN))?;
+    let mut text = serde_json::to_string(ask)?;
+    text.push('\n');
+    stream.write_all(text.as_bytes())?;
+    let mut line = String::new();
+    io::BufReader::new(stream).read_line(&mut line)?;
+    Ok(serde_json::from_str(&line)?)
+}
+
+/// Serves the socket at `path` on a thread of its own until the station ends.
+pub(super) fn serve(path: &Path, station: Client) -> io::Result<()> {
+    // What is left there is of a process that has ended: the station is claimed.
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let listener = {
+        let _within = runtime.enter();
+        UnixListener::bind(path)?
+    };
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))?;
+    thread::Builder::new().name("azel-socket".to_owned()).spawn(move || {
+        runtime.block_on(accept(listener, station));
+    })?;
+    Ok(())
+}
+
+async fn accept(listener: UnixListener, mut station: Client) {
+    let asked = station.clone();
+    let ended = async { while station.changed().await {} };
+    tokio::pin!(ended);
+    loop {
+        let accepted = tokio::select! {
+            accepted = listener.accept() => accepted,
+            () = &mut ended => return,
+        };
+        match accepted {
+            Ok((stream, _)) => {
+                let station = asked.clone();
+                tokio::spawn(async move {
+                    if let Err(error) = converse(stream, station).await {
+                        tracing::warn!(%error, "a program at the socket");
+                    }
+                });
+            }
+            Err(error) => {
+                tracing::warn!(%error, "the socket");
+                tokio::time::sleep(Duration::from_millis(100)).await;
+            }
+        }
+    }
+}
+
+async fn converse(stream: UnixStream, station: Client) -> io::Result<()> {
+    let (reader, mut writer) = stream.into_split();
+    let mut line = String::new();
+    let mut reader = BufReader::new(reader.take(MOST_BYTES));
+    timeout(ASKS_WITHIN, reader.read_line(&mut line)).await??;
+    let answer = match serde_json::from_str(&line) {
+        Ok(ask) => answer(ask, station).await,
+        Err(error) => Answer::Refused(format!("the question is not understood: {error}")),
+    };
+    let mut text = serde_json::to_string(&answer)?;
+    text.push('\n');
+    timeout(ASKS_WITHIN, writer.write_all(text.as_bytes())).await?
+}
+
+async fn answer(ask: Ask, station: Client) -> Answer {
+    match ask {
+        Ask::Status => Answer::Status(AntennaStatus::of_all(&station.snapshot())),
+        Ask::Stop { antenna } => stop(antenna.as_deref(), station).await,
+        Ask::LockOut { antenna, lock_out } => {
+            let Some(id) = named(&station, &antenna) else { return unknown(&antenna) };
+            set_lock_out(id, lock_out, station).await
+        }
+    }
+}
+
+async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
+    let pressed = Instant::now();
+    let stopped = match antenna {
+        None => station.stop_all(),
+        Some(name) => match named(&station, name) {
+            Some(id) => station.stop(id),
+            None => return unknown(name),
+        },
+    };
+    let outcome = |antenna: &AntennaModel| match antenna.snapshot.stop {
+        StopState::Stopped { at } if at >= pressed.into_std() => Some(true),
+        StopState::NotConfirmed { since } if since >= pressed.into_std() => Some(false),
+        _ => None,
+    };
+    let end = pressed + PROVED_WITHIN;
+    let mut told: Vec<(AntennaId, Option<bool>)> =
+        stopped.into_iter().map(|id| (id, None)).collect();
+    let snapshot = loop {
+        let snapshot = station.snapshot();
+        for (id, proved) in &mut told {
+            let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == *id);
+            *proved = proved.or_else(|| antenna.and_then(outcome));
+        }
+        let is_over = told.iter().all(|(_, proved)| proved.is_some());
+        if is_over || !timeout_at(end, station.changed()).await.unwrap_or_default() {
+            break snapshot;
+        }
+    };
+    let name = |id: AntennaId| {
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == id);
+        antenna.map_or_else(String::new, |antenna| antenna.config.name.clone())
+    };
+    let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
+        antenna: name(id),
+        proved: proved.unwrap_or_default(),
+    };
+    Answer::Stopped(told.into_iter().map(stopped).collect())
+}
+
+async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Client) -> Answer {
+    let command = lock_out.clone().map_or(driver::Command::Unlock, driver::Command::LockOut);
+    if station.send(Command::Antenna(id, command)).is_err() {
+        return Answer::Refused("Azel is too busy to take it".to_owned());
+    }
+    let end = Instant::now() + LOCKED_WITHIN;
+    loop {
+        let snapshot = station.snapshot();
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == id);
+        let Some(antenna) = antenna else {
+            return Answer::Refused("the antenna is not in the station any more".to_owned());
+        };
+        let is_so = antenna.snapshot.lock_out == lock_out;
+        if is_so && !antenna.snapshot.locking {
+            return Answer::LockOut { proved: true };
+        }
+        if !timeout_at(end, station.changed()).await.unwrap_or_default() {
+            return if is_so {
+                Answer::LockOut { proved: false }
+            } else {
+                Answer::Refused("the session did not take it".to_owned())
+            };
+        }
+    }
+}
+
+fn named(station: &Client, name: &str) -> Option<AntennaId> {
+    let snapshot = station.snapshot();
+    let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name);
+    antenna.map(|antenna| antenna.id)
+}
+
+fn unknown(name: &str) -> Answer {
+    Answer::Refused(format!("the station has no antenna called {name}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn questions_and_answers_come_back_as_they_went() {
+        let lock_out = LockOut {
+            by: "Ada".to_owned(),
+            reason: "belts".to_owned(),
+            since: jiff::Timestamp::UNIX_EPOCH,
+        };
+        for ask in [
+            Ask::Status,
+            Ask::Stop { antenna: None },
+            Ask::Stop { antenna: Some("Dish \"1\"\n".to_owned()) },
+            Ask::LockOut { antenna: "Dish".to_owned(), lock_out: Some(lock_out) },
+        ] {
+            let text = serde_json::to_string(&ask).unwrap();
+            assert!(!text.contains('\n'), "{text}");
+            assert_eq!(serde_json::from_str::<Ask>(&text).unwrap(), ask);
+        }
+    }
+}

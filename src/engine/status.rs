@@ -1,0 +1,96 @@
+//! How the antennas of a station are, in a form for scripts and other programs.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{Snapshot, antenna::AntennaModel};
+use crate::{
+    astro::Angle,
+    driver::{LinkState, StopState},
+};
+
+/// How an antenna is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AntennaStatus {
+    /// Its name.
+    pub antenna: String,
+    /// Its link.
+    pub link: LinkStatus,
+    /// What is wanted of it: `standby`, `manual`, `position`, `track` or `park`.
+    pub intent: String,
+    /// Measured azimuth, degrees.
+    pub azimuth_deg: Option<f64>,
+    /// Measured elevation, degrees.
+    pub elevation_deg: Option<f64>,
+    /// When that was measured.
+    pub measured_at: Option<Timestamp>,
+    /// Whether it moves, by the last measurement.
+    pub moves: Option<bool>,
+    /// What is tracked, by the unit or from here.
+    pub tracks: Option<String>,
+    /// A STOP is owed to it.
+    pub owes_stop: bool,
+    /// Who has locked it out, and why.
+    pub locked_out: Option<String>,
+}
+
+/// The link to a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LinkStatus {
+    /// Nobody wants one.
+    Off,
+    /// It is tried for the first time.
+    Connecting,
+    /// It answers.
+    Up,
+    /// Its last answer is old.
+    Stale,
+    /// Gone; it is tried again.
+    Lost,
+    /// Another Azel of this machine drives the unit.
+    Elsewhere,
+}
+
+impl AntennaStatus {
+    /// Of all antennas.
+    pub fn of_all(station: &Snapshot) -> Vec<Self> {
+        station.antennas.iter().map(Self::of).collect()
+    }
+
+    /// Of one antenna.
+    pub fn of(antenna: &AntennaModel) -> Self {
+        let snapshot = &antenna.snapshot;
+        let measured = snapshot.state.measured;
+        let by_unit = snapshot.state.program.filter(|program| program.enabled);
+        let held = by_unit.and(snapshot.state.on_board.satellite.as_ref());
+        let followed = snapshot.following.as_ref().map(|following| following.name.clone());
+        let lock_out = snapshot.lock_out.as_ref();
+        Self {
+            antenna: antenna.config.name.clone(),
+            link: match snapshot.link {
+                _ if antenna.held_by.is_some() => LinkStatus::Elsewhere,
+                LinkState::Off => LinkStatus::Off,
+                LinkState::Connecting { .. } => LinkStatus::Connecting,
+                LinkState::Up { .. } => LinkStatus::Up,
+                LinkState::Stale { .. } => LinkStatus::Stale,
+                LinkState::Lost { .. } => LinkStatus::Lost,
+            },
+            intent: format!("{:?}", snapshot.intent).to_lowercase(),
+            azimuth_deg: measured
+                .and_then(|measured| measured.pointing.azimuth)
+                .map(Angle::degrees),
+            elevation_deg: measured
+                .and_then(|measured| measured.pointing.elevation)
+                .map(Angle::degrees),
+            measured_at: measured.map(|measured| measured.at),
+            moves: measured.map(|measured| measured.moving()),
+            tracks: followed.or_else(|| held.map(|held| held.name.clone())),
+            owes_stop: matches!(
+                snapshot.stop,
+                StopState::Stopping { .. } | StopState::NotConfirmed { .. }
+            ),
+            locked_out: lock_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason)),
+        }
+    }
+}
