@@ -20,5 +20,7 @@ mod real_peers;
 #[cfg(target_os = "linux")]
 mod real_window;
 #[cfg(unix)]
+mod serve;
+#[cfg(unix)]
 mod unread_log;
 mod web_source;

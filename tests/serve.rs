@@ -1,0 +1,414 @@
+//! A station without a window: real sockets to simulated units, and the program itself
+//! as a process beside others.
+
+use std::{
+    collections::BTreeMap,
+    io::{BufRead as _, BufReader},
+    net::SocketAddr,
+    path::{Path, PathBuf},
+    process::{Child, Command as Process, Output, Stdio},
+    sync::{Arc, mpsc},
+    thread,
+    time::{Duration, Instant},
+};
+
+use azel::{
+    astro::time::add_seconds,
+    cli::serve::{Ended, Wake, until_the_end},
+    clock::Clock,
+    controller::satrak::ELEMENT_FILE,
+    driver,
+    engine::{
+        Client, Command, Handle, Settings, Snapshot,
+        alarms::{Alarm, AlarmKind},
+        antenna::{AntennaId, AntennaModel},
+        claim::HolderKind,
+        forecast::Forecast,
+        status::{AntennaStatus, LinkStatus},
+    },
+    orbit::bundled,
+    plan::{Follow, Target},
+    sim::{rc2000c, rotator_genius, satrak},
+    station::{self, Antenna, OnClose, Station},
+};
+use jiff::Timestamp;
+use tokio::runtime::Runtime;
+
+/// Longer than anything here takes.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// A jog is renewed as a window renews it.
+const RENEW: Duration = Duration::from_millis(60);
+const NOAA_20: u32 = 43_013;
+
+/// NOAA 20 is up for another six minutes.
+fn start() -> Timestamp {
+    "2026-08-12T11:15:30Z".parse().unwrap()
+}
+
+fn clock() -> Clock {
+    let begun = Instant::now();
+    Clock::new(move || add_seconds(start(), begun.elapsed().as_secs_f64()))
+}
+
+/// One simulated unit of each make, and a folder with a station of them.
+struct Units {
+    dish: satrak::Control,
+    mast: rotator_genius::Control,
+    horn: rc2000c::Control,
+    folder: tempfile::TempDir,
+    _runtime: Runtime,
+}
+
+const ANY_PORT: ([u8; 4], u16) = ([127, 0, 0, 1], 0);
+
+impl Units {
+    fn start(change: impl FnOnce(&mut Station)) -> Self {
+        let runtime = Runtime::new().expect("a runtime");
+        let elements = bundled().unwrap().iter().cloned().collect();
+        let options = satrak::Options {
+            elements: BTreeMap::from([(satrak::BUNDLED_FILE.to_owned(), elements)]),
+            ..satrak::Options::new(Station::default().site, start())
+        };
+        let mast_options = rotator_genius::Options {
+            rotators: [
+                rotator_genius::RotatorOptions::default(),
+                rotator_genius::RotatorOptions::elevation(),
+            ],
+            ..rotator_genius::Options::default()
+        };
+        let any = SocketAddr::from(ANY_PORT);
+        let (dish, mast, horn) = runtime.block_on(async {
+            (
+                satrak::Simulator::bind(any, options).await.expect("a port"),
+                rotator_genius::Simulator::bind(any, mast_options).await.expect("a port"),
+                rc2000c::Simulator::bind(any, &rc2000c::Options::default()).await.expect("a port"),
+            )
+        });
+        let address = |at: std::io::Result<SocketAddr>| at.expect("an address").to_string();
+        let mut satrak = Antenna::satrak("Dish", &address(dish.local_addr()));
+        satrak.connection.put(&ELEMENT_FILE, satrak::BUNDLED_FILE).unwrap();
+        let genius = Antenna::genius("Mast", &address(mast.local_addr()));
+        let rc2000c = Antenna::rc2000c("Horn", &address(horn.local_addr()));
+        let mut station = Station {
+            antennas: vec![satrak, genius, rc2000c],
+            favourites: vec![NOAA_20],
+            ..Station::default()
+        };
+        change(&mut station);
+        let folder = tempfile::tempdir().expect("a folder");
+        station::save(&station, &folder.path().join("station.toml")).expect("a station file");
+        let controls = (dish.control(), mast.control(), horn.control());
+        runtime.spawn(dish.run());
+        runtime.spawn(mast.run());
+        runtime.spawn(horn.run());
+        let (dish, mast, horn) = controls;
+        Self { dish, mast, horn, folder, _runtime: runtime }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.path().join("station.toml")
+    }
+
+    fn open(&self) -> (Handle, mpsc::SyncSender<Wake>, mpsc::Receiver<Wake>) {
+        let settings = Settings {
+            path: Some(self.path()),
+            library: Some(self.folder.path().join("elements")),
+            dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
+            claims: Some((self.folder.path().join("run"), HolderKind::Serve)),
+            ..Settings::default()
+        };
+        let (wake, woken) = mpsc::sync_channel(1);
+        let by_station = wake.clone();
+        let station = Handle::start(
+            settings,
+            clock(),
+            Arc::new(move || {
+                let _ = by_station.try_send(Wake::Station);
+            }),
+        );
+        (station.expect("a station"), wake, woken)
+    }
+
+    fn all_stand(&self) -> bool {
+        let mast = self.mast.state().rotators;
+        !self.dish.state().is_moving
+            && !mast.iter().any(|rotator| rotator.is_turning)
+            && !self.horn.state().is_turning
+    }
+}
+
+fn wait_for<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+    let until = Instant::now() + PATIENCE;
+    loop {
+        if let Some(found) = found() {
+            return found;
+        }
+        assert!(Instant::now() < until, "waited too long for {what}");
+        thread::sleep(RENEW);
+    }
+}
+
+fn named_thread<T: Send + 'static>(
+    name: &str,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> thread::JoinHandle<T> {
+    thread::Builder::new().name(name.to_owned()).spawn(work).expect("a thread")
+}
+
+fn named<'a>(station: &'a Snapshot, name: &str) -> &'a AntennaModel {
+    station.antennas.iter().find(|antenna| antenna.config.name == name).expect("an antenna")
+}
+
+fn status(client: &Client, name: &str) -> AntennaStatus {
+    AntennaStatus::of(named(&client.snapshot(), name))
+}
+
+fn id(client: &Client, name: &str) -> AntennaId {
+    named(&client.snapshot(), name).id
+}
+
+fn send(client: &Client, antenna: AntennaId, command: driver::Command) {
+    assert!(client.send(Command::Antenna(antenna, command)).is_ok(), "the station is too busy");
+}
+
+fn is_measured(client: &Client, name: &str) -> Option<()> {
+    status(client, name).moves.map(|_| ())
+}
+
+/// The dish tracks NOAA 20 by its own program.
+fn track_on_board(client: &Client) {
+    let dish = id(client, "Dish");
+    wait_for("the dish", || is_measured(client, "Dish"));
+    let pass = wait_for("the pass", || {
+        let station = client.snapshot();
+        station.forecasts.next(start()).map(Forecast::key)
+    });
+    client.send(Command::Track { antenna: dish, pass, is_agreed: true }).unwrap();
+    wait_for("tracking on board", || {
+        let dish = status(client, "Dish");
+        (dish.tracks.is_some() && dish.moves == Some(true)).then_some(())
+    });
+}
+
+/// The mast is led to the Sun.
+fn lead_to_the_sun(client: &Client) {
+    wait_for("the mast", || is_measured(client, "Mast"));
+    let site = client.snapshot().station.site;
+    let follow = Follow { target: Target::Sun, site, passes: Vec::new() };
+    send(client, id(client, "Mast"), driver::Command::Follow(Box::new(follow)));
+    wait_for("the mast moves", || (status(client, "Mast").moves == Some(true)).then_some(()));
+}
+
+/// A key of the horn is held.
+fn jog(client: &Client) {
+    let horn = id(client, "Horn");
+    send(client, horn, driver::Command::Connect);
+    wait_for("the horn", || is_measured(client, "Horn"));
+    send(client, horn, driver::Command::Manual);
+    wait_for("the horn moves", || {
+        hold(client);
+        (status(client, "Horn").moves == Some(true)).then_some(())
+    });
+}
+
+fn hold(client: &Client) {
+    send(client, id(client, "Horn"), driver::Command::Jog { rates_deg_s: [1.0, 0.0] });
+}
+
+/// Drives the station of `units` in the main loop of the program, and ends it.
+fn served(units: &Units, drive: impl FnOnce(&Client) + Send + 'static) -> (Ended, Duration) {
+    let (station, end, woken) = units.open();
+    let client = station.client().clone();
+    let driving = named_thread("drives", move || {
+        drive(&client);
+        end.send(Wake::End).unwrap();
+        Instant::now()
+    });
+    let mut lines = Vec::new();
+    let ended = until_the_end(station, &woken, &mut |told| lines.push(told.clone()));
+    let took = driving.join().expect("it is driven").elapsed();
+    assert!(!lines.is_empty());
+    (ended, took)
+}
+
+#[test]
+fn ended_while_one_jogs_one_is_led_and_one_tracks_on_board_all_are_proved_to_stand() {
+    let units = Units::start(|_| {});
+    let (ended, took) = served(&units, |client| {
+        track_on_board(client);
+        lead_to_the_sun(client);
+        jog(client);
+        hold(client);
+    });
+    assert_eq!(ended.not_proved, [""; 0]);
+    assert!(units.all_stand());
+    assert!(!units.dish.state().is_tracking);
+    assert!(took < Duration::from_secs(10), "{took:?}");
+}
+
+#[test]
+fn what_the_station_leaves_goes_on_and_the_rest_is_stopped() {
+    let units = Units::start(|station| station.on_close = Some(OnClose::Leave));
+    let (ended, _) = served(&units, |client| {
+        track_on_board(client);
+        lead_to_the_sun(client);
+    });
+    assert_eq!(ended.not_proved, [""; 0]);
+    assert!(units.dish.state().is_tracking);
+    assert!(!units.mast.state().rotators.iter().any(|rotator| rotator.is_turning));
+}
+
+#[test]
+fn one_that_does_not_answer_any_more_is_named() {
+    let units = Units::start(|_| {});
+    let dish = units.dish.clone();
+    let (ended, took) = served(&units, move |client| {
+        track_on_board(client);
+        dish.set_fault(satrak::Fault::Silence, true);
+    });
+    assert_eq!(ended.not_proved, ["Dish"]);
+    assert!(took < Duration::from_secs(25), "{took:?}");
+}
+
+#[test]
+fn a_second_one_drives_nothing_until_the_first_has_ended() {
+    let units = Units::start(|_| {});
+    let (first, _end, _woken) = units.open();
+    wait_for("the first", || is_measured(first.client(), "Mast"));
+    let (second, _end, _woken) = units.open();
+    let client = second.client();
+    let mast = wait_for("the second", || {
+        let mast = status(client, "Mast");
+        (mast.link == LinkStatus::Elsewhere).then_some(mast)
+    });
+    assert_eq!(mast.moves, None);
+    let told = client.snapshot();
+    let says_so = |alarm: &Alarm| {
+        !alarm.cleared && alarm.antenna.is_none() && matches!(alarm.kind, AlarmKind::Elsewhere(_))
+    };
+    assert!(told.alarms.list().iter().any(says_so));
+    // A motion that is asked for there goes nowhere.
+    let follow = Follow { target: Target::Sun, site: told.station.site, passes: Vec::new() };
+    send(client, id(client, "Mast"), driver::Command::Follow(Box::new(follow)));
+    wait_for("the refusal", || named(&client.snapshot(), "Mast").news.clone());
+    assert!(units.all_stand());
+    // STOP there stops here.
+    lead_to_the_sun(first.client());
+    client.stop_all();
+    wait_for("STOP", || units.all_stand().then_some(()));
+    drop(first);
+    wait_for("it takes over", || is_measured(client, "Mast"));
+    let told = client.snapshot();
+    let is_over = |alarm: &Alarm| alarm.cleared || !matches!(alarm.kind, AlarmKind::Elsewhere(_));
+    assert!(told.alarms.list().iter().all(is_over));
+}
+
+/// The program itself, on the station of `units`.
+struct Served {
+    process: Child,
+    lines: mpsc::Receiver<String>,
+}
+
+fn program(units: &Units) -> Process {
+    let mut process = Process::new(env!("CARGO_BIN_EXE_azel"));
+    let folder = units.folder.path();
+    process
+        .env("XDG_RUNTIME_DIR", folder.join("runtime"))
+        .env("XDG_DATA_HOME", folder.join("data"))
+        .env("XDG_CONFIG_HOME", folder.join("config"))
+        .args([Path::new("--station"), &units.path()]);
+    process
+}
+
+impl Served {
+    fn start(units: &Units) -> Self {
+        let mut process = program(units)
+            .args(["serve", "--format", "json"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let output = process.stdout.take().expect("its output");
+        let (send, lines) = mpsc::sync_channel(1000);
+        named_thread("reads", move || {
+            for line in BufReader::new(output).lines().map_while(Result::ok) {
+                let _ = send.send(line);
+            }
+        });
+        Self { process, lines }
+    }
+
+    fn until(&self, wanted: impl Fn(&serde_json::Value) -> bool) {
+        let until = Instant::now() + PATIENCE;
+        loop {
+            let left = until.saturating_duration_since(Instant::now());
+            let line = self.lines.recv_timeout(left).expect("a line in time");
+            let told = serde_json::from_str(&line).expect("JSON");
+            if wanted(&told) {
+                return;
+            }
+        }
+    }
+
+    fn signal(&self, name: &str) {
+        let id = self.process.id().to_string();
+        let sent = Process::new("kill").args(["-s", name, &id]).status();
+        assert!(sent.is_ok_and(|status| status.success()));
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+fn says(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn the_program_serves_is_asked_from_a_second_shell_and_ends_by_a_signal() {
+    let units = Units::start(|_| {});
+    let mut served = Served::start(&units);
+    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
+    let status = program(&units).arg("status").output().expect("it runs");
+    assert!(says(&status).contains("Mast: link up, standby"), "{}", says(&status));
+
+    let stop = program(&units).arg("stop").output().expect("it runs");
+    assert!(says(&stop).contains("Mast: stands"), "{}", says(&stop));
+    assert_eq!(stop.status.code(), Some(0));
+    let nobody = program(&units).args(["stop", "--antenna", "Nobody"]).output().expect("it runs");
+    assert_eq!(nobody.status.code(), Some(1));
+
+    let lock = ["lock-out", "--antenna", "Dish", "--reason", "belts", "--by", "Ada"];
+    let locked = program(&units).args(lock).output().expect("it runs");
+    assert_eq!(says(&locked), "Dish is locked out and stands.\n");
+    served.until(|told| told["antenna"] == "Dish" && told["about"] == "lock_out");
+
+    served.signal("USR1");
+    served.until(|told| told["antenna"] == "Mast" && told["text"] == "STOP is proved.");
+
+    let asked = Instant::now();
+    served.signal("TERM");
+    let ended = served.process.wait().expect("it ends");
+    assert_eq!(ended.code(), Some(0));
+    assert!(asked.elapsed() < Duration::from_secs(10), "{:?}", asked.elapsed());
+
+    let gone = program(&units).arg("stop").output().expect("it runs");
+    assert_eq!(gone.status.code(), Some(1));
+}
+
+#[test]
+fn output_that_nobody_reads_holds_up_nothing() {
+    let units = Units::start(|_| {});
+    let process = program(&units).arg("serve").stdout(Stdio::piped()).spawn();
+    let mut served =
+        Served { process: process.expect("the program starts"), lines: mpsc::sync_channel(1).1 };
+    wait_for("the socket", || {
+        let stop = program(&units).arg("stop").output().expect("it runs");
+        says(&stop).contains("Mast: stands").then_some(())
+    });
+    served.signal("TERM");
+    assert_eq!(served.process.wait().expect("it ends").code(), Some(0));
+}
