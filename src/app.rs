@@ -25,7 +25,8 @@ use crate::{
     controller::AxisMotion,
     driver::TimeSync,
     engine::{
-        self, CatalogState, Client, Handle, Settings, alarms::Alarms, forecast::Forecasts, signals,
+        self, CatalogState, Client, Handle, Settings, alarms::Alarms, antenna::AntennaModel,
+        forecast::Forecasts, signals,
     },
     job::Wake,
     model::{self, Model, UiCommand, View},
@@ -124,12 +125,17 @@ impl App {
     fn think(&mut self) {
         self.model.now = self.clock.utc();
         self.model.steady = Instant::now();
-        let before: Vec<_> = self.model.antennas.iter().map(|antenna| antenna.id).collect();
-        self.model.take(&mut self.station);
-        if !before.iter().eq(self.model.antennas.iter().map(|antenna| &antenna.id)) {
-            self.select_known_antenna();
+        // They tell of what is published by then.
+        let events: Vec<_> = std::iter::from_fn(|| self.station.next_event()).collect();
+        if self.station.take() {
+            let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
+            self.model.take(&self.station);
+            if !self.model.antennas.iter().map(AntennaModel::id).eq(before) {
+                self.select_known_antenna();
+            }
         }
-        while let Some(event) = self.station.next_event() {
+        self.model.watch_station(self.station.stood_for());
+        for event in events {
             match event {
                 engine::Event::Saved(result) => self.views.saved(result),
                 engine::Event::Changed => self.views.station_changed(),
@@ -171,16 +177,12 @@ impl App {
 
     /// Whether the window is to close now, and nothing is asked: true once.
     fn closes_now(&mut self) -> bool {
-        let is_done = std::mem::take(&mut self.closes);
-        let is_gone = !self.station.runs();
-        if !(is_done || is_gone) || self.may_close.swap(true, Ordering::Relaxed) {
-            return false;
+        if !self.station.runs() {
+            // Nothing is shown any more. The sessions hear it while they end.
+            self.station.client().stop_all();
+            std::panic::resume_unwind(Box::new("the station broke down".to_owned()));
         }
-        if is_gone {
-            // Its sessions have said their last STOP, and nothing is shown any more.
-            tracing::error!("the station broke down: the window closes");
-        }
-        true
+        std::mem::take(&mut self.closes) && !self.may_close.swap(true, Ordering::Relaxed)
     }
 
     /// The next frame: ten a second while metal moves or a key is held, else on
@@ -208,6 +210,8 @@ impl Drop for App {
         if self.told_to_end.load(Ordering::Relaxed) {
             self.station.end_unasked();
         }
+        // The sessions end while the last change is written.
+        self.station.begin_end();
         self.remember();
         self.keeper.finish(&self.wake);
     }

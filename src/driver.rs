@@ -1,5 +1,5 @@
 //! Runs the antennas: links, sessions, intents and the gate, on a thread of
-//! its own. The window sends commands and reads snapshots; it never waits, and
+//! its own. The station sends commands and reads snapshots; it never waits, and
 //! nothing here waits for it.
 
 mod before_sleep;
@@ -38,7 +38,7 @@ pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use safety::{Mover, Response, Safety, Unlike};
-pub use session::{Command, Session, Wires};
+pub use session::{Command, JOG_LEASE, Session, Wires};
 pub use snapshot::{
     Event, FollowProblem, FollowView, Found, Inside, LinkLoss, LinkState, OnBoardView, Snapshot,
     StopState, StoppingWay,
@@ -52,7 +52,7 @@ use crate::{
     station::{Antenna, Link, LockOut},
 };
 
-/// How many commands may wait. The window sends at most a few a frame.
+/// How many commands may wait. The station sends at most a few at a time.
 const COMMANDS: usize = 64;
 /// How many events may wait. When nobody reads, the oldest alarms matter most,
 /// so further ones are dropped and counted in the log.
@@ -105,8 +105,23 @@ pub struct Stopper {
 impl Stopper {
     /// Stops the antenna: never refused.
     pub fn stop(&self) {
-        self.void.store(self.orders.next(), Ordering::SeqCst);
+        self.forget();
         self.stop.notify_one();
+    }
+
+    /// What was asked for until now is void, wherever it still waits.
+    pub fn forget(&self) {
+        self.void.fetch_max(self.orders.next(), Ordering::SeqCst);
+    }
+
+    /// Whether what was asked for with this number is void.
+    pub fn is_void(&self, number: u64) -> bool {
+        number <= self.void.load(Ordering::SeqCst)
+    }
+
+    /// Whether the antenna is to track, or tracks from here.
+    pub fn tracks(&self) -> bool {
+        self.snapshots.borrow().intent == Intent::Track
     }
 
     /// Whether a STOP of the whole station is for this antenna too.

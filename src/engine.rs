@@ -42,7 +42,7 @@ use tokio::sync::{Notify, mpsc, watch};
 
 use self::{
     alarms::{AlarmKind, Alarms},
-    antenna::{AntennaId, AntennaModel},
+    antenna::AntennaModel,
     claim::{Claim, Claims, HeldBy, HolderKind},
     clock_watch::ClockWatch,
     closing::Closing,
@@ -56,21 +56,24 @@ use self::{
 };
 pub use self::{
     command::{Attention, Command},
-    handle::{Client, Event, Handle},
+    handle::{Client, Event, Handle, Stopped},
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{
     clock::Clock,
-    driver::{self, AntennaHandle, Driver, TimeSync, Unit},
+    driver::{self, AntennaHandle, Driver, JOG_LEASE, TimeSync, Unit},
     job::{Job, Wake},
     makes::{self, DemoAddresses},
     plan::Bounds,
-    station::{self, LoadError, LockOuts, Station},
+    station::{self, AntennaId, LoadError, LockOuts, Station},
 };
 
-/// What has come in is taken at most this often: a change is shown with the next frame
-/// of a window.
+/// What the sessions tell is taken at most this often: a change is shown with the next
+/// frame of a window.
 const BREATH: Duration = Duration::from_millis(10);
+
+/// A motion that the station could not take up for so long is not wanted any more.
+const TOO_LATE: Duration = Duration::from_secs(2);
 
 /// Where a station keeps what it keeps.
 #[derive(Debug, Clone, Default)]
@@ -119,11 +122,11 @@ struct Engine {
     steady: Instant,
     time_sync: TimeSync,
     station: Arc<Station>,
-    demo: Option<DemoStation>,
     catalog: CatalogState,
     sources: Sources,
     antennas: Vec<Antenna>,
-    next_id: u64,
+    /// How many sessions were begun.
+    sessions: u64,
     attention: Attention,
     searches: Searches,
     forecasts: Forecasts,
@@ -132,8 +135,9 @@ struct Engine {
     alarms: Alarms,
     copies: Copies,
     closing: Option<Closing>,
-    // The sessions end before their thread does.
+    // The sessions end before their thread does, and that before their units.
     driver: Driver,
+    demo: Option<DemoStation>,
     clock: Clock,
     clock_watch: ClockWatch,
     wake: Wake,
@@ -155,6 +159,7 @@ struct Engine {
     settings_unread: bool,
     /// The number of what a client asked for, while it is carried out.
     asked: Option<u64>,
+    told: Vec<Event>,
     outbox: Outbox,
     /// What its socket does with it.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
@@ -165,6 +170,8 @@ struct Engine {
 /// One antenna and its session.
 struct Antenna {
     shown: AntennaModel,
+    /// Tells this session from others of the same antenna.
+    session: u64,
     handle: AntennaHandle,
     /// Of its unit, where claims are made.
     _claim: Option<Claim>,
@@ -214,9 +221,10 @@ impl Engine {
             uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
         let source_desk = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
         let snapshot = Arc::new(Snapshot::before_anything());
-        let published = Published { snapshot, ends: Arc::new([]) };
+        let at = Instant::now();
+        let published = Published { at, snapshot, ends: Arc::new([]) };
         let (publish, published) = watch::channel(published);
-        let client = Client::new(requests, driver.orders().clone(), published);
+        let client = Client::new(requests, Arc::clone(&woken), driver.orders().clone(), published);
         let mut engine = Self {
             now: clock.utc(),
             steady: Instant::now(),
@@ -226,7 +234,7 @@ impl Engine {
             catalog: CatalogState::Loading,
             sources: Sources { work: SourceWork::Reading, ..Sources::default() },
             antennas: Vec::new(),
-            next_id: 0,
+            sessions: 0,
             attention: Attention::default(),
             searches: Searches::default(),
             forecasts: Forecasts::default(),
@@ -253,6 +261,7 @@ impl Engine {
             claims_looked_at: 0,
             settings_unread: false,
             asked: None,
+            told: Vec::new(),
             outbox,
             client: client.clone(),
             publish,
@@ -272,43 +281,70 @@ impl Engine {
                 biased;
                 request = inbox.recv() => match request {
                     Some(request) => Some(request),
-                    None => return,
+                    None => break,
                 },
                 () = woken.notified() => {
                     // More comes in at the same moment; a request is not kept waiting.
                     match tokio::time::timeout(BREATH, inbox.recv()).await {
-                        Ok(Some(request)) => Some(request),
-                        Ok(None) => return,
-                        Err(_) => None,
+                        Ok(None) => break,
+                        taken => taken.ok().flatten(),
                     }
                 }
                 () = tokio::time::sleep(to_next_second(self.clock.utc())) => {
+                    self.take_urgent();
                     self.turn();
                     self.publish();
                     continue;
                 }
             };
             self.set_time();
+            self.take_urgent();
             while let Some(next) = request {
                 self.take_request(next);
                 request = inbox.try_recv().ok();
+            }
+            // What has woken it until now is taken by this turn.
+            tokio::select! {
+                biased;
+                () = woken.notified() => {}
+                () = std::future::ready(()) => {}
             }
             self.turn();
             self.publish();
             (self.outbox.wake)();
         }
+        self.take_urgent();
     }
 
-    fn take_request(&mut self, request: Request) {
-        match request {
-            Request::Command(command, number) => {
-                self.asked = Some(number);
-                self.carry_out(command);
-                self.asked = None;
-            }
-            Request::Stopped(antennas, at) => self.note_stops(&antennas, at),
-            Request::EndUnasked => self.end_unasked(),
+    /// Takes what does not wait behind requests.
+    fn take_urgent(&mut self) {
+        let urgent = std::mem::take(&mut *self.client.urgent());
+        for stopped in &urgent.stops {
+            self.note_stop(stopped);
         }
+        if urgent.ends_unasked {
+            self.end_unasked();
+        }
+        if urgent.is_overrun {
+            tracing::error!("the station was too busy to take what was asked for");
+            self.alarms.raise(None, AlarmKind::NotTaken, self.now);
+        }
+    }
+
+    fn take_request(&mut self, Request { command, number, at }: Request) {
+        let age = self.steady.saturating_duration_since(at);
+        let is_jog = matches!(&command, Command::Antenna(_, driver::Command::Jog { .. }));
+        if is_jog && age > JOG_LEASE {
+            // The key may be up by now; its release comes behind it.
+            return;
+        }
+        if command.may_move() && age > TOO_LATE {
+            tracing::error!(?command, ?age, "too late to be carried out");
+            return self.alarms.raise(None, AlarmKind::NotTaken, self.now);
+        }
+        self.asked = Some(number);
+        self.carry_out(command);
+        self.asked = None;
     }
 
     fn set_time(&mut self) {
@@ -335,27 +371,32 @@ impl Engine {
         });
         let is_same = {
             let ends = &self.publish.borrow().ends;
-            let ids = self.antennas.iter().map(|antenna| antenna.shown.id);
-            ends.iter().map(|ends| ends.id).eq(ids)
+            let sessions = self.antennas.iter().map(|antenna| antenna.session);
+            ends.iter().map(|ends| ends.session).eq(sessions)
         };
         let ends = if is_same {
             Arc::clone(&self.publish.borrow().ends)
         } else {
             let ends = self.antennas.iter().map(|antenna| AntennaEnds {
-                id: antenna.shown.id,
+                id: antenna.shown.id(),
+                session: antenna.session,
                 stopper: antenna.handle.stopper(),
                 wire: antenna.handle.wire().clone(),
             });
             ends.collect()
         };
-        self.publish.send_replace(Published { snapshot, ends });
+        self.publish.send_replace(Published { at: Instant::now(), snapshot, ends });
+        // What they tell of is shown by now.
+        for event in std::mem::take(&mut self.told) {
+            if self.outbox.events.try_send(event).is_err() {
+                tracing::warn!("an event is not told: nobody reads them");
+            }
+        }
     }
 
-    /// Tells the client, unless it has left hundreds of events unread.
-    fn tell(&self, event: Event) {
-        if self.outbox.events.try_send(event).is_err() {
-            tracing::warn!("an event is not told: nobody reads them");
-        }
+    /// Tells the client, once what it is about is shown.
+    fn tell(&mut self, event: Event) {
+        self.told.push(event);
     }
 
     fn load_station(&mut self) {
@@ -391,7 +432,7 @@ impl Engine {
 
     /// Takes a station into use. Antennas that stay as they are keep their session.
     fn use_station(&mut self, station: Station) {
-        self.keep_rows_locked_out(&station.antennas);
+        self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
         // The antenna may be the same one at a new address: then STOP is owed to both.
         let debts = self.driver.debts().clone();
@@ -421,11 +462,12 @@ impl Engine {
             self.antennas.push(antenna);
         }
         self.station = Arc::new(station);
+        // STOP goes to the new sessions from now on.
+        self.publish();
     }
 
     fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
-        let id = AntennaId(self.next_id);
-        self.next_id += 1;
+        self.sessions += 1;
         let (handle, claim, held_by) = match self.claim_unit(&config) {
             Ok(claim) => {
                 let lock_out = self.lock_outs.of(&config.connection).cloned();
@@ -433,14 +475,14 @@ impl Engine {
             }
             Err(held_by) => (Driver::leave_alone(&config), None, Some(held_by)),
         };
-        let mut shown = AntennaModel::new(id, config, handle.snapshot());
+        let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
-        Antenna { shown, handle, _claim: claim }
+        Antenna { shown, session: self.sessions, handle, _claim: claim }
     }
 
     /// The place of an antenna, if the station still has it.
     fn place(&self, id: AntennaId) -> Option<usize> {
-        self.antennas.iter().position(|antenna| antenna.shown.id == id)
+        self.antennas.iter().position(|antenna| antenna.shown.id() == id)
     }
 }
 
@@ -449,8 +491,11 @@ fn shared<T: Clone + PartialEq>(now: &T, last: &Arc<T>) -> Arc<T> {
     if *now == **last { Arc::clone(last) } else { Arc::new(now.clone()) }
 }
 
+/// To a little before the next full second, with which a window draws anew.
 fn to_next_second(now: Timestamp) -> Duration {
-    let into = u64::from(now.subsec_nanosecond().unsigned_abs());
-    // A clock that stands at the second must not make a turn at once, again and again.
-    Duration::from_nanos(1_000_000_000 - into).max(Duration::from_millis(5))
+    const BEFORE_NS: u64 = 10_000_000;
+    let into_ns = u64::from(now.subsec_nanosecond().unsigned_abs());
+    let to_ns = (2_000_000_000 - BEFORE_NS - into_ns) % 1_000_000_000;
+    // A clock that stands must not make a turn at once, again and again.
+    Duration::from_nanos(to_ns).max(Duration::from_millis(5))
 }

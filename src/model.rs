@@ -8,7 +8,11 @@ pub mod effects;
 mod line;
 mod theme_name;
 
-use std::{path::PathBuf, sync::Arc, time::Instant};
+use std::{
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 use jiff::Timestamp;
 
@@ -25,7 +29,7 @@ use crate::{
     driver::{TimeSync, WireLog},
     engine::{
         CatalogState, Handle,
-        alarms::Alarms,
+        alarms::{AlarmKind, Alarms},
         antenna::AntennaModel,
         closing::Closing,
         copies::Copies,
@@ -35,7 +39,7 @@ use crate::{
         uploads::Uploads,
     },
     orbit::{LookAngles, is_sunlit},
-    station::Station,
+    station::{AntennaId, Station},
 };
 
 /// For how long the way of a satellite that is not selected is drawn.
@@ -158,6 +162,16 @@ impl Model {
         self.antennas.get(self.selected_antenna)
     }
 
+    /// The place of an antenna, if the station still has it.
+    pub fn place(&self, id: AntennaId) -> Option<usize> {
+        self.antennas.iter().position(|antenna| antenna.id() == id)
+    }
+
+    /// An antenna, if the station still has it.
+    pub fn antenna_of(&self, id: AntennaId) -> Option<&AntennaModel> {
+        self.antennas.get(self.place(id)?)
+    }
+
     /// The selected pass, while it is not over.
     pub fn selected_pass(&self) -> Option<&Forecast> {
         let selected = self.forecasts.find(self.selected?);
@@ -184,8 +198,8 @@ impl Model {
     }
 
     /// Takes what the station shows of itself.
-    pub fn take(&mut self, station: &mut Handle) {
-        let shown = Arc::clone(station.take());
+    pub fn take(&mut self, station: &Handle) {
+        let shown = Arc::clone(station.snapshot());
         let renewed = self.forecasts.favourites.edition != shown.forecasts.favourites.edition;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
@@ -200,17 +214,23 @@ impl Model {
         self.closing.clone_from(&shown.closing);
         let mut antennas = shown.antennas.clone();
         for antenna in &mut antennas {
-            let known = self.antennas.iter().find(|known| known.id == antenna.id);
+            let known = self.antennas.iter().find(|known| known.id() == antenna.id());
             antenna.keep_pressed(known.and_then(|known| known.stop_pressed));
         }
-        let is_same = antennas.iter().map(|of| of.id).eq(self.antennas.iter().map(|of| of.id));
         self.antennas = antennas;
-        if !is_same || self.wires.len() != self.antennas.len() {
-            let wire = |antenna: &AntennaModel| station.wire(antenna.id).unwrap_or_default();
-            self.wires = self.antennas.iter().map(wire).collect();
-        }
+        let wire = |antenna: &AntennaModel| station.wire(antenna.id()).unwrap_or_default();
+        self.wires = self.antennas.iter().map(wire).collect();
         if renewed && self.selected_pass().is_none() {
             self.selected = self.next_pass().map(Forecast::key);
+        }
+    }
+
+    /// The station has shown nothing new for so long.
+    pub fn watch_station(&mut self, stood: Option<Duration>) {
+        let stands = |kind: &AlarmKind| matches!(kind, AlarmKind::StationStands(_));
+        match stood {
+            Some(stood) => self.alarms.raise(None, AlarmKind::StationStands(stood), self.now),
+            None => self.alarms.clear(None, stands),
         }
     }
 

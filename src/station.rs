@@ -15,7 +15,7 @@ mod read;
 mod setting;
 mod watch;
 
-pub use antenna::{Antenna, Direction, MotionLimits, PollRates};
+pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
 pub use calibration::{CalibrationError, CountLine, CountPoint};
 pub use connection::Connection;
 pub(crate) use connection::check_address;

@@ -21,7 +21,7 @@ use azel::{
     engine::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind},
-        antenna::{AntennaId, AntennaModel},
+        antenna::AntennaModel,
         claim::HolderKind,
         forecast::Forecast,
         status::{AntennaStatus, LinkStatus},
@@ -29,7 +29,7 @@ use azel::{
     orbit::bundled,
     plan::{Follow, Target},
     sim::{rc2000c, rotator_genius, satrak},
-    station::{self, Antenna, OnClose, Station},
+    station::{self, Antenna, AntennaId, OnClose, Station},
 };
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
@@ -164,7 +164,7 @@ fn status(client: &Client, name: &str) -> AntennaStatus {
 }
 
 fn id(client: &Client, name: &str) -> AntennaId {
-    named(&client.snapshot(), name).id
+    named(&client.snapshot(), name).id()
 }
 
 fn send(client: &Client, antenna: AntennaId, command: driver::Command) {
@@ -284,7 +284,9 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     assert_eq!(mast.moves, None);
     let told = client.snapshot();
     let says_so = |alarm: &Alarm| {
-        !alarm.cleared && alarm.antenna.is_none() && matches!(alarm.kind, AlarmKind::Elsewhere(_))
+        !alarm.cleared
+            && alarm.antenna.is_none()
+            && matches!(alarm.kind, AlarmKind::StationElsewhere(_))
     };
     assert!(told.alarms.list().iter().any(says_so));
     // A motion that is asked for there goes nowhere.
@@ -299,7 +301,8 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     drop(first);
     wait_for("it takes over", || is_measured(client, "Mast"));
     let told = client.snapshot();
-    let is_over = |alarm: &Alarm| alarm.cleared || !matches!(alarm.kind, AlarmKind::Elsewhere(_));
+    let is_over =
+        |alarm: &Alarm| alarm.cleared || !matches!(alarm.kind, AlarmKind::StationElsewhere(_));
     assert!(told.alarms.list().iter().all(is_over));
 }
 

@@ -1,12 +1,13 @@
 //! Carries out what the views asked for.
 
-use std::{sync::atomic::Ordering, time::Instant};
+use std::sync::atomic::Ordering;
 
 use super::App;
 use crate::{
     driver,
-    engine::{Command, antenna::AntennaId, forecast::Forecast},
+    engine::{Command, Stopped, antenna::AntennaModel, forecast::Forecast},
     model::UiCommand,
+    station::AntennaId,
     ui::theme,
 };
 
@@ -25,15 +26,16 @@ impl App {
     }
 
     /// STOP is shown as pressed from this frame on.
-    fn show_stopped(&mut self, stopped: &[AntennaId]) {
-        for antenna in self.model.antennas.iter_mut().filter(|of| stopped.contains(&of.id)) {
-            antenna.stop_pressed = Some(Instant::now());
+    fn show_stopped(&mut self, stopped: &Stopped) {
+        let antennas = self.model.antennas.iter_mut();
+        for antenna in antennas.filter(|of| stopped.antennas.contains(&of.id())) {
+            antenna.stop_pressed = Some(stopped.at);
         }
     }
 
     /// The antenna that is shown at this place.
     fn id(&self, index: usize) -> Option<AntennaId> {
-        self.model.antennas.get(index).map(|antenna| antenna.id)
+        self.model.antennas.get(index).map(AntennaModel::id)
     }
 
     pub(super) fn carry_out(&mut self, command: UiCommand, ctx: &egui::Context) {

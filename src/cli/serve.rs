@@ -176,12 +176,13 @@ pub fn until_the_end(
         // A second: what is shown by ages alone.
         let wake = woken.recv_timeout(Duration::from_secs(1));
         while station.next_event().is_some() {}
-        reporter.tell(station.take(), tell);
+        station.take();
+        reporter.tell(station.snapshot(), tell);
         if wake == Ok(Wake::End) || !station.runs() {
             break;
         }
     }
-    let how = match CloseHow::of(&station.take().station) {
+    let how = match CloseHow::of(&station.snapshot().station) {
         // Parking takes longer than the operating system waits.
         None | Some(CloseHow::Hold | CloseHow::Park) => CloseHow::Hold,
         Some(CloseHow::Leave) => CloseHow::Leave,
@@ -193,13 +194,15 @@ pub fn until_the_end(
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
     let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));
+    let mut may_end = false;
     loop {
         let left = end.saturating_duration_since(Instant::now());
         // Further signals do not change what is done already.
         let _ = woken.recv_timeout(left.min(Duration::from_millis(100)));
-        let snapshot = Arc::clone(station.take());
+        station.take();
+        let snapshot = Arc::clone(station.snapshot());
         reporter.tell(&snapshot, tell);
-        let may_end = std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
+        may_end |= std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
         let stand = !snapshot.antennas.iter().any(open);
         if (may_end && stand) || left.is_zero() || !station.runs() {
             let names = snapshot.antennas.iter().filter(|antenna| open(antenna));
@@ -243,7 +246,8 @@ impl Reporter {
             if self.alarms.contains_key(&alarm.id) {
                 continue;
             }
-            let antenna = alarm.antenna.and_then(|index| station.antennas.get(index));
+            let antenna =
+                alarm.antenna.and_then(|id| station.antennas.iter().find(|of| of.id() == id));
             let name = antenna.map(|antenna| antenna.config.name.clone());
             let text = words::alarm(&alarm.kind, name.as_deref().unwrap_or_default());
             say(tell, name.as_deref(), About::Alarm, text.clone());

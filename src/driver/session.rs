@@ -37,6 +37,7 @@ use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
+pub use jog::LEASE as JOG_LEASE;
 
 use super::{
     AntennaHandle, Asked, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Orders,
@@ -66,7 +67,7 @@ use step::Stepping;
 use supervise::Doubt;
 use wanted::Wanted;
 
-/// The far ends of the channels to the window. They outlive a session that
+/// The far ends of the channels to the station. They outlive a session that
 /// breaks down: the next one takes them over.
 #[derive(Clone)]
 pub struct Wires {
@@ -148,7 +149,7 @@ impl Wires {
         self.stopper.stop();
     }
 
-    /// Tells the window.
+    /// Tells the station.
     pub(super) fn tell(&self, event: Event) {
         if let Err(error) = self.events.try_send(event) {
             tracing::warn!(%error, "nobody reads the events; one was dropped");

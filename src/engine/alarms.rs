@@ -13,7 +13,7 @@ use crate::{
     },
     driver::{Event, FollowProblem, Found, LinkLoss, Safety, Unit},
     plan::on_board::Ranked,
-    station::{Note, NoteReason},
+    station::{AntennaId, Note, NoteReason},
 };
 
 /// Older ones are forgotten, seen ones first.
@@ -37,7 +37,7 @@ pub enum AlarmKind {
     StopNotConfirmed,
     /// The unit refused STOP, with this code.
     StopRefused(String),
-    /// A jog was stopped because the window was too busy to renew it.
+    /// A jog was stopped because the window or the station was too busy to renew it.
     JogLeaseOver,
     /// A jog was stopped because the position grew too old.
     JogPositionOld,
@@ -87,9 +87,13 @@ pub enum AlarmKind {
     /// The part of the program that talks to the antennas has not responded for
     /// this long.
     DriverStands(Duration),
-    /// Another Azel of this machine has this station open, or drives this unit: nothing
-    /// is driven from here.
-    Elsewhere(HeldBy),
+    /// The part of the program that runs the station has shown nothing new for this
+    /// long; what is shown is as old.
+    StationStands(Duration),
+    /// Another Azel of this machine has this station open: nothing is driven from here.
+    StationElsewhere(HeldBy),
+    /// Another Azel of this machine drives this unit.
+    UnitElsewhere(HeldBy),
     /// Work of the program itself broke off.
     BrokeOff(Work),
     /// A source of elements, by its name, is not read: the last reading of it
@@ -129,7 +133,7 @@ pub struct Alarm {
     /// Never used twice.
     pub id: u64,
     /// The antenna that it is about.
-    pub antenna: Option<usize>,
+    pub antenna: Option<AntennaId>,
     /// What happened.
     pub kind: AlarmKind,
     /// When.
@@ -150,7 +154,9 @@ impl Alarm {
             | AlarmKind::Safety(_)
             | AlarmKind::Owed(_)
             | AlarmKind::DriverStands(_)
-            | AlarmKind::Elsewhere(_)
+            | AlarmKind::StationStands(_)
+            | AlarmKind::StationElsewhere(_)
+            | AlarmKind::UnitElsewhere(_)
             | AlarmKind::LockOutUnproved
             | AlarmKind::LockOuts(_)
             | AlarmKind::StartedByItself
@@ -184,8 +190,8 @@ impl Alarms {
 
     /// Adds one, unless the same is standing already or one that explains it. It
     /// takes the place of what it makes obsolete.
-    pub fn raise(&mut self, antenna: Option<usize>, kind: AlarmKind, time: Timestamp) {
-        if let AlarmKind::DriverStands(_) = kind {
+    pub fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, time: Timestamp) {
+        if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind {
             let same = |alarm: &Alarm| !alarm.cleared && same_matter(&alarm.kind, &kind);
             // How long it stands grows while the alarm does.
             if let Some(place) = self.list.iter().position(same) {
@@ -217,7 +223,7 @@ impl Alarms {
     }
 
     /// What `is_over` says is over.
-    pub fn clear(&mut self, antenna: Option<usize>, is_over: impl Fn(&AlarmKind) -> bool) {
+    pub fn clear(&mut self, antenna: Option<AntennaId>, is_over: impl Fn(&AlarmKind) -> bool) {
         let ends =
             |alarm: &Alarm| alarm.antenna == antenna && !alarm.cleared && is_over(&alarm.kind);
         if !self.list.iter().any(ends) {
@@ -258,7 +264,9 @@ impl AlarmKind {
                 | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
                 | Self::Owed(_)
                 | Self::DriverStands(_)
-                | Self::Elsewhere(_)
+                | Self::StationStands(_)
+                | Self::StationElsewhere(_)
+                | Self::UnitElsewhere(_)
                 | Self::BrokeOff(_)
                 | Self::SourceSetAside(_)
                 | Self::LockOutUnproved
@@ -283,7 +291,9 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
         | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
-        | (AlarmKind::Elsewhere(_), AlarmKind::Elsewhere(_))
+        | (AlarmKind::StationStands(_), AlarmKind::StationStands(_))
+        | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
+        | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
         | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
         (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
         (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
@@ -380,12 +390,12 @@ mod tests {
     #[test]
     fn the_same_matter_stands_once_and_comes_again_after_it_was_over() {
         let mut alarms = Alarms::default();
-        alarms.raise(Some(0), AlarmKind::ClockOff(1.5), time());
-        alarms.raise(Some(0), AlarmKind::ClockOff(1.6), time());
-        alarms.raise(Some(1), AlarmKind::ClockOff(1.6), time());
+        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(1.5), time());
+        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(1.6), time());
+        alarms.raise(Some(AntennaId(2)), AlarmKind::ClockOff(1.6), time());
         assert_eq!(alarms.list().len(), 2);
-        alarms.clear(Some(0), |kind| matches!(kind, AlarmKind::ClockOff(_)));
-        alarms.raise(Some(0), AlarmKind::ClockOff(2.0), time());
+        alarms.clear(Some(AntennaId::FIRST), |kind| matches!(kind, AlarmKind::ClockOff(_)));
+        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(2.0), time());
         assert_eq!(alarms.list().len(), 3);
     }
 
@@ -424,12 +434,12 @@ mod tests {
         for order in orders {
             let mut alarms = Alarms::default();
             for kind in order {
-                alarms.raise(Some(0), kind, time());
+                alarms.raise(Some(AntennaId::FIRST), kind, time());
             }
             let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
             assert_eq!(kinds, [&COMMAS]);
-            alarms.raise(Some(1), unreadable.clone(), time());
-            alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), time());
+            alarms.raise(Some(AntennaId(2)), unreadable.clone(), time());
+            alarms.raise(Some(AntennaId::FIRST), AlarmKind::LinkLost(LinkLoss::Closed), time());
             assert_eq!(alarms.list().len(), 3, "another antenna, another loss");
         }
     }
@@ -450,8 +460,8 @@ mod tests {
         let check = Check::new("X position sensor", CheckState::Fault, "Look at it.");
         let told = Check { told: "Not connected".into(), ..check.clone() };
         let mut alarms = Alarms::default();
-        alarms.raise(Some(0), AlarmKind::Check(check), time());
-        alarms.raise(Some(0), AlarmKind::Check(told), time());
+        alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(check), time());
+        alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(told), time());
         assert_eq!(alarms.list().len(), 1);
     }
 

@@ -17,7 +17,7 @@ use crate::{
     controller::{Make, Measured, Phase, panel::Act, settings::Group},
     driver::{Event, Intent, Snapshot, StopState},
     plan::{FollowPhase, Sample, on_board::KnownOrbit},
-    station::Antenna,
+    station::{Antenna, AntennaId},
 };
 
 /// Rates are taken over at least this long, so that rounding does not show.
@@ -34,15 +34,9 @@ pub struct Prediction {
     pub direction: AzEl,
 }
 
-/// Names an antenna for as long as it is in the station.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct AntennaId(pub u64);
-
 /// One antenna.
 #[derive(Debug, Clone)]
 pub struct AntennaModel {
-    /// Names it.
-    pub id: AntennaId,
     /// What it is.
     pub config: Antenna,
     /// What its session told last.
@@ -80,9 +74,8 @@ pub struct AntennaModel {
 
 impl AntennaModel {
     /// An antenna whose session has just begun.
-    pub fn new(id: AntennaId, config: Antenna, snapshot: Arc<Snapshot>) -> Self {
+    pub fn new(config: Antenna, snapshot: Arc<Snapshot>) -> Self {
         Self {
-            id,
             config,
             snapshot,
             prediction: None,
@@ -100,6 +93,11 @@ impl AntennaModel {
             orbit: None,
             recent: VecDeque::new(),
         }
+    }
+
+    /// Names it for good.
+    pub fn id(&self) -> AntennaId {
+        self.config.id
     }
 
     /// Goes on showing STOP as pressed that the station has not heard of yet.

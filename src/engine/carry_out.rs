@@ -5,18 +5,18 @@ use std::sync::Arc;
 use super::{
     Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
-    antenna::AntennaId,
     forecast::{Forecast, PassKey},
+    handle::Stopped,
     sources::{self, SourceWork, Task},
 };
 use crate::{
     driver,
-    station::{self, Station},
+    station::{self, AntennaId, Station},
 };
 
 impl Engine {
     pub(super) fn carry_out(&mut self, command: Command) {
-        if self.is_elsewhere(&command) {
+        if self.is_elsewhere(&command) || self.is_void(&command) {
             return;
         }
         self.note_track(&command);
@@ -80,18 +80,20 @@ impl Engine {
         }
     }
 
+    /// Whether a STOP came after a motion was asked for.
+    fn is_void(&self, command: &Command) -> bool {
+        let antenna = command.antenna().and_then(|id| self.place(id));
+        let antenna = antenna.and_then(|place| self.antennas.get(place));
+        let is_void =
+            |number| antenna.is_some_and(|antenna| antenna.handle.stopper().is_void(number));
+        command.may_move() && self.asked.is_some_and(is_void)
+    }
+
     /// Whether what is asked for is for an antenna that another Azel drives, which is
     /// told then.
     fn is_elsewhere(&mut self, command: &Command) -> bool {
-        let (Command::Antenna(id, _)
-        | Command::Track { antenna: id, .. }
-        | Command::FollowPass { antenna: id, .. }) = command
-        else {
-            return false;
-        };
-        let Some(antenna) = self.place(*id).and_then(|place| self.antennas.get_mut(place)) else {
-            return false;
-        };
+        let Some(place) = command.antenna().and_then(|id| self.place(id)) else { return false };
+        let Some(antenna) = self.antennas.get_mut(place) else { return false };
         let Some(by) = &antenna.shown.held_by else { return false };
         let refusal = driver::Refusal::Elsewhere(by.to_string());
         antenna.shown.news = Some((driver::Event::NotSent(refusal), self.now));
@@ -108,14 +110,22 @@ impl Engine {
     /// Past every queue, also to a unit that has to be connected for it.
     pub(super) fn stop_one(&mut self, index: usize) {
         if let Some(antenna) = self.antennas.get(index) {
-            antenna.handle.stop();
-            let id = antenna.shown.id;
-            self.note_stops(&[id], self.steady);
+            let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
+            let stopped = Stopped {
+                at: self.steady,
+                antennas: vec![id],
+                tracked: stopper.tracks().then_some(id).into_iter().collect(),
+                is_for_all: false,
+                newest_session: antenna.session,
+            };
+            stopper.stop();
+            self.note_stop(&stopped);
         }
     }
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let of = Some(antenna.shown.id());
         if !matches!(command, driver::Command::ReadGroup(_) | driver::Command::EndJog) {
             antenna.shown.asks_unseen = None;
         }
@@ -124,7 +134,7 @@ impl Engine {
             // By the operator's word, whatever the unit says of itself.
             driver::Command::SeenStanding => {
                 let alarms = &mut self.alarms;
-                alarms.clear(Some(index), |kind| *kind == AlarmKind::StopNotConfirmed);
+                alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
             }
             _ => {}
         }
@@ -135,7 +145,7 @@ impl Engine {
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
             self.stop_one(index);
         }
-        self.alarms.raise(Some(index), AlarmKind::NotTaken, self.now);
+        self.alarms.raise(of, AlarmKind::NotTaken, self.now);
     }
 
     fn track(&mut self, index: usize, pass: PassKey, is_agreed: bool) {

@@ -40,10 +40,10 @@ impl Engine {
                     tracing::warn!(%error, "no socket for other programs");
                 }
                 self.station_claim = StationClaim::Ours { _claim: claim };
-                self.alarms.clear(None, |kind| matches!(kind, AlarmKind::Elsewhere(_)));
+                self.alarms.clear(None, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
             }
             Err(Unclaimed::Held(by)) => {
-                self.alarms.raise(None, AlarmKind::Elsewhere(by.clone()), self.now);
+                self.alarms.raise(None, AlarmKind::StationElsewhere(by.clone()), self.now);
                 self.station_claim = StationClaim::Theirs(by);
             }
             Err(Unclaimed::Io(error)) => {
@@ -107,16 +107,17 @@ impl Engine {
             let Some(antenna) = self.antennas.get(index) else { continue };
             let Some(by) = antenna.shown.held_by.clone() else { continue };
             let config = antenna.shown.config.clone();
+            let of = Some(config.id);
             let bounds = crate::plan::Bounds::of(&self.station, &config);
             let opened = self.open_antenna(config, bounds);
             if opened.shown.held_by.is_some() {
-                self.alarms.raise(Some(index), AlarmKind::Elsewhere(by), self.now);
+                self.alarms.raise(of, AlarmKind::UnitElsewhere(by), self.now);
                 continue;
             }
             if let Some(antenna) = self.antennas.get_mut(index) {
                 *antenna = opened;
             }
-            self.alarms.clear(Some(index), |kind| matches!(kind, AlarmKind::Elsewhere(_)));
+            self.alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
         }
     }
 }

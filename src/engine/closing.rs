@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::{Engine, Event as Told, antenna::Stake};
 use crate::{
     driver::{Command, Event, Intent, StopState},
-    station::{OnClose, Station},
+    station::{AntennaId, OnClose, Station},
 };
 
 /// A STOP is told as not proved before that.
@@ -29,8 +29,8 @@ pub enum CloseHow {
 pub struct Closing {
     /// What the operator has said.
     pub how: CloseHow,
-    /// The antennas that are waited for, by their index.
-    pub waits_for: Vec<(usize, Wanted)>,
+    /// The antennas that are waited for.
+    pub waits_for: Vec<(AntennaId, Wanted)>,
     since: Instant,
 }
 
@@ -61,30 +61,31 @@ impl Engine {
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get(index) else { continue };
             let antenna = &antenna.shown;
+            let id = antenna.id();
             let Some(stake) = antenna.stake() else { continue };
             if how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
                 continue;
             }
             if how == CloseHow::Park && antenna.can_park() {
                 self.send(index, Command::Park);
-                waits_for.push((index, Wanted::Parked));
+                waits_for.push((id, Wanted::Parked));
                 continue;
             }
             // What was told as not proved once is not waited for again: a unit that
-            // cannot be reached must not keep the window open.
+            // cannot be reached must not hold up the end.
             let was_told = matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
             self.stop_one(index);
             if !was_told {
-                waits_for.push((index, Wanted::Still));
+                waits_for.push((id, Wanted::Still));
             }
         }
         self.closing = Some(Closing { how, waits_for, since: self.steady });
     }
 
     /// Takes what an antenna has told while it is waited for.
-    pub(super) fn take_closing_event(&mut self, index: usize, event: &Event) {
+    pub(super) fn take_closing_event(&mut self, id: AntennaId, event: &Event) {
         let Some(closing) = &mut self.closing else { return };
-        let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == index) else { return };
+        let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == id) else { return };
         let Some((_, wanted)) = closing.waits_for.get(place) else { return };
         let is_done = match (wanted, event) {
             (Wanted::Still, Event::Stopped) | (Wanted::Parked, Event::Arrived(_)) => true,
@@ -111,8 +112,10 @@ impl Engine {
     pub(super) fn watch_closing(&mut self) {
         let Some(closing) = &self.closing else { return };
         let age = self.steady.saturating_duration_since(closing.since);
-        let fails = |(index, wanted): &(usize, Wanted)| {
-            let Some(antenna) = self.antennas.get(*index) else { return false };
+        let fails = |(id, wanted): &(AntennaId, Wanted)| {
+            let Some(antenna) = self.place(*id).and_then(|place| self.antennas.get(place)) else {
+                return false;
+            };
             match wanted {
                 Wanted::Still => age > STOPPED_IN,
                 Wanted::Parked => age > TAKEN_IN && antenna.shown.snapshot.intent != Intent::Park,

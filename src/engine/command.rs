@@ -3,13 +3,16 @@
 use std::path::PathBuf;
 
 use super::{
-    antenna::AntennaId,
     closing::CloseHow,
     forecast::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
     uploads,
 };
-use crate::{driver, orbit::Source, station::Station};
+use crate::{
+    driver,
+    orbit::Source,
+    station::{AntennaId, Station},
+};
 
 /// What a client of a station asks for. A STOP is none of these: it goes past them.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,6 +101,16 @@ pub struct Attention {
 }
 
 impl Command {
+    /// The antenna that it would move, if it is about one.
+    pub fn antenna(&self) -> Option<AntennaId> {
+        match self {
+            Self::Antenna(antenna, _)
+            | Self::Track { antenna, .. }
+            | Self::FollowPass { antenna, .. } => Some(*antenna),
+            _ => None,
+        }
+    }
+
     /// Whether it may move an antenna. A stop at the same time voids it.
     pub fn may_move(&self) -> bool {
         match self {
@@ -106,6 +119,7 @@ impl Command {
             }
             Self::Track { .. }
             | Self::FollowPass { .. }
+            | Self::CloseAfter(CloseHow::Park)
             | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,
         }

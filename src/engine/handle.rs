@@ -2,17 +2,18 @@
 
 use std::{
     io,
-    sync::Arc,
+    sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc::RecvTimeoutError},
     time::{Duration, Instant},
 };
 
-use tokio::sync::{mpsc, watch};
+use tokio::sync::{Notify, mpsc, watch};
 
-use super::{Command, Engine, Settings, Snapshot, antenna::AntennaId};
+use super::{Command, Engine, Settings, Snapshot};
 use crate::{
     clock::Clock,
     driver::{Orders, Stopper, WireLog},
     job::Wake,
+    station::AntennaId,
 };
 
 /// How many requests may wait: a client sends a few a frame.
@@ -22,14 +23,40 @@ const EVENTS: usize = 256;
 /// A station ends within this: its sessions say their last STOP.
 const FAREWELL: Duration = Duration::from_secs(8);
 
-/// What goes to the thread of a station.
-pub(super) enum Request {
-    /// With its number among all that was asked for.
-    Command(Command, u64),
-    /// STOP went to these antennas.
-    Stopped(Vec<AntennaId>, Instant),
+/// A station that shows nothing new for so long stands.
+const STANDS: Duration = Duration::from_secs(2);
+
+/// What goes to the thread of a station: a command, its number among all that was asked
+/// for, and when it was asked for.
+pub(super) struct Request {
+    pub(super) command: Command,
+    pub(super) number: u64,
+    pub(super) at: Instant,
+}
+
+/// What must reach the station however many requests wait.
+#[derive(Default)]
+pub(super) struct Urgent {
+    pub(super) stops: Vec<Stopped>,
     /// The station ends, and nobody can be asked.
-    EndUnasked,
+    pub(super) ends_unasked: bool,
+    /// A request found no room.
+    pub(super) is_overrun: bool,
+}
+
+/// A STOP that has gone to the sessions already.
+#[derive(Debug, Clone)]
+pub struct Stopped {
+    /// When.
+    pub at: Instant,
+    /// The antennas that it went to.
+    pub antennas: Vec<AntennaId>,
+    /// Those of them that tracked then.
+    pub(super) tracked: Vec<AntennaId>,
+    /// It was for all that are connected or were moved.
+    pub(super) is_for_all: bool,
+    /// Sessions that began later have not heard it.
+    pub(super) newest_session: u64,
 }
 
 /// Something that a client is to know once.
@@ -46,6 +73,8 @@ pub enum Event {
 /// What a station publishes.
 #[derive(Clone)]
 pub(super) struct Published {
+    /// When.
+    pub(super) at: Instant,
     pub(super) snapshot: Arc<Snapshot>,
     /// By the place of the antenna.
     pub(super) ends: Arc<[AntennaEnds]>,
@@ -54,6 +83,7 @@ pub(super) struct Published {
 /// What goes past the station to and from an antenna.
 pub(super) struct AntennaEnds {
     pub(super) id: AntennaId,
+    pub(super) session: u64,
     pub(super) stopper: Stopper,
     pub(super) wire: WireLog,
 }
@@ -62,6 +92,9 @@ pub(super) struct AntennaEnds {
 #[derive(Clone)]
 pub struct Client {
     requests: mpsc::WeakSender<Request>,
+    urgent: Arc<Mutex<Urgent>>,
+    /// Wakes the station.
+    woken: Arc<Notify>,
     orders: Orders,
     published: watch::Receiver<Published>,
 }
@@ -69,55 +102,71 @@ pub struct Client {
 impl Client {
     pub(super) fn new(
         requests: mpsc::WeakSender<Request>,
+        woken: Arc<Notify>,
         orders: Orders,
         published: watch::Receiver<Published>,
     ) -> Self {
-        Self { requests, orders, published }
+        Self { requests, urgent: Arc::default(), woken, orders, published }
     }
 
     /// Hands over a command. It comes back when the station is too busy to take it or
-    /// has ended, which must be told to the operator.
+    /// has ended; a station that is too busy tells the operator when it is not any more.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         let number = self.orders.next();
         let Some(requests) = self.requests.upgrade() else { return Err(command) };
-        match requests.try_reserve() {
-            Ok(place) => {
-                place.send(Request::Command(command, number));
-                Ok(())
-            }
-            Err(_) => Err(command),
-        }
+        let Ok(place) = requests.try_reserve() else {
+            self.urgent().is_overrun = true;
+            return Err(command);
+        };
+        place.send(Request { command, number, at: Instant::now() });
+        Ok(())
     }
 
     /// Stops every antenna that is connected or was moved from here: past every queue,
-    /// never refused. Those that it goes to.
-    pub fn stop_all(&self) -> Vec<AntennaId> {
-        self.stop_those(|ends| ends.stopper.is_wanted())
+    /// never refused. What was asked of the others is void too.
+    pub fn stop_all(&self) -> Stopped {
+        self.stop_those(None)
     }
 
     /// Stops one antenna, also where that takes a connection.
-    pub fn stop(&self, antenna: AntennaId) -> Vec<AntennaId> {
-        self.stop_those(|ends| ends.id == antenna)
+    pub fn stop(&self, antenna: AntennaId) -> Stopped {
+        self.stop_those(Some(antenna))
     }
 
-    fn stop_those(&self, wanted: impl Fn(&AntennaEnds) -> bool) -> Vec<AntennaId> {
+    fn stop_those(&self, one: Option<AntennaId>) -> Stopped {
         // What the station has now, whatever is shown.
         let ends = Arc::clone(&self.published.borrow().ends);
-        let stopped: Vec<AntennaId> = (ends.iter().filter(|ends| wanted(ends)))
-            .map(|ends| {
-                ends.stopper.stop();
-                ends.id
-            })
-            .collect();
-        // A station that is too busy to hear of it shows what the sessions tell.
-        self.request(Request::Stopped(stopped.clone(), Instant::now()));
+        let mut stopped = Stopped {
+            at: Instant::now(),
+            antennas: Vec::new(),
+            tracked: Vec::new(),
+            is_for_all: one.is_none(),
+            newest_session: ends.iter().map(|ends| ends.session).max().unwrap_or_default(),
+        };
+        for AntennaEnds { id, stopper, .. } in ends.iter() {
+            if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
+                // The session may be quicker than these lines.
+                if stopper.tracks() {
+                    stopped.tracked.push(*id);
+                }
+                stopper.stop();
+                stopped.antennas.push(*id);
+            } else if one.is_none() {
+                stopper.forget();
+            }
+        }
+        // One of an antenna that is opened anew right now is not among them.
+        if let Some(one) = one.filter(|_| stopped.antennas.is_empty()) {
+            stopped.antennas.push(one);
+        }
+        self.urgent().stops.push(stopped.clone());
+        self.woken.notify_one();
         stopped
     }
 
-    fn request(&self, request: Request) {
-        if let Some(requests) = self.requests.upgrade() {
-            drop(requests.try_send(request));
-        }
+    pub(super) fn urgent(&self) -> MutexGuard<'_, Urgent> {
+        // No code panics while it holds the lock.
+        self.urgent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What is published last.
@@ -174,12 +223,25 @@ impl Handle {
         &self.client
     }
 
-    /// Takes what is published last.
-    pub fn take(&mut self) -> &Arc<Snapshot> {
-        if self.client.published.has_changed().unwrap_or_default() {
+    /// Takes what is published last; `false` where that is known already.
+    pub fn take(&mut self) -> bool {
+        let is_new = self.client.published.has_changed().unwrap_or_default();
+        if is_new {
             self.shown = self.client.published.borrow_and_update().clone();
         }
+        is_new
+    }
+
+    /// What was taken last.
+    pub fn snapshot(&self) -> &Arc<Snapshot> {
         &self.shown.snapshot
+    }
+
+    /// For how long the station has shown nothing new, from two seconds on: it does
+    /// each second.
+    pub fn stood_for(&self) -> Option<Duration> {
+        let stood = self.client.published.borrow().at.elapsed();
+        (stood >= STANDS).then_some(stood)
     }
 
     /// What went over the link of an antenna.
@@ -200,15 +262,22 @@ impl Handle {
 
     /// Does what the station file says for the end, where nobody can be asked.
     pub fn end_unasked(&self) {
-        self.client.request(Request::EndUnasked);
+        self.client.urgent().ends_unasked = true;
+        self.client.woken.notify_one();
+    }
+
+    /// Begins to end the station. What is published last stays.
+    pub fn begin_end(&mut self) {
+        let (closed, _) = mpsc::channel(1);
+        self.requests = closed;
     }
 }
 
 impl Drop for Handle {
     fn drop(&mut self) {
-        let (closed, _) = mpsc::channel(1);
-        drop(std::mem::replace(&mut self.requests, closed));
-        if self.ended.recv_timeout(FAREWELL).is_err() {
+        self.begin_end();
+        // One that broke down tells nothing.
+        if self.ended.recv_timeout(FAREWELL) == Err(RecvTimeoutError::Timeout) {
             tracing::error!("the station did not end in time");
         }
     }

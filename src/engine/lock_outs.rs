@@ -45,11 +45,11 @@ impl Engine {
         }
     }
 
-    /// Other antennas are taken into use: a lock-out stays with its row.
-    pub(super) fn keep_rows_locked_out(&mut self, after: &[Antenna]) {
+    /// Other antennas are taken into use: a lock-out stays with its antenna.
+    pub(super) fn keep_locked_out(&mut self, after: &[Antenna]) {
         let antennas = self.antennas.iter();
         let before: Vec<Antenna> = antennas.map(|antenna| antenna.shown.config.clone()).collect();
-        if self.lock_outs.stay_with_rows(&before, after) {
+        if self.lock_outs.stay_with_antennas(&before, after) {
             self.keep_lock_outs();
         }
     }
@@ -75,8 +75,8 @@ impl Engine {
         }
     }
 
-    /// Tells a session what it does not know yet. A command may be lost to a STOP, so
-    /// it is asked until the session says the same.
+    /// Tells a session what it does not know yet, until the session says the same: a STOP
+    /// voids what is taken off.
     pub(super) fn tell_lock_out(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let wanted = self.lock_outs.of(&antenna.shown.config.connection);

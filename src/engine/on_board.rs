@@ -165,7 +165,7 @@ impl Engine {
     /// Alarms that follow from how a unit tracks by itself, or would.
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
-        let (alarms, now, of) = (&mut self.alarms, self.now, Some(index));
+        let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
         let running = antenna.snapshot.on_board.as_ref();
         let missed = running.and_then(|view| {
             let cause = view.found.causes.first().cloned();

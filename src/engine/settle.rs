@@ -12,7 +12,7 @@ use crate::{
 };
 
 impl Engine {
-    /// The name and index of the antenna of a change that must wait for a copy.
+    /// Whether a change must wait for a copy of what it replaces.
     fn needs_copy(&self, index: usize, change: &Change) -> bool {
         let Some(antenna) = self.antennas.get(index) else { return false };
         let group = antenna.shown.groups().iter().find(|group| group.key == change.group);
@@ -33,16 +33,24 @@ impl Engine {
             Ok(()) => {
                 self.copy_work.waiting = Some(Waiting { antenna: name, changes: vec![change] });
             }
-            Err(why) => self.service_not_sent(index, &why),
+            Err(why) => self.service_not_sent(index, &not_saved(&why)),
+        }
+    }
+
+    /// A STOP voids what still waits for its copy.
+    pub(super) fn drop_waiting_settings(&mut self) {
+        let Some(waiting) = self.copy_work.waiting.take() else { return };
+        let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
+        if let Some(index) = names.into_iter().position(|name| name == waiting.antenna) {
+            self.service_not_sent(index, "STOP was pressed meanwhile");
         }
     }
 
     fn service_not_sent(&mut self, index: usize, why: &str) {
-        let text = format!(
-            "no service setting was sent, for the old values could not be saved first: {why}"
-        );
+        let text = format!("no service setting was sent, because {why}");
         tracing::error!("{text}");
-        self.alarms.raise(Some(index), AlarmKind::Settings(text), self.now);
+        let of = self.antennas.get(index).map(|antenna| antenna.shown.id());
+        self.alarms.raise(of, AlarmKind::Settings(text), self.now);
     }
 
     /// Saves what is known of the settings of an antenna.
@@ -92,7 +100,7 @@ impl Engine {
         let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
         let Some(index) = names.into_iter().position(|name| name == antenna) else { return };
         match failure {
-            Some(why) => self.service_not_sent(index, &why),
+            Some(why) => self.service_not_sent(index, &not_saved(&why)),
             None => {
                 for change in waiting.changes {
                     self.send(index, driver::Command::Settle(change));
@@ -100,4 +108,8 @@ impl Engine {
             }
         }
     }
+}
+
+fn not_saved(why: &str) -> String {
+    format!("the old values could not be saved first: {why}")
 }

@@ -41,7 +41,7 @@ async fn stop_on_signal(station: Client) -> io::Error {
     };
     while stop.recv().await.is_some() {
         let stopped = station.stop_all();
-        tracing::warn!("STOP by signal, to {} antennas", stopped.len());
+        tracing::warn!("STOP by signal, to {} antennas", stopped.antennas.len());
     }
     std::future::pending().await
 }

@@ -10,14 +10,10 @@ use tokio::{
     time::{Instant, timeout, timeout_at},
 };
 
-use super::{
-    Client, Command,
-    antenna::{AntennaId, AntennaModel},
-    status::AntennaStatus,
-};
+use super::{Client, Command, antenna::AntennaModel, status::AntennaStatus};
 use crate::{
     driver::{self, StopState},
-    station::LockOut,
+    station::{AntennaId, LockOut},
 };
 
 /// A question is not longer, bytes.
@@ -161,7 +157,6 @@ async fn answer(ask: Ask, station: Client) -> Answer {
 }
 
 async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
-    let pressed = Instant::now();
     let stopped = match antenna {
         None => station.stop_all(),
         Some(name) => match named(&station, name) {
@@ -169,18 +164,19 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
             None => return unknown(name),
         },
     };
+    let pressed = stopped.at;
     let outcome = |antenna: &AntennaModel| match antenna.snapshot.stop {
-        StopState::Stopped { at } if at >= pressed.into_std() => Some(true),
-        StopState::NotConfirmed { since } if since >= pressed.into_std() => Some(false),
+        StopState::Stopped { at } if at >= pressed => Some(true),
+        StopState::NotConfirmed { since } if since >= pressed => Some(false),
         _ => None,
     };
-    let end = pressed + PROVED_WITHIN;
+    let end = Instant::now() + PROVED_WITHIN;
     let mut told: Vec<(AntennaId, Option<bool>)> =
-        stopped.into_iter().map(|id| (id, None)).collect();
+        stopped.antennas.into_iter().map(|id| (id, None)).collect();
     let snapshot = loop {
         let snapshot = station.snapshot();
         for (id, proved) in &mut told {
-            let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == *id);
+            let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == *id);
             *proved = proved.or_else(|| antenna.and_then(outcome));
         }
         let is_over = told.iter().all(|(_, proved)| proved.is_some());
@@ -189,7 +185,7 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
         }
     };
     let name = |id: AntennaId| {
-        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == id);
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
         antenna.map_or_else(String::new, |antenna| antenna.config.name.clone())
     };
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
@@ -207,7 +203,7 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
     let end = Instant::now() + LOCKED_WITHIN;
     loop {
         let snapshot = station.snapshot();
-        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id == id);
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
         let Some(antenna) = antenna else {
             return Answer::Refused("the antenna is not in the station any more".to_owned());
         };
@@ -228,7 +224,7 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
 fn named(station: &Client, name: &str) -> Option<AntennaId> {
     let snapshot = station.snapshot();
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name);
-    antenna.map(|antenna| antenna.id)
+    antenna.map(AntennaModel::id)
 }
 
 fn unknown(name: &str) -> Answer {

@@ -1,18 +1,13 @@
 //! A track that STOP has ended is offered again for a while.
 
-use std::time::Instant;
-
 use jiff::Timestamp;
 
-use super::{
-    Command, Engine,
-    antenna::{AntennaId, AntennaModel},
-    closing::CloseHow,
-};
+use super::{Command, Engine, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
 use crate::{
     astro::time::add_seconds,
     driver::{self, Intent},
     plan::Follow,
+    station::AntennaId,
 };
 
 /// For so long it is offered, seconds.
@@ -65,24 +60,35 @@ impl Engine {
     pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
         let until = add_seconds(self.now, OFFERED_S);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let command = Command::Antenna(antenna.shown.id, driver::Command::Resume);
+        let command = Command::Antenna(antenna.shown.id(), driver::Command::Resume);
         antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, until });
     }
 
-    /// STOP went to these antennas.
-    pub(super) fn note_stops(&mut self, stopped: &[AntennaId], at: Instant) {
+    /// STOP has gone to the sessions.
+    pub(super) fn note_stop(&mut self, stopped: &Stopped) {
         self.upload_desk.stopped();
         self.stop_elsewhere();
+        self.drop_waiting_settings();
         // While the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.how == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);
-        for antenna in self.antennas.iter_mut().filter(|of| stopped.contains(&of.shown.id)) {
-            let told = antenna.handle.snapshot();
+        for antenna in &mut self.antennas {
+            let id = antenna.shown.id();
+            let is_new = antenna.session > stopped.newest_session;
+            let is_meant = stopped.antennas.contains(&id)
+                || stopped.is_for_all && antenna.handle.stopper().is_wanted();
+            if is_new && is_meant {
+                // Its session was not there yet.
+                antenna.handle.stop();
+            }
+            if !stopped.antennas.contains(&id) {
+                continue;
+            }
             let shown = &mut antenna.shown;
             shown.asks_unseen = None;
-            shown.stop_pressed = Some(at);
-            shown.last_stop = Some(at);
-            if told.intent != Intent::Track {
+            shown.stop_pressed = Some(stopped.at);
+            shown.last_stop = Some(stopped.at);
+            if !stopped.tracked.contains(&id) {
                 continue;
             }
             shown.track_again = shown.ordered_track.take().map(|ordered| {
@@ -102,9 +108,7 @@ impl Engine {
             let is_locked_out = snapshot.lock_out.is_some();
             antenna.track_again.take_if(|again| {
                 let is_gone = match again.command {
-                    Command::Track { pass, .. } | Command::FollowPass { pass, .. } => {
-                        forecasts.find(pass).is_none()
-                    }
+                    Command::Track { pass, .. } => forecasts.find(pass).is_none(),
                     _ => false,
                 };
                 now >= again.until || chosen || is_locked_out || is_gone

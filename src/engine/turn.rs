@@ -143,7 +143,8 @@ impl Engine {
 
     fn take_event(&mut self, index: usize, event: Event) {
         let now = self.now;
-        let antenna = Some(index);
+        let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
+        let antenna = Some(id);
         match &event {
             Event::Back { .. } | Event::Connected(_) => {
                 self.alarms.clear(antenna, |kind| matches!(kind, AlarmKind::LinkLost(_)));
@@ -153,7 +154,7 @@ impl Engine {
             }
             _ => {}
         }
-        self.take_closing_event(index, &event);
+        self.take_closing_event(id, &event);
         if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {
             self.offer_resume(index, name);
         }
@@ -179,7 +180,7 @@ impl Engine {
     fn watch_state(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let snapshot = Arc::clone(&antenna.shown.snapshot);
-        let (alarms, now, of) = (&mut self.alarms, self.now, Some(index));
+        let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.shown.id()));
         if snapshot.stop == StopState::Ready
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {

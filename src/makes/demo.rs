@@ -3,7 +3,7 @@
 use crate::{
     controller::{rc2000c::Calibration, satrak::ELEMENT_FILE},
     sim::satrak::BUNDLED_FILE,
-    station::{Antenna, CountPoint, Mount, Station},
+    station::{Antenna, AntennaId, CountPoint, Mount, Station},
 };
 
 /// Where the three simulated controllers answer.
@@ -21,15 +21,15 @@ impl Station {
     /// The station that is shown before there are settings: one simulated
     /// controller of each make, and well-known weather and research satellites.
     pub fn demo(addresses: &DemoAddresses) -> Self {
-        Self {
-            name: "Demo station".to_owned(),
-            antennas: vec![
-                satrak(&addresses.satrak),
-                Antenna::genius("Genius", &addresses.genius),
-                rc2000c(&addresses.rc2000c),
-            ],
-            ..Self::default()
+        let mut antennas = vec![
+            satrak(&addresses.satrak),
+            Antenna::genius("Genius", &addresses.genius),
+            rc2000c(&addresses.rc2000c),
+        ];
+        for (antenna, number) in antennas.iter_mut().zip(AntennaId::FIRST.0..) {
+            antenna.id = AntennaId(number);
         }
+        Self { name: "Demo station".to_owned(), antennas, ..Self::default() }
     }
 }
 

@@ -148,6 +148,7 @@ impl UiCommand {
             Self::Station(command) => command.may_move(),
             Self::Track { .. }
             | Self::FollowPass { .. }
+            | Self::CloseAfter(CloseHow::Park)
             | Self::TrackAnyway { .. }
             | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,

@@ -10,9 +10,34 @@ use crate::{
     device::Moves,
 };
 
+/// Names an antenna for good: kept in the station file, whatever the antenna is called and
+/// wherever its unit answers. No two antennas of a station have the same.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize,
+)]
+#[serde(transparent)]
+pub struct AntennaId(pub u32);
+
+impl AntennaId {
+    /// Of a station's first antenna.
+    pub const FIRST: Self = Self(1);
+
+    /// The first from `from` on that none of `taken` is.
+    #[must_use]
+    pub fn free(from: Self, taken: &[Self]) -> Self {
+        let mut id = from;
+        while taken.contains(&id) {
+            id = Self(id.0.wrapping_add(1));
+        }
+        id
+    }
+}
+
 /// One controller on one link, with its mount, limits and park position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Antenna {
+    /// Names it for good.
+    pub id: AntennaId,
     /// Shown on its chip.
     pub name: String,
     /// Which controller, and where it answers.

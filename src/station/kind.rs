@@ -4,8 +4,8 @@
 use std::fmt;
 
 use super::{
-    Antenna, Connection, Direction, Following, Monitor, MotionLimits, Mount, PollRates, Resume,
-    Setting, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
+    Antenna, AntennaId, Connection, Direction, Following, Monitor, MotionLimits, Mount, PollRates,
+    Resume, Setting, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
     connection::{check_address, check_line},
 };
 use crate::device::{Make, Moves};
@@ -74,6 +74,7 @@ impl Kind {
     pub fn antenna(&'static self, name: &str, address: &str) -> Antenna {
         let Usual { mount, beam_width_deg, park, limits, poll, follow } = self.usual;
         Antenna {
+            id: AntennaId::FIRST,
             name: name.to_owned(),
             connection: self.connection(address),
             mount,

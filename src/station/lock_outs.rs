@@ -128,19 +128,15 @@ impl LockOuts {
     }
 
     /// The antennas of the station are others now. What is locked out stays so with
-    /// the row of its antenna too, also at a new address or of a new make: whoever
+    /// its antenna too, also at a new address or of a new make: whoever
     /// works on it may be at either. Tells whether that adds anything.
-    pub fn stay_with_rows(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
+    pub fn stay_with_antennas(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
         let known = self.units.len();
-        for (row, old) in before.iter().enumerate() {
+        for old in before {
             let Some(lock_out) = self.units.get(&Unit::of(&old.connection)).cloned() else {
                 continue;
             };
-            let same_name = after.iter().find(|antenna| antenna.name == old.name);
-            let is_new = |antenna: &&Antenna| before.iter().all(|it| it.name != antenna.name);
-            // Renamed and moved at once.
-            let same_row = || after.get(row).filter(is_new).filter(|_| before.len() == after.len());
-            if let Some(antenna) = same_name.or_else(same_row) {
+            if let Some(antenna) = after.iter().find(|antenna| antenna.id == old.id) {
                 self.units.entry(Unit::of(&antenna.connection)).or_insert(lock_out);
             }
         }
@@ -164,6 +160,7 @@ impl LockOuts {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::station::AntennaId;
 
     fn lock_out(reason: &str) -> LockOut {
         LockOut {
@@ -239,8 +236,9 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_out_stays_with_the_row_whose_address_make_or_name_is_changed() {
-        let (dish, mast) = (Antenna::satrak("Dish", "a:1"), Antenna::genius("Mast", "m:1"));
+    fn a_lock_out_stays_with_the_antenna_whose_address_make_name_or_place_is_changed() {
+        let dish = Antenna::satrak("Dish", "a:1");
+        let mast = Antenna { id: AntennaId(2), ..Antenna::genius("Mast", "m:1") };
         let locked = || {
             let mut lock_outs = LockOuts::default();
             lock_outs.set(&dish.connection, Some(lock_out("gear")), std::iter::empty());
@@ -253,7 +251,7 @@ mod tests {
             Antenna::satrak("North dish", "a:2"),
         ] {
             let mut lock_outs = locked();
-            assert!(lock_outs.stay_with_rows(&before, &[changed.clone(), mast.clone()]));
+            assert!(lock_outs.stay_with_antennas(&before, &[mast.clone(), changed.clone()]));
             assert_eq!(lock_outs.of(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
             assert!(lock_outs.of(&dish.connection).is_some(), "the unit itself stays so");
             assert_eq!(lock_outs.of(&mast.connection), None);
@@ -262,8 +260,8 @@ mod tests {
             assert_eq!(lock_outs.of(&changed.connection), None);
         }
         let mut lock_outs = locked();
-        assert!(!lock_outs.stay_with_rows(&before, std::slice::from_ref(&mast)), "deleted");
+        assert!(!lock_outs.stay_with_antennas(&before, std::slice::from_ref(&mast)), "deleted");
         assert_eq!(lock_outs.of(&mast.connection), None);
-        assert!(!lock_outs.stay_with_rows(&before, &before));
+        assert!(!lock_outs.stay_with_antennas(&before, &before));
     }
 }

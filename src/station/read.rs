@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 use toml::{Table, Value};
 
-use super::{Antenna, Kind, OnClose, Station, ranges};
+use super::{Antenna, AntennaId, Kind, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -151,6 +151,7 @@ impl Fields<'_> {
                 return Vec::new();
             }
         };
+        let given: Vec<Option<AntennaId>> = tables.iter().map(given_id).collect();
         let mut antennas: Vec<Antenna> = Vec::new();
         for (index, value) in tables.into_iter().enumerate() {
             let path = format!("antenna[{index}].");
@@ -159,7 +160,11 @@ impl Fields<'_> {
                 continue;
             };
             let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-            if let Some(mut antenna) = fields.antenna(kinds) {
+            // Those that are given count before those that are missing.
+            let later = given.iter().skip(index + 1).flatten().copied();
+            let taken: Vec<AntennaId> =
+                antennas.iter().map(|other| other.id).chain(later).collect();
+            if let Some(mut antenna) = fields.antenna(kinds, &antennas, &taken) {
                 let others: Vec<&str> = antennas.iter().map(|other| &*other.name).collect();
                 let name = Antenna::free_name(&antenna.name, &others);
                 if name != antenna.name {
@@ -199,4 +204,10 @@ impl Fields<'_> {
             self.note(&key, NoteReason::Unknown);
         }
     }
+}
+
+/// The id that stands in the table of an antenna.
+fn given_id(antenna: &Value) -> Option<AntennaId> {
+    let id = antenna.get("id")?.as_integer()?;
+    u32::try_from(id).ok().map(AntennaId)
 }

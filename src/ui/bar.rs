@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         .list()
         .iter()
         .map(|alarm| {
-            let antenna = alarm.antenna.and_then(|index| model.antennas.get(index));
+            let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
             let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
             let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
             let text = words::alarm(&alarm.kind, name) + &reason.unwrap_or_default();
@@ -80,7 +80,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             },
             text,
             time,
-            moves_away: alarm.antenna.filter(|index| {
+            moves_away: alarm.antenna.and_then(|id| model.place(id)).filter(|index| {
                 let antenna = model.antennas.get(*index);
                 !alarm.cleared && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
             }),

@@ -7,7 +7,7 @@ use azel::{
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::{AlarmKind, Work},
     model::{ThemeName, UiCommand},
-    station::{Note, NoteReason},
+    station::{AntennaId, Note, NoteReason},
     ui::{theme, words},
 };
 use egui::{Key, Modifiers, Role};
@@ -82,7 +82,7 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
-        model.alarms.raise(Some(0), kind.clone(), now);
+        model.alarms.raise(Some(AntennaId::FIRST), kind.clone(), now);
         model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
         let text = words::alarm(&kind, "Satrak");
         let mut window = rig::window(size, model);
@@ -93,7 +93,7 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         assert_eq!(carry_out(&mut window), [UiCommand::AcknowledgeAlarm(0)]);
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
         window.get_by_label("2 alarms, 1 new");
-        window.state_mut().model.alarms.clear(Some(0), |_| true);
+        window.state_mut().model.alarms.clear(Some(AntennaId::FIRST), |_| true);
         settle(&mut window);
         assert!(!says(&window, &text));
     }
@@ -106,7 +106,7 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
             let mut model = rig::model(states::holding());
             model.view = view;
             for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
-                model.alarms.raise(Some(0), kind, model.now);
+                model.alarms.raise(Some(AntennaId::FIRST), kind, model.now);
             }
             let mut window = rig::window(size, model);
             for id in [1, 0] {

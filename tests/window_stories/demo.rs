@@ -47,7 +47,7 @@ fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64
 }
 
 fn send(window: &RealWindow, antenna: usize, command: Command) {
-    let id = window.state().model().antennas[antenna].id;
+    let id = window.state().model().antennas[antenna].id();
     let command = engine::Command::Antenna(id, command);
     assert!(window.state().station().client().send(command).is_ok());
 }
@@ -101,7 +101,9 @@ fn an_rc2000c_that_tracks_by_itself_is_compared_with_nothing_and_that_is_an_alar
     let not_compared = AlarmKind::NotCompared { satellite: None };
     let is_told = |model: &Model| {
         let mut alarms = model.alarms.list().iter();
-        alarms.any(|alarm| alarm.antenna == Some(RC2000C) && alarm.kind == not_compared)
+        alarms.any(|alarm| {
+            alarm.antenna == Some(model.antennas[RC2000C].id()) && alarm.kind == not_compared
+        })
     };
     step_until(&mut window, "it is told", is_told);
 }

@@ -11,7 +11,7 @@ use azel::{
     engine::alarms::AlarmKind,
     model::{Model, UiCommand},
     plan::{Barrier, Target},
-    station::{Antenna, Entered, KeepOut, SunAvoidance},
+    station::{Antenna, AntennaId, Entered, KeepOut, SunAvoidance},
 };
 use egui_kittest::kittest::Queryable as _;
 
@@ -149,7 +149,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
     for size in SIZES {
         let alarmed = |snapshot: Snapshot| {
             let mut model = shows(snapshot);
-            model.alarms.raise(Some(0), AlarmKind::Safety(told.clone()), rig::now());
+            model.alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told.clone()), rig::now());
             let mut window = rig::window(size, model);
             window.get_by_label_contains("1 alarm").click();
             rig::settle(&mut window);
@@ -186,7 +186,7 @@ fn a_keep_out_is_told_of_with_its_reason() {
         driver: Mover::Somebody,
         response: Response::Stopped,
     };
-    model.alarms.raise(Some(0), AlarmKind::Safety(told), rig::now());
+    model.alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told), rig::now());
     let mut window = rig::window(LARGE, model);
     assert!(says(&window, "at 90.0°, 20.0°. “mast”: Steel mast, 24 m away."));
     window.get_by_label_contains("1 alarm").click();

@@ -126,7 +126,7 @@ fn told(refusal: Refusal) -> Model {
 
 fn offered_again() -> Model {
     let mut model = rig::model(states::manual());
-    let command = engine::Command::Antenna(model.antennas[0].id, Command::Resume);
+    let command = engine::Command::Antenna(model.antennas[0].id(), Command::Resume);
     let name = "NOAA 20 (JPSS-1)".to_owned();
     model.antennas[0].track_again = Some(TrackAgain { name, command, until: rig::now() });
     model

@@ -13,7 +13,7 @@ use azel::{
     engine::{
         CatalogState,
         alarms::Alarms,
-        antenna::{AntennaId, AntennaModel},
+        antenna::AntennaModel,
         forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
     },
     model::{Model, Sky, ThemeName, UiCommand, View, effects::Effects},
@@ -114,7 +114,7 @@ pub(crate) fn quiet() -> Snapshot {
 /// An antenna that shows `snapshot` for ever.
 pub(crate) fn antenna(config: Antenna, mut snapshot: Snapshot) -> AntennaModel {
     snapshot.state.questions = Arc::clone(&config.controller().state().questions);
-    AntennaModel::new(AntennaId(0), config, Arc::new(snapshot))
+    AntennaModel::new(config, Arc::new(snapshot))
 }
 
 /// The station with its antenna in the state of `snapshot`, NOAA 20 selected.

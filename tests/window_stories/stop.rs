@@ -1,11 +1,13 @@
 //! STOP, whatever is open and whatever became of the last one.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use azel::{
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::AlarmKind,
-    model::{UiCommand, View},
+    model::{Model, UiCommand, View},
+    station::AntennaId,
+    ui::words,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -58,7 +60,11 @@ fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
 fn stop_goes_out_while_the_alarm_list_is_open() {
     for size in SIZES {
         let mut model = rig::model(states::moving());
-        model.alarms.raise(Some(0), AlarmKind::LinkLost(LinkLoss::Closed), model.now);
+        model.alarms.raise(
+            Some(AntennaId::FIRST),
+            AlarmKind::LinkLost(LinkLoss::Closed),
+            model.now,
+        );
         let mut window = rig::window(size, model);
         window.get_by_label("1 alarm, 1 new").click();
         settle(&mut window);
@@ -215,4 +221,20 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         assert_eq!(window.get_all_by_label(said).count(), 2, "the mark and the words");
         window.get_by_role_and_label(Role::Button, "STOP, all stopped");
     }
+}
+
+#[test]
+fn a_station_that_shows_nothing_new_says_so() {
+    let mut model = rig::model(states::holding());
+    model.watch_station(Some(Duration::from_secs(3)));
+    let text = |model: &Model| {
+        let alarms = model.alarms.list().iter().filter(|alarm| !alarm.cleared);
+        alarms.map(|alarm| words::alarm(&alarm.kind, "Azel")).collect::<Vec<_>>()
+    };
+    let told = text(&model);
+    assert!(told.len() == 1 && told[0].starts_with("What is shown is 3"), "{told:?}");
+    model.watch_station(Some(Duration::from_secs(4)));
+    assert!(text(&model)[0].starts_with("What is shown is 4"));
+    model.watch_station(None);
+    assert_eq!(text(&model), [""; 0]);
 }

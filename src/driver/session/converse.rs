@@ -1,6 +1,6 @@
 //! The loop of a session: dial, talk, lose, dial again.
 
-use std::{io, sync::atomic::Ordering, time::Duration};
+use std::{io, time::Duration};
 
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
@@ -9,7 +9,7 @@ use tokio::{
 
 use super::{Asked, Command, Session, Wires, wanted::Wanted};
 use crate::{
-    controller::Extent,
+    controller::{Extent, Moment},
     driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
 };
 
@@ -169,7 +169,7 @@ impl Session {
         let now = self.now();
         match turn {
             Turn::Over => return false,
-            Turn::Stop => self.halt(now),
+            Turn::Stop => self.halt_and_forget(now),
             Turn::Command(Command::Disconnect) => return !self.let_go(),
             Turn::Command(command) => self.turn_down(command, now),
             Turn::Sleep(awake) => self.before_sleep(awake, now),
@@ -182,6 +182,12 @@ impl Session {
         }
         self.publish(now);
         true
+    }
+
+    /// What was asked for before a stop is void, whoever it came from.
+    pub(super) fn halt_and_forget(&mut self, now: Moment) {
+        self.wires.stopper.forget();
+        self.halt(now);
     }
 
     /// Talks until the link is lost; `None` when the session is to end.
@@ -240,7 +246,7 @@ impl Session {
                 Turn::Lost(loss) => return Some(loss),
                 Turn::Stop => {
                     let now = self.now();
-                    self.halt(now);
+                    self.halt_and_forget(now);
                 }
                 Turn::Sleep(awake) => {
                     let now = self.now();
@@ -333,7 +339,7 @@ async fn next_sleep(wires: &Wires) -> Awake {
     std::future::pending().await
 }
 
-/// `None` when the window is gone: what was asked for just before the end is not
+/// `None` when the station is gone: what was asked for just before the end is not
 /// begun any more.
 async fn next_command(wires: &Wires) -> Option<Command> {
     let mut commands = wires.commands.lock().await;
@@ -344,7 +350,7 @@ async fn next_command(wires: &Wires) -> Option<Command> {
         }
         // Another station and a lock-out forbid; a stop does not take that back.
         let forbids = matches!(command, Command::Within(_) | Command::LockOut(_));
-        if forbids || wires.stopper.void.load(Ordering::SeqCst) < number {
+        if forbids || !wires.stopper.is_void(number) {
             return Some(command);
         }
     }

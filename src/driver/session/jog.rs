@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// A hold that was not renewed for this long is over.
-pub(super) const LEASE: Duration = Duration::from_millis(300);
+pub const LEASE: Duration = Duration::from_millis(300);
 /// A jog needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
 

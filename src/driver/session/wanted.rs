@@ -44,7 +44,7 @@ impl Session {
             match turn {
                 Turn::Over => return false,
                 Turn::Stop => {
-                    self.halt(now);
+                    self.halt_and_forget(now);
                     self.wanted = Wanted::ForStop;
                 }
                 Turn::Command(command) => self.turn_down(command, now),

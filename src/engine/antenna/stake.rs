@@ -1,5 +1,5 @@
 //! What goes on with an antenna: it ends, or goes on unwatched, when the antenna is
-//! locked out or the window closes.
+//! locked out or the station ends.
 
 use super::AntennaModel;
 use crate::driver::{Intent, StopState};

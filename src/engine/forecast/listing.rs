@@ -264,6 +264,11 @@ impl<'a> Listed<'a> {
         self.passes.len() - self.over.len()
     }
 
+    /// Another value whenever the rows of one edition of the list are others.
+    pub fn version(&self) -> (usize, usize) {
+        (self.passes.len(), self.over.len())
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0

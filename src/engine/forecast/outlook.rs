@@ -97,16 +97,23 @@ impl Forecast {
     /// What an antenna has to follow for this pass and those of its satellite in the
     /// next days that get as high as `floor`.
     pub fn follow(&self, floor: Angle) -> Follow {
-        let los = self.pass.los.time;
+        let mut los = self.pass.los.time;
+        // The end of the search has cut it: it goes on.
+        let from = if self.pass.ends_after { self.pass.tca.time } else { los };
         let search = PassSearch {
             aos_elevation: self.vantage.horizon,
             floor,
-            ..PassSearch::new(self.vantage.site, los, add_seconds(los, LATER_S))
+            ..PassSearch::new(self.vantage.site, from, add_seconds(from, LATER_S))
         };
         let mut spans = Vec::new();
         if !self.is_always_up() {
-            let later = passes(&self.satellite.propagator, &search, &|| false);
-            let later = later.iter().filter(|pass| !pass.starts_before);
+            let found = passes(&self.satellite.propagator, &search, &|| false);
+            if let Some(whole) = found.first().filter(|_| self.pass.ends_after)
+                && whole.starts_before
+            {
+                los = whole.los.time;
+            }
+            let later = found.iter().filter(|pass| !pass.starts_before);
             spans.push((self.pass.aos.time, los));
             spans.extend(later.map(|pass| (pass.aos.time, pass.los.time)));
         }

@@ -19,7 +19,7 @@ use crate::{
 /// A pass that is under way has begun this long ago at most, but for those of
 /// satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
-/// The window is told of the progress in so many steps.
+/// The station is told of the progress in so many steps.
 const STEPS: usize = 100;
 
 /// Whose passes a list holds.

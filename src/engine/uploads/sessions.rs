@@ -37,7 +37,9 @@ impl Engine {
             Told::Rest => vec![Command::Standby, Command::AutoTrack(false)],
             Told::Use(selection) => vec![selection.command()],
         };
-        if commands.into_iter().any(|command| antenna.handle.send(command).is_err()) {
+        let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
+        let mut commands = commands.into_iter();
+        if commands.any(|command| antenna.handle.send_as(command, number).is_err()) {
             let text = "the session of the antenna is too busy to take it".to_owned();
             self.upload_desk.not_selected(text, &mut self.uploads);
         }

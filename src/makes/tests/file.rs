@@ -13,8 +13,9 @@ use crate::{
         rotator_genius::{ROTATORS, Rotators},
     },
     station::{
-        self, AfterPass, Antenna, CountPoint, Entered, Following, KeepOut, LoadError, Loaded,
-        Monitor, Mount, Note, NoteReason, OnClose, Resume, SaveError, Station, SunAvoidance, save,
+        self, AfterPass, Antenna, AntennaId, CountPoint, Entered, Following, KeepOut, LoadError,
+        Loaded, Monitor, Mount, Note, NoteReason, OnClose, Resume, SaveError, Station,
+        SunAvoidance, save,
     },
 };
 
@@ -40,6 +41,7 @@ fn a_station_comes_back_as_it_was_saved() {
     });
     station.name = "Şile \"1\"".to_owned();
     station.antennas.push(Antenna::satrak("Second", "host.example:5"));
+    give_ids(&mut station);
     station.horizon_mask = HorizonMask::parse("350 2.5\n10, -0.1\n123.25 12").ok();
     save(&station, &path).unwrap();
     let loaded = load(&path).unwrap();
@@ -145,7 +147,8 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     rc2000c.connection.put(&BAUD, 1200).unwrap();
     rc2000c.connection.put(&BUS_ADDRESS, 111).unwrap();
     calibration.put_into(&mut rc2000c.connection).unwrap();
-    let station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
+    let mut station = Station { antennas: vec![genius, rc2000c], ..Station::default() };
+    give_ids(&mut station);
     save(&station, &path).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!(loaded.notes, []);
@@ -245,6 +248,8 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
 /// What the file of a station with antennas of every make looks like: it must
 /// stay readable for ever.
 const WRITTEN: &str = include_str!("station.toml");
+/// The same, from before antennas had ids.
+const BEFORE_IDS: &str = include_str!("station-before-ids.toml");
 
 #[test]
 fn the_file_is_what_it_always_was() {
@@ -260,11 +265,40 @@ fn the_file_is_what_it_always_was() {
     }
     station.antennas.push(tower);
     station.antennas.push(Antenna::rc2000c("Third", "COM3"));
+    give_ids(&mut station);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     save(&station, &path).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), WRITTEN);
     assert_eq!(load(&path).unwrap().station, station);
+    let (_folder, path) = written(BEFORE_IDS);
+    let Loaded { station: read, notes } = load(&path).unwrap();
+    assert_eq!((read, notes), (station, Vec::new()));
+}
+
+/// One after the other.
+fn give_ids(station: &mut Station) {
+    for (antenna, number) in station.antennas.iter_mut().zip(1..) {
+        antenna.id = AntennaId(number);
+    }
+}
+
+#[test]
+fn an_antenna_keeps_its_id_and_no_other_gets_it() {
+    let antenna = |name: &str, id: &str| {
+        format!(
+            "[[antenna]]\n{id}name = '{name}'\n[antenna.connection]\ncontroller = 'satrak'\n\
+             address = '{name}:1'\n"
+        )
+    };
+    let text = antenna("a", "") + &antenna("b", "id = 1\n") + &antenna("c", "id = 1\n");
+    let (_folder, path) =
+        written(&(text + &antenna("d", "id = 'x'\n") + &antenna("e", "id = 9\n")));
+    let Loaded { station, notes } = load(&path).unwrap();
+    let ids: Vec<u32> = station.antennas.iter().map(|antenna| antenna.id.0).collect();
+    assert_eq!(ids, [2, 1, 3, 4, 9]);
+    let places: Vec<&str> = notes.iter().map(|note| &*note.place).collect();
+    assert_eq!(places, ["antenna[2].id", "antenna[3].id"]);
 }
 
 fn mast() -> KeepOut {

@@ -6,16 +6,22 @@ use toml::Value;
 
 use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, Connection, Direction, Following, Kind, Monitor, MotionLimits, Mount,
-    PollRates, Resume, Setting, ranges,
+    AfterPass, Antenna, AntennaId, Connection, Direction, Following, Kind, Monitor, MotionLimits,
+    Mount, PollRates, Resume, Setting, ranges,
 };
 
 impl Fields<'_> {
     /// An antenna needs a controller and an address: nothing stands in for them.
-    pub(super) fn antenna(&mut self, kinds: &[&'static Kind]) -> Option<Antenna> {
+    pub(super) fn antenna(
+        &mut self,
+        kinds: &[&'static Kind],
+        before: &[Antenna],
+        taken: &[AntennaId],
+    ) -> Option<Antenna> {
         let default = self.inner("connection", |connection| connection.connected(kinds))?;
         let name = self.text("name", &default.name);
         Some(Antenna {
+            id: self.antenna_id(before, taken),
             name,
             mount: self.inner("mount", |mount| mount.mount(default.mount)),
             beam_width_deg: self.number(
@@ -40,6 +46,18 @@ impl Fields<'_> {
                 default.resume_after_s,
             ),
             connection: default.connection,
+        })
+    }
+
+    /// The id that is given, unless another antenna has it; else a free one.
+    fn antenna_id(&mut self, before: &[Antenna], taken: &[AntennaId]) -> AntennaId {
+        let free = AntennaId::free(AntennaId::FIRST, taken);
+        let Some(value) = self.table.remove("id") else { return free };
+        let id = value.as_integer().and_then(|id| u32::try_from(id).ok()).map(AntennaId);
+        let is_free = |id: &AntennaId| before.iter().all(|antenna| antenna.id != *id);
+        id.filter(is_free).unwrap_or_else(|| {
+            self.invalid("id", "must be a whole number that no other antenna has");
+            free
         })
     }
 

@@ -111,9 +111,7 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     let Some(closing) = &model.closing else { return };
     let names = |wanted: Wanted| -> Vec<&str> {
         let waits = closing.waits_for.iter().filter(|(_, of)| *of == wanted);
-        waits
-            .filter_map(|(index, _)| Some(model.antennas.get(*index)?.config.name.as_str()))
-            .collect()
+        waits.filter_map(|(id, _)| Some(model.antenna_of(*id)?.config.name.as_str())).collect()
     };
     let modal = Modal::new(Id::unique("closing waits")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);

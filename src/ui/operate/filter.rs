@@ -9,7 +9,7 @@ use crate::{
 /// The passes that were found, kept until the list or the text changes.
 #[derive(Default)]
 pub(super) struct Found {
-    made_of: Option<(String, Scope, u64, usize)>,
+    made_of: Option<(String, Scope, u64, (usize, usize))>,
     places: Vec<usize>,
 }
 
@@ -22,7 +22,7 @@ impl Found {
         }
         let (scope, listed) = (model.list.scope, model.listed());
         let edition = model.forecasts.of(scope).edition;
-        let made_of = Some((text.to_lowercase(), scope, edition, listed.len()));
+        let made_of = Some((text.to_lowercase(), scope, edition, listed.version()));
         if self.made_of != made_of {
             let text = text.to_lowercase();
             let is_found = |forecast: &Forecast| {

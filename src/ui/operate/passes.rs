@@ -203,10 +203,8 @@ pub(super) fn timeline(
     let hours = f64::from(zoom.hours(usual));
     let end = add_seconds(model.now, hours * 3600.0);
     let of = |forecast: &Forecast| forecast.trackability(model.selected_antenna);
-    let bars: Vec<Bar<'_>> = model
-        .forecasts
-        .favourites
-        .passes
+    let listed = model.forecasts.favourites.listed(model.now);
+    let bars: Vec<Bar<'_>> = listed
         .iter()
         .filter(|forecast| !(forecast.pass.starts_before && forecast.pass.ends_after))
         .filter(|forecast| forecast.pass.aos.time < end)

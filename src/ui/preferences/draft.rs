@@ -7,7 +7,9 @@ use super::{
     horizon::draft::Skies,
     station_fields::{self, Ground},
 };
-use crate::station::{Antenna, Kind, Station};
+use jiff::Timestamp;
+
+use crate::station::{Antenna, AntennaId, Kind, Station};
 
 /// The whole form.
 #[derive(PartialEq)]
@@ -26,12 +28,16 @@ impl Draft {
         }
     }
 
-    /// One more antenna whose controller is of this kind, to be filled in.
-    pub(super) fn add_antenna(&mut self, kind: &'static Kind) {
+    /// One more antenna whose controller is of this kind, to be filled in. Its id is
+    /// made of the time, so that it is not that of one that was removed.
+    pub(super) fn add_antenna(&mut self, kind: &'static Kind, now: Timestamp) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
         let name = Antenna::free_name(kind.name, &taken);
-        self.antennas.push(typed(kind.antenna(&name, kind.usual_address)));
+        let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
+        let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
+        let id = AntennaId::free(AntennaId(second), &ids);
+        self.antennas.push(typed(Antenna { id, ..kind.antenna(&name, kind.usual_address) }));
     }
 
     /// The antennas of the form, each by its name before anything was typed.
@@ -129,7 +135,7 @@ mod tests {
     fn each_make_can_be_added_and_used_as_it_stands() {
         let mut draft = Draft::of(&Station::default());
         for kind in makes::kinds().into_iter().chain(makes::kinds()) {
-            draft.add_antenna(kind);
+            draft.add_antenna(kind, Timestamp::UNIX_EPOCH);
         }
         let station = draft.read().unwrap();
         let kinds: Vec<&Kind> = station.antennas.iter().map(|of| of.connection.kind()).collect();

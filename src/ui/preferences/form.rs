@@ -94,7 +94,7 @@ fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
             for kind in makes::kinds() {
                 let make = kind.connection("").make();
                 if ui.button(format!("Add {}", make.name)).clicked() {
-                    draft.add_antenna(kind);
+                    draft.add_antenna(kind, model.now);
                 }
             }
         });

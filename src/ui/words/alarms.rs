@@ -12,11 +12,16 @@ use crate::{
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
     match kind {
-        AlarmKind::Elsewhere(by) if antenna.is_empty() => format!(
+        AlarmKind::StationStands(stood) => format!(
+            "What is shown is {} old: the part of Azel that runs the station does not respond. \
+             STOP goes past it.",
+            format::age(stood.as_secs_f64())
+        ),
+        AlarmKind::StationElsewhere(by) => format!(
             "This station is open in {by}: nothing is driven from here. Esc stops its antennas \
              there."
         ),
-        AlarmKind::Elsewhere(by) => {
+        AlarmKind::UnitElsewhere(by) => {
             format!("{antenna} is driven by {by}: nothing goes to it from here.")
         }
         AlarmKind::LinkLost(LinkLoss::Unreadable) => {
