@@ -220,6 +220,7 @@ fn close_and_park_stays_until_it_is_parked_and_stop_keeps_the_window() {
     step_until(&mut window, "it parks", |model| {
         model.antenna().unwrap().snapshot.intent == Intent::Park
     });
+    window.run_steps(2);
     assert!(says(&window, "Satrak: once it is parked."));
     assert_eq!(answers(&window), []);
     window.key_press(Key::Escape);
