@@ -1,14 +1,15 @@
 //! The sentence of the antenna in every case.
 
-use std::sync::Arc;
-
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::{AxisMotion, Motion, Phase, PrepareError},
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
-    engine::forecast::Forecast,
+    engine::{
+        claim::{HeldBy, Holder, HolderKind},
+        forecast::Forecast,
+    },
     model::Model,
 };
 
@@ -334,4 +335,17 @@ fn a_step_is_told_with_its_axis_and_amount() {
         let snapshot = Snapshot { intent: Intent::Manual, step: Some(step), ..states::moving() };
         assert_eq!(told(snapshot, unchanged), wanted);
     }
+}
+
+#[test]
+fn an_antenna_that_another_azel_drives_names_it() {
+    let mut model = rig::model(Snapshot { link: LinkState::Off, ..states::holding() });
+    let since = "2026-08-12T09:00:00Z".parse().unwrap();
+    let holder = Holder { kind: HolderKind::Serve, process: 4242, since };
+    model.antennas[0].held_by = Some(HeldBy(Some(holder)));
+    assert_eq!(
+        states::sentence(&model),
+        "Not known: azel serve (process 4242, since 2026-08-12 09:00Z) drives Satrak. Nothing \
+         goes to it from here."
+    );
 }

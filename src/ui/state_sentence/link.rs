@@ -53,6 +53,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 /// Why nothing is asked, and what begins it.
 fn off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
+    if let Some(by) = &antenna.held_by {
+        return format!("Not known: {by} drives {name}. Nothing goes to it from here.");
+    }
     if antenna.make().capabilities.waits_for_word {
         return format!(
             "Not known: {name} is not connected. Nothing is asked of it before Connect, because \
