@@ -285,12 +285,14 @@ impl Driver {
         &self.runtime
     }
 
-    /// Starts the session of one antenna, whose unit may be locked out.
+    /// Starts the session of one antenna, whose unit may be locked out. `until_the_end` is
+    /// dropped when the session has ended.
     pub fn open(
         &self,
         antenna: &Antenna,
         bounds: Bounds,
         lock_out: Option<LockOut>,
+        until_the_end: Box<dyn Send>,
     ) -> AntennaHandle {
         let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake), &self.orders);
         let wires = wires.hearing(self.before_sleep.hear());
@@ -314,7 +316,11 @@ impl Driver {
                 None => session,
             }
         };
-        self.sessions.spawn_on(keep_alive(open, wires), &self.runtime);
+        let work = async move {
+            keep_alive(open, wires).await;
+            drop(until_the_end);
+        };
+        self.sessions.spawn_on(work, &self.runtime);
         handle
     }
 

@@ -152,6 +152,8 @@ struct Engine {
     source_desk: source_tests::Desk,
     lock_outs: LockOuts,
     claims: Option<Claims>,
+    /// Where it takes STOP from other programs, once it has the station file.
+    socket: Option<PathBuf>,
     station_claim: StationClaim,
     /// The second of the clock in which the claims were looked at.
     claims_looked_at: i64,
@@ -173,8 +175,6 @@ struct Antenna {
     /// Tells this session from others of the same antenna.
     session: u64,
     handle: AntennaHandle,
-    /// Of its unit, where claims are made.
-    _claim: Option<Claim>,
 }
 
 /// Who has the station file open.
@@ -257,6 +257,7 @@ impl Engine {
             source_desk,
             lock_outs: LockOuts::default(),
             claims: None,
+            socket: None,
             station_claim: StationClaim::None,
             claims_looked_at: 0,
             settings_unread: false,
@@ -291,17 +292,25 @@ impl Engine {
                     }
                 }
                 () = tokio::time::sleep(to_next_second(self.clock.utc())) => {
+                    self.set_time();
                     self.take_urgent();
                     self.turn();
+                    self.take_urgent();
                     self.publish();
                     continue;
                 }
             };
             self.set_time();
             self.take_urgent();
+            let mut is_jog_alone = request.is_some();
             while let Some(next) = request {
+                is_jog_alone &= next.is_jog();
                 self.take_request(next);
                 request = inbox.try_recv().ok();
+            }
+            if is_jog_alone {
+                // A key that is held changes nothing but its lease, many times a second.
+                continue;
             }
             // What has woken it until now is taken by this turn.
             tokio::select! {
@@ -310,6 +319,8 @@ impl Engine {
                 () = std::future::ready(()) => {}
             }
             self.turn();
+            // STOP in the meantime has not reached a session that was opened meanwhile.
+            self.take_urgent();
             self.publish();
             (self.outbox.wake)();
         }
@@ -325,15 +336,19 @@ impl Engine {
         if urgent.ends_unasked {
             self.end_unasked();
         }
+        if urgent.is_stop_lost {
+            self.alarms.raise(None, AlarmKind::StopNotElsewhere, self.now);
+        }
         if urgent.is_overrun {
             tracing::error!("the station was too busy to take what was asked for");
             self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }
     }
 
-    fn take_request(&mut self, Request { command, number, at }: Request) {
+    fn take_request(&mut self, request: Request) {
+        let is_jog = request.is_jog();
+        let Request { command, number, at } = request;
         let age = self.steady.saturating_duration_since(at);
-        let is_jog = matches!(&command, Command::Antenna(_, driver::Command::Jog { .. }));
         if is_jog && age > JOG_LEASE {
             // The key may be up by now; its release comes behind it.
             return;
@@ -380,6 +395,7 @@ impl Engine {
             let ends = self.antennas.iter().map(|antenna| AntennaEnds {
                 id: antenna.shown.id(),
                 session: antenna.session,
+                is_elsewhere: antenna.shown.held_by.is_some(),
                 stopper: antenna.handle.stopper(),
                 wire: antenna.handle.wire().clone(),
             });
@@ -400,6 +416,8 @@ impl Engine {
     }
 
     fn load_station(&mut self) {
+        // What ran until now ends once something else is taken into use.
+        let _demo = self.demo.take();
         let loaded = match &self.settings_path {
             Some(path) => station::load(path, &makes::kinds()),
             None => Err(LoadError::Missing),
@@ -441,7 +459,9 @@ impl Engine {
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
         // A unit has one place for a client: the old session leaves first.
-        before.retain(|antenna| station.antennas.contains(&antenna.shown.config));
+        before.retain(|antenna| {
+            antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
+        });
         for config in &station.antennas {
             let bounds = Bounds::of(&station, config);
             let kept = before.iter().position(|antenna| antenna.shown.config == *config);
@@ -462,27 +482,53 @@ impl Engine {
             self.antennas.push(antenna);
         }
         self.station = Arc::new(station);
+        let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.shown.id()).collect();
+        self.alarms.keep_only(&ids);
         // STOP goes to the new sessions from now on.
         self.publish();
     }
 
     fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
+        let claim = self.claim_unit(&config);
+        self.open_claimed(config, bounds, claim)
+    }
+
+    /// Opens an antenna whose unit is claimed, or leaves it to who has it.
+    fn open_claimed(
+        &mut self,
+        config: station::Antenna,
+        bounds: Bounds,
+        claim: Result<Option<Claim>, HeldBy>,
+    ) -> Antenna {
         self.sessions += 1;
-        let (handle, claim, held_by) = match self.claim_unit(&config) {
+        let (handle, held_by) = match claim {
             Ok(claim) => {
                 let lock_out = self.lock_outs.of(&config.connection).cloned();
-                (self.driver.open(&config, bounds, lock_out), claim, None)
+                // The unit is ours until its session has ended.
+                let until_the_end = Box::new(claim);
+                (self.driver.open(&config, bounds, lock_out, until_the_end), None)
             }
-            Err(held_by) => (Driver::leave_alone(&config), None, Some(held_by)),
+            Err(held_by) => (Driver::leave_alone(&config), Some(held_by)),
         };
         let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
-        Antenna { shown, session: self.sessions, handle, _claim: claim }
+        Antenna { shown, session: self.sessions, handle }
     }
 
     /// The place of an antenna, if the station still has it.
     fn place(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.shown.id() == id)
+    }
+}
+
+/// A station that breaks down stops what it has moved, before its sessions go.
+impl Drop for Engine {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            for antenna in &self.antennas {
+                antenna.handle.stop();
+            }
+        }
     }
 }
 

@@ -17,7 +17,7 @@ use azel::{
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver,
+    driver::{self, Event, Refusal},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind},
@@ -292,12 +292,19 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     // A motion that is asked for there goes nowhere.
     let follow = Follow { target: Target::Sun, site: told.station.site, passes: Vec::new() };
     send(client, id(client, "Mast"), driver::Command::Follow(Box::new(follow)));
-    wait_for("the refusal", || named(&client.snapshot(), "Mast").news.clone());
-    assert!(units.all_stand());
+    wait_for("the refusal", || {
+        let station = client.snapshot();
+        let (news, _) = named(&station, "Mast").news.as_ref()?;
+        matches!(news, Event::NotSent(Refusal::Elsewhere(_))).then_some(())
+    });
+    let is_led = |client: &Client| status(client, "Mast").intent != "standby";
+    assert!(units.all_stand() && !is_led(first.client()));
     // STOP there stops here.
     lead_to_the_sun(first.client());
-    client.stop_all();
-    wait_for("STOP", || units.all_stand().then_some(()));
+    assert!(is_led(first.client()));
+    let stopped = client.stop_all();
+    assert_eq!((stopped.antennas.len(), stopped.elsewhere.len()), (0, 3));
+    wait_for("STOP", || (!is_led(first.client()) && units.all_stand()).then_some(()));
     drop(first);
     wait_for("it takes over", || is_measured(client, "Mast"));
     let told = client.snapshot();

@@ -7,7 +7,7 @@ use std::{
 };
 
 use anyhow::{Context as _, anyhow, bail};
-use clap::Args;
+use clap::{Args, builder::NonEmptyStringValueParser};
 use jiff::Timestamp;
 
 use crate::{
@@ -43,10 +43,10 @@ pub(super) struct LockOutOptions {
     #[arg(long, value_name = "NAME")]
     antenna: String,
     /// Why it is locked out
-    #[arg(long, value_name = "TEXT", required_unless_present = "off")]
+    #[arg(long, value_name = "TEXT", required_unless_present = "off", value_parser = NonEmptyStringValueParser::new())]
     reason: Option<String>,
     /// Who locks it out; the user by default
-    #[arg(long, value_name = "WHO")]
+    #[arg(long, value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
     by: Option<String>,
     /// Take the lock-out off
     #[arg(long, conflicts_with_all = ["reason", "by"])]

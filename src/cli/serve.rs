@@ -25,11 +25,12 @@ use crate::{
         signals,
         status::{AntennaStatus, LinkStatus},
     },
+    makes, station,
     ui::words,
 };
 
 /// The end is not waited for longer: what is not proved by then is told.
-const ENDS_WITHIN: Duration = Duration::from_secs(9);
+const ENDS_WITHIN: Duration = Duration::from_secs(8);
 /// Exit code when an antenna is not known to stand at the end.
 const NOT_PROVED: u8 = 4;
 
@@ -117,6 +118,9 @@ pub(super) fn run(
             path.display()
         );
     }
+    if let Err(error) = station::load(&path, &makes::kinds()) {
+        bail!("{error}");
+    }
     let format = options.format;
     let lines = Lines::to_standard_output(match format {
         Format::Text => |dropped| format!("{dropped} lines were dropped: nobody read them"),
@@ -139,6 +143,9 @@ pub(super) fn run(
     })?;
     let ended = until_the_end(station, &woken, &mut |told: &Told| lines.say(&told.line(format)));
     lines.finish();
+    if ended.broke_down {
+        bail!("the station broke down");
+    }
     if ended.not_proved.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
@@ -162,6 +169,8 @@ pub struct Ended {
     /// The names of the antennas that are not known to stand, as the station file wants
     /// it.
     pub not_proved: Vec<String>,
+    /// The part of the program that ran the station is gone.
+    pub broke_down: bool,
 }
 
 /// Tells what happens at a station until it is to end; then its antennas are stopped or
@@ -188,9 +197,12 @@ pub fn until_the_end(
         Some(CloseHow::Leave) => CloseHow::Leave,
     };
     say(tell, None, About::Station, "Ends.".to_owned());
-    if station.client().send(Command::CloseAfter(how)).is_err() {
+    let stands = station.stood_for().is_some();
+    if how == CloseHow::Hold || stands {
         station.client().stop_all();
     }
+    // One that does not take it was stopped, or has broken down.
+    let _ = station.client().send(Command::CloseAfter(how));
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
     let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));
@@ -204,9 +216,13 @@ pub fn until_the_end(
         reporter.tell(&snapshot, tell);
         may_end |= std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
         let stand = !snapshot.antennas.iter().any(open);
-        if (may_end && stand) || left.is_zero() || !station.runs() {
-            let names = snapshot.antennas.iter().filter(|antenna| open(antenna));
-            return Ended { not_proved: names.map(|of| of.config.name.clone()).collect() };
+        let broke_down = !station.runs();
+        if (may_end && stand) || left.is_zero() || broke_down {
+            // What is shown by a station that does not respond proves nothing.
+            let is_stale = station.stood_for().is_some();
+            let names = snapshot.antennas.iter().filter(|antenna| is_stale || open(antenna));
+            let not_proved = names.map(|of| of.config.name.clone()).collect();
+            return Ended { not_proved, broke_down };
         }
     }
 }
@@ -249,7 +265,7 @@ impl Reporter {
             let antenna =
                 alarm.antenna.and_then(|id| station.antennas.iter().find(|of| of.id() == id));
             let name = antenna.map(|antenna| antenna.config.name.clone());
-            let text = words::alarm(&alarm.kind, name.as_deref().unwrap_or_default());
+            let text = words::alarm(&alarm.kind, name.as_deref().unwrap_or("Azel"));
             say(tell, name.as_deref(), About::Alarm, text.clone());
             self.alarms.insert(alarm.id, (name, text));
         }

@@ -94,6 +94,8 @@ pub enum AlarmKind {
     StationElsewhere(HeldBy),
     /// Another Azel of this machine drives this unit.
     UnitElsewhere(HeldBy),
+    /// STOP is not known to have been carried out by the Azel that drives an antenna.
+    StopNotElsewhere,
     /// Work of the program itself broke off.
     BrokeOff(Work),
     /// A source of elements, by its name, is not read: the last reading of it
@@ -157,6 +159,7 @@ impl Alarm {
             | AlarmKind::StationStands(_)
             | AlarmKind::StationElsewhere(_)
             | AlarmKind::UnitElsewhere(_)
+            | AlarmKind::StopNotElsewhere
             | AlarmKind::LockOutUnproved
             | AlarmKind::LockOuts(_)
             | AlarmKind::StartedByItself
@@ -220,6 +223,14 @@ impl Alarms {
         list.push(Alarm { id: self.next_id, antenna, kind, time, seen: false, cleared: false });
         self.next_id += 1;
         self.unopened = true;
+    }
+
+    /// Forgets those of antennas that the station has no more.
+    pub fn keep_only(&mut self, antennas: &[AntennaId]) {
+        let is_known = |alarm: &Alarm| alarm.antenna.is_none_or(|id| antennas.contains(&id));
+        if !self.list.iter().all(is_known) {
+            Arc::make_mut(&mut self.list).retain(is_known);
+        }
     }
 
     /// What `is_over` says is over.

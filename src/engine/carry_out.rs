@@ -8,6 +8,7 @@ use super::{
     forecast::{Forecast, PassKey},
     handle::Stopped,
     sources::{self, SourceWork, Task},
+    uploads,
 };
 use crate::{
     driver,
@@ -92,7 +93,13 @@ impl Engine {
     /// Whether what is asked for is for an antenna that another Azel drives, which is
     /// told then.
     fn is_elsewhere(&mut self, command: &Command) -> bool {
-        let Some(place) = command.antenna().and_then(|id| self.place(id)) else { return false };
+        let named =
+            |name: &str| self.antennas.iter().position(|antenna| antenna.shown.config.name == name);
+        let place = match command {
+            Command::Upload(uploads::Ask::Begin(order)) => named(&order.antenna),
+            command => command.antenna().and_then(|id| self.place(id)),
+        };
+        let Some(place) = place else { return false };
         let Some(antenna) = self.antennas.get_mut(place) else { return false };
         let Some(by) = &antenna.shown.held_by else { return false };
         let refusal = driver::Refusal::Elsewhere(by.to_string());
@@ -114,6 +121,7 @@ impl Engine {
             let stopped = Stopped {
                 at: self.steady,
                 antennas: vec![id],
+                elsewhere: Vec::new(),
                 tracked: stopper.tracks().then_some(id).into_iter().collect(),
                 is_for_all: false,
                 newest_session: antenna.session,
@@ -209,6 +217,11 @@ impl Engine {
     /// The new settings are used once they are safe on disk.
     fn save_station(&mut self, station: station::Station) {
         let now = self.now;
+        let was_theirs = matches!(self.station_claim, StationClaim::Theirs(_));
+        if was_theirs && self.demo.is_none() && self.take_over_station() {
+            let text = "the station was open in another Azel until now: look at it again";
+            return self.tell(Event::Saved(Err(text.to_owned())));
+        }
         self.claim_station();
         let saved = match &self.settings_path {
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
@@ -232,6 +245,12 @@ impl Engine {
                 self.tell(Event::Saved(Ok(now)));
             }
             Err(text) => {
+                if self.demo.is_some() {
+                    // The demonstration goes on by itself.
+                    self.station_claim = StationClaim::None;
+                    let is_told = |kind: &AlarmKind| matches!(kind, AlarmKind::StationElsewhere(_));
+                    self.alarms.clear(None, is_told);
+                }
                 tracing::error!("{text}");
                 self.tell(Event::Saved(Err(text.clone())));
                 self.alarms.raise(None, AlarmKind::Settings(text), now);

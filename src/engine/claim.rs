@@ -3,10 +3,12 @@
 //! that ends.
 
 use std::{
+    collections::BTreeMap,
     fmt::Write as _,
     fs::{self, File, OpenOptions, TryLockError},
     io::{self, Read as _, Write as _},
     path::{Path, PathBuf},
+    sync::{Arc, Mutex, PoisonError, Weak},
 };
 
 use jiff::Timestamp;
@@ -24,6 +26,10 @@ pub struct Holder {
     pub process: u32,
     /// Since when.
     pub since: Timestamp,
+    /// Where it takes STOP.
+    pub socket: Option<PathBuf>,
+    /// What it calls the antenna, where it holds a unit.
+    pub antenna: Option<String>,
 }
 
 /// What kind of Azel holds something.
@@ -43,7 +49,7 @@ pub struct HeldBy(pub Option<Holder>);
 
 impl std::fmt::Display for HeldBy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Some(Holder { kind, process, since }) = &self.0 else {
+        let Some(Holder { kind, process, since, .. }) = &self.0 else {
             return write!(f, "another Azel");
         };
         let kind = match kind {
@@ -54,10 +60,9 @@ impl std::fmt::Display for HeldBy {
     }
 }
 
-/// Something is held for as long as this lives.
-pub(super) struct Claim {
-    _locked: File,
-}
+/// Something is held for as long as this or a copy of it lives: a session keeps one until
+/// it has ended.
+pub(super) type Claim = Arc<File>;
 
 /// Why something cannot be claimed.
 pub(super) enum Unclaimed {
@@ -68,32 +73,36 @@ pub(super) enum Unclaimed {
 }
 
 /// The folder of claims, and in whose name they are made.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Claims {
     folder: PathBuf,
     kind: HolderKind,
+    /// Where STOP is taken.
+    socket: Option<PathBuf>,
+    /// What is held here, by the names of the files: two antennas of one line share it,
+    /// and a new session of a unit has it before the old one has ended.
+    held: Mutex<BTreeMap<String, Weak<File>>>,
 }
 
 impl Claims {
     /// Makes the folder, which nobody else may look into.
-    pub(super) fn new(folder: PathBuf, kind: HolderKind) -> io::Result<Self> {
+    pub(super) fn new(
+        folder: PathBuf,
+        kind: HolderKind,
+        socket: Option<PathBuf>,
+    ) -> io::Result<Self> {
         let mut builder = fs::DirBuilder::new();
         builder.recursive(true);
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder.create(&folder)?;
-        Ok(Self { folder, kind })
+        Ok(Self { folder, kind, socket, held: Mutex::default() })
     }
 
     /// Claims the station file at `path`.
     pub(super) fn station(&self, path: &Path) -> Result<Claim, Unclaimed> {
-        self.claim(&lock_name("station", whole_path(path).to_string_lossy().as_bytes()))
-    }
-
-    /// The socket of whoever holds the station file at `path`.
-    #[cfg(unix)]
-    pub(super) fn socket(&self, path: &Path) -> PathBuf {
-        socket_path(&self.folder, path)
+        let name = lock_name("station", whole_path(path).to_string_lossy().as_bytes());
+        self.claim(name, None)
     }
 
     /// Claims the unit of `antenna`.
@@ -101,13 +110,18 @@ impl Claims {
         let connection = &antenna.connection;
         let address = connection.address.trim().to_lowercase();
         let unit = format!("{} {address}", connection.kind().key);
-        self.claim(&lock_name("unit", unit.as_bytes()))
+        self.claim(lock_name("unit", unit.as_bytes()), Some(antenna.name.clone()))
     }
 
-    fn claim(&self, name: &str) -> Result<Claim, Unclaimed> {
+    fn claim(&self, name: String, antenna: Option<String>) -> Result<Claim, Unclaimed> {
+        // No code panics while it holds the lock.
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(claim) = held.get(&name).and_then(Weak::upgrade) {
+            return Ok(claim);
+        }
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
-        let mut file = options.open(self.folder.join(name)).map_err(Unclaimed::Io)?;
+        let mut file = options.open(self.folder.join(&name)).map_err(Unclaimed::Io)?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
@@ -118,11 +132,19 @@ impl Claims {
             }
             Err(TryLockError::Error(error)) => return Err(Unclaimed::Io(error)),
         }
-        let me = Holder { kind: self.kind, process: std::process::id(), since: Timestamp::now() };
+        let me = Holder {
+            kind: self.kind,
+            process: std::process::id(),
+            since: Timestamp::now(),
+            socket: self.socket.clone(),
+            antenna,
+        };
         let text = serde_json::to_string(&me).map_err(|error| Unclaimed::Io(error.into()))?;
         let written = file.set_len(0).and_then(|()| file.write_all(text.as_bytes()));
         written.map_err(Unclaimed::Io)?;
-        Ok(Claim { _locked: file })
+        let claim = Arc::new(file);
+        held.insert(name, Arc::downgrade(&claim));
+        Ok(claim)
     }
 }
 
@@ -170,32 +192,39 @@ mod tests {
     use super::*;
 
     fn claims(folder: &Path) -> Claims {
-        Claims::new(folder.join("run"), HolderKind::Serve).unwrap()
+        Claims::new(folder.join("run"), HolderKind::Serve, None).unwrap()
     }
 
     #[test]
     fn what_is_held_is_held_by_one_who_says_who_it_is_until_it_ends() {
         let folder = tempfile::tempdir().unwrap();
-        let claims = claims(folder.path());
+        let (first, second) = (claims(folder.path()), claims(folder.path()));
         let path = folder.path().join("station.toml");
-        let held = claims.station(&path).ok().unwrap();
-        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = claims.station(&path) else {
+        let held = first.station(&path).ok().unwrap();
+        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = second.station(&path) else {
             panic!("free")
         };
         assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
+        // Whoever holds it may have it again, and has it until the last one is gone.
+        let again = first.station(&path).ok().unwrap();
         drop(held);
-        assert!(claims.station(&path).is_ok());
+        assert!(second.station(&path).is_err());
+        drop(again);
+        assert!(second.station(&path).is_ok());
     }
 
     #[test]
     fn a_unit_is_one_whatever_its_antenna_is_called() {
         let folder = tempfile::tempdir().unwrap();
-        let claims = claims(folder.path());
+        let (first, second) = (claims(folder.path()), claims(folder.path()));
         let dish = Antenna::satrak("Dish", "Unit.Local:4001");
         let other = Antenna::satrak("Other", "unit.local:4001 ");
-        let held = claims.unit(&dish).ok().unwrap();
-        assert!(matches!(claims.unit(&other), Err(Unclaimed::Held(HeldBy(Some(_))))));
-        assert!(claims.unit(&Antenna::satrak("Dish", "unit.local:4002")).is_ok());
+        let held = first.unit(&dish).ok().unwrap();
+        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = second.unit(&other) else {
+            panic!("free")
+        };
+        assert_eq!(holder.antenna.as_deref(), Some("Dish"));
+        assert!(second.unit(&Antenna::satrak("Dish", "unit.local:4002")).is_ok());
         drop(held);
     }
 

@@ -4,18 +4,27 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    Engine, StationClaim,
+    Engine, Event, StationClaim,
     alarms::AlarmKind,
     claim::{Claim, Claims, HeldBy, HolderKind, Unclaimed},
 };
-use crate::station;
+#[cfg(unix)]
+use super::{claim::socket_path, socket::Answer};
+use crate::{
+    plan::Bounds,
+    station::{self, AntennaId},
+};
 
 impl Engine {
     /// Claims the station file before it is read.
     pub(super) fn take_claims(&mut self, wanted: Option<(PathBuf, HolderKind)>) {
         let Some((folder, kind)) = wanted else { return };
-        match Claims::new(folder, kind) {
-            Ok(claims) => self.claims = Some(claims),
+        #[cfg(unix)]
+        let socket = self.settings_path.as_deref().map(|path| socket_path(&folder, path));
+        #[cfg(not(unix))]
+        let socket = None;
+        match Claims::new(folder, kind, socket.clone()) {
+            Ok(claims) => (self.claims, self.socket) = (Some(claims), socket),
             Err(error) => {
                 // One Azel alone needs no claim, and must not stand still for it.
                 tracing::warn!(%error, "other programs cannot be kept off the units");
@@ -35,7 +44,8 @@ impl Engine {
         match claims.station(path) {
             Ok(claim) => {
                 #[cfg(unix)]
-                if let Err(error) = super::socket::serve(&claims.socket(path), self.client.clone())
+                if let Some(socket) = &self.socket
+                    && let Err(error) = super::socket::serve(socket, self.client.clone())
                 {
                     tracing::warn!(%error, "no socket for other programs");
                 }
@@ -67,22 +77,25 @@ impl Engine {
         }
     }
 
-    /// STOP goes to whoever has the station file, too.
-    pub(super) fn stop_elsewhere(&self) {
-        #[cfg(unix)]
-        if let StationClaim::Theirs(_) = &self.station_claim
-            && let (Some(claims), Some(path)) = (&self.claims, &self.settings_path)
-        {
-            let socket = claims.socket(path);
+    /// STOP goes to whoever drives these antennas, which are not driven from here.
+    pub(super) fn stop_elsewhere(&self, antennas: &[AntennaId]) {
+        let held = self.antennas.iter().map(|antenna| &antenna.shown);
+        for antenna in held.filter(|antenna| antennas.contains(&antenna.id())) {
+            let Some(HeldBy(holder)) = &antenna.held_by else { continue };
+            let holder = holder.clone();
+            // Under the name that it has there.
+            let name = holder.as_ref().and_then(|holder| holder.antenna.clone());
+            let name = name.unwrap_or_else(|| antenna.config.name.clone());
+            let client = self.client.clone();
             let stop = move || {
-                let ask = super::socket::Ask::Stop { antenna: None };
-                if let Err(error) = super::socket::ask(&socket, &ask) {
-                    tracing::error!(%error, "STOP did not get to the other Azel");
+                if !stop_there(holder.and_then(|holder| holder.socket).as_deref(), name) {
+                    client.urgent().is_stop_lost = true;
                 }
             };
             let thread = std::thread::Builder::new().name("azel-stop-elsewhere".to_owned());
             if let Err(error) = thread.spawn(stop) {
                 tracing::error!(%error, "no thread for STOP to the other Azel");
+                self.client.urgent().is_stop_lost = true;
             }
         }
     }
@@ -95,29 +108,70 @@ impl Engine {
         }
         self.claims_looked_at = self.now.as_second();
         if matches!(self.station_claim, StationClaim::Theirs(_)) {
-            self.claim_station();
-            if matches!(self.station_claim, StationClaim::Ours { .. }) {
-                // It may have been changed there.
-                self.load_lock_outs();
-                self.load_station();
-            }
+            self.take_over_station();
             return;
         }
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get(index) else { continue };
-            let Some(by) = antenna.shown.held_by.clone() else { continue };
-            let config = antenna.shown.config.clone();
-            let of = Some(config.id);
-            let bounds = crate::plan::Bounds::of(&self.station, &config);
-            let opened = self.open_antenna(config, bounds);
-            if opened.shown.held_by.is_some() {
-                self.alarms.raise(of, AlarmKind::UnitElsewhere(by), self.now);
+            if antenna.shown.held_by.is_none() {
                 continue;
             }
+            let config = antenna.shown.config.clone();
+            let of = Some(config.id);
+            let claim = match self.claim_unit(&config) {
+                Ok(claim) => claim,
+                Err(by) => {
+                    self.alarms.raise(of, AlarmKind::UnitElsewhere(by.clone()), self.now);
+                    if let Some(antenna) = self.antennas.get_mut(index) {
+                        antenna.shown.held_by = Some(by);
+                    }
+                    continue;
+                }
+            };
+            // Whoever had it may have locked it out.
+            self.load_lock_outs();
+            let bounds = Bounds::of(&self.station, &config);
+            let opened = self.open_claimed(config, bounds, Ok(claim));
             if let Some(antenna) = self.antennas.get_mut(index) {
                 *antenna = opened;
             }
             self.alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
+            self.publish();
         }
     }
+
+    /// Takes over the station file where the other one has ended: it may have changed it.
+    /// Whether it is ours now.
+    pub(super) fn take_over_station(&mut self) -> bool {
+        self.claim_station();
+        if !matches!(self.station_claim, StationClaim::Ours { .. }) {
+            return false;
+        }
+        self.settings_unread = false;
+        self.load_lock_outs();
+        self.load_station();
+        self.tell(Event::Changed);
+        true
+    }
+}
+
+/// Whether whoever serves `socket` has stopped its antenna of this name, with proof.
+fn stop_there(socket: Option<&Path>, antenna: String) -> bool {
+    #[cfg(unix)]
+    if let Some(socket) = socket {
+        let ask = super::socket::Ask::Stop { antenna: Some(antenna) };
+        return match super::socket::ask(socket, &ask) {
+            Ok(Answer::Stopped(stopped)) => stopped.iter().all(|stopped| stopped.proved),
+            Ok(answer) => {
+                tracing::error!(?answer, "STOP was not taken by the other Azel");
+                false
+            }
+            Err(error) => {
+                tracing::error!(%error, "STOP did not get to the other Azel");
+                false
+            }
+        };
+    }
+    let _ = (socket, antenna);
+    false
 }

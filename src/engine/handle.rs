@@ -11,7 +11,7 @@ use tokio::sync::{Notify, mpsc, watch};
 use super::{Command, Engine, Settings, Snapshot};
 use crate::{
     clock::Clock,
-    driver::{Orders, Stopper, WireLog},
+    driver::{self, Orders, Stopper, WireLog},
     job::Wake,
     station::AntennaId,
 };
@@ -34,6 +34,13 @@ pub(super) struct Request {
     pub(super) at: Instant,
 }
 
+impl Request {
+    /// A key is held.
+    pub(super) fn is_jog(&self) -> bool {
+        matches!(self.command, Command::Antenna(_, driver::Command::Jog { .. }))
+    }
+}
+
 /// What must reach the station however many requests wait.
 #[derive(Default)]
 pub(super) struct Urgent {
@@ -42,6 +49,8 @@ pub(super) struct Urgent {
     pub(super) ends_unasked: bool,
     /// A request found no room.
     pub(super) is_overrun: bool,
+    /// STOP is not known to have been carried out by the Azel that drives an antenna.
+    pub(super) is_stop_lost: bool,
 }
 
 /// A STOP that has gone to the sessions already.
@@ -51,7 +60,9 @@ pub struct Stopped {
     pub at: Instant,
     /// The antennas that it went to.
     pub antennas: Vec<AntennaId>,
-    /// Those of them that tracked then.
+    /// Those that another Azel drives, which it is sent on to.
+    pub elsewhere: Vec<AntennaId>,
+    /// Those of `antennas` that tracked then.
     pub(super) tracked: Vec<AntennaId>,
     /// It was for all that are connected or were moved.
     pub(super) is_for_all: bool,
@@ -84,6 +95,8 @@ pub(super) struct Published {
 pub(super) struct AntennaEnds {
     pub(super) id: AntennaId,
     pub(super) session: u64,
+    /// Another Azel drives it.
+    pub(super) is_elsewhere: bool,
     pub(super) stopper: Stopper,
     pub(super) wire: WireLog,
 }
@@ -139,12 +152,17 @@ impl Client {
         let mut stopped = Stopped {
             at: Instant::now(),
             antennas: Vec::new(),
+            elsewhere: Vec::new(),
             tracked: Vec::new(),
             is_for_all: one.is_none(),
             newest_session: ends.iter().map(|ends| ends.session).max().unwrap_or_default(),
         };
-        for AntennaEnds { id, stopper, .. } in ends.iter() {
-            if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
+        let mut is_elsewhere = false;
+        for AntennaEnds { id, stopper, is_elsewhere: held, .. } in ends.iter() {
+            if *held && one.is_none_or(|one| *id == one) {
+                is_elsewhere = true;
+                stopped.elsewhere.push(*id);
+            } else if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
                 // The session may be quicker than these lines.
                 if stopper.tracks() {
                     stopped.tracked.push(*id);
@@ -156,11 +174,15 @@ impl Client {
             }
         }
         // One of an antenna that is opened anew right now is not among them.
-        if let Some(one) = one.filter(|_| stopped.antennas.is_empty()) {
+        if let Some(one) = one.filter(|_| stopped.antennas.is_empty() && !is_elsewhere) {
             stopped.antennas.push(one);
         }
+        // The station is not woken for it: it would take a processor from the session that
+        // has something better to do, and that wakes it with what it has done.
         self.urgent().stops.push(stopped.clone());
-        self.woken.notify_one();
+        if is_elsewhere {
+            self.woken.notify_one();
+        }
         stopped
     }
 

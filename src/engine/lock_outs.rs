@@ -79,6 +79,9 @@ impl Engine {
     /// voids what is taken off.
     pub(super) fn tell_lock_out(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
+        if antenna.shown.held_by.is_some() {
+            return;
+        }
         let wanted = self.lock_outs.of(&antenna.shown.config.connection);
         let told = antenna.handle.snapshot();
         if told.lock_out.as_ref() == wanted {

@@ -9,44 +9,33 @@ use crate::driver;
 /// first one that asks for the end calls `end`.
 pub fn watch(station: Client, end: impl FnOnce() + Send + 'static) -> io::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
-    let watch = async move {
-        tokio::select! {
-            told = driver::told_to_end() => match told {
-                Ok(()) => end(),
-                Err(error) => tracing::error!(%error, "signals are not heard"),
-            },
-            error = stop_on_signal(station.clone()) => {
-                tracing::error!(%error, "the signal for STOP is not heard");
-                if driver::told_to_end().await.is_ok() {
-                    end();
-                }
-            }
-        }
-        // Still STOP while the station ends.
-        let _ = stop_on_signal(station).await;
-    };
-    thread::Builder::new()
-        .name("azel-signals".to_owned())
-        .spawn(move || runtime.block_on(watch))?;
+    // STOP is heard until the process has ended.
+    let watch = async move { tokio::join!(end_on_signal(end), stop_on_signal(station)) };
+    thread::Builder::new().name("azel-signals".to_owned()).spawn(move || {
+        runtime.block_on(watch);
+    })?;
     Ok(())
 }
 
-/// Never ends but for an error.
+async fn end_on_signal(end: impl FnOnce()) {
+    match driver::told_to_end().await {
+        Ok(()) => end(),
+        Err(error) => tracing::error!(%error, "signals are not heard"),
+    }
+}
+
 #[cfg(unix)]
-async fn stop_on_signal(station: Client) -> io::Error {
+async fn stop_on_signal(station: Client) {
     use tokio::signal::unix::{SignalKind, signal};
     let mut stop = match signal(SignalKind::user_defined1()) {
         Ok(stop) => stop,
-        Err(error) => return error,
+        Err(error) => return tracing::error!(%error, "the signal for STOP is not heard"),
     };
     while stop.recv().await.is_some() {
         let stopped = station.stop_all();
         tracing::warn!("STOP by signal, to {} antennas", stopped.antennas.len());
     }
-    std::future::pending().await
 }
 
 #[cfg(not(unix))]
-async fn stop_on_signal(_: Client) -> io::Error {
-    std::future::pending().await
-}
+async fn stop_on_signal(_: Client) {}

@@ -164,7 +164,7 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
             None => return unknown(name),
         },
     };
-    let pressed = stopped.at;
+    let (pressed, elsewhere) = (stopped.at, stopped.elsewhere.clone());
     let outcome = |antenna: &AntennaModel| match antenna.snapshot.stop {
         StopState::Stopped { at } if at >= pressed => Some(true),
         StopState::NotConfirmed { since } if since >= pressed => Some(false),
@@ -188,6 +188,8 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
         let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
         antenna.map_or_else(String::new, |antenna| antenna.config.name.clone())
     };
+    // Whoever drives it was told, and what came of it is not known here.
+    told.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
         antenna: name(id),
         proved: proved.unwrap_or_default(),
@@ -196,19 +198,33 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
 }
 
 async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Client) -> Answer {
+    let snapshot = station.snapshot();
+    let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
+    let standing = antenna.and_then(|antenna| antenna.snapshot.lock_out.clone());
+    if let Some(LockOut { by, reason, .. }) = standing.filter(|_| lock_out.is_some()) {
+        return Answer::Refused(format!("it is locked out already by {by}: {reason}"));
+    }
     let command = lock_out.clone().map_or(driver::Command::Unlock, driver::Command::LockOut);
     if station.send(Command::Antenna(id, command)).is_err() {
         return Answer::Refused("Azel is too busy to take it".to_owned());
     }
-    let end = Instant::now() + LOCKED_WITHIN;
+    let asked = Instant::now();
+    let end = asked + LOCKED_WITHIN;
     loop {
         let snapshot = station.snapshot();
         let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
         let Some(antenna) = antenna else {
             return Answer::Refused("the antenna is not in the station any more".to_owned());
         };
-        let is_so = antenna.snapshot.lock_out == lock_out;
-        if is_so && !antenna.snapshot.locking {
+        if let Some(by) = &antenna.held_by {
+            return Answer::Refused(format!("{by} drives it: lock it out there"));
+        }
+        let shown = &antenna.snapshot;
+        let is_so = shown.lock_out == lock_out;
+        let stands = shown.state.measured.is_some_and(|measured| {
+            shown.link.is_open() && measured.asked >= asked.into_std() && !measured.moving()
+        });
+        if is_so && (lock_out.is_none() || !shown.locking && stands) {
             return Answer::LockOut { proved: true };
         }
         if !timeout_at(end, station.changed()).await.unwrap_or_default() {

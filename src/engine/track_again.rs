@@ -67,7 +67,7 @@ impl Engine {
     /// STOP has gone to the sessions.
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
         self.upload_desk.stopped();
-        self.stop_elsewhere();
+        self.stop_elsewhere(&stopped.elsewhere);
         self.drop_waiting_settings();
         // While the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.how == CloseHow::Park);

@@ -116,7 +116,8 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
         let _ = woke.try_send(());
     });
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
-    let handle: AntennaHandle = driver.open(&antenna, Bounds::of_antenna(&antenna), None);
+    let handle: AntennaHandle =
+        driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
     let until = |is_so: &dyn Fn(&Snapshot) -> bool| {
         let since = Instant::now();
         while !is_so(&handle.snapshot()) {
@@ -153,7 +154,8 @@ fn a_controller_that_breaks_down_is_started_again_with_stop() {
         let _ = woke.try_send(());
     });
     let driver = Driver::start(Clock::new(jiff::Timestamp::now), wake).unwrap();
-    let mut handle: AntennaHandle = driver.open(&antenna, Bounds::of_antenna(&antenna), None);
+    let mut handle: AntennaHandle =
+        driver.open(&antenna, Bounds::of_antenna(&antenna), None, Box::new(()));
     let to = |azimuth: f64, elevation: f64| Command::Position {
         azimuth: Some(Angle::from_degrees(azimuth)),
         elevation: Some(Angle::from_degrees(elevation)),

@@ -341,7 +341,8 @@ fn a_step_is_told_with_its_axis_and_amount() {
 fn an_antenna_that_another_azel_drives_names_it() {
     let mut model = rig::model(Snapshot { link: LinkState::Off, ..states::holding() });
     let since = "2026-08-12T09:00:00Z".parse().unwrap();
-    let holder = Holder { kind: HolderKind::Serve, process: 4242, since };
+    let (socket, antenna) = (None, None);
+    let holder = Holder { kind: HolderKind::Serve, process: 4242, since, socket, antenna };
     model.antennas[0].held_by = Some(HeldBy(Some(holder)));
     assert_eq!(
         states::sentence(&model),

@@ -52,6 +52,8 @@ fn outlived_signals() -> Vec<Signal> {
         SignalKind::interrupt(),
         SignalKind::terminate(),
         SignalKind::quit(),
+        // STOP to the whole unit of a service manager.
+        SignalKind::user_defined1(),
         stop_of_terminal,
     ];
     // One that cannot be had must not keep the others from being outlived.

@@ -21,6 +21,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "This station is open in {by}: nothing is driven from here. Esc stops its antennas \
              there."
         ),
+        AlarmKind::StopNotElsewhere => {
+            "STOP is not known to have been carried out by the Azel that drives the antenna. Use \
+             its window or the local panel."
+                .to_owned()
+        }
         AlarmKind::UnitElsewhere(by) => {
             format!("{antenna} is driven by {by}: nothing goes to it from here.")
         }
