@@ -26,6 +26,7 @@ use azel::{
         forecast::Forecast,
         status::{AntennaStatus, LinkStatus},
     },
+    makes,
     orbit::bundled,
     plan::{Follow, Target},
     sim::{rc2000c, rotator_genius, satrak},
@@ -110,8 +111,12 @@ impl Units {
     }
 
     fn open(&self) -> (Handle, mpsc::SyncSender<Wake>, mpsc::Receiver<Wake>) {
+        self.open_file(self.path())
+    }
+
+    fn open_file(&self, path: PathBuf) -> (Handle, mpsc::SyncSender<Wake>, mpsc::Receiver<Wake>) {
         let settings = Settings {
-            path: Some(self.path()),
+            path: Some(path),
             library: Some(self.folder.path().join("elements")),
             dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
             claims: Some((self.folder.path().join("run"), HolderKind::Serve)),
@@ -311,6 +316,32 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     let is_over =
         |alarm: &Alarm| alarm.cleared || !matches!(alarm.kind, AlarmKind::StationElsewhere(_));
     assert!(told.alarms.list().iter().all(is_over));
+}
+
+#[test]
+fn a_unit_of_two_station_files_is_driven_from_the_first_and_stopped_from_both() {
+    let units = Units::start(|_| {});
+    let other = units.folder.path().join("other.toml");
+    let mut station = station::load(&units.path(), &makes::kinds()).unwrap().station;
+    station.antennas.retain(|antenna| antenna.name == "Mast");
+    station.antennas[0].name = "Tower".to_owned();
+    station::save(&station, &other).unwrap();
+    let (first, _end, _woken) = units.open();
+    lead_to_the_sun(first.client());
+    let (second, _end, _woken) = units.open_file(other);
+    let client = second.client();
+    let tower = wait_for("the second", || {
+        let tower = status(client, "Tower");
+        (tower.link == LinkStatus::Elsewhere).then(|| id(client, "Tower"))
+    });
+    assert!(status(first.client(), "Mast").intent != "standby");
+    assert_eq!(client.stop(tower).elsewhere, [tower]);
+    wait_for("STOP", || {
+        let is_over = status(first.client(), "Mast").intent == "standby";
+        (is_over && units.all_stand()).then_some(())
+    });
+    drop(first);
+    wait_for("it takes over", || is_measured(client, "Tower"));
 }
 
 /// The program itself, on the station of `units`.
