@@ -1,7 +1,10 @@
 //! A station file and a unit have one Azel of this machine at a time. Whoever comes second
 //! shows the station and drives nothing, until the first has ended.
 
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use super::{
     Engine, Event, StationClaim,
@@ -27,7 +30,7 @@ impl Engine {
             Ok(claims) => (self.claims, self.socket) = (Some(claims), socket),
             Err(error) => {
                 // One Azel alone needs no claim, and must not stand still for it.
-                tracing::warn!(%error, "other programs cannot be kept off the units");
+                self.tell_unclaimed("other programs cannot be kept off the units", &error);
             }
         }
         if self.settings_path.as_deref().is_some_and(Path::exists) {
@@ -47,7 +50,8 @@ impl Engine {
                 if let Some(socket) = &self.socket
                     && let Err(error) = super::socket::serve(socket, self.client.clone())
                 {
-                    tracing::warn!(%error, "no socket for other programs");
+                    let what = "other programs cannot reach this one, also not with STOP";
+                    self.tell_unclaimed(what, &error);
                 }
                 self.station_claim = StationClaim::Ours { _claim: claim };
                 self.alarms.clear(None, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
@@ -57,9 +61,15 @@ impl Engine {
                 self.station_claim = StationClaim::Theirs(by);
             }
             Err(Unclaimed::Io(error)) => {
-                tracing::warn!(%error, "the station file is not kept from other programs");
+                self.tell_unclaimed("the station file is not kept from other programs", &error);
             }
         }
+    }
+
+    fn tell_unclaimed(&mut self, what: &str, error: &io::Error) {
+        let text = format!("{what}: {error}");
+        tracing::error!("{text}");
+        self.alarms.raise(None, AlarmKind::Settings(text), self.now);
     }
 
     /// Claims the unit of an antenna: no claim where none is made, or who has it.

@@ -20,8 +20,8 @@ use crate::{
 const MOST_BYTES: u64 = 64 * 1024;
 /// Whoever connects has to ask within this.
 const ASKS_WITHIN: Duration = Duration::from_secs(5);
-/// A session tells after six seconds whether a STOP is proved.
-const PROVED_WITHIN: Duration = Duration::from_secs(8);
+/// A session tells by then whether a STOP is proved, also of a unit that may sway.
+const PROVED_WITHIN: Duration = Duration::from_secs(12);
 /// A unit is stopped, and its own program switched off, before it is locked out.
 const LOCKED_WITHIN: Duration = Duration::from_secs(15);
 

@@ -151,7 +151,8 @@ fn stop_about(model: &Model, left_out: &str) -> String {
 /// Names the antennas that a STOP from here leaves to others; empty if there are
 /// none.
 fn left_out_of_stop(model: &Model) -> String {
-    let left_out = model.antennas.iter().filter(|antenna| !antenna.snapshot.wants_stop());
+    let is_left_out = |of: &&AntennaModel| of.held_by.is_none() && !of.snapshot.wants_stop();
+    let left_out = model.antennas.iter().filter(is_left_out);
     let names: Vec<&str> = left_out.map(|antenna| antenna.config.name.as_str()).collect();
     let verb = match *names {
         [] => return String::new(),

@@ -93,7 +93,7 @@ pub const ALL: [Binding; 23] = [
     row(
         Place::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position, and type a direction: Enter shows, Enter goes (asks while tracking)",
+        "Position: type a direction, Enter shows it, Enter again goes",
     ),
     row(
         Place::Operate,
@@ -157,7 +157,7 @@ pub const ALL: [Binding; 23] = [
     row(
         Place::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
-        "add, remove a corner; arrows move it by 0.5°, Shift 5°, Ctrl 0.1°",
+        "add, remove a corner; arrows move it (Shift 5°, Ctrl 0.1°)",
     ),
     row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

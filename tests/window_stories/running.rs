@@ -106,8 +106,10 @@ fn esc_shows_stop_as_pressed_in_its_own_frame() {
     window.step();
     window.get_by_role_and_label(Role::Button, "STOP, stopping");
     step_until(&mut window, "it is stopped", is_stopped);
-    window.step();
-    window.get_by_role_and_label(Role::Button, "STOP, all stopped");
+    wait_until("all of them are stopped", || {
+        window.step();
+        window.query_by_role_and_label(Role::Button, "STOP, all stopped").is_some()
+    });
     let pressed = |model: &Model| model.antennas.iter().any(|of| of.stop_pressed.is_some());
     assert!(!pressed(window.state().model()));
 }

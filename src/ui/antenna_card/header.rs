@@ -26,6 +26,8 @@ pub enum Reach {
     NoAnswer,
     /// This console has no link and wants none.
     NotConnected,
+    /// Another Azel drives it.
+    Elsewhere,
 }
 
 /// The head of the card.
@@ -62,7 +64,8 @@ pub(super) fn show(
     icons::paint(ui.painter(), glyph, icon, colour);
 
     let mut end = row;
-    if model.reach != Reach::NotConnected || !model.in_maintenance {
+    let has_menu = model.reach != Reach::NotConnected || !model.in_maintenance;
+    if has_menu && model.reach != Reach::Elsewhere {
         let key = paint::square(pos2(row.right() - MENU / 2.0 + 4.0, y), MENU);
         link_menu(ui, key, model, actions);
         end = row.with_max_x(key.left() - 2.0);
@@ -115,6 +118,7 @@ fn reach_tag(ui: &Ui, row: Rect, reach: Reach) -> f32 {
         Reach::Connecting => ("Connecting", t.t3),
         Reach::NoAnswer => ("No answer", t.warn),
         Reach::NotConnected => ("Not connected", t.t3),
+        Reach::Elsewhere => ("Driven elsewhere", t.warn),
     };
     let font = text::sized(11.0, Weight::SemiBold);
     let width = (paint::text_width(ui, words, font.clone()) + 12.0).min(0.5 * row.width());

@@ -14,7 +14,7 @@ use super::antenna_card::{
 use crate::{
     astro::Angle,
     controller::{Capabilities, HeldSatellite, Pointing},
-    driver::{Intent, LinkState, Snapshot},
+    driver::{Intent, LinkState},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
     station::Mount,
@@ -84,7 +84,7 @@ pub(super) fn show(
                 name: &antenna.config.name,
                 second_line: &second_line,
                 link: bar::glyph(antenna),
-                reach: reach(snapshot),
+                reach: reach(antenna),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
             },
@@ -175,8 +175,10 @@ fn second_line(antenna: &AntennaModel) -> String {
     }
 }
 
-fn reach(snapshot: &Snapshot) -> Reach {
+fn reach(antenna: &AntennaModel) -> Reach {
+    let snapshot = &antenna.snapshot;
     match snapshot.link {
+        _ if antenna.held_by.is_some() => Reach::Elsewhere,
         LinkState::Off => Reach::NotConnected,
         _ if snapshot.lock_out.is_some() => Reach::InMaintenance,
         LinkState::Up { .. } => Reach::Connected,
