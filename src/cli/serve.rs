@@ -197,16 +197,12 @@ pub fn until_the_end(
         Some(CloseHow::Leave) => CloseHow::Leave,
     };
     say(tell, None, About::Station, "Ends.".to_owned());
-    let stands = station.stood_for().is_some();
-    if how == CloseHow::Hold || stands {
-        station.client().stop_all();
-    }
-    // One that does not take it was stopped, or has broken down.
+    // One that does not take it stands, or has broken down: see below.
     let _ = station.client().send(Command::CloseAfter(how));
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
     let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));
-    let mut may_end = false;
+    let (mut may_end, mut is_passed) = (false, false);
     loop {
         let left = end.saturating_duration_since(Instant::now());
         // Further signals do not change what is done already.
@@ -215,12 +211,15 @@ pub fn until_the_end(
         let snapshot = Arc::clone(station.snapshot());
         reporter.tell(&snapshot, tell);
         may_end |= std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
+        if station.stood_for().is_some() && !std::mem::replace(&mut is_passed, true) {
+            // It does not take what it was asked: STOP goes past it.
+            station.client().stop_all();
+        }
         let stand = !snapshot.antennas.iter().any(open);
         let broke_down = !station.runs();
         if (may_end && stand) || left.is_zero() || broke_down {
             // What is shown by a station that does not respond proves nothing.
-            let is_stale = station.stood_for().is_some();
-            let names = snapshot.antennas.iter().filter(|antenna| is_stale || open(antenna));
+            let names = snapshot.antennas.iter().filter(|antenna| is_passed || open(antenna));
             let not_proved = names.map(|of| of.config.name.clone()).collect();
             return Ended { not_proved, broke_down };
         }
