@@ -45,6 +45,9 @@ pub struct Moment {
 pub const PROMPT: Duration = Duration::from_millis(600);
 /// Without a reply for so long the link of a make that says nothing else is lost.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// A controller asks for the position twice a second at least: a motion by hand needs one
+/// younger than a second.
+const LONGEST_POLL_PERIOD: Duration = Duration::from_millis(500);
 
 /// What makes metal move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -172,7 +175,7 @@ pub enum PrepareError {
 /// where one leads. What a make does not
 /// implement, it does not have.
 pub trait Device: Send {
-    /// The link has come up: forget what was outstanding, ask everything anew.
+    /// The link has come up: forget what was outstanding, a halt too, and ask everything anew.
     fn link_up(&mut self, now: Moment);
 
     /// The link is gone: nothing that was asked will be answered. What is not forgotten
@@ -201,10 +204,6 @@ pub trait Device: Send {
     /// dropped. With [`Extent::Motion`] a program that is known to be off is
     /// left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
-
-    /// STOP of everything as [`Self::halt`] writes it, for the process that
-    /// writes it when this one no longer can.
-    fn stop_bytes(&self) -> Vec<u8>;
 
     /// The operator has pressed STOP, whatever else was halted before: nothing of
     /// what was allowed for a while is allowed any more.
@@ -247,7 +246,8 @@ pub trait Device: Send {
     /// The device no longer starts to follow by itself.
     fn disable_auto(&mut self) {}
 
-    /// A motion is queued, or sent and not answered.
+    /// A motion is queued, or sent and not answered. It has no default: one that is not told
+    /// would be taken for none, and the next would be sent into it.
     fn motion_under_way(&self) -> bool;
 
     /// What `motion` becomes in the words of the device, such as whole degrees.
@@ -268,8 +268,11 @@ pub trait Device: Send {
         PATIENCE
     }
 
-    /// The time between two questions at present.
-    fn poll_period(&self) -> Duration;
+    /// The time between two questions at present: how far ahead of the last position a jog is
+    /// judged, and when a link counts as stale.
+    fn poll_period(&self) -> Duration {
+        LONGEST_POLL_PERIOD
+    }
 }
 
 /// The side of a controller that moves metal or decides where it goes. Only the gate holds it.

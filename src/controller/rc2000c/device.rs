@@ -49,6 +49,7 @@ impl Device for Rc2000c {
         self.orders.clear();
         self.jog = None;
         self.wants_device = false;
+        self.holds_polarization = false;
     }
 
     fn sent(&mut self, bytes: &[u8], now: Moment) {
@@ -108,10 +109,6 @@ impl Device for Rc2000c {
             extent == Extent::Everything && !self.status.as_ref().is_some_and(stands);
         self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
         self.look_soon(now);
-        Request::Stop.to_bytes(self.address)
-    }
-
-    fn stop_bytes(&self) -> Vec<u8> {
         Request::Stop.to_bytes(self.address)
     }
 

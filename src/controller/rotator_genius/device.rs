@@ -15,7 +15,7 @@ use crate::{
         panel::{Act, Lead},
         settings::{Change, SettleError, SettleStep},
     },
-    protocol::rotator_genius::{Decoder, Request},
+    protocol::rotator_genius::Decoder,
 };
 
 impl Device for Genius {
@@ -90,10 +90,6 @@ impl Device for Genius {
 
     fn halt(&mut self, _: Extent, now: Moment) -> Vec<u8> {
         self.stop_both(now)
-    }
-
-    fn stop_bytes(&self) -> Vec<u8> {
-        Request::Stop.to_bytes()
     }
 
     fn disarm(&mut self) {

@@ -125,11 +125,6 @@ impl Device for Satrak {
         halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
 
-    fn stop_bytes(&self) -> Vec<u8> {
-        let halts = [Halt::Stop, Halt::TrackOff];
-        halts.into_iter().flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
-    }
-
     fn look(&mut self, now: Moment) {
         self.look_soon(now);
     }

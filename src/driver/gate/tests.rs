@@ -52,9 +52,6 @@ impl Device for Metal {
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         Vec::new()
     }
-    fn stop_bytes(&self) -> Vec<u8> {
-        Vec::new()
-    }
     fn motion_under_way(&self) -> bool {
         false
     }

@@ -192,7 +192,9 @@ impl Session {
 
     /// Talks until the link is lost; `None` when the session is to end.
     async fn talk(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
-        let stop = self.gate.device().stop_bytes();
+        // For the dead-man. With the link coming up the controller forgets that it was asked.
+        let now = self.now();
+        let stop = self.gate.device().halt(Extent::Everything, now);
         self.guard.link_up(&*stream, &stop);
         let end = self.talk_over(stream).await;
         self.guard.link_down();

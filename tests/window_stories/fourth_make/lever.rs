@@ -6,7 +6,7 @@ use std::{
     net::TcpListener,
     sync::mpsc,
     thread,
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 use azel::{
@@ -167,10 +167,6 @@ impl Device for Lever {
         now.steady
     }
 
-    fn stop_bytes(&self) -> Vec<u8> {
-        b"STOP\n".to_vec()
-    }
-
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         self.orders.clear();
         b"S\n".to_vec()
@@ -182,10 +178,6 @@ impl Device for Lever {
 
     fn state(&self) -> &AntennaState {
         &self.state
-    }
-
-    fn poll_period(&self) -> Duration {
-        Duration::from_millis(50)
     }
 }
 
