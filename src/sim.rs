@@ -1,12 +1,13 @@
 //! Simulators of the controllers on real sockets and pseudo-terminals.
 
 mod command_line;
+mod harness;
 mod names;
-mod port;
 mod prng;
 pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;
 
 pub use command_line::{Command, Serving, StartError, Starting};
+pub use harness::{Control, Simulator, Unit};
 pub use names::UnknownName;

@@ -5,6 +5,7 @@ use std::{fmt, future::Future, io, net::SocketAddr, pin::Pin};
 
 use clap::{ArgMatches, Args};
 
+use super::harness::{Simulator, Unit};
 use crate::orbit::BundledError;
 
 /// A simulator as a command: its name, its arguments and its start.
@@ -80,12 +81,14 @@ impl fmt::Debug for Command {
     }
 }
 
-/// What cannot be listened on.
-pub(super) fn taken(address: SocketAddr) -> impl FnOnce(io::Error) -> StartError {
-    move |source| StartError::Listen { address, source }
-}
-
-/// Tells where a simulator answers.
-pub(super) fn announce(what: &str, address: SocketAddr) {
-    tracing::info!(target: "azel::sim", %address, "{what}");
+/// What a simulator that listens at `address` does from now on.
+pub(super) fn serving<U: Unit>(
+    name: &str,
+    address: SocketAddr,
+    bound: io::Result<Simulator<U>>,
+) -> Result<Serving, StartError> {
+    let simulator = bound.map_err(|source| StartError::Listen { address, source })?;
+    let address = simulator.local_addr()?;
+    tracing::info!(target: "azel::sim", %address, "a simulated {name} listens");
+    Ok(Box::pin(simulator.run()))
 }

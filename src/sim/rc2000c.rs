@@ -10,20 +10,27 @@
 mod axis;
 mod command_line;
 mod connection;
-mod control;
 mod feed;
+mod options;
 #[cfg(unix)]
 mod pty;
 mod quirks;
 mod satellites;
-mod server;
 mod tracking;
 mod unit;
 
 pub use command_line::COMMAND;
-pub use control::{Control, Mode, Snapshot};
+pub use options::Options;
 #[cfg(unix)]
 pub use pty::PtySimulator;
 pub use quirks::{Fault, Quirk};
 pub use satellites::StoredSatellite;
-pub use server::{Options, Simulator};
+pub use unit::{Mode, Snapshot};
+
+use super::harness;
+
+/// Handle of a simulated RC2000C; clones control the same one.
+pub type Control = harness::Control<unit::Rc2000c>;
+
+/// An RC2000C on a raw TCP port, as behind a serial server.
+pub type Simulator = harness::Simulator<unit::Rc2000c>;

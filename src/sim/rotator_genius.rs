@@ -9,15 +9,22 @@
 mod command;
 mod command_line;
 mod connection;
-mod control;
+mod options;
 mod quirks;
 mod report;
 mod rotor;
-mod server;
 mod travel;
 mod unit;
 
 pub use command_line::COMMAND;
-pub use control::{Control, RotatorState, Snapshot};
+pub use options::{Options, RotatorOptions};
 pub use quirks::{Fault, Quirk};
-pub use server::{Options, RotatorOptions, Simulator};
+pub use unit::{RotatorState, Snapshot};
+
+use super::harness;
+
+/// Handle of a simulated Rotator Genius; clones control the same one.
+pub type Control = harness::Control<unit::RotatorGenius>;
+
+/// A Rotator Genius that listens on a TCP port.
+pub type Simulator = harness::Simulator<unit::RotatorGenius>;

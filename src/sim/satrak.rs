@@ -9,16 +9,23 @@
 mod answer;
 mod command_line;
 mod connection;
-mod control;
 mod folder;
 mod mount;
+mod options;
 mod quirks;
-mod server;
 mod tracking;
 mod unit;
 
 pub use answer::ErrorCode;
 pub use command_line::{BUNDLED_FILE, COMMAND};
-pub use control::{Control, Snapshot};
+pub use options::Options;
 pub use quirks::{Fault, Quirk};
-pub use server::{Options, Simulator};
+pub use unit::Snapshot;
+
+use super::harness;
+
+/// Handle of a simulated Satrak; clones control the same one.
+pub type Control = harness::Control<unit::Satrak>;
+
+/// A Satrak that listens on a TCP port.
+pub type Simulator = harness::Simulator<unit::Satrak>;

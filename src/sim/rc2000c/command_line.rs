@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 
 use super::{Fault, Options, Quirk, Simulator};
-use crate::sim::command_line::{Command, Serving, Simulated, StartError, announce, taken};
+use crate::sim::command_line::{Command, Serving, Simulated, StartError, serving};
 
 /// `azel simulate rc2000`.
 pub const COMMAND: Command = Command::of::<Arguments>("rc2000");
@@ -41,8 +41,6 @@ impl Simulated for Arguments {
             return Ok(Box::pin(simulator.run()));
         }
         let bound = Simulator::bind(self.listen, &options).await;
-        let simulator = bound.map_err(taken(self.listen))?;
-        announce("a simulated RC2000C listens", simulator.local_addr()?);
-        Ok(Box::pin(simulator.run()))
+        serving("RC2000C", self.listen, bound)
     }
 }

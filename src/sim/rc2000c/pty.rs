@@ -14,9 +14,8 @@ use tokio::net::unix::pipe::{Receiver, Sender};
 use tokio::time::{MissedTickBehavior, interval, sleep};
 
 use super::{Control, Options};
+use crate::sim::harness::{self, HEARTBEAT};
 
-/// How often the controller lives on while nobody asks.
-const HEARTBEAT: Duration = Duration::from_millis(250);
 /// Between the end of one connection and the next.
 const RECOVERY: Duration = Duration::from_millis(100);
 
@@ -71,7 +70,8 @@ impl PtySimulator {
         let Self { control, mut line, path, .. } = self;
         let serve = async {
             loop {
-                let result = control.serve_as_spoken(&mut line).await;
+                let wire = control.wire().answering_as_spoken();
+                let result = harness::serve(&control, wire, &mut line).await;
                 tracing::info!(target: "azel::sim", ?result, path = %path.display(), "client left");
                 sleep(RECOVERY).await;
             }
@@ -81,7 +81,7 @@ impl PtySimulator {
             heartbeat.set_missed_tick_behavior(MissedTickBehavior::Delay);
             loop {
                 heartbeat.tick().await;
-                control.live();
+                control.live_on();
             }
         };
         tokio::select! {

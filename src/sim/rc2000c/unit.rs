@@ -11,8 +11,9 @@ use super::axis::{Axis, Trouble};
 use super::feed::Feed;
 use super::satellites::StoredSatellite;
 use super::tracking::Tracking;
-use super::{Fault, Mode, Options, Quirk, Snapshot};
-use crate::protocol::rc2000c::{AxisDrive, PolarizationMotion, Submode};
+use super::{Fault, Options, Quirk, connection::Line};
+use crate::protocol::rc2000c::{Address, AxisDrive, Frame, PolarizationMotion, Submode};
+use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of the mount.
 const STEP: Duration = Duration::from_millis(50);
@@ -26,9 +27,37 @@ const ELEVATION_TRAVEL: std::ops::RangeInclusive<u16> = 30..=1830;
 const START_COUNTS: [u16; 2] = [1525, 750];
 const START_POLARIZATION: u16 = 263;
 
+/// Who commands the controller.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// The local operator at the panel.
+    Manual,
+    /// The line.
+    Remote,
+    /// The controller itself, following a satellite.
+    Track,
+}
+
+/// What the controller does, for tests and displays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Snapshot {
+    /// Azimuth in counts, 30 to 3630.
+    pub az_counts: u16,
+    /// Elevation in counts, 30 to 1830.
+    pub el_counts: u16,
+    /// Polarization in the feed's units.
+    pub polarization_units: u16,
+    /// Who commands it.
+    pub mode: Mode,
+    /// Anything turns, told or untold.
+    pub is_turning: bool,
+}
+
 /// State of one simulated controller.
 #[derive(Debug)]
-pub(super) struct Unit {
+pub struct Rc2000c {
+    pub(super) address: Address,
+    baud: u32,
     satellites: Vec<StoredSatellite>,
     pub(super) quirks: BTreeSet<Quirk>,
     pub(super) faults: BTreeSet<Fault>,
@@ -46,10 +75,12 @@ pub(super) struct Unit {
     next_tracking: Option<Tracking>,
 }
 
-impl Unit {
+impl Rc2000c {
     pub(super) fn new(options: &Options) -> Self {
         let [az_counts, el_counts] = START_COUNTS;
         let mut unit = Self {
+            address: options.address,
+            baud: options.baud.max(1),
             satellites: options.satellites.clone(),
             quirks: options.quirks.clone(),
             faults: options.faults.clone(),
@@ -96,17 +127,6 @@ impl Unit {
         self.next_tracking = None;
         self.azimuth.stop();
         self.elevation.stop();
-    }
-
-    /// Lives until `elapsed` after the start. Earlier times change nothing.
-    pub(super) fn advance(&mut self, elapsed: Duration) {
-        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
-        self.elapsed = self.elapsed.max(catch_up_from);
-        while self.elapsed < elapsed {
-            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
-            self.elapsed += step;
-            self.step(step.as_secs_f64());
-        }
     }
 
     fn step(&mut self, step_s: f64) {
@@ -156,7 +176,52 @@ impl Unit {
         }
     }
 
-    pub(super) fn snapshot(&self) -> Snapshot {
+    fn counts(&self) -> [u16; 2] {
+        [self.azimuth.counts(), self.elevation.counts()]
+    }
+
+    /// The satellite nearest in azimuth.
+    fn nearest(&self) -> Option<&StoredSatellite> {
+        let az_counts = self.azimuth.counts();
+        self.satellites.iter().min_by_key(|satellite| satellite.az_counts.abs_diff(az_counts))
+    }
+}
+
+impl harness::Unit for Rc2000c {
+    type Quirk = Quirk;
+    type Fault = Fault;
+    type Request = Frame;
+    type Snapshot = Snapshot;
+    /// Counts.
+    type Place = [u16; 2];
+    type Wire = Line;
+
+    const SPLIT: Fault = Fault::Split;
+    const MERGE: Fault = Fault::Merge;
+
+    fn advance(&mut self, elapsed: Duration) {
+        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
+        self.elapsed = self.elapsed.max(catch_up_from);
+        while self.elapsed < elapsed {
+            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
+            self.elapsed += step;
+            self.step(step.as_secs_f64());
+        }
+    }
+
+    fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
+        self.quirks.clone_from(&switches.quirks);
+        self.faults.clone_from(&switches.faults);
+        self.suffer();
+    }
+
+    fn place(&mut self, [azimuth, elevation]: [u16; 2]) {
+        self.azimuth = Axis::new(azimuth, AZIMUTH_TRAVEL, false);
+        self.elevation = Axis::new(elevation, ELEVATION_TRAVEL, true);
+        self.suffer();
+    }
+
+    fn snapshot(&self) -> Snapshot {
         let is_turning = self.azimuth.is_turning()
             || self.elevation.is_turning()
             || self.feed.motion() != PolarizationMotion::Still;
@@ -169,21 +234,8 @@ impl Unit {
         }
     }
 
-    /// Puts both axes somewhere else, as if by hand; they stand there.
-    pub(super) fn place(&mut self, [azimuth, elevation]: [u16; 2]) {
-        self.azimuth = Axis::new(azimuth, AZIMUTH_TRAVEL, false);
-        self.elevation = Axis::new(elevation, ELEVATION_TRAVEL, true);
-        self.suffer();
-    }
-
-    fn counts(&self) -> [u16; 2] {
-        [self.azimuth.counts(), self.elevation.counts()]
-    }
-
-    /// The satellite nearest in azimuth.
-    fn nearest(&self) -> Option<&StoredSatellite> {
-        let az_counts = self.azimuth.counts();
-        self.satellites.iter().min_by_key(|satellite| satellite.az_counts.abs_diff(az_counts))
+    fn wire(&self) -> Line {
+        Line::new(self.address, self.baud)
     }
 }
 

@@ -16,7 +16,7 @@ const GO_TO_BYTES: usize = 6;
 /// What is no command is passed over up to the next bar. Whether a real device
 /// reads a stream or segments is not known.
 #[derive(Debug, Default)]
-pub(super) struct CommandReader {
+pub struct CommandReader {
     pending: Vec<u8>,
 }
 

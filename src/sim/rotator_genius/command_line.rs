@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 
 use super::{Fault, Options, Quirk, RotatorOptions, Simulator};
-use crate::sim::command_line::{Command, Serving, Simulated, StartError, announce, taken};
+use crate::sim::command_line::{Command, Serving, Simulated, StartError, serving};
 
 /// `azel simulate genius`.
 pub const COMMAND: Command = Command::of::<Arguments>("genius");
@@ -37,8 +37,6 @@ impl Simulated for Arguments {
             *second = RotatorOptions::elevation();
         }
         let bound = Simulator::bind(self.listen, options).await;
-        let simulator = bound.map_err(taken(self.listen))?;
-        announce("a simulated Rotator Genius listens", simulator.local_addr()?);
-        Ok(Box::pin(simulator.run()))
+        serving("Rotator Genius", self.listen, bound)
     }
 }

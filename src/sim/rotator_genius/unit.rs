@@ -4,12 +4,13 @@
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-use super::command::SHORT_CONFIGURATION_BYTES;
+use super::command::{CommandReader, SHORT_CONFIGURATION_BYTES};
 use super::rotor::Rotor;
-use super::{Fault, Options, Quirk, RotatorState, Snapshot, report};
+use super::{Fault, Options, Quirk, report};
 use crate::protocol::rotator_genius::{
-    Configuration, Motion, Request, RequestError, RotatorNumber, WholeDegrees,
+    Configuration, Motion, Moving, Request, RequestError, RotatorNumber, WholeDegrees,
 };
+use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of the rotators.
 const STEP: Duration = Duration::from_millis(50);
@@ -18,9 +19,38 @@ const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 /// What [`Fault::Panic`] reports.
 const PANIC_CODE: u8 = 0x07;
 
+/// What the device does, for tests and displays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Snapshot {
+    /// Both rotators.
+    pub rotators: [RotatorState; 2],
+}
+
+impl Snapshot {
+    /// One rotator.
+    pub fn rotator(&self, number: RotatorNumber) -> &RotatorState {
+        number.of(&self.rotators)
+    }
+}
+
+/// Where one rotator truly is and what it does, whatever its sensor says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotatorState {
+    /// Where it points, degrees, 0 to 360.
+    pub angle_deg: f64,
+    /// Which way it is driven.
+    pub moving: Moving,
+    /// Whether it turns; it coasts when it is no longer driven.
+    pub is_turning: bool,
+    /// Whether its sensor shows it outside its limits.
+    pub is_outside_limits: bool,
+    /// Where it is going.
+    pub target: Option<WholeDegrees>,
+}
+
 /// State of one simulated device.
 #[derive(Debug)]
-pub(super) struct Unit {
+pub struct RotatorGenius {
     rotors: [Rotor; 2],
     panic: u8,
     refuses: bool,
@@ -28,60 +58,14 @@ pub(super) struct Unit {
     elapsed: Duration,
 }
 
-impl Unit {
+impl RotatorGenius {
     pub(super) fn new(options: &Options) -> Self {
-        let mut unit = Self {
+        Self {
             rotors: options.rotators.each_ref().map(Rotor::new),
             panic: 0,
             refuses: false,
             elapsed: Duration::ZERO,
-        };
-        unit.inject(&options.faults);
-        unit
-    }
-
-    /// Lives until `elapsed` after the start. Earlier times change nothing.
-    pub(super) fn advance(&mut self, elapsed: Duration) {
-        self.elapsed = self.elapsed.max(elapsed.saturating_sub(LONGEST_CATCH_UP));
-        // Whole steps alone, so that asking more often changes nothing.
-        while self.elapsed + STEP <= elapsed {
-            self.elapsed += STEP;
-            for rotor in &mut self.rotors {
-                rotor.advance(STEP.as_secs_f64());
-            }
         }
-    }
-
-    /// Switches the faults of the device among `faults` on and all others off.
-    pub(super) fn inject(&mut self, faults: &BTreeSet<Fault>) {
-        self.panic = if faults.contains(&Fault::Panic) { PANIC_CODE } else { 0 };
-        self.refuses = faults.contains(&Fault::Refuse);
-        for number in RotatorNumber::ALL {
-            let has_no_sensor = faults.contains(&Fault::NoSensor(number));
-            let is_stuck = faults.contains(&Fault::Stuck(number));
-            let rotor = number.of_mut(&mut self.rotors);
-            rotor.set_faults(has_no_sensor, is_stuck);
-            let is_frozen = faults.contains(&Fault::FrozenAngles);
-            rotor.set_lies(is_frozen, faults.contains(&Fault::FalseRest));
-        }
-    }
-
-    /// Puts both rotators somewhere else, as if by hand; they stand there.
-    pub(super) fn place(&mut self, angles: [WholeDegrees; 2]) {
-        for (rotor, angle) in self.rotors.iter_mut().zip(angles) {
-            rotor.place(angle);
-        }
-    }
-
-    pub(super) fn snapshot(&self) -> Snapshot {
-        let rotators = self.rotors.each_ref().map(|rotor| RotatorState {
-            angle_deg: rotor.angle_deg(),
-            moving: rotor.moving(),
-            is_turning: rotor.is_turning(),
-            is_outside_limits: rotor.is_outside_limits(),
-            target: rotor.journey().map(|(target, _)| target),
-        });
-        Snapshot { rotators }
     }
 
     /// Carries a command out and gives the reply; `None` when there is none. Call
@@ -133,16 +117,80 @@ impl Unit {
     }
 }
 
+impl harness::Unit for RotatorGenius {
+    type Quirk = Quirk;
+    type Fault = Fault;
+    /// As Latin-1 text.
+    type Request = String;
+    type Snapshot = Snapshot;
+    type Place = [WholeDegrees; 2];
+    type Wire = CommandReader;
+
+    const SPLIT: Fault = Fault::Split;
+    const MERGE: Fault = Fault::Merge;
+
+    fn advance(&mut self, elapsed: Duration) {
+        self.elapsed = self.elapsed.max(elapsed.saturating_sub(LONGEST_CATCH_UP));
+        // Whole steps alone, so that asking more often changes nothing.
+        while self.elapsed + STEP <= elapsed {
+            self.elapsed += STEP;
+            for rotor in &mut self.rotors {
+                rotor.advance(STEP.as_secs_f64());
+            }
+        }
+    }
+
+    fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
+        self.panic = if switches.has_fault(Fault::Panic) { PANIC_CODE } else { 0 };
+        self.refuses = switches.has_fault(Fault::Refuse);
+        for number in RotatorNumber::ALL {
+            let has_no_sensor = switches.has_fault(Fault::NoSensor(number));
+            let is_stuck = switches.has_fault(Fault::Stuck(number));
+            let rotor = number.of_mut(&mut self.rotors);
+            rotor.set_faults(has_no_sensor, is_stuck);
+            let is_frozen = switches.has_fault(Fault::FrozenAngles);
+            rotor.set_lies(is_frozen, switches.has_fault(Fault::FalseRest));
+        }
+    }
+
+    fn place(&mut self, angles: [WholeDegrees; 2]) {
+        for (rotor, angle) in self.rotors.iter_mut().zip(angles) {
+            rotor.place(angle);
+        }
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        let rotators = self.rotors.each_ref().map(|rotor| RotatorState {
+            angle_deg: rotor.angle_deg(),
+            moving: rotor.moving(),
+            is_turning: rotor.is_turning(),
+            is_outside_limits: rotor.is_outside_limits(),
+            target: rotor.journey().map(|(target, _)| target),
+        });
+        Snapshot { rotators }
+    }
+
+    fn wire(&self) -> CommandReader {
+        CommandReader::default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::harness::Unit;
 
-    fn unit(faults: &[Fault]) -> Unit {
-        let faults = faults.iter().copied().collect();
-        Unit::new(&Options { faults, ..Options::default() })
+    fn unit(faults: &[Fault]) -> RotatorGenius {
+        let mut unit = RotatorGenius::new(&Options::default());
+        unit.set_switches(&switches(faults));
+        unit
     }
 
-    fn answer(unit: &mut Unit, command: &str, quirks: &[Quirk]) -> Option<String> {
+    fn switches(faults: &[Fault]) -> Switches<Quirk, Fault> {
+        Switches { quirks: BTreeSet::new(), faults: faults.iter().copied().collect() }
+    }
+
+    fn answer(unit: &mut RotatorGenius, command: &str, quirks: &[Quirk]) -> Option<String> {
         let quirks = quirks.iter().copied().collect();
         let reply = unit.answer(command.as_bytes(), &quirks)?;
         Some(reply.into_iter().map(char::from).collect())
@@ -185,9 +233,9 @@ mod tests {
         let mut unit = unit(&[Fault::Panic, Fault::Refuse, Fault::NoSensor(RotatorNumber::One)]);
         assert!(answer(&mut unit, "|h", &[]).unwrap().starts_with("|h2\x07999359"));
         assert_eq!(answer(&mut unit, "|S", &[]).as_deref(), Some("|SK"));
-        unit.inject(&[Fault::Refuse].into());
+        unit.set_switches(&switches(&[Fault::Refuse]));
         assert_eq!(answer(&mut unit, "|P1", &[]).as_deref(), Some("|PF"));
-        unit.inject(&[Fault::Stuck(RotatorNumber::One)].into());
+        unit.set_switches(&switches(&[Fault::Stuck(RotatorNumber::One)]));
         assert_eq!(answer(&mut unit, "|A1200", &[]).as_deref(), Some("|AK"));
         unit.advance(Duration::from_secs(5));
         let status = answer(&mut unit, "|h", &[]).unwrap();

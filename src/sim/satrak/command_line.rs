@@ -8,7 +8,7 @@ use super::{Fault, Options, Quirk, Simulator};
 use crate::{
     astro::Site,
     orbit,
-    sim::command_line::{Command, Serving, Simulated, StartError, announce, taken},
+    sim::command_line::{Command, Serving, Simulated, StartError, serving},
 };
 
 /// The element file of a unit that holds the bundled elements.
@@ -47,8 +47,6 @@ impl Simulated for Arguments {
             ..Options::new(Site::default(), Timestamp::now())
         };
         let bound = Simulator::bind(self.listen, options).await;
-        let simulator = bound.map_err(taken(self.listen))?;
-        announce("a simulated Satrak listens", simulator.local_addr()?);
-        Ok(Box::pin(simulator.run()))
+        serving("Satrak", self.listen, bound)
     }
 }

@@ -6,6 +6,7 @@ mod memory;
 mod queries;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use jiff::{SignedDuration, Timestamp};
@@ -13,10 +14,11 @@ use jiff::{SignedDuration, Timestamp};
 use self::memory::Memory;
 use super::mount::{Mount, azel_from_xy, xy_from_azel};
 use super::tracking::Tracking;
-use super::{Fault, Options, Snapshot};
+use super::{Fault, Options, Quirk};
 use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::Elements;
-use crate::protocol::satrak::FaultKind;
+use crate::protocol::satrak::{Decoder, FaultKind};
+use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of mount and tracking.
 const STEP: Duration = Duration::from_millis(50);
@@ -25,12 +27,32 @@ const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 /// Older elements count as out of date. Own choice.
 const OUTDATED: SignedDuration = SignedDuration::from_hours(30 * 24);
 
+/// What the unit believes and does, for tests and displays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Snapshot {
+    /// X angle as reported, degrees.
+    pub x_deg: f64,
+    /// Y angle as reported, degrees.
+    pub y_deg: f64,
+    /// Where both axes truly are, whatever is reported, degrees.
+    pub metal_deg: [f64; 2],
+    /// Azimuth, degrees, 0 to 360.
+    pub az_deg: f64,
+    /// Elevation, degrees.
+    pub el_deg: f64,
+    /// Tracking is switched on.
+    pub is_tracking: bool,
+    /// Any axis moves.
+    pub is_moving: bool,
+}
+
 /// State of one simulated unit.
 #[derive(Debug)]
-pub(super) struct Unit {
+pub struct Satrak {
     site: Site,
     lower_axis: Angle,
     elements: BTreeMap<String, Vec<Elements>>,
+    pub(super) element_folder: Option<PathBuf>,
     utc_origin: Timestamp,
     gps_lock_after: Duration,
     /// Since the start of the unit.
@@ -52,7 +74,7 @@ pub(super) struct Unit {
     last_xy_deg: [f64; 2],
 }
 
-impl Unit {
+impl Satrak {
     pub(super) fn new(options: &Options) -> Self {
         let clock_error = if options.clock_is_unset {
             // 2000-01-01, as in the document's example.
@@ -65,6 +87,7 @@ impl Unit {
             site: options.site,
             lower_axis: options.lower_axis,
             elements: options.elements.clone(),
+            element_folder: options.element_folder.clone(),
             utc_origin: options.utc_origin,
             gps_lock_after: options.gps_lock_after,
             elapsed: Duration::ZERO,
@@ -88,17 +111,6 @@ impl Unit {
     /// Puts `files` among its element files, in place of those of the same name.
     pub(super) fn take_files(&mut self, files: BTreeMap<String, Vec<Elements>>) {
         self.elements.extend(files);
-    }
-
-    /// Lives until `elapsed` after the start. Earlier times change nothing.
-    pub(super) fn advance(&mut self, elapsed: Duration) {
-        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
-        self.elapsed = self.elapsed.max(catch_up_from);
-        while self.elapsed < elapsed {
-            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
-            self.elapsed += step;
-            self.step(step.as_secs_f64());
-        }
     }
 
     fn step(&mut self, step_s: f64) {
@@ -133,39 +145,6 @@ impl Unit {
                 *last = now;
             }
         }
-    }
-
-    /// Switches the faults of the unit among `faults` on and all others off.
-    pub(super) fn inject(&mut self, faults: &BTreeSet<Fault>) {
-        self.injected = faults
-            .iter()
-            .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
-            .collect();
-        self.refuses_settings = faults.contains(&Fault::RefuseSettings);
-        self.has_frozen_angles = faults.contains(&Fault::FrozenAngles);
-        self.rests_falsely = faults.contains(&Fault::FalseRest);
-        let has = |kind| self.injected.contains(&kind);
-        self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
-    }
-
-    pub(super) fn snapshot(&self) -> Snapshot {
-        let direction = self.direction();
-        let [x_deg, y_deg] = self.last_xy_deg;
-        Snapshot {
-            x_deg,
-            y_deg,
-            metal_deg: [self.mount.x.angle_deg(), self.mount.y.angle_deg()],
-            az_deg: direction.azimuth_deg(),
-            el_deg: direction.elevation_deg(),
-            is_tracking: self.tracking.is_enabled,
-            is_moving: self.mount.is_moving(),
-        }
-    }
-
-    /// Puts both axes somewhere else, as if by hand; they stand there.
-    pub(super) fn place(&mut self, axes_deg: [f64; 2]) {
-        self.mount.place(axes_deg);
-        self.last_xy_deg = self.measured_xy_deg();
     }
 
     fn utc(&self) -> Timestamp {
@@ -227,5 +206,63 @@ impl Unit {
         self.injected.contains(&kind)
             || self.found.contains(&kind)
             || kind == FaultKind::TleOutdated && is_outdated()
+    }
+}
+
+impl harness::Unit for Satrak {
+    type Quirk = Quirk;
+    type Fault = Fault;
+    type Request = String;
+    type Snapshot = Snapshot;
+    type Place = [f64; 2];
+    type Wire = Decoder;
+
+    const SPLIT: Fault = Fault::Split;
+    const MERGE: Fault = Fault::Merge;
+
+    fn advance(&mut self, elapsed: Duration) {
+        let catch_up_from = elapsed.saturating_sub(LONGEST_CATCH_UP);
+        self.elapsed = self.elapsed.max(catch_up_from);
+        while self.elapsed < elapsed {
+            let step = STEP.min(elapsed.saturating_sub(self.elapsed));
+            self.elapsed += step;
+            self.step(step.as_secs_f64());
+        }
+    }
+
+    fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
+        let Switches { faults, .. } = switches;
+        self.injected = faults
+            .iter()
+            .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
+            .collect();
+        self.refuses_settings = faults.contains(&Fault::RefuseSettings);
+        self.has_frozen_angles = faults.contains(&Fault::FrozenAngles);
+        self.rests_falsely = faults.contains(&Fault::FalseRest);
+        let has = |kind| self.injected.contains(&kind);
+        self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
+    }
+
+    fn place(&mut self, axes_deg: [f64; 2]) {
+        self.mount.place(axes_deg);
+        self.last_xy_deg = self.measured_xy_deg();
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        let direction = self.direction();
+        let [x_deg, y_deg] = self.last_xy_deg;
+        Snapshot {
+            x_deg,
+            y_deg,
+            metal_deg: [self.mount.x.angle_deg(), self.mount.y.angle_deg()],
+            az_deg: direction.azimuth_deg(),
+            el_deg: direction.elevation_deg(),
+            is_tracking: self.tracking.is_enabled,
+            is_moving: self.mount.is_moving(),
+        }
+    }
+
+    fn wire(&self) -> Decoder {
+        Decoder::new()
     }
 }

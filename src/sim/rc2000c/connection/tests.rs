@@ -4,7 +4,10 @@ mod line;
 mod motion;
 mod tracking;
 
-use tokio::io::DuplexStream;
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::{sleep, timeout},
+};
 
 use super::*;
 use crate::protocol::rc2000c::{

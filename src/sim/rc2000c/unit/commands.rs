@@ -1,6 +1,6 @@
 //! Carrying commands out.
 
-use super::Unit;
+use super::Rc2000c;
 use crate::protocol::rc2000c::{
     AutoMove, Band, Direction, DriveReset, Frame, Jog, Motion, NameEntry, NameIndex, Polarity,
     PolarizationMove, Query, Reply, Request, Sense, Setting,
@@ -15,7 +15,7 @@ const JOG_STEP_MS: u128 = 150;
 /// A command that cannot be carried out.
 struct Refused;
 
-impl Unit {
+impl Rc2000c {
     /// Answers a command, or not. Call `advance` first.
     pub(in crate::sim::rc2000c) fn answer(&mut self, frame: &Frame) -> Option<Reply> {
         let code = frame.code();

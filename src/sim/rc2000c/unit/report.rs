@@ -1,6 +1,6 @@
 //! What the controller says of itself.
 
-use super::Unit;
+use super::Rc2000c;
 use crate::protocol::rc2000c::{
     Alarm, AxisDrive, Band, DeviceType, LimitEnd, MountKind, NameDisplay, PolarizationCode,
     PolarizationMode, Position, Receiver, ReceiverChannel, SatelliteName, Sense, Status, Submode,
@@ -17,7 +17,7 @@ const ELEVATION_ZERO: i32 = 30;
 /// As a user enters it, so that one count is half a tenth of a degree.
 const DISPLAY_GAIN: i32 = 200;
 
-impl Unit {
+impl Rc2000c {
     pub(super) fn device_type(&self) -> DeviceType {
         if self.quirks.contains(&Quirk::Rc2000a) {
             DeviceType { mount: MountKind::Other(*b"RC2K"), version: *b"14" }

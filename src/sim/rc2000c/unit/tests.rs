@@ -4,6 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::protocol::rc2000c::{Address, Decoder, Frame, Reply, checksum};
+use crate::sim::harness::Unit;
 
 /// The commands that do something, without address and checksum.
 const COMMANDS: [&str; 22] = [
@@ -78,7 +79,7 @@ proptest! {
     fn nothing_leaves_the_travel_and_every_reply_is_read(
         events in prop::collection::vec(event(), 0..40)
     ) {
-        let mut unit = Unit::new(&Options::default());
+        let mut unit = Rc2000c::new(&Options::default());
         let mut elapsed = Duration::ZERO;
         for event in events {
             match event {
@@ -108,7 +109,7 @@ proptest! {
     fn without_a_motion_command_nothing_turns(
         waits in prop::collection::vec(0_u64..20_000, 0..20)
     ) {
-        let mut unit = Unit::new(&Options::default());
+        let mut unit = Rc2000c::new(&Options::default());
         let before = unit.snapshot();
         let mut elapsed = Duration::ZERO;
         for wait_ms in waits {
@@ -124,7 +125,7 @@ proptest! {
 #[test]
 fn small_steps_of_time_and_one_long_one_end_alike() {
     let run = |step_ms: u64| {
-        let mut unit = Unit::new(&Options::default());
+        let mut unit = Rc2000c::new(&Options::default());
         unit.answer(&frame("2 GALAXY 5  "));
         for at_ms in (0..=30_000).step_by(step_ms as usize) {
             unit.advance(Duration::from_millis(at_ms));

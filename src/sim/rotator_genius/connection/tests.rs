@@ -3,7 +3,12 @@
 mod line;
 mod motion;
 
-use tokio::io::DuplexStream;
+use std::time::Duration;
+
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::{sleep, timeout},
+};
 
 use super::*;
 use crate::protocol::rotator_genius::{

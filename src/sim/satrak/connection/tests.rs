@@ -4,10 +4,13 @@ mod line;
 mod motion;
 mod tracking;
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, time::Duration};
 
 use jiff::Timestamp;
-use tokio::io::DuplexStream;
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::{Instant, sleep, timeout},
+};
 
 use super::*;
 use crate::astro::{Angle, AzEl, Site, time};

@@ -1,6 +1,6 @@
 //! Carrying requests out.
 
-use super::Unit;
+use super::Satrak;
 use crate::astro::AzEl;
 use crate::protocol::satrak::{
     FaultKind, Frame, Goto, Halt, Motion, Request, SatelliteChoice, Setting, TleMode,
@@ -9,7 +9,7 @@ use crate::sim::satrak::answer::{Answer, ErrorCode};
 use crate::sim::satrak::mount::xy_from_azel;
 use crate::sim::satrak::tracking::Target;
 
-impl Unit {
+impl Satrak {
     /// Answers a frame. Call `advance` first.
     pub(in crate::sim::satrak) fn answer(&mut self, frame: &Frame) -> Answer {
         let outcome = match Request::parse(frame) {

@@ -1,11 +1,11 @@
 //! Answers to queries, value by value as the document lists them.
 
-use super::Unit;
+use super::Satrak;
 use super::memory::USUAL_REDUCTION;
 use crate::protocol::satrak::{AxisMotion, FaultKind, Query};
 use crate::sim::satrak::answer::{Answer, Value};
 
-impl Unit {
+impl Satrak {
     pub(super) fn query(&self, query: Query) -> Answer {
         let values = match query {
             Query::Version => {

@@ -1,15 +1,16 @@
-//! The controller on a raw TCP port, as behind a serial server.
+//! How a simulated controller is made.
 
 use std::collections::BTreeSet;
 use std::io;
 use std::net::SocketAddr;
 use std::time::Duration;
 
-use tokio::net::TcpStream;
-
-use super::{Control, Fault, Quirk, StoredSatellite};
+use super::{Control, Fault, Quirk, Simulator, StoredSatellite, unit::Rc2000c};
 use crate::protocol::rc2000c::Address;
-use crate::sim::port::{Port, Unit};
+use crate::sim::harness::Switches;
+
+/// Nothing of it is random.
+const SEED: u64 = 1;
 
 /// How a simulated controller is made.
 #[derive(Debug, Clone)]
@@ -46,38 +47,24 @@ impl Default for Options {
     }
 }
 
-/// A controller that listens on a TCP port.
-#[derive(Debug)]
-pub struct Simulator(Port<Control>);
+impl Control {
+    /// A controller that starts now, without a port: see [`Self::serve`].
+    pub fn new(options: &Options) -> Self {
+        let Options { quirks, faults, latency, .. } = options;
+        let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
+        Self::start(Rc2000c::new(options), switches, *latency..=*latency, SEED)
+    }
+
+    /// The local operator presses MODE: the line commands no more, and what it
+    /// asked for ends. The next command takes the panel again.
+    pub fn use_panel(&self) {
+        self.with_unit(Rc2000c::use_panel);
+    }
+}
 
 impl Simulator {
     /// Starts a controller and listens; port 0 takes a free one.
     pub async fn bind(address: SocketAddr, options: &Options) -> io::Result<Self> {
-        Port::bind(address, Control::new(options), options.max_clients).await.map(Self)
-    }
-
-    /// Where it listens.
-    pub fn local_addr(&self) -> io::Result<SocketAddr> {
-        self.0.local_addr()
-    }
-
-    /// A handle to watch and disturb the controller.
-    pub fn control(&self) -> Control {
-        self.0.unit().clone()
-    }
-
-    /// Serves clients. Dropping the future ends the controller and its connections.
-    pub async fn run(self) {
-        self.0.run().await;
-    }
-}
-
-impl Unit for Control {
-    fn live_on(&self) {
-        self.live();
-    }
-
-    async fn serve_client(&self, stream: TcpStream) -> io::Result<()> {
-        self.serve(stream).await
+        Self::listen(address, Control::new(options), options.max_clients).await
     }
 }

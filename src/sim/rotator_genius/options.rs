@@ -1,4 +1,4 @@
-//! The device on a TCP port.
+//! How a simulated device is made.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,11 +6,9 @@ use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-use tokio::net::TcpStream;
-
-use super::{Control, Fault, Quirk};
+use super::{Control, Fault, Quirk, Simulator, unit::RotatorGenius};
 use crate::protocol::rotator_genius::{RotatorKind, WholeDegrees};
-use crate::sim::port::{Port, Unit};
+use crate::sim::harness::Switches;
 
 /// How a simulated device is made.
 #[derive(Debug, Clone)]
@@ -97,46 +95,28 @@ impl RotatorOptions {
     }
 }
 
-/// A device that listens on a TCP port.
-#[derive(Debug)]
-pub struct Simulator(Port<Control>);
+impl Control {
+    /// A device that starts now, without a port: see [`Self::serve`].
+    pub fn new(options: &Options) -> Self {
+        let Options { quirks, faults, reply_delay, seed, .. } = options;
+        let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
+        Self::start(RotatorGenius::new(options), switches, reply_delay.clone(), *seed)
+    }
+}
 
 impl Simulator {
     /// Starts a device and listens; port 0 takes a free one, a real device has 9006.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
-        let max_clients = options.max_clients;
-        Port::bind(address, Control::new(&options), max_clients).await.map(Self)
-    }
-
-    /// Where it listens.
-    pub fn local_addr(&self) -> io::Result<SocketAddr> {
-        self.0.local_addr()
-    }
-
-    /// A handle to watch and disturb the device.
-    pub fn control(&self) -> Control {
-        self.0.unit().clone()
-    }
-
-    /// Serves clients. Dropping the future ends the device and its connections.
-    pub async fn run(self) {
-        self.0.run().await;
-    }
-}
-
-impl Unit for Control {
-    fn live_on(&self) {
-        self.live();
-    }
-
-    async fn serve_client(&self, stream: TcpStream) -> io::Result<()> {
-        self.serve(stream).await
+        Self::listen(address, Control::new(&options), options.max_clients).await
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use tokio::io::{AsyncReadExt, AsyncWriteExt};
+    use tokio::{
+        io::{AsyncReadExt, AsyncWriteExt},
+        net::TcpStream,
+    };
 
     use super::*;
     use crate::protocol::rotator_genius::{

@@ -1,54 +1,48 @@
 //! A simulated unit on a TCP port.
 
-use std::io;
-use std::net::SocketAddr;
-use std::sync::Arc;
-use std::time::Duration;
+use std::{io, net::SocketAddr, sync::Arc, time::Duration};
 
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
-use tokio::task::JoinSet;
+use tokio::{net::TcpListener, sync::Semaphore, task::JoinSet};
+
+use super::{Control, Unit};
 
 /// How often a unit lives on while nobody asks.
-const HEARTBEAT: Duration = Duration::from_millis(250);
+pub(in crate::sim) const HEARTBEAT: Duration = Duration::from_millis(250);
 
-/// A running unit; clones are handles of the same one.
-pub(super) trait Unit: Clone + Send + 'static {
-    /// Lets the unit live until now.
-    fn live_on(&self);
-
-    /// Serves one client until it leaves.
-    fn serve_client(&self, stream: TcpStream) -> impl Future<Output = io::Result<()>> + Send;
-}
-
-/// A port on which a unit serves its clients.
+/// A unit that listens on a TCP port.
 #[derive(Debug)]
-pub(super) struct Port<U> {
+pub struct Simulator<U: Unit> {
     listener: TcpListener,
-    unit: U,
+    control: Control<U>,
     places: Arc<Semaphore>,
 }
 
-impl<U: Unit> Port<U> {
-    /// Listens at `address`. Further clients than `max_clients` are closed at once.
-    pub(super) async fn bind(address: SocketAddr, unit: U, max_clients: usize) -> io::Result<Self> {
+impl<U: Unit> Simulator<U> {
+    /// Listens at `address`; port 0 takes a free one. Further clients than `max_clients` are closed at once.
+    pub(in crate::sim) async fn listen(
+        address: SocketAddr,
+        control: Control<U>,
+        max_clients: usize,
+    ) -> io::Result<Self> {
         Ok(Self {
             listener: TcpListener::bind(address).await?,
-            unit,
+            control,
             places: Arc::new(Semaphore::new(max_clients.min(Semaphore::MAX_PERMITS))),
         })
     }
 
-    pub(super) fn local_addr(&self) -> io::Result<SocketAddr> {
+    /// Where it listens.
+    pub fn local_addr(&self) -> io::Result<SocketAddr> {
         self.listener.local_addr()
     }
 
-    pub(super) fn unit(&self) -> &U {
-        &self.unit
+    /// A handle to watch and disturb the unit.
+    pub fn control(&self) -> Control<U> {
+        self.control.clone()
     }
 
-    /// Serves clients. Dropping the future ends the connections.
-    pub(super) async fn run(self) {
+    /// Serves clients. Dropping the future ends the unit and its connections.
+    pub async fn run(self) {
         let mut heartbeat = tokio::time::interval(HEARTBEAT);
         let mut clients = JoinSet::new();
         loop {
@@ -60,12 +54,12 @@ impl<U: Unit> Port<U> {
                             continue;
                         };
                         tracing::info!(target: "azel::sim", %peer, "client");
-                        let unit = self.unit.clone();
+                        let control = self.control.clone();
                         clients.spawn(async move {
                             let _place = place;
                             // Small frames are to leave at once; without it they leave too.
                             stream.set_nodelay(true).ok();
-                            let result = unit.serve_client(stream).await;
+                            let result = control.serve(stream).await;
                             tracing::info!(target: "azel::sim", ?result, %peer, "client left");
                         });
                     }
@@ -77,7 +71,7 @@ impl<U: Unit> Port<U> {
                     }
                 },
                 Some(_) = clients.join_next() => {}
-                _ = heartbeat.tick() => self.unit.live_on(),
+                _ = heartbeat.tick() => self.control.live_on(),
             }
         }
     }

@@ -1,0 +1,139 @@
+//! One client: requests in, replies out, and what can go wrong on the way.
+
+use std::{collections::VecDeque, io, ops::ControlFlow, time::Duration};
+
+use tokio::{
+    io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt},
+    time::{Instant, sleep, sleep_until, timeout},
+};
+
+use super::{Control, Unit, Wire};
+
+/// A client that takes nothing for this long is given up.
+const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
+/// With [`Unit::SPLIT`], the pause between two pieces.
+const SPLIT_PAUSE: Duration = Duration::from_millis(5);
+/// Replies that may wait; with more, nothing is read.
+const MOST_WAITING: usize = 64;
+
+impl<U: Unit> Control<U> {
+    /// Serves one client until it leaves, is dropped or stops reading.
+    pub async fn serve<S>(&self, stream: S) -> io::Result<()>
+    where
+        S: AsyncRead + AsyncWrite + Unpin,
+    {
+        serve(self, self.wire(), stream).await
+    }
+}
+
+/// Serves one client on `wire`, as [`Control::serve`] does.
+pub(in crate::sim) async fn serve<U, S>(
+    control: &Control<U>,
+    wire: U::Wire,
+    stream: S,
+) -> io::Result<()>
+where
+    U: Unit,
+    S: AsyncRead + AsyncWrite + Unpin,
+{
+    let replies = Replies { waiting: VecDeque::new(), merge_time: None };
+    Connection { control, wire, stream, replies, sent: 0 }.run().await
+}
+
+/// Replies on their way, each with the time at which it goes out.
+#[derive(Debug)]
+pub struct Replies<R> {
+    waiting: VecDeque<(Instant, R)>,
+    merge_time: Option<Duration>,
+}
+
+impl<R> Replies<R> {
+    /// `reply` goes out `delay` after the one before it.
+    pub(in crate::sim) fn push(&mut self, reply: R, delay: Duration) {
+        let last_due = self.waiting.back().map(|(due, _)| *due);
+        let now = Instant::now();
+        let due = match self.merge_time {
+            Some(merge_time) => last_due.unwrap_or(now + merge_time),
+            None => last_due.unwrap_or(now).max(now) + delay,
+        };
+        self.waiting.push_back((due, reply));
+    }
+
+    /// `reply` goes out as soon as those before it.
+    pub(in crate::sim) fn push_now(&mut self, reply: R) {
+        self.waiting.push_back((Instant::now(), reply));
+    }
+}
+
+struct Connection<'a, U: Unit, S> {
+    control: &'a Control<U>,
+    wire: U::Wire,
+    stream: S,
+    replies: Replies<<U::Wire as Wire<U>>::Reply>,
+    /// How many replies went out or were lost.
+    sent: u64,
+}
+
+impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
+    async fn run(mut self) -> io::Result<()> {
+        let mut drops = self.control.drops();
+        let mut buffer = [0; 1024];
+        loop {
+            let waiting = &self.replies.waiting;
+            let due = waiting.front().map(|(due, _)| *due);
+            tokio::select! {
+                read = self.stream.read(&mut buffer), if waiting.len() < MOST_WAITING => {
+                    let count = read?;
+                    if count == 0 {
+                        return Ok(());
+                    }
+                    let switches = self.control.switches();
+                    let is_merging = switches.has_fault(U::MERGE);
+                    self.replies.merge_time = is_merging.then_some(U::Wire::MERGE_TIME);
+                    let bytes = buffer.get_mut(..count).unwrap_or_default();
+                    self.wire.take(bytes, self.control, &switches, &mut self.replies);
+                }
+                () = sleep_until(due.unwrap_or_else(Instant::now)), if due.is_some() => {
+                    if timeout(WRITE_TIMEOUT, self.send_due()).await??.is_break() {
+                        return Ok(());
+                    }
+                }
+                _ = drops.changed() => return Ok(()),
+            }
+        }
+    }
+
+    async fn send_due(&mut self) -> io::Result<ControlFlow<()>> {
+        let switches = self.control.switches();
+        let mut bytes = Vec::new();
+        let is_due = |(due, _): &mut (Instant, _)| *due <= Instant::now();
+        while let Some((_, reply)) = self.replies.waiting.pop_front_if(is_due) {
+            self.sent += 1;
+            match self.wire.put(reply, self.sent, &switches) {
+                Some(reply) => bytes.extend(reply),
+                None => return Ok(ControlFlow::Break(())),
+            }
+            if !switches.has_fault(U::MERGE) {
+                break;
+            }
+        }
+        self.write(&bytes, switches.has_fault(U::SPLIT)).await?;
+        Ok(ControlFlow::Continue(()))
+    }
+
+    async fn write(&mut self, mut bytes: &[u8], is_split: bool) -> io::Result<()> {
+        while !bytes.is_empty() {
+            let range = U::Wire::PIECE_BYTES;
+            let count = if is_split { self.control.random(&range) } else { u64::MAX };
+            let count = usize::try_from(count).unwrap_or(usize::MAX).min(bytes.len());
+            let (piece, rest) = bytes.split_at_checked(count).unwrap_or((bytes, &[]));
+            self.stream.write_all(piece).await?;
+            self.stream.flush().await?;
+            bytes = rest;
+            if !bytes.is_empty() {
+                sleep(SPLIT_PAUSE).await;
+            }
+        }
+        Ok(())
+    }
+}

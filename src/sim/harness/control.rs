@@ -1,0 +1,171 @@
+//! One running unit, shared by its connections, and the handle that controls it.
+
+use std::{
+    collections::{BTreeSet, VecDeque},
+    ops::RangeInclusive,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
+
+use tokio::{sync::watch, time::Instant};
+
+use super::{Switches, Unit};
+use crate::sim::prng::Prng;
+
+/// How many received requests are remembered.
+const REMEMBERED_REQUESTS: usize = 10_000;
+
+/// Handle of a simulated unit; clones control the same one.
+#[derive(Debug)]
+pub struct Control<U: Unit> {
+    shared: Arc<Shared<U>>,
+}
+
+#[derive(Debug)]
+struct Shared<U: Unit> {
+    started: Instant,
+    reply_delay: RangeInclusive<Duration>,
+    inner: Mutex<Inner<U>>,
+    /// Counts how often all clients were dropped.
+    drops: watch::Sender<u64>,
+}
+
+#[derive(Debug)]
+struct Inner<U: Unit> {
+    unit: U,
+    switches: Switches<U::Quirk, U::Fault>,
+    prng: Prng,
+    received: VecDeque<(Instant, U::Request)>,
+}
+
+impl<U: Unit> Clone for Control<U> {
+    fn clone(&self) -> Self {
+        Self { shared: Arc::clone(&self.shared) }
+    }
+}
+
+impl<U: Unit> Control<U> {
+    /// Starts `unit` without a port. `reply_delay` lies between a request and its reply, evenly spread.
+    pub(in crate::sim) fn start(
+        mut unit: U,
+        switches: Switches<U::Quirk, U::Fault>,
+        reply_delay: RangeInclusive<Duration>,
+        seed: u64,
+    ) -> Self {
+        unit.set_switches(&switches);
+        let inner = Inner { unit, switches, prng: Prng::new(seed), received: VecDeque::new() };
+        let shared = Shared {
+            started: Instant::now(),
+            reply_delay,
+            inner: Mutex::new(inner),
+            drops: watch::Sender::new(0),
+        };
+        Self { shared: Arc::new(shared) }
+    }
+
+    /// Switches a quirk on or off.
+    pub fn set_quirk(&self, quirk: U::Quirk, is_on: bool) {
+        self.switch(|switches| set(&mut switches.quirks, quirk, is_on));
+    }
+
+    /// Switches a fault on or off.
+    pub fn set_fault(&self, fault: U::Fault, is_on: bool) {
+        self.switch(|switches| set(&mut switches.faults, fault, is_on));
+    }
+
+    fn switch(&self, change: impl FnOnce(&mut Switches<U::Quirk, U::Fault>)) {
+        let mut inner = self.live();
+        let Inner { unit, switches, .. } = &mut *inner;
+        change(switches);
+        unit.set_switches(switches);
+    }
+
+    /// Puts both axes somewhere else, as if by hand; they stand there.
+    pub fn place(&self, place: U::Place) {
+        self.live().unit.place(place);
+    }
+
+    /// Closes every connection. The unit goes on with what it does.
+    pub fn drop_clients(&self) {
+        self.shared.drops.send_modify(|count| *count += 1);
+    }
+
+    /// The last 10 000 requests that came in whole, oldest first, without secrets.
+    pub fn received(&self) -> Vec<(Instant, U::Request)> {
+        self.lock().received.iter().cloned().collect()
+    }
+
+    /// Where the antenna is and what it does, now.
+    pub fn state(&self) -> U::Snapshot {
+        self.live().unit.snapshot()
+    }
+
+    /// Remembers `request` and carries it out.
+    pub(in crate::sim) fn carry_out<R>(
+        &self,
+        request: U::Request,
+        carry_out: impl FnOnce(&mut U) -> R,
+    ) -> R {
+        let mut inner = self.live();
+        if inner.received.len() == REMEMBERED_REQUESTS {
+            inner.received.pop_front();
+        }
+        inner.received.push_back((Instant::now(), request));
+        carry_out(&mut inner.unit)
+    }
+
+    /// Changes the unit as nobody can over the line.
+    pub(in crate::sim) fn with_unit<R>(&self, change: impl FnOnce(&mut U) -> R) -> R {
+        change(&mut self.live().unit)
+    }
+
+    /// Lets the unit live until now.
+    pub(in crate::sim) fn live_on(&self) {
+        drop(self.live());
+    }
+
+    fn live(&self) -> MutexGuard<'_, Inner<U>> {
+        let elapsed = self.shared.started.elapsed();
+        let mut inner = self.lock();
+        inner.unit.advance(elapsed);
+        inner
+    }
+
+    pub(in crate::sim) fn switches(&self) -> Switches<U::Quirk, U::Fault> {
+        self.lock().switches.clone()
+    }
+
+    pub(in crate::sim) fn wire(&self) -> U::Wire {
+        self.lock().unit.wire()
+    }
+
+    /// A delay for the next reply.
+    pub(in crate::sim) fn reply_delay(&self) -> Duration {
+        let micros = |delay: &Duration| u64::try_from(delay.as_micros()).unwrap_or(u64::MAX);
+        let [least, most] = [self.shared.reply_delay.start(), self.shared.reply_delay.end()];
+        Duration::from_micros(self.random(&(micros(least)..=micros(most))))
+    }
+
+    /// A number in `range`.
+    pub(super) fn random(&self, range: &RangeInclusive<u64>) -> u64 {
+        self.lock().prng.between(*range.start(), *range.end())
+    }
+
+    /// Changes when all clients are to be dropped.
+    pub(super) fn drops(&self) -> watch::Receiver<u64> {
+        self.shared.drops.subscribe()
+    }
+
+    /// A panic elsewhere leaves nothing half done that matters here.
+    fn lock(&self) -> MutexGuard<'_, Inner<U>> {
+        self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn set<T: Ord>(switched_on: &mut BTreeSet<T>, value: T, is_on: bool) {
+    if is_on {
+        switched_on.insert(value);
+    } else {
+        switched_on.remove(&value);
+    }
+}
