@@ -79,8 +79,21 @@ pub enum Motion {
     StartProgram,
     /// The controller starts to follow by itself whenever its target is due.
     EnableAuto,
-    /// What only this make can do: one of [`Make::actions`], by its key.
+}
+
+/// A request to move, as its outcome is told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Asked {
+    /// By [`Moves::start`].
+    Motion(Motion),
+    /// By [`Moves::act`]: one of [`Make::actions`], by its key.
     Action(&'static str),
+}
+
+impl From<Motion> for Asked {
+    fn from(motion: Motion) -> Self {
+        Self::Motion(motion)
+    }
 }
 
 /// What an antenna shall follow, as far as a controller that tracks by itself
@@ -125,11 +138,11 @@ pub enum Happening {
     /// The target is not on the device.
     NotPrepared(TrackTarget, PrepareError),
     /// The device took the command; whether it moves is seen in its state.
-    Accepted(Motion),
+    Accepted(Asked),
     /// The device said no. Its code stands as it came.
-    Refused(Motion, String),
+    Refused(Asked, String),
     /// No answer came. It is not sent again; the state will tell.
-    Unanswered(Motion),
+    Unanswered(Asked),
     /// The device said no to a halt. Its code stands as it came.
     HaltRefused(String),
     /// The device said no to switching auto-track off, or did not answer.
@@ -277,9 +290,9 @@ pub trait Device: Send {
 
 /// The side of a controller that moves metal or decides where it goes. Only the gate holds it.
 pub trait Moves: Device {
-    /// Why `motion` must not be started or go on, where that is special to this
+    /// Why `asked` must not be started or go on, where that is special to this
     /// device. The gate asks it after its own rules, and again while a jog runs.
-    fn objection(&self, _motion: &Motion, _now: Moment) -> Option<&'static str> {
+    fn objection(&self, _asked: &Asked, _now: Moment) -> Option<&'static str> {
         None
     }
 
@@ -297,7 +310,7 @@ pub trait Moves: Device {
     /// is, and what came of it, stands in [`AntennaState::held`].
     fn settle(&mut self, _change: Change, _now: Moment) {}
 
-    /// Queues a motion other than an action. It is sent once, and not at all
+    /// Queues a motion. It is sent once, and not at all
     /// when a halt comes first.
     fn start(&mut self, motion: Motion);
 

@@ -67,7 +67,7 @@ const MOST_REST: Duration = Duration::from_secs(5);
 /// The near end of one antenna's session. Dropping it ends the session, which
 /// ends a jog with a stop first.
 pub struct AntennaHandle {
-    commands: mpsc::Sender<Asked>,
+    commands: mpsc::Sender<Numbered>,
     stopper: Stopper,
     orders: Orders,
     events: mpsc::Receiver<Event>,
@@ -87,7 +87,7 @@ impl Orders {
 }
 
 /// A command on its way to a session, with its number among all that was asked for.
-struct Asked {
+struct Numbered {
     command: Command,
     number: u64,
 }
@@ -159,8 +159,8 @@ impl AntennaHandle {
     /// The same of a command that was asked for earlier and got this number then: a
     /// STOP that came in between voids it.
     pub fn send_as(&self, command: Command, number: u64) -> Result<(), Command> {
-        let asked = Asked { command, number };
-        self.commands.try_send(asked).map_err(|error| error.into_inner().command)
+        let numbered = Numbered { command, number };
+        self.commands.try_send(numbered).map_err(|error| error.into_inner().command)
     }
 
     /// The newest snapshot.

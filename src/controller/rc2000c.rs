@@ -24,8 +24,8 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion, Question,
-    Standstill, wire::WireQueue,
+    AntennaState, Asked, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion,
+    Question, Standstill, wire::WireQueue,
 };
 use crate::{
     protocol::rc2000c::{
@@ -130,7 +130,7 @@ pub struct Rc2000c {
 struct Order {
     request: Request,
     /// What it was asked as; `None` for a part of a halt.
-    motion: Option<Motion>,
+    asked: Option<Asked>,
 }
 
 /// A jog that lives until a halt, a refusal or a missing reply.
@@ -211,8 +211,8 @@ impl Rc2000c {
 
     /// What is to be sent next, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        if let Some(Order { request, motion }) = self.orders.pop_front() {
-            return Some((request, Purpose::Order(motion)));
+        if let Some(Order { request, asked }) = self.orders.pop_front() {
+            return Some((request, Purpose::Order(asked)));
         }
         if let Some(jog) = self.next_jog(now) {
             return Some(jog);
@@ -258,18 +258,18 @@ impl Rc2000c {
         let jog = jog.filter(|_| age.is_none_or(|age| age < JOG));
         let Some(jog) = jog else {
             self.jog = None;
-            self.happenings.push_back(Happening::Unanswered(motion));
+            self.happenings.push_back(Happening::Unanswered(motion.into()));
             return None;
         };
         held.sent = Some(now.steady);
-        Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion))))
+        Some((Request::Motion(unit::Motion::Jog(jog)), Purpose::Order(Some(motion.into()))))
     }
 
-    /// Queues a motion, or says why it cannot be.
-    fn order(&mut self, motion: Motion, request: Result<Request, String>) {
+    /// Queues the command for `asked`, or says why there is none.
+    fn order(&mut self, asked: Asked, request: Result<Request, String>) {
         match request {
-            Ok(request) => self.orders.push_back(Order { request, motion: Some(motion) }),
-            Err(reason) => self.happenings.push_back(Happening::Refused(motion, reason)),
+            Ok(request) => self.orders.push_back(Order { request, asked: Some(asked) }),
+            Err(reason) => self.happenings.push_back(Happening::Refused(asked, reason)),
         }
     }
 

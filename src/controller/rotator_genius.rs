@@ -188,8 +188,8 @@ impl Genius {
         // However fast wishes come, the position must not grow old.
         let is_overdue =
             self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
-        if !is_overdue && let Some(Order { request, motion }) = self.orders.pop_front() {
-            return Some((Request::Motion(request), Purpose::Motion(motion)));
+        if !is_overdue && let Some(Order { request, asked }) = self.orders.pop_front() {
+            return Some((Request::Motion(request), Purpose::Motion(asked)));
         }
         if self.next_poll.is_some() && std::mem::take(&mut self.is_asked) {
             return Some((Request::Read, Purpose::Asked));

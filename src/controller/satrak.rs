@@ -186,7 +186,7 @@ impl Satrak {
             return match unit_motion(motion) {
                 Ok(request) => Some((Request::Motion(request), Purpose::Motion(motion))),
                 Err(error) => {
-                    self.happenings.push_back(Happening::Refused(motion, error.to_string()));
+                    self.happenings.push_back(Happening::Refused(motion.into(), error.to_string()));
                     None
                 }
             };

@@ -20,7 +20,7 @@ use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
     controller::{
-        AntennaState, Capabilities, Device, Make, Moment, Motion, Moves, Pointing, aimed,
+        AntennaState, Asked, Capabilities, Device, Make, Moment, Motion, Moves, Pointing, aimed,
         panel::{Act, Action},
         settings::Hindrance,
     },
@@ -375,7 +375,7 @@ impl Gate {
 
     /// Whether `motion` could start were the antenna at rest.
     pub(super) fn check(&self, motion: Motion, intent: Intent, now: Moment) -> Result<(), Refusal> {
-        self.examine(motion, intent, false, now)
+        self.examine(motion.into(), intent, false, now)
     }
 
     /// Starts `motion`, or says why not. This is the only way to move metal.
@@ -386,7 +386,7 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        self.examine(motion, intent, stopping, now)?;
+        self.examine(motion.into(), intent, stopping, now)?;
         self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
@@ -396,14 +396,15 @@ impl Gate {
 
     fn examine(
         &self,
-        motion: Motion,
+        asked: Asked,
         intent: Intent,
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
         let situation = self.situation(intent, stopping, now);
-        self.ask_rules(|check| match check {
-            Check::Motion(check) => check(&motion, &situation),
+        self.ask_rules(|check| match (check, &asked) {
+            (Check::Moving(check), asked) => check(asked, &situation),
+            (Check::Motion(check), Asked::Motion(motion)) => check(motion, &situation),
             _ => Ok(()),
         })
     }
@@ -452,7 +453,7 @@ impl Gate {
             _ => Ok(()),
         })?;
         if action.moves {
-            self.examine(Motion::Action(act.action), intent, stopping, now)?;
+            self.examine(Asked::Action(act.action), intent, stopping, now)?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
                 _ => Ok(()),

@@ -40,8 +40,8 @@ pub use command::Command;
 pub use jog::LEASE as JOG_LEASE;
 
 use super::{
-    AntennaHandle, Asked, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Orbits, Orders,
-    Snapshot, Stopper, Wake, WireLog,
+    AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered, Orbits,
+    Orders, Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -72,7 +72,7 @@ use wanted::Wanted;
 #[derive(Clone)]
 pub struct Wires {
     /// One session at a time reads them.
-    commands: Arc<AsyncMutex<mpsc::Receiver<Asked>>>,
+    commands: Arc<AsyncMutex<mpsc::Receiver<Numbered>>>,
     stopper: Stopper,
     before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
     snapshots: watch::Sender<Arc<Snapshot>>,

@@ -11,7 +11,7 @@ use super::{Intent, Refusal, Safety};
 use crate::{
     astro::Angle,
     controller::{
-        AntennaState, Capabilities, Motion, Pointing, PrepareError, TrackTarget,
+        AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
@@ -319,9 +319,9 @@ pub enum Event {
     /// The gate did not let it through.
     NotSent(Refusal),
     /// The device said no; its code as it came.
-    Refused(Motion, String),
+    Refused(Asked, String),
     /// No answer to a motion, which is not sent again.
-    Unanswered(Motion),
+    Unanswered(Asked),
     /// A satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
     /// By what the device tells of itself it would miss the satellite of this name.

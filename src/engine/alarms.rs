@@ -8,7 +8,7 @@ use super::claim::HeldBy;
 use crate::{
     astro::Angle,
     controller::{
-        Motion, PrepareError, TrackTarget,
+        Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
     driver::{Event, FollowProblem, Found, LinkLoss, Safety, Unit},
@@ -50,9 +50,9 @@ pub enum AlarmKind {
     /// The list of units that are locked out could not be read or written; in words.
     LockOuts(String),
     /// The unit refused, with this code.
-    Refused(Motion, String),
+    Refused(Asked, String),
     /// The unit did not answer.
-    Unanswered(Motion),
+    Unanswered(Asked),
     /// The satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
     /// A target cannot be followed position by position, or no further.
@@ -365,8 +365,8 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
         Event::AutoStaysOn => AlarmKind::AutoStaysOn,
         Event::LockOutUnproved => AlarmKind::LockOutUnproved,
-        Event::Refused(motion, code) => AlarmKind::Refused(motion, code),
-        Event::Unanswered(motion) => AlarmKind::Unanswered(motion),
+        Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
+        Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
         Event::CannotFollow(name, problem) => AlarmKind::CannotFollow(name, problem),
         Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,

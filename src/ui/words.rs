@@ -17,21 +17,29 @@ pub use safety::{
     sun_lifted, way_out,
 };
 
-use crate::{controller::Motion, driver::Intent, engine::antenna::Stake, makes};
+use crate::{
+    controller::{Asked, Motion},
+    driver::Intent,
+    engine::antenna::Stake,
+    makes,
+};
 
 /// Elements older than this are worth a word, seconds: after some days a low
 /// satellite is minutes away from where they put it.
 pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
-/// What a motion is called.
-pub fn motion(motion: Motion) -> &'static str {
+/// What is asked of an antenna, as its key or button calls it.
+pub fn asked(asked: Asked) -> &'static str {
+    let motion = match asked {
+        Asked::Motion(motion) => motion,
+        Asked::Action(key) => return action_name(key),
+    };
     match motion {
         Motion::Jog { .. } => "Jog",
         Motion::Step { .. } => "Step",
         Motion::Position { .. } => "Go to",
         Motion::StartProgram => "Track",
         Motion::EnableAuto => "Auto-track on",
-        Motion::Action(key) => action_name(key),
     }
 }
 

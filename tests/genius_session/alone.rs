@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     controller::{
-        Motion,
+        Asked,
         panel::Act,
         rotator_genius::{ALONE, OTHER, Rotators},
         settings::Value,
@@ -137,7 +137,7 @@ async fn an_action_that_is_refused_is_told() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(send_other(200));
     let event = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
-    assert!(matches!(event, Event::Refused(Motion::Action(OTHER), _)), "{event:?}");
+    assert!(matches!(event, Event::Refused(Asked::Action(OTHER), _)), "{event:?}");
     assert_eq!(rig.orders(), ["|A1200"]);
     rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
     rig.seconds(1.0).await;

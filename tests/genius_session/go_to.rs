@@ -1,7 +1,7 @@
 //! Positions: what is sent, and what becomes of it.
 
 use azel::{
-    controller::{Motion, rotator_genius::Rotators},
+    controller::{Asked, Motion, rotator_genius::Rotators},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},
@@ -57,8 +57,8 @@ async fn a_refused_position_is_told_with_the_reason_and_stops_the_other_axis() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(to(Some(180.0), Some(20.0)));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(motion, why) = event else { unreachable!() };
-    assert!(matches!(motion, Motion::Position { .. }));
+    let Event::Refused(asked, why) = event else { unreachable!() };
+    assert!(matches!(asked, Asked::Motion(Motion::Position { .. })));
     assert_eq!(why, "F for rotator 1: no reason is given; its limits are 0 and 359");
     rig.seconds(0.5).await;
     assert_eq!(rig.orders(), ["|A1180", "|S"], "half of a motion is none");

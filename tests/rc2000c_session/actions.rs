@@ -1,7 +1,7 @@
 //! Moves to stored satellites and to counts.
 
 use azel::{
-    controller::{Motion, panel::CheckState, rc2000c::MAKE, settings::Value},
+    controller::{Asked, panel::CheckState, rc2000c::MAKE, settings::Value},
     driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rc2000c::SatelliteName,
@@ -13,7 +13,7 @@ use super::rig::{Rig, antenna, check, reading, uncalibrated};
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 

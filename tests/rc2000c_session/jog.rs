@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::{Motion, rc2000c::BAUD},
+    controller::{Asked, Motion, rc2000c::BAUD},
     driver::{Command, Event, LinkState, Refusal},
     plan::Barrier,
     sim::rc2000c::{Fault, Options, Quirk},
@@ -153,7 +153,10 @@ async fn after_a_missed_reply_the_jog_is_not_renewed_and_the_unit_ends_it() {
     assert!(!rig.times("3X").is_empty());
     let events = rig.events();
     let told = |event: &Event| {
-        matches!(event, Event::JogPositionOld | Event::Unanswered(Motion::Jog { .. }))
+        matches!(
+            event,
+            Event::JogPositionOld | Event::Unanswered(Asked::Motion(Motion::Jog { .. }))
+        )
     };
     assert!(events.iter().any(told), "{events:?}");
     assert!(!rig.control.state().is_turning, "the timer of the unit has ended it");
@@ -185,7 +188,9 @@ async fn a_refused_jog_ends_with_the_likely_reason() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(Command::Jog { rates_deg_s: [FAST, 0.0] });
     let event = rig.until_event(1, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Jog { .. }, reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Motion(Motion::Jog { .. }), reason) = event else {
+        panic!("{event:?}")
+    };
     assert_eq!(reason, "the unit does not say why");
     assert_eq!(rig.times("3W").len(), 1);
 }

@@ -1,7 +1,7 @@
 //! The polarization: turned by hand, by the stored values, and by the unit.
 
 use azel::{
-    controller::{Motion, settings::Value},
+    controller::{Asked, settings::Value},
     driver::{Command, Event, Intent, Refusal},
     sim::rc2000c::Quirk,
 };
@@ -10,7 +10,7 @@ use super::rig::{Rig, reading};
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 

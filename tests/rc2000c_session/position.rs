@@ -2,7 +2,7 @@
 
 use azel::{
     astro::Angle,
-    controller::{Motion, panel::CheckState},
+    controller::{Asked, Motion, panel::CheckState},
     driver::{Command, Event, Intent, Refusal},
     sim::rc2000c::{Fault, Options, Quirk},
 };
@@ -54,7 +54,9 @@ async fn without_a_calibration_or_known_counts_nothing_is_sent() {
     rig.send(Command::Hold);
     rig.send(to(170.0, 40.0));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Position { .. }, reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Motion(Motion::Position { .. }), reason) = event else {
+        panic!("{event:?}")
+    };
     assert_eq!(reason, "the azimuth is not calibrated");
     assert!(rig.times("2").is_empty());
 
@@ -94,7 +96,9 @@ async fn a_refusal_ends_the_intent_with_the_likely_reason() {
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(to(170.0, 40.0));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Position { .. }, reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Motion(Motion::Position { .. }), reason) = event else {
+        panic!("{event:?}")
+    };
     assert_eq!(reason, "the position lies beyond a limit of the unit");
     assert_eq!(rig.shown().intent, Intent::Standby);
     assert_eq!(rig.times("2").len(), 1);

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::{Motion, settings::Value},
+    controller::{Asked, settings::Value},
     driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
@@ -88,7 +88,7 @@ impl Desk {
             [state.az_counts, state.el_counts] == [1530, 750] && !state.is_turning
         })
         .await;
-        let failed = |event: &Event| matches!(event, Event::Refused(Motion::Action(_), _));
+        let failed = |event: &Event| matches!(event, Event::Refused(Asked::Action(_), _));
         assert!(!self.events.iter().any(failed), "{:?}", self.events);
         assert_eq!(self.handle.snapshot().state.traffic.damaged, 0);
         self.send(Command::Disconnect);

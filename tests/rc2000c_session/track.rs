@@ -1,7 +1,7 @@
 //! The track mode of the unit: shown, left alone, and ended only when told.
 
 use azel::{
-    controller::{Motion, panel::CheckState, settings::Value},
+    controller::{Asked, panel::CheckState, settings::Value},
     driver::{Command, Event, Found, LinkState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };
@@ -25,7 +25,7 @@ async fn tracking() -> Rig {
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
-    let Event::Refused(Motion::Action(_), reason) = event else { panic!("{event:?}") };
+    let Event::Refused(Asked::Action(_), reason) = event else { panic!("{event:?}") };
     reason
 }
 

@@ -3,7 +3,7 @@
 
 use azel::{
     astro::Angle,
-    controller::Motion,
+    controller::{Asked, Motion},
     driver::{Command, Event, Intent},
 };
 
@@ -58,7 +58,10 @@ async fn a_goto_without_a_reply_that_does_not_move_is_told() {
     unit.seconds(10.0).await;
     assert_eq!(unit.sent("GOTO="), ["GOTO=,125.1,32.6"]);
     let events = unit.events();
-    assert!(matches!(events[..], [Event::Unanswered(Motion::Position { .. })]), "{events:?}");
+    assert!(
+        matches!(events[..], [Event::Unanswered(Asked::Motion(Motion::Position { .. }))]),
+        "{events:?}"
+    );
     assert_eq!(unit.handle.snapshot().intent, Intent::Standby);
 }
 
@@ -86,7 +89,7 @@ async fn a_step_without_a_reply_that_was_not_made_is_told() {
     unit.seconds(10.0).await;
     assert_eq!(unit.sent("STEP="), ["STEP=,2,0"]);
     let step = Motion::Step { x_deg: 2.0, y_deg: 0.0 };
-    assert_eq!(unit.events(), [Event::Unanswered(step)]);
+    assert_eq!(unit.events(), [Event::Unanswered(step.into())]);
 }
 
 #[tokio::test(start_paused = true)]

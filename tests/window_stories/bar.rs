@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use azel::{
-    controller::{Motion, satrak::checks},
+    controller::{Asked, Motion, satrak::checks},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::{AlarmKind, Work},
     model::{ThemeName, UiCommand},
@@ -44,7 +44,10 @@ fn alarms_are_told_in_words_with_their_antenna() {
             AlarmKind::JogLeaseOver,
             "Satrak: the jog was stopped because the window did not renew it",
         ),
-        (AlarmKind::Refused(Motion::StartProgram, "7".to_owned()), "Track: Satrak answered ERR,7"),
+        (
+            AlarmKind::Refused(Asked::Motion(Motion::StartProgram), "7".to_owned()),
+            "Track: Satrak answered ERR,7",
+        ),
         (AlarmKind::Check(checks(None)[7].clone()), "Satrak: X motor. Do not move X"),
         (
             AlarmKind::Unreadable("It writes commas."),

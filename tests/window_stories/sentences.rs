@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    controller::{AxisMotion, Motion, Phase, PrepareError},
+    controller::{Asked, AxisMotion, Motion, Phase, PrepareError},
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
     engine::{
         claim::{HeldBy, Holder, HolderKind},
@@ -261,8 +261,8 @@ fn a_make_that_serves_one_program_says_that_another_may_have_it() {
 
 #[test]
 fn a_refusal_without_a_code_is_told_in_its_words() {
-    let motion = Motion::Action(azel::controller::rotator_genius::OTHER);
-    let refused = Event::Refused(motion, "F for rotator 2: it is outside its limits".to_owned());
+    let asked = Asked::Action(azel::controller::rotator_genius::OTHER);
+    let refused = Event::Refused(asked, "F for rotator 2: it is outside its limits".to_owned());
     let mut model = makes::model(makes::alone(), states::holding());
     model.antennas[0].news = Some((refused, model.now));
     let sentence = states::sentence(&model);
@@ -291,7 +291,10 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
             "Satrak answers again after 42 s. It stands still and tracks nothing.",
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),
-        (Event::Refused(Motion::StartProgram, "7".to_owned()), "Track: the unit answered ERR,7."),
+        (
+            Event::Refused(Asked::Motion(Motion::StartProgram), "7".to_owned()),
+            "Track: the unit answered ERR,7.",
+        ),
         (
             Event::CannotTrack(states::target(), refused),
             "Not tracking NOAA 20: the unit answered ERR,7.",

@@ -3,7 +3,7 @@
 use super::{Order, Rc2000c, refusal::is_tracking};
 use crate::{
     controller::{
-        Device, Happening, Motion,
+        Asked, Device, Happening,
         panel::{Act, Action, Lead},
         settings::{Field, Kind, Unfit, Value},
     },
@@ -128,27 +128,27 @@ fn check_name(typed: &str) -> Result<(), Unfit> {
 impl Rc2000c {
     /// Queues what the action asks for, or says why it cannot be.
     pub(super) fn act_on(&mut self, act: &Act) {
-        let motion = Motion::Action(act.action);
+        let asked = Asked::Action(act.action);
         if self.motion_under_way() {
             let reason = "another command is under way".to_owned();
-            return self.happenings.push_back(Happening::Refused(motion, reason));
+            return self.happenings.push_back(Happening::Refused(asked, reason));
         }
         match act.action {
             READ_LIST => self.names = super::Names::default(),
-            RESET_AZIMUTH => self.reset(DriveReset::Azimuth, motion),
-            RESET_ELEVATION => self.reset(DriveReset::Elevation, motion),
-            RESET_POLARIZATION => self.reset(DriveReset::Polarization, motion),
+            RESET_AZIMUTH => self.reset(DriveReset::Azimuth, asked),
+            RESET_ELEVATION => self.reset(DriveReset::Elevation, asked),
+            RESET_POLARIZATION => self.reset(DriveReset::Polarization, asked),
             _ => {
                 let request = self.request_of(act);
-                self.order(motion, request);
+                self.order(asked, request);
             }
         }
     }
 
-    fn reset(&mut self, drive: DriveReset, motion: Motion) {
+    fn reset(&mut self, drive: DriveReset, asked: Asked) {
         let reset = Request::Motion(UnitMotion::ResetDrive(drive));
-        let motion = Some(motion);
-        self.orders.extend([Request::Stop, reset].map(|request| Order { request, motion }));
+        let asked = Some(asked);
+        self.orders.extend([Request::Stop, reset].map(|request| Order { request, asked }));
     }
 
     fn request_of(&self, act: &Act) -> Result<Request, String> {

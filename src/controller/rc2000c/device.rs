@@ -209,10 +209,10 @@ impl Moves for Rc2000c {
                     let target = self.axes.auto_move(azimuth, elevation, self.status.as_ref());
                     target.map(|target| Request::Motion(UnitMotion::AutoMove(target)))
                 };
-                self.order(motion, request);
+                self.order(motion.into(), request);
             }
-            Motion::Step { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
-                self.order(motion, Err("the controller cannot do this".to_owned()));
+            Motion::Step { .. } | Motion::StartProgram | Motion::EnableAuto => {
+                self.order(motion.into(), Err("the controller cannot do this".to_owned()));
             }
         }
     }

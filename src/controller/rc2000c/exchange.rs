@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
-    controller::{Happening, Measured, Moment, Motion, Phase, Program},
+    controller::{Asked, Happening, Measured, Moment, Motion, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
         PolarizationUnits, Query, Reply, ReplyError, Request, Status,
@@ -23,7 +23,7 @@ pub(super) enum Purpose {
     /// Something is to be known.
     Question,
     /// The operator asked for it, or nobody did: a part of a halt.
-    Order(Option<Motion>),
+    Order(Option<Asked>),
     /// A halt past everything.
     Halt,
     /// A halt has overtaken it: whatever comes is of no interest.
@@ -140,8 +140,8 @@ impl Rc2000c {
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {
                 self.take_status(*status, answered, now);
-                if let Purpose::Order(motion) = answered.purpose {
-                    self.happenings.extend(motion.map(Happening::Accepted));
+                if let Purpose::Order(asked) = answered.purpose {
+                    self.happenings.extend(asked.map(Happening::Accepted));
                 }
                 let is_jog = matches!(answered.request, Request::Motion(UnitMotion::Jog(_)));
                 if answered.purpose != Purpose::Poll && !is_jog {
@@ -189,18 +189,18 @@ impl Rc2000c {
         let units = status.feed.units().filter(|_| is_under_way && !is_automatic);
         if let Some(here) = units.and_then(|units| PolarizationUnits::new(units).ok()) {
             let request = Request::Motion(UnitMotion::AutoMove(AutoMove::polarization(here)));
-            self.orders.push_back(Order { request, motion: None });
+            self.orders.push_back(Order { request, asked: None });
         }
     }
 
     /// The unit said no.
     fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
-        self.end_jog(answered, |motion| Happening::Refused(motion, reason.clone()));
+        self.end_jog(answered, |asked| Happening::Refused(asked, reason.clone()));
         match answered.purpose {
             Purpose::Poll | Purpose::Question => self.question_failed(&answered.request, now),
-            Purpose::Order(Some(motion)) => {
+            Purpose::Order(Some(asked)) => {
                 self.orders.clear();
-                self.happenings.push_back(Happening::Refused(motion, reason));
+                self.happenings.push_back(Happening::Refused(asked, reason));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Order(None) => {
@@ -221,10 +221,11 @@ impl Rc2000c {
 
     /// Nothing renews the jog any more: the timer of the unit ends it. It is told
     /// where the command that failed was not the jog itself.
-    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Motion) -> Happening) {
-        let is_told = matches!(failed.purpose, Purpose::Order(Some(Motion::Jog { .. })));
+    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Asked) -> Happening) {
+        let is_told =
+            matches!(failed.purpose, Purpose::Order(Some(Asked::Motion(Motion::Jog { .. }))));
         let ended = self.jog.take().filter(|_| !is_told);
-        self.happenings.extend(ended.map(|jog| tell(jog.motion)));
+        self.happenings.extend(ended.map(|jog| tell(jog.motion.into())));
     }
 
     /// What was not answered in time. A question is repeated; anything else
@@ -257,9 +258,9 @@ impl Rc2000c {
                 self.question_failed(&late.request, now);
             }
             Purpose::Question => self.question_failed(&late.request, now),
-            Purpose::Order(motion) => {
+            Purpose::Order(asked) => {
                 self.orders.clear();
-                self.happenings.extend(motion.map(Happening::Unanswered));
+                self.happenings.extend(asked.map(Happening::Unanswered));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Disowned => self.look_soon(now),

@@ -121,7 +121,7 @@ fn a_renewal_that_comes_too_late_is_not_sent() {
     bench.hear(&idle_reply_to(b'3'));
     assert_eq!(bench.happenings().len(), 2);
     assert_eq!(bench.poll_after(600).as_deref(), Some(STATUS));
-    assert_eq!(bench.happenings(), [Happening::Unanswered(motion)]);
+    assert_eq!(bench.happenings(), [Happening::Unanswered(motion.into())]);
     assert!(!bench.unit.motion_under_way());
 }
 
@@ -176,7 +176,7 @@ fn an_offline_reply_in_a_jog_ends_it() {
     assert_eq!(bench.poll_after(260).as_deref(), Some(STATUS));
     bench.hear(OFFLINE);
     let [Happening::Refused(refused, reason)] = &bench.happenings()[..] else { panic!() };
-    assert_eq!((*refused, &**reason), (motion, "remote mode is disabled on the unit"));
+    assert_eq!((*refused, &**reason), (motion.into(), "remote mode is disabled on the unit"));
     assert!(!bench.unit.motion_under_way());
 }
 

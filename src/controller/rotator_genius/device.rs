@@ -10,8 +10,8 @@ use super::{
 };
 use crate::{
     controller::{
-        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, TrackTarget,
-        WireLine,
+        AntennaState, Asked, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError, SettleStep},
     },
@@ -161,17 +161,17 @@ impl Moves for Genius {
         self.changes.push_back(change);
     }
 
-    fn objection(&self, motion: &Motion, now: Moment) -> Option<&'static str> {
-        self.objection_to(motion, now)
+    fn objection(&self, asked: &Asked, now: Moment) -> Option<&'static str> {
+        self.objection_to(asked, now)
     }
 
     fn start(&mut self, motion: Motion) {
         // A newer wish replaces what has not gone out yet.
-        self.orders.retain(|order| matches!(order.motion, Motion::Action(_)));
+        self.orders.retain(|order| matches!(order.asked, Asked::Action(_)));
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),
             Err(why) => {
-                self.happenings.push_back(Happening::Refused(motion, why.to_owned()));
+                self.happenings.push_back(Happening::Refused(motion.into(), why.to_owned()));
             }
         }
     }
@@ -180,12 +180,12 @@ impl Moves for Genius {
         match act.action {
             RESCUE => self.is_rescue_wanted = true,
             OTHER => {
-                let motion = Motion::Action(OTHER);
-                self.orders.retain(|order| order.motion != motion);
+                let asked = Asked::Action(OTHER);
+                self.orders.retain(|order| order.asked != asked);
                 match self.order_for(&act) {
                     Ok(order) => self.orders.push_back(order),
                     Err(why) => {
-                        self.happenings.push_back(Happening::Refused(motion, why.to_owned()));
+                        self.happenings.push_back(Happening::Refused(asked, why.to_owned()));
                     }
                 }
             }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
-    controller::{Happening, Moment, Motion, PROMPT},
+    controller::{Asked, Happening, Moment, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },
@@ -21,7 +21,7 @@ pub(super) enum Purpose {
     /// The operator wants to know.
     Asked,
     /// Metal is to move.
-    Motion(Motion),
+    Motion(Asked),
     /// A step of changing the configuration.
     Settle,
     /// A halt has overtaken it: whatever comes is of no interest.
@@ -193,23 +193,23 @@ impl Genius {
         if outstanding.purpose == Purpose::Settle {
             return self.change_judged(is_accepted, now);
         }
-        let Purpose::Motion(motion) = outstanding.purpose else { return };
+        let Purpose::Motion(asked) = outstanding.purpose else { return };
         if is_accepted {
-            if !self.orders.iter().any(|order| order.motion == motion) {
-                self.happenings.push_back(Happening::Accepted(motion));
+            if !self.orders.iter().any(|order| order.asked == asked) {
+                self.happenings.push_back(Happening::Accepted(asked));
             }
             return;
         }
-        self.forget_orders(motion);
+        self.forget_orders(asked);
         if let Request::Motion(request) = outstanding.request {
             let refusal = self.refusal(request);
-            self.happenings.push_back(Happening::Refused(motion, refusal));
+            self.happenings.push_back(Happening::Refused(asked, refusal));
         }
     }
 
     /// Half of a motion is none.
-    fn forget_orders(&mut self, motion: Motion) {
-        self.orders.retain(|order| order.motion != motion);
+    fn forget_orders(&mut self, asked: Asked) {
+        self.orders.retain(|order| order.asked != asked);
     }
 
     /// A status is asked for again; anything else never: the status tells whether
@@ -224,9 +224,9 @@ impl Genius {
             self.missing_since.get_or_insert(late.sent);
         }
         match late.purpose {
-            Purpose::Motion(motion) => {
-                self.forget_orders(motion);
-                self.happenings.push_back(Happening::Unanswered(motion));
+            Purpose::Motion(asked) => {
+                self.forget_orders(asked);
+                self.happenings.push_back(Happening::Unanswered(asked));
             }
             Purpose::Settle => self.change_unanswered(now),
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}

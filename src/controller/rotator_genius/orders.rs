@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     astro::Angle,
-    controller::{AxisMotion, Moment, Motion, panel::Act, settings::Value},
+    controller::{Asked, AxisMotion, Moment, Motion, panel::Act, settings::Value},
     protocol::rotator_genius::{
         self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
     },
@@ -17,8 +17,8 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Order {
     pub(super) request: unit::Motion,
-    /// What it belongs to.
-    pub(super) motion: Motion,
+    /// Whose part it is.
+    pub(super) asked: Asked,
 }
 
 const NOT_READ: &str = "the rotators were not read yet";
@@ -38,12 +38,12 @@ impl Genius {
         self.status.as_ref().map(|status| Roles::of(self.rotators, status))
     }
 
-    /// Why `motion` must not be sent, as far as this device is special.
-    pub(super) fn objection_to(&self, motion: &Motion, now: Moment) -> Option<&'static str> {
+    /// Why `asked` must not be sent, as far as this device is special.
+    pub(super) fn objection_to(&self, asked: &Asked, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
         let Roles { axes: [first, second], is_clear, is_pair } = Roles::of(self.rotators, status);
-        match *motion {
-            Motion::Jog { x_deg_s, .. } => {
+        match *asked {
+            Asked::Motion(Motion::Jog { x_deg_s, .. }) => {
                 let (number, other) =
                     if x_deg_s == 0.0 { (second, first) } else { (first, second) };
                 if !is_clear && (is_pair || number == first) {
@@ -60,7 +60,7 @@ impl Genius {
                     None => Some(OUTSIDE_UNKNOWN),
                 })
             }
-            Motion::Position { azimuth, elevation } => {
+            Asked::Motion(Motion::Position { azimuth, elevation }) => {
                 if !is_clear {
                     return Some(KINDS);
                 }
@@ -71,7 +71,7 @@ impl Genius {
                 let mut rotators = asked.into_iter().flatten().map(|number| status.rotator(number));
                 rotators.find_map(without_position)
             }
-            Motion::Action(OTHER) => without_position(status.rotator(second)),
+            Asked::Action(OTHER) => without_position(status.rotator(second)),
             _ => None,
         }
     }
@@ -109,7 +109,7 @@ impl Genius {
             }
             _ => return Err(NO_MOTION),
         };
-        Ok(requests.into_iter().map(|request| Order { request, motion }).collect())
+        Ok(requests.into_iter().map(|request| Order { request, asked: motion.into() }).collect())
     }
 
     /// The command that an action is made of.
@@ -122,7 +122,7 @@ impl Genius {
         let target = target.ok_or(BEYOND)?;
         let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
         let request = unit::Motion::GoTo { rotator, target };
-        Ok(Order { request, motion: Motion::Action(act.action) })
+        Ok(Order { request, asked: Asked::Action(act.action) })
     }
 
     /// What an `F` means, as far as the last status tells: the device never says.

@@ -84,7 +84,7 @@ proptest! {
                 Step::Wait(ms) => now.steady += Duration::from_millis(ms),
                 Step::Receive(bytes) => genius.receive(&bytes, now),
                 Step::Start(motion) => {
-                    let _ = genius.objection(&motion, now);
+                    let _ = genius.objection(&motion.into(), now);
                     genius.start(motion);
                 }
                 Step::Act(action, degrees) => {

@@ -209,7 +209,7 @@ impl Satrak {
                 self.change_answered(&reply, now);
             }
             (_, Purpose::Motion(motion)) => {
-                self.happenings.push_back(Happening::Accepted(motion));
+                self.happenings.push_back(Happening::Accepted(motion.into()));
                 self.look_soon(now);
             }
             (_, Purpose::Calm(_) | Purpose::Disowned) => self.look_soon(now),
@@ -261,7 +261,7 @@ impl Satrak {
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
             Purpose::Settle => self.change_refused(code, now),
             Purpose::Motion(motion) => {
-                self.happenings.push_back(Happening::Refused(motion, code));
+                self.happenings.push_back(Happening::Refused(motion.into(), code));
                 self.look_soon(now);
             }
             Purpose::Calm(Halt::AutoTrackOff) => {
@@ -380,7 +380,7 @@ impl Satrak {
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
             Purpose::Settle => self.change_unanswered(now),
             Purpose::Motion(motion) => {
-                self.happenings.push_back(Happening::Unanswered(motion));
+                self.happenings.push_back(Happening::Unanswered(motion.into()));
                 self.look_soon(now);
             }
             Purpose::Calm(Halt::AutoTrackOff) => {
@@ -404,7 +404,5 @@ pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
         }
         Motion::StartProgram => unit::Motion::TrackOn,
         Motion::EnableAuto => unit::Motion::AutoTrackOn,
-        // It has none.
-        Motion::Action(_) => return Err(ValueError::NoMotion),
     })
 }

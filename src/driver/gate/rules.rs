@@ -6,7 +6,7 @@ use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
     controller::{
-        Motion, aimed,
+        Asked, Motion, aimed,
         panel::{Act, Lead},
         settings::Hindrance,
     },
@@ -30,7 +30,9 @@ pub(super) struct Rule {
 /// What a rule is about.
 #[derive(Clone, Copy)]
 pub(super) enum Check {
-    /// Any motion, an action that moves among them.
+    /// Any motion, and any action that moves.
+    Moving(fn(&Asked, &Situation<'_>) -> Result<(), Refusal>),
+    /// Any motion.
     Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
     /// An action.
     Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
@@ -51,13 +53,13 @@ macro_rules! rules {
 
 /// All rules; of each kind the plainest reason first.
 pub(super) const RULES: &[Rule] = rules![
-    Motion(unit_is_not_locked_out),
+    Moving(unit_is_not_locked_out),
     Motion(something_is_asked_for),
     Motion(controller_offers_it),
-    Motion(position_is_fresh),
-    Motion(no_stop_under_way),
-    Motion(intent_allows_it),
-    Motion(no_fault_forbids_it),
+    Moving(position_is_fresh),
+    Moving(no_stop_under_way),
+    Moving(intent_allows_it),
+    Moving(no_fault_forbids_it),
     Motion(no_limit_switch_in_that_direction),
     Motion(within_rates_and_steps),
     Motion(no_blind_jog),
@@ -66,7 +68,7 @@ pub(super) const RULES: &[Rule] = rules![
     Motion(way_is_clear),
     Motion(program_is_clear),
     Motion(auto_track_is_clear),
-    Motion(controller_agrees),
+    Moving(controller_agrees),
     Act(no_action_while_locked_out),
     MovingAct(the_end_of_the_action_can_be_known),
     MovingAct(the_operator_answers_for_an_unseen_end),
@@ -79,7 +81,7 @@ pub(super) const RULES: &[Rule] = rules![
     Setting(no_setting_after_a_motion_was_asked_for),
 ];
 
-fn unit_is_not_locked_out(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn unit_is_not_locked_out(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
@@ -92,7 +94,7 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
             let finite = |angle: Option<Angle>| angle.is_none_or(Angle::is_finite);
             finite(azimuth) && finite(elevation) && (azimuth.is_some() || elevation.is_some())
         }
-        Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => true,
+        Motion::StartProgram | Motion::EnableAuto => true,
     };
     if sound { Ok(()) } else { Err(Refusal::Nothing) }
 }
@@ -111,45 +113,41 @@ fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<()
             can.takes_positions && (can.has_elevation || elevation.is_none())
         }
         Motion::StartProgram | Motion::EnableAuto => can.has_program,
-        Motion::Action(_) => true,
     };
     if offered { Ok(()) } else { Err(Refusal::NotOffered) }
 }
 
-fn position_is_fresh(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn position_is_fresh(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
     let measured = situation
         .state
         .measured
         .filter(|measured| situation.state.link_since.is_some_and(|since| measured.asked >= since))
         .ok_or(Refusal::PositionUnknown)?;
     let age = situation.now.steady.saturating_duration_since(measured.asked);
-    let allowed = match motion {
-        Motion::Jog { .. } | Motion::Step { .. } => FRESH,
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
-            RECENT
-        }
-    };
+    let is_by_hand = matches!(asked, Asked::Motion(Motion::Jog { .. } | Motion::Step { .. }));
+    let allowed = if is_by_hand { FRESH } else { RECENT };
     if age < allowed { Ok(()) } else { Err(Refusal::PositionOld(age)) }
 }
 
-fn no_stop_under_way(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn no_stop_under_way(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
     if situation.stopping { Err(Refusal::Stopping) } else { Ok(()) }
 }
 
-fn intent_allows_it(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let allowed = match motion {
-        Motion::Jog { .. } | Motion::Step { .. } => situation.intent == Intent::Manual,
-        Motion::Position { .. } => {
-            matches!(situation.intent, Intent::Position | Intent::Park | Intent::Track)
+fn intent_allows_it(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let intent = situation.intent;
+    let allowed = match asked {
+        Asked::Motion(Motion::Jog { .. } | Motion::Step { .. }) => intent == Intent::Manual,
+        Asked::Motion(Motion::Position { .. }) => {
+            matches!(intent, Intent::Position | Intent::Park | Intent::Track)
         }
-        Motion::StartProgram => situation.intent == Intent::Track,
-        Motion::Action(_) => matches!(situation.intent, Intent::Manual | Intent::Position),
-        Motion::EnableAuto => true,
+        Asked::Motion(Motion::StartProgram) => intent == Intent::Track,
+        Asked::Motion(Motion::EnableAuto) => true,
+        Asked::Action(_) => matches!(intent, Intent::Manual | Intent::Position),
     };
-    if allowed { Ok(()) } else { Err(Refusal::Intent(situation.intent)) }
+    if allowed { Ok(()) } else { Err(Refusal::Intent(intent)) }
 }
 
-fn no_fault_forbids_it(_: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+fn no_fault_forbids_it(_: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
     match situation.state.motion_lock {
         Some(false) => Ok(()),
         Some(true) => Err(Refusal::Fault),
@@ -194,8 +192,7 @@ fn within_rates_and_steps(motion: &Motion, situation: &Situation<'_>) -> Result<
                 return Err(Refusal::StepTooLarge { asked_deg, allowed_deg });
             }
         }
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
-        }
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => {}
     }
     Ok(())
 }
@@ -224,9 +221,7 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
             situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
         }
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
-            return Ok(());
-        }
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
     // Without an elevation the second axis is none of the mount's.
@@ -299,8 +294,8 @@ fn auto_track_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     situation.gate.held_is_clear(situation.now)
 }
 
-fn controller_agrees(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let objection = situation.gate.controller.objection(motion, situation.now);
+fn controller_agrees(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let objection = situation.gate.controller.objection(asked, situation.now);
     objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
 }
 

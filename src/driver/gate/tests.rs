@@ -14,7 +14,11 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
-    controller::{Axis, AxisMotion, Extent, Measured, TrackTarget, panel::Lead, settings::Change},
+    controller::{
+        Axis, AxisMotion, Extent, Measured, TrackTarget,
+        panel::Lead,
+        settings::{Change, Values},
+    },
     orbit::{PassSearch, Propagator, passes},
     plan::{OnBoardPass, on_board::Ability},
     station::{KeepOut, Station},
@@ -66,7 +70,7 @@ impl Device for Metal {
 }
 
 impl Moves for Metal {
-    fn objection(&self, _: &Motion, _: Moment) -> Option<&'static str> {
+    fn objection(&self, _: &Asked, _: Moment) -> Option<&'static str> {
         self.objection
     }
 
@@ -167,6 +171,13 @@ impl Case {
         answer
     }
 
+    /// What the gate says to an action for whose end the operator answers.
+    fn act(&self, action: &'static str) -> Result<(), Refusal> {
+        let act = Act { action, values: Values::new() };
+        let mut gate = self.gate(&Arc::default());
+        gate.act(act, true, self.intent, self.stopping, self.now()).map(drop)
+    }
+
     fn gate(&self, started: &Arc<Mutex<Vec<Motion>>>) -> Gate {
         let metal = Metal::of(self, Arc::clone(started));
         let station = Station { keep_outs: self.keep_outs.clone(), ..Station::default() };
@@ -262,7 +273,6 @@ fn each_motion_belongs_to_its_intents() {
         (jog(1.0, 0.0), &[Manual][..]),
         (step(1.0, 0.0), &[Manual]),
         (position(10.0, 40.0), &[Position, Park, Track]),
-        (Motion::Action("turn"), &[Manual, Position]),
         (Motion::StartProgram, &[Track]),
         (Motion::EnableAuto, &all),
     ] {
@@ -271,6 +281,11 @@ fn each_motion_belongs_to_its_intents() {
                 if allowed.contains(&intent) { Ok(()) } else { Err(Refusal::Intent(intent)) };
             assert_eq!(Case::new(intent).ask(motion), wanted, "{motion:?}");
         }
+    }
+    for intent in all {
+        let allowed = matches!(intent, Manual | Position);
+        let wanted = if allowed { Ok(()) } else { Err(Refusal::Intent(intent)) };
+        assert_eq!(makes::rc2000c(intent).act("to_counts"), wanted, "{intent:?}");
     }
 }
 

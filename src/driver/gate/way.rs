@@ -49,9 +49,7 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
         }
         Motion::Step { x_deg, y_deg } => by_hand(axes_deg, [x_deg, y_deg], None, situation),
         // The way of the unit's own program is judged by itself.
-        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto | Motion::Action(_) => {
-            Ok(())
-        }
+        Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => Ok(()),
     }
 }
 

@@ -7,7 +7,7 @@ use tokio::{
     time::{sleep_until, timeout},
 };
 
-use super::{Asked, Command, Session, Wires, wanted::Wanted};
+use super::{Command, Numbered, Session, Wires, wanted::Wanted};
 use crate::{
     controller::{Extent, Moment},
     driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
@@ -346,7 +346,7 @@ async fn next_sleep(wires: &Wires) -> Awake {
 async fn next_command(wires: &Wires) -> Option<Command> {
     let mut commands = wires.commands.lock().await;
     loop {
-        let Asked { command, number } = commands.recv().await?;
+        let Numbered { command, number } = commands.recv().await?;
         if commands.is_closed() {
             return None;
         }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Event, Session, command::Waiting};
 use crate::{
-    controller::{Happening, Moment, Motion, Phase},
+    controller::{Asked, Happening, Moment, Motion, Phase},
     driver::{Found, Intent},
 };
 
@@ -16,10 +16,10 @@ const TRACK_EFFECT: Duration = Duration::from_secs(15);
 /// An axis that has turned by less may not have been moved at all, degrees.
 const TURNED_DEG: f64 = 0.05;
 
-/// A motion whose answer was lost.
+/// A motion or action whose answer was lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
-    motion: Motion,
+    asked: Asked,
     since: Instant,
     /// Angles of the two axes before it, degrees.
     before_deg: Option<[f64; 2]>,
@@ -89,21 +89,26 @@ impl Session {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
-            Happening::Accepted(Motion::Position { .. }) => self.position_taken(),
+            Happening::Accepted(Asked::Motion(Motion::Position { .. })) => self.position_taken(),
             Happening::Accepted(_) => {}
-            Happening::Refused(motion, code) => {
-                self.forget_motion(motion, Event::Refused(motion, code), now);
+            Happening::Refused(asked, code) => {
+                self.forget(asked, Event::Refused(asked, code), now);
             }
-            Happening::Unanswered(motion) => {
+            Happening::Unanswered(asked) => {
                 let before_deg = self.gate.started_from_deg();
-                self.doubt = Some(Doubt { motion, since: now.steady, before_deg });
+                self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
             }
             Happening::HaltRefused(code) => self.tell(Event::StopRefused(code)),
             Happening::AutoStaysOn => self.tell(Event::AutoStaysOn),
         }
     }
 
-    fn forget_motion(&mut self, motion: Motion, event: Event, now: Moment) {
+    /// Ends what was wanted of a motion or action that does not come about.
+    fn forget(&mut self, asked: Asked, event: Event, now: Moment) {
+        let motion = match asked {
+            Asked::Motion(motion) => motion,
+            Asked::Action(_) => return self.tell(event),
+        };
         match motion {
             Motion::Jog { .. } => {
                 self.halt_quietly(now);
@@ -113,7 +118,7 @@ impl Session {
                 self.stepping = None;
                 self.tell(event);
             }
-            Motion::EnableAuto | Motion::Action(_) => self.tell(event),
+            Motion::EnableAuto => self.tell(event),
             Motion::Position { .. } | Motion::StartProgram => self.give_up(event, now),
         }
     }
@@ -121,7 +126,7 @@ impl Session {
     /// A command without an answer may have come through all the same: the
     /// state that was asked for afterwards decides.
     fn resolve_doubt(&mut self, now: Moment) {
-        let Some(Doubt { motion, since, before_deg }) = self.doubt else { return };
+        let Some(Doubt { asked, since, before_deg }) = self.doubt else { return };
         if self.gate.state().measured.is_none_or(|measured| measured.asked <= since) {
             return;
         }
@@ -131,7 +136,7 @@ impl Session {
             before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
         });
         if !self.active() && !turned && !self.may_send_another() {
-            self.forget_motion(motion, Event::Unanswered(motion), now);
+            self.forget(asked, Event::Unanswered(asked), now);
         }
     }
 

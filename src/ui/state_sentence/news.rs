@@ -51,13 +51,13 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let reason = refusal.barrier().map(reason);
             caution.plain(words::refusal(refusal) + &reason.unwrap_or_default())
         }
-        Event::Refused(motion, code) => {
+        Event::Refused(asked, code) => {
             let answer = words::answer(code);
-            caution.plain(format!("{}: the unit answered {answer}.", words::motion(*motion)))
+            caution.plain(format!("{}: the unit answered {answer}.", words::asked(*asked)))
         }
-        Event::Unanswered(motion) => caution.plain(format!(
+        Event::Unanswered(asked) => caution.plain(format!(
             "{}: the unit did not answer and does not move. It is not sent again.",
-            words::motion(*motion)
+            words::asked(*asked)
         )),
         Event::CannotTrack(target, reason) => caution
             .plain("Not tracking ")

@@ -56,12 +56,12 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."
         ),
-        AlarmKind::Refused(motion, code) => {
+        AlarmKind::Refused(asked, code) => {
             let answer = super::answer(code);
-            format!("{}: {antenna} answered {answer}.", super::motion(*motion))
+            format!("{}: {antenna} answered {answer}.", super::asked(*asked))
         }
-        AlarmKind::Unanswered(motion) => {
-            format!("{}: {antenna} did not answer and does not move.", super::motion(*motion))
+        AlarmKind::Unanswered(asked) => {
+            format!("{}: {antenna} did not answer and does not move.", super::asked(*asked))
         }
         AlarmKind::CannotTrack(target, reason) => {
             format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))

@@ -104,13 +104,13 @@ fn an_azimuth_of_the_sky_goes_to_the_nearest_position_of_the_axis() {
 #[test]
 fn an_action_that_moves_passes_every_rule() {
     let mut case = rc2000c(Intent::Manual);
-    let action = Motion::Action("auto_move");
-    assert_eq!(case.ask(action), Ok(()));
+    let action = "to_counts";
+    assert_eq!(case.act(action), Ok(()));
     case.stopping = true;
-    assert_eq!(case.ask(action), Err(Refusal::Stopping));
+    assert_eq!(case.act(action), Err(Refusal::Stopping));
     case.stopping = false;
     case.state.motion_lock = Some(true);
-    assert_eq!(case.ask(action), Err(Refusal::Fault));
+    assert_eq!(case.act(action), Err(Refusal::Fault));
 }
 
 /// A Genius whose elevation travels to 180 degrees, and its gate. Its axes are

@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, vec2};
 use crate::ui::antennas::cards::fields;
 use crate::{
     controller::{
-        Motion,
+        Asked, Motion,
         settings::{Kind, Value},
     },
     driver::{Command, Event, Refusal},
@@ -86,10 +86,12 @@ fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
     match event {
         Event::NotSent(refusal) => Some(words::refusal(refusal)),
-        Event::Refused(Motion::EnableAuto, code) => {
+        Event::Refused(Asked::Motion(Motion::EnableAuto), code) => {
             Some(format!("{AUTO}: the unit answered ERR,{code}."))
         }
-        Event::Unanswered(Motion::EnableAuto) => Some(format!("{AUTO}: the unit did not answer.")),
+        Event::Unanswered(Asked::Motion(Motion::EnableAuto)) => {
+            Some(format!("{AUTO}: the unit did not answer."))
+        }
         _ => None,
     }
 }
