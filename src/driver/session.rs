@@ -2,14 +2,13 @@
 //! intent and stops what has to be stopped. It lives on the driver's thread
 //! and needs neither window nor frames.
 
+mod activity;
 mod clocks;
 mod command;
-mod converse;
-mod farewell;
 mod follow;
 mod guard;
-mod halting;
 mod inside;
+mod io_loop;
 mod jog;
 mod likeness;
 mod liveness;
@@ -18,9 +17,11 @@ mod marking;
 mod monitor;
 mod on_board;
 mod settle;
+mod shutdown;
 mod silence;
 mod standstill;
 mod step;
+mod stop;
 mod supervise;
 #[cfg(test)]
 pub(in crate::driver) mod testing;
@@ -47,16 +48,15 @@ use super::{
     gate::Gate,
 };
 use crate::{
-    controller::{AxisMotion, Make, Moment, Moves, Pointing, TrackTarget},
+    controller::{AxisMotion, Make, Moment, Moves, Pointing},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
+use activity::Activity;
 use clocks::Clocks;
-use command::{Leg, Waiting};
 use follow::{Following, Manner, ResumeRule};
 use guard::Guard;
-use halting::Halting;
-use jog::Jog;
+use jog::JogKey;
 use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
@@ -64,6 +64,7 @@ use monitor::{RunOut, Watch};
 use silence::Silence;
 use standstill::{Figures, Rest};
 use step::Stepping;
+use stop::Stop;
 use supervise::Doubt;
 use wanted::Wanted;
 
@@ -171,22 +172,45 @@ fn first_link(antenna: &Antenna) -> (Wanted, LinkState) {
     (Wanted::Yes, LinkState::Connecting { since })
 }
 
-/// One antenna's session.
-pub struct Session {
-    name: String,
-    gate: Gate,
-    make: &'static Make,
+/// The antenna by its settings.
+struct Setup {
     park: Pointing,
     /// How it follows.
     manner: Manner,
-    /// What it must keep to while the unit tracks by itself.
+    /// The bounds of a pass that the unit tracks by itself.
     ability: Ability,
     /// When it follows on by itself.
     rule: ResumeRule,
+    figures: Figures,
+    /// The response when somebody else drives it into what is forbidden.
+    monitor: Monitor,
+}
+
+/// The link, and what is remembered across the time without one.
+struct Contact {
     wanted: Wanted,
-    dial: Dial,
-    clock: Clock,
-    wires: Wires,
+    link: LinkState,
+    silence: Silence,
+    /// The clocks when they were compared last.
+    clocks: Option<Clocks>,
+    /// The time that the computer has slept since the link was up last.
+    slept: Duration,
+    /// Where the antenna was seen last on the link before.
+    left_at: Option<Pointing>,
+    /// Its unit at that time.
+    left_as: Likeness,
+    /// When the link went away while it had been up before.
+    away_since: Option<Instant>,
+    /// The loss of the link was told.
+    loss_is_told: bool,
+    /// The unit was not read yet on this link.
+    unread: bool,
+    /// The unit's own program was on when it was last read.
+    program_was_on: bool,
+}
+
+/// The STOP that is owed to the unit, also by and to other sessions and runs.
+struct Owed {
     unit: Unit,
     debts: Debts,
     /// Tells this session from others of the same unit.
@@ -196,47 +220,35 @@ pub struct Session {
     marking: Marking,
     /// An earlier run may have left it moving, since then, and the operator is asked.
     left_moving: Option<Timestamp>,
-    figures: Figures,
-    /// What is done when somebody else drives it into what is forbidden.
-    monitor: Monitor,
+}
+
+/// The comparisons of one look with the next.
+#[derive(Default)]
+struct Seen {
     watch: Watch,
     place: inside::Place,
     run_out: RunOut,
     rest: Rest,
-    /// When the look came in that the rest was watched by last.
+    /// When the look came in by which the rest was watched last.
     looked: Option<Instant>,
-    link: LinkState,
-    silence: Silence,
-    /// The clocks when they were compared last.
-    clocks: Option<Clocks>,
-    /// For how long the computer has slept since the link was up last.
-    slept: Duration,
-    /// Where the antenna was seen last on the link before.
-    left_at: Option<Pointing>,
-    /// What its unit was like then.
-    left_as: Likeness,
-    /// When the link went away while it had been up before.
-    away_since: Option<Instant>,
-    /// That the link is lost was told.
-    told_lost: bool,
-    /// The device was not read yet on this link.
-    unread: bool,
-    /// The device's own program was on when it was last read.
-    program_was_on: bool,
-    intent: Intent,
-    /// The intent is not yet proved by the device.
-    pending: Option<Instant>,
-    aim: Option<Pointing>,
-    /// The leg of a go-to that is under way, before the last one.
-    leg: Option<Leg>,
-    target: Option<TrackTarget>,
-    /// The watch over what the unit tracks by itself.
-    on_board: Option<on_board::Watch>,
-    /// What this program follows, position by position.
-    following: Option<Following>,
-    jog: Option<Jog>,
-    /// The direction of a hold that ended before its key came up.
-    ended_hold: Option<[f64; 2]>,
+}
+
+/// One antenna's session.
+pub struct Session {
+    name: String,
+    make: &'static Make,
+    setup: Setup,
+    gate: Gate,
+    dial: Dial,
+    clock: Clock,
+    wires: Wires,
+    contact: Contact,
+    owed: Owed,
+    seen: Seen,
+    activity: Activity,
+    /// The watch over what the unit tracks without having been asked from here.
+    unasked: Option<on_board::Watch>,
+    key: JogKey,
     guard: Guard,
     /// Puts off the sleep of this computer until nothing is out that only STOP ends.
     awake: Option<Awake>,
@@ -245,14 +257,11 @@ pub struct Session {
     acts: bool,
     /// A step that is not known to be over.
     stepping: Option<Stepping>,
-    /// Is done as soon as no halt is under way.
-    waiting: Option<Waiting>,
-    halting: Option<Halting>,
+    stop: Stop,
     /// How far a lock-out is.
     locking: Option<Locking>,
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
-    stopped_at: Option<Instant>,
     /// Bytes of a halt, written before anything else.
     urgent: Vec<u8>,
 }
@@ -288,60 +297,54 @@ impl Session {
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());
         gate.was_moved(debts.unproved_since(&unit));
-        let kept_unproved = gate.unproved_since();
+        let can = make.capabilities;
         Self {
             name: antenna.name.clone(),
-            kept_unproved,
-            gate,
             make,
-            park: antenna.park_direction().into(),
-            manner: Manner::of(antenna, make.capabilities),
-            ability: Ability::of(antenna),
-            rule: ResumeRule::of(antenna),
-            wanted,
+            setup: Setup {
+                park: antenna.park_direction().into(),
+                manner: Manner::of(antenna, can),
+                ability: Ability::of(antenna),
+                rule: ResumeRule::of(antenna),
+                figures: Figures::of(can, antenna.sway_deg),
+                monitor: antenna.monitor,
+            },
             dial,
             clock,
             wires,
-            unit,
-            debts,
-            number,
-            marking: Marking::None,
-            left_moving: None,
-            figures: Figures::of(make.capabilities, antenna.sway_deg),
-            monitor: antenna.monitor,
-            watch: Watch::default(),
-            place: inside::Place::default(),
-            run_out: RunOut::default(),
-            rest: Rest::default(),
-            looked: None,
-            link,
-            silence: Silence::default(),
-            clocks: None,
-            slept: Duration::ZERO,
-            left_at: None,
-            left_as: Likeness::default(),
-            away_since: None,
-            told_lost: false,
-            unread: true,
-            program_was_on: false,
-            intent: Intent::Standby,
-            pending: None,
-            aim: None,
-            leg: None,
-            target: None,
-            on_board: None,
-            following: None,
-            jog: None,
-            ended_hold: None,
+            contact: Contact {
+                wanted,
+                link,
+                silence: Silence::default(),
+                clocks: None,
+                slept: Duration::ZERO,
+                left_at: None,
+                left_as: Likeness::default(),
+                away_since: None,
+                loss_is_told: false,
+                unread: true,
+                program_was_on: false,
+            },
+            owed: Owed {
+                unit,
+                debts,
+                number,
+                kept_unproved: gate.unproved_since(),
+                marking: Marking::None,
+                left_moving: None,
+            },
+            seen: Seen::default(),
+            gate,
+            activity: Activity::Standby,
+            unasked: None,
+            key: JogKey::Up,
             guard: Guard::new(None),
             awake: None,
             acts: false,
             stepping: None,
-            waiting: None,
-            halting: None,
+            stop: Stop::Ready,
             locking: None,
             doubt: None,
-            stopped_at: None,
             urgent: Vec::new(),
         }
     }
@@ -361,23 +364,23 @@ impl Session {
     fn publish(&mut self, now: Moment) {
         self.keep_unproved();
         let snapshot = Snapshot {
-            link: self.link.clone(),
+            link: self.contact.link.clone(),
             silent: self.is_silent(),
-            intent: self.intent,
-            pending: self.pending.is_some(),
-            aim: self.aim,
-            target: self.target.clone(),
-            on_board: self.on_board.as_ref().map(on_board::Watch::view),
-            following: self.following.as_ref().map(Following::view),
+            intent: self.activity.intent(),
+            pending: self.activity.is_pending(),
+            aim: self.activity.aim(),
+            target: self.activity.on_board().map(|track| track.target.clone()),
+            on_board: self.on_board_watch().map(on_board::Watch::view),
+            following: self.activity.last_program().map(Following::view),
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),
-            stop: halting::shown(self.halting.as_ref(), self.stopped_at, now.steady),
+            stop: self.stop.shown(now.steady),
             unguarded: self.guard.is_missing,
             inside: self.inside(now),
-            sun_lifted: self.follows() && self.gate.lifts_sun(),
-            left_moving: self.left_moving,
-            jog: self.jog.as_ref().filter(|jog| jog.started).map(|jog| jog.rates_deg_s),
+            sun_lifted: self.activity.program().is_some() && self.gate.lifts_sun(),
+            left_moving: self.owed.left_moving,
+            jog: self.key.started().map(|jog| jog.rates_deg_s),
             stopping_way: self.stopping_way(),
             step: self.stepping.map(|stepping| stepping.steps_deg),
             state: self.gate.state().clone(),
@@ -430,11 +433,9 @@ impl Session {
     fn may_move(&mut self) -> bool {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
-            || self.pending.is_some()
-            || self.waiting.is_some()
-            || self.jog.is_some()
+            || self.activity.may_move()
+            || self.key.held().is_some()
             || self.stepping.is_some()
-            || self.intent == Intent::Track
             || self.gate.device().motion_under_way()
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Event, Session};
+use super::{Event, Session, jog::JogKey};
 use crate::{
     astro::time::seconds_between,
     controller::Moment,
@@ -24,9 +24,10 @@ pub(super) struct Clocks {
 impl Session {
     /// Ends what is moved by hand: while the computer sleeps nothing would.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
-        if let Some(jog) = &self.jog {
-            self.ended_hold = Some(jog.rates_deg_s);
+        if let Some(jog) = self.key.held() {
+            let rates_deg_s = jog.rates_deg_s;
             self.halt_quietly(now);
+            self.key = JogKey::Spent(rates_deg_s);
             self.tell(Event::Safety(Safety::EndedForSleep));
         }
         self.awake = Some(awake);
@@ -35,7 +36,7 @@ impl Session {
 
     /// Lets the computer sleep once no halt is under way.
     pub(super) fn let_sleep(&mut self) {
-        if self.halting.is_none() {
+        if !self.stop.is_under_way() {
             self.awake = None;
         }
     }
@@ -44,7 +45,7 @@ impl Session {
     /// what was measured before looks fresh, because the steady clock stood.
     pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
         let look = Clocks { at: now, asleep: self.clock.asleep() };
-        let before = self.clocks.replace(look)?;
+        let before = self.contact.clocks.replace(look)?;
         let lasted = look.asleep.saturating_sub(before.asleep);
         let steady = now.steady.saturating_duration_since(before.at.steady);
         let expected_s = (steady + lasted).as_secs_f64();
@@ -57,7 +58,7 @@ impl Session {
             return None;
         }
         self.tell(Event::Safety(Safety::Slept { lasted }));
-        self.slept += lasted;
-        self.link.is_open().then_some(LinkLoss::Slept)
+        self.contact.slept += lasted;
+        self.contact.link.is_open().then_some(LinkLoss::Slept)
     }
 }

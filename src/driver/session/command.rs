@@ -2,11 +2,16 @@
 
 use smol_str::SmolStr;
 
-use super::{Event, Session, wanted::Wanted};
+use super::{
+    Event, Session,
+    activity::{Activity, GoTo, GoToStage, Leg, OnBoardStage, OnBoardTrack, Queued},
+    jog::JogKey,
+    wanted::Wanted,
+};
 use crate::{
     astro::Angle,
     controller::{
-        Moment, Motion, Pointing, TrackTarget,
+        Moment, Motion,
         panel::Act,
         settings::{Change, SettleError},
     },
@@ -92,24 +97,6 @@ pub enum Command {
     Ask(SmolStr),
 }
 
-/// What is done as soon as the antenna stands.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Waiting {
-    /// Goes to the gate.
-    Motion(Motion),
-    /// Goes to the device; it moves nothing yet.
-    Prepare(TrackTarget),
-}
-
-/// The first of two motions to a position, one axis after the other.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Leg {
-    /// Where it ends.
-    pub(super) aim: Pointing,
-    /// What follows.
-    pub(super) then: Motion,
-}
-
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
         // A hold is renewed many times a second; not worth a line each. Settings
@@ -139,9 +126,9 @@ impl Session {
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
-            Command::Standby => self.leave_for(Intent::Standby, now),
-            Command::Manual => self.leave_for(Intent::Manual, now),
-            Command::Hold => self.leave_for(Intent::Position, now),
+            Command::Standby => self.leave_for(Activity::Standby, now),
+            Command::Manual => self.leave_for(Activity::Manual, now),
+            Command::Hold => self.leave_for(Activity::Hold(None), now),
             Command::Step { steps_deg } => self.step(steps_deg, now),
             Command::Position { azimuth, elevation } => {
                 self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
@@ -149,8 +136,8 @@ impl Session {
             Command::Park => {
                 let has_elevation = self.make.capabilities.has_elevation;
                 let motion = Motion::Position {
-                    azimuth: self.park.azimuth,
-                    elevation: self.park.elevation.filter(|_| has_elevation),
+                    azimuth: self.setup.park.azimuth,
+                    elevation: self.setup.park.elevation.filter(|_| has_elevation),
                 };
                 self.go_to(motion, Intent::Park, now);
             }
@@ -168,7 +155,7 @@ impl Session {
             Command::Ask(question) => self.gate.device().ask(&question),
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
-            Command::Connect => self.wanted = Wanted::Yes,
+            Command::Connect => self.contact.wanted = Wanted::Yes,
             // The loop's.
             Command::Disconnect => {}
         }
@@ -179,10 +166,10 @@ impl Session {
     }
 
     fn act(&mut self, act: Act, is_agreed: bool, now: Moment) {
-        let stopping = self.halting.is_some();
-        match self.gate.act(act, is_agreed, self.intent, stopping, now) {
+        let (intent, stopping) = (self.activity.intent(), self.stop.is_under_way());
+        match self.gate.act(act, is_agreed, intent, stopping, now) {
             Ok(action) if action.moves => {
-                self.stopped_at = None;
+                self.stop.forget();
                 self.acts = true;
             }
             Ok(_) => {}
@@ -190,23 +177,23 @@ impl Session {
         }
     }
 
-    /// Ends what runs and takes up an intent in which nothing moves by itself.
-    fn leave_for(&mut self, intent: Intent, now: Moment) {
+    /// Ends what runs, for an activity in which nothing moves by itself.
+    fn leave_for(&mut self, activity: Activity, now: Moment) {
         // In Standby nothing of the device is to move.
-        if self.may_move() || (intent == Intent::Standby && self.active()) {
+        let is_standby = matches!(activity, Activity::Standby);
+        if self.may_move() || (is_standby && self.active()) {
             self.halt_quietly(now);
         }
-        self.aim = None;
-        self.following = None;
-        self.ended_hold = None;
-        self.intent = intent;
+        self.key = JogKey::Up;
+        self.activity = activity;
     }
 
     /// Whether the motion went through the gate; if not, the reason was told.
     pub(super) fn start(&mut self, motion: Motion, now: Moment) -> bool {
-        match self.gate.start(motion, self.intent, self.halting.is_some(), now) {
+        let (intent, stopping) = (self.activity.intent(), self.stop.is_under_way());
+        match self.gate.start(motion, intent, stopping, now) {
             Ok(()) => {
-                self.stopped_at = None;
+                self.stop.forget();
                 true
             }
             Err(refusal) => {
@@ -231,12 +218,9 @@ impl Session {
         if self.may_move() {
             self.halt_quietly(now);
         }
-        self.intent = intent;
-        self.following = None;
-        self.aim = aim;
-        self.leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
-        self.pending = Some(now.steady);
-        self.waiting = Some(Waiting::Motion(route.first));
+        let leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
+        let stage = GoToStage::Queued { motion: route.first, leg };
+        self.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, aim, stage });
     }
 
     fn track(&mut self, pass: OnBoardPass, now: Moment) {
@@ -249,49 +233,38 @@ impl Session {
         if self.may_move() {
             self.halt_quietly(now);
         }
-        self.intent = Intent::Track;
-        self.following = None;
-        self.aim = None;
-        self.pending = Some(now.steady);
-        self.target = Some(target.clone());
-        self.on_board = Some(watch);
-        self.waiting = Some(Waiting::Prepare(target));
+        let stage = OnBoardStage::LoadQueued;
+        self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 
     /// Sends what waited for a halt to end.
-    pub(super) fn start_waiting(&mut self, now: Moment) {
-        if self.halting.is_some() {
+    pub(super) fn start_queued(&mut self, now: Moment) {
+        if self.stop.is_under_way() {
             return;
         }
-        match self.waiting.take() {
-            None => {}
-            Some(Waiting::Prepare(target)) => {
-                if let Err(refusal) = self.gate.prepare(target, self.intent, now) {
-                    self.give_up(Event::NotSent(refusal), now);
-                }
+        let intent = self.activity.intent();
+        let started = match self.activity.take_queued(now.steady) {
+            None => return,
+            Some(Queued::Load(target)) => self.gate.prepare(target, intent, now),
+            Some(Queued::Motion(motion)) => {
+                self.gate.start(motion, intent, false, now).inspect(|()| self.stop.forget())
             }
-            Some(Waiting::Motion(motion)) => {
-                match self.gate.start(motion, self.intent, false, now) {
-                    Ok(()) => {
-                        self.stopped_at = None;
-                        self.pending = Some(now.steady);
-                    }
-                    Err(refusal) => self.give_up(Event::NotSent(refusal), now),
-                }
-            }
+        };
+        if let Err(refusal) = started {
+            self.give_up(Event::NotSent(refusal), now);
         }
     }
 
     /// The intent cannot be had, or is over: back to Standby, with the reason.
     /// A halt makes sure that nothing of it is left.
     pub(super) fn give_up(&mut self, reason: Event, now: Moment) {
-        self.intent = Intent::Standby;
+        self.activity = Activity::Standby;
         self.halt_quietly(now);
         self.tell(reason);
     }
 
     /// A command while there is no link.
-    pub(super) fn turn_down(&mut self, command: Command, now: Moment) {
+    pub(super) fn carry_out_offline(&mut self, command: Command, now: Moment) {
         if self.lock_out_forbids(&command) {
             return;
         }
@@ -302,33 +275,22 @@ impl Session {
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.
             Command::ReadGroup(_) | Command::Ask(_) => {}
-            Command::Connect => self.wanted = Wanted::Yes,
+            Command::Connect => self.contact.wanted = Wanted::Yes,
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
             // Told by the link itself; the keys are locked anyway.
-            Command::Jog { rates_deg_s } => {
-                self.jog = None;
-                self.ended_hold = Some(rates_deg_s);
-            }
-            Command::EndJog => {
-                self.jog = None;
-                self.ended_hold = None;
-            }
+            Command::Jog { rates_deg_s } => self.key = JogKey::Spent(rates_deg_s),
+            Command::EndJog => self.key = JogKey::Up,
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
-            Command::Standby => {
-                self.intent = Intent::Standby;
-                self.following = None;
-                self.pending = None;
-            }
+            Command::Standby => self.activity = Activity::Standby,
             _ => {
                 // Whoever wants something else does not want this to go on.
-                if self.follows() {
-                    self.following = None;
-                    self.intent = Intent::Standby;
+                if self.activity.program().is_some() {
+                    self.activity = Activity::Standby;
                 }
                 self.tell(Event::NotSent(Refusal::PositionUnknown));
             }

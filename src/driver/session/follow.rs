@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 pub(super) use following::{Following, Manner};
 
-use super::{Command, Event, Session, likeness::Recheck};
+use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
 use crate::{
     astro::Angle,
     controller::{Moment, Motion, Pointing},
@@ -51,7 +51,7 @@ impl Session {
     pub(super) fn follow(&mut self, follow: Follow, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
-        let Manner { mut drives, following } = self.manner;
+        let Manner { mut drives, following } = self.setup.manner;
         drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
             if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
@@ -72,13 +72,11 @@ impl Session {
             }
         };
         // From one target to another there is no need to stop.
-        if self.following.is_none() && self.may_move() {
+        if self.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
-        self.intent = Intent::Track;
-        self.aim = None;
-        self.target = None;
-        self.following = Some(Following::new(planner, phase, now.steady));
+        let following = Following::new(planner, phase, now.steady);
+        self.activity = Activity::ProgramTrack(Box::new(following));
         self.tell_phase(phase, name);
         true
     }
@@ -102,84 +100,88 @@ impl Session {
         }
     }
 
-    /// Whether the present intent is to follow position by position.
-    pub(super) fn follows(&self) -> bool {
-        self.intent == Intent::Track && self.following.is_some()
-    }
-
     /// Whether the target is up and the antenna is kept on it.
     pub(super) fn follows_now(&self) -> bool {
-        let following = self.following.as_ref().filter(|_| self.follows());
-        following.is_some_and(|it| it.phase == FollowPhase::Following && !it.awaits_word)
+        self.activity
+            .program()
+            .is_some_and(|it| it.phase == FollowPhase::Following && !it.awaits_word)
     }
 
     /// When the antenna is looked at next by the clock.
     pub(super) fn follow_due(&self) -> Option<Instant> {
-        let following = self.following.as_ref().filter(|_| self.follows())?;
+        let following = self.activity.program()?;
         (!following.is_held_up).then_some(following.next_look)
     }
 
     /// Keeps the antenna on its target.
     pub(super) fn watch_follow(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
-        let Some(following) = &mut self.following else { return };
+        let Some(following) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
             following.compare(measured);
             // Known also for the next target.
-            self.manner.drives.rates_deg_s = following.planner.rates_deg_s();
+            self.setup.manner.drives.rates_deg_s = following.planner.rates_deg_s();
         }
         let phase = following.planner.follow().phase(now.utc);
         if phase != following.phase {
             self.enter_phase(phase, now);
         }
-        if self.follows() {
-            self.look(now);
-        }
+        self.look(now);
     }
 
     fn enter_phase(&mut self, phase: FollowPhase, now: Moment) {
-        let Some(following) = &mut self.following else { return };
+        let Some(following) = self.activity.program_mut() else { return };
         let name = following.name();
         let before = std::mem::replace(&mut following.phase, phase);
         // No answer was no for the pass that is over.
         following.awaits_word &= before != FollowPhase::Following;
+        let mut over = None;
         if before == FollowPhase::Following {
             following.predicted = None;
             let stats = std::mem::take(&mut following.stats);
-            self.tell(Event::FollowOver { name: name.clone(), stats });
+            over = Some(Event::FollowOver { name: name.clone(), stats });
+        }
+        if phase == FollowPhase::Following {
+            following.aim = None;
+        }
+        if let Some(event) = over {
+            self.tell(event);
         }
         self.tell_phase(phase, name);
-        match phase {
-            FollowPhase::Waiting { .. } => {}
-            FollowPhase::Following => self.aim = None,
-            FollowPhase::Over => {
-                self.intent = Intent::Position;
-                self.aim = None;
-                if self.manner.following.after == AfterPass::Park {
-                    self.carry_out(Command::Park, now);
-                }
-            }
+        if phase == FollowPhase::Over {
+            self.end_program(now);
+        }
+    }
+
+    /// The last pass is over.
+    fn end_program(&mut self, now: Moment) {
+        self.activity = match std::mem::replace(&mut self.activity, Activity::Standby) {
+            Activity::ProgramTrack(following) => Activity::Hold(Some(following)),
+            activity => activity,
+        };
+        if self.setup.manner.following.after == AfterPass::Park {
+            self.carry_out(Command::Park, now);
         }
     }
 
     /// Sends the next position when it is time for it.
     fn look(&mut self, now: Moment) {
-        let is_busy = self.halting.is_some()
+        let is_busy = self.stop.is_under_way()
             || self.doubt.is_some()
-            || self.unread
+            || self.contact.unread
             || self.gate.device().motion_under_way();
         let measured = self.gate.state().measured.filter(|_| !is_busy);
-        let Some(following) = &mut self.following else { return };
+        let Some(following) = self.activity.program_mut() else { return };
         if now.steady < following.next_look {
             return;
         }
         if following.awaits_word || following.recheck.is_some() {
-            following.next_look = now.steady + self.manner.following.period();
+            following.next_look = now.steady + self.setup.manner.following.period();
             return;
         }
         following.is_held_up = measured.is_none();
         let Some(measured) = measured else { return };
-        let Manner { following: settings, .. } = self.manner;
+        let Manner { following: settings, .. } = self.setup.manner;
         following.next_look = now.steady + settings.period();
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
         let axes = following.axes(measured, latency);
@@ -194,14 +196,14 @@ impl Session {
         let motion = motion(next);
         let routed = self.gate.route(motion, Intent::Track, now);
         let started = routed.and_then(|route| {
-            self.gate.start(route.first, Intent::Track, self.halting.is_some(), now)?;
+            self.gate.start(route.first, Intent::Track, self.stop.is_under_way(), now)?;
             Ok(route)
         });
         match started {
             Ok(route) => {
                 let aim = self.gate.aim(&route.first);
-                self.stopped_at = None;
-                let Some(following) = &mut self.following else { return };
+                self.stop.forget();
+                let Some(following) = self.activity.program_mut() else { return };
                 // A leg round a corner is looked at again, until the way is free.
                 if route.then.is_none() {
                     following.planner.sent(next);
@@ -209,16 +211,16 @@ impl Session {
                 following.sent = Some(now.steady);
                 following.stats.commands += 1;
                 following.commanded = aim;
-                following.told_barrier &= route.then.is_some();
+                following.barrier_is_told &= route.then.is_some();
                 // What is up is compared with itself, not with the last step.
-                self.aim = aim.filter(|_| following.phase != FollowPhase::Following);
+                following.aim = aim.filter(|_| following.phase != FollowPhase::Following);
             }
             // It waits at the edge, and goes on where the way is free again.
             Err(Refusal::Forbidden { barrier, at }) => {
-                let Some(following) = &mut self.following else { return };
+                let Some(following) = self.activity.program_mut() else { return };
                 // To look for a way takes time that other antennas need too.
                 following.next_look = following.next_look.max(now.steady + BLOCKED);
-                if !std::mem::replace(&mut following.told_barrier, true) {
+                if !std::mem::replace(&mut following.barrier_is_told, true) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
                 }
             }
@@ -234,14 +236,14 @@ impl Session {
     }
 
     fn end_follow(&mut self, problem: FollowProblem, now: Moment) {
-        let Some(name) = self.following.as_ref().map(Following::name) else { return };
+        let Some(name) = self.activity.program().map(Following::name) else { return };
         self.give_up(Event::CannotFollow(name, problem), now);
     }
 
     /// A position was not answered and has had no effect: `true` when another may
     /// be sent, for where the target is by then.
     pub(super) fn may_send_another(&mut self) -> bool {
-        let Some(following) = self.following.as_mut() else { return false };
+        let Some(following) = self.activity.last_program_mut() else { return false };
         following.lost += 1;
         following.planner.forget_sent();
         following.lost < MOST_LOST
@@ -249,7 +251,7 @@ impl Session {
 
     /// A position was taken by the device.
     pub(super) fn position_taken(&mut self) {
-        if let Some(following) = &mut self.following {
+        if let Some(following) = self.activity.last_program_mut() {
             following.lost = 0;
         }
     }
@@ -258,7 +260,7 @@ impl Session {
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.wires.keep(&bounds);
         self.gate.keep_within(bounds);
-        if let Some(following) = &mut self.following {
+        if let Some(following) = self.activity.program_mut() {
             following.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());
         }
     }
@@ -266,35 +268,35 @@ impl Session {
     /// The device was read anew after it was out of sight for `lost`: what it was told
     /// on another link may be gone, and somebody may have gone to the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing, now: Moment) {
-        let Some(following) = &mut self.following else { return };
+        let Some(following) = self.activity.program_mut() else { return };
         following.planner.forget_sent();
         following.sent = None;
         // A unit that was to be compared still is.
         let unchecked = following.recheck.take().map(|recheck| recheck.lost);
-        if lost <= self.rule.after && unchecked.is_none() {
+        if lost <= self.setup.rule.after && unchecked.is_none() {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
         // Where it was sent, or where it was left, within what it coasts.
-        let places = following.commanded.into_iter().chain(self.left_at);
+        let places = following.commanded.into_iter().chain(self.contact.left_at);
         let is_where_it_was = places.into_iter().any(|place| {
-            place.separation(at).is_some_and(|off| off <= self.rule.half_beam + self.coast())
+            place.separation(at).is_some_and(|off| off <= self.setup.rule.half_beam + self.coast())
         });
-        if self.rule.resume == Resume::Ask || !is_where_it_was {
+        if self.setup.rule.resume == Resume::Ask || !is_where_it_was {
             return self.await_word(lost, None);
         }
-        if let Some(following) = &mut self.following {
+        if let Some(following) = self.activity.program_mut() {
             following.recheck = Some(Recheck { since: now.steady, lost });
         }
     }
 
     fn coast(&self) -> Angle {
-        let rate_deg_s = self.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
+        let rate_deg_s = self.setup.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
         Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.run_out_s)
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {
-        let Some(following) = &mut self.following else { return };
+        let Some(following) = self.activity.program_mut() else { return };
         following.awaits_word = true;
         let name = following.name();
         self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
@@ -302,18 +304,18 @@ impl Session {
 
     /// Stops the antenna and keeps its target until the operator's word.
     pub(super) fn suspend_following(&mut self, lost: Duration, now: Moment) {
-        if !self.follows() {
+        if self.activity.program().is_none() {
             return;
         }
-        let following = self.following.take();
+        let program = std::mem::replace(&mut self.activity, Activity::Standby);
         self.halt_quietly(now);
-        self.following = following;
+        self.activity = program;
         self.await_word(lost, None);
     }
 
     /// The operator lets it go on.
     pub(super) fn resume(&mut self) {
-        if let Some(following) = &mut self.following {
+        if let Some(following) = self.activity.program_mut() {
             following.awaits_word = false;
             following.recheck = None;
             following.planner.forget_sent();

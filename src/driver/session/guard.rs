@@ -118,11 +118,11 @@ impl Session {
     /// when nothing is out any more.
     pub(super) fn beat(&mut self, now: Moment) {
         let Some(dead_man) = &mut self.guard.armed else { return };
-        if self.jog.is_none() && self.halting.is_none() {
+        if self.key.held().is_none() && !self.stop.is_under_way() {
             return self.guard.disarm();
         }
-        let lease_holds = self.jog.as_ref().is_some_and(|jog| now.steady < jog.until);
-        if (lease_holds || self.halting.is_some()) && !dead_man.beat(now.steady) {
+        let lease_holds = self.key.held().is_some_and(|jog| now.steady < jog.until);
+        if (lease_holds || self.stop.is_under_way()) && !dead_man.beat(now.steady) {
             self.guard.armed = None;
             self.halt(now);
             self.tell(Event::Safety(Safety::DeadManFired));

@@ -27,26 +27,27 @@ impl Session {
     /// Looks what the antenna is inside of. The word that lets it out ends outside.
     pub(super) fn watch_place(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
-        if self.place.looked.replace(look.received) == Some(look.received) {
+        if self.seen.place.looked.replace(look.received) == Some(look.received) {
             return;
         }
         let Some(at) = self.direction() else { return };
-        self.place.barrier = self.bounds_now().at(now.utc).forbids(at);
-        if self.place.barrier.is_none() {
+        self.seen.place.barrier = self.bounds_now().at(now.utc).forbids(at);
+        if self.seen.place.barrier.is_none() {
             self.gate.let_out(None);
         }
     }
 
     /// What it is inside of, as it is shown.
     pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
-        let barrier = self.place.barrier.clone()?;
+        let barrier = self.seen.place.barrier.clone()?;
         Some(Inside { barrier, may_leave: self.gate.lets_out(now) })
     }
 
     /// What it keeps within by what is wanted of it now.
     pub(super) fn bounds_now(&self) -> &Bounds {
         // Only what this program follows may lead to the Sun.
-        let intent = if self.follows() { Intent::Track } else { Intent::Standby };
+        let intent =
+            if self.activity.program().is_some() { Intent::Track } else { Intent::Standby };
         self.gate.bounds_in(intent)
     }
 
@@ -100,7 +101,7 @@ impl Session {
             })
             .map(|(refuge, _)| refuge)
             .or(round_a_corner);
-        let park = self.park.direction().filter(|park| {
+        let park = self.setup.park.direction().filter(|park| {
             let is_nearer =
                 refuge.is_none_or(|refuge| here.separation(*park) <= here.separation(refuge));
             is_nearer && bounds.stays_clear(*park, now.utc) && way(*park, Intent::Park).is_some()

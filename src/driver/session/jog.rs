@@ -31,25 +31,79 @@ pub(super) struct Jog {
     pub(super) unseen: Option<Measured>,
 }
 
+impl Jog {
+    fn motion(&self) -> Motion {
+        let [x_deg_s, y_deg_s] = self.rates_deg_s;
+        Motion::Jog { x_deg_s, y_deg_s }
+    }
+}
+
+/// The jog keys of the operator.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum JogKey {
+    /// None is held.
+    Up,
+    /// One is held.
+    Down(Jog),
+    /// The hold of these rates ended before its key came up: it needs a new press, or
+    /// the same key could move metal again after a freeze of the window.
+    Spent([f64; 2]),
+}
+
+impl JogKey {
+    pub(super) fn held(&self) -> Option<&Jog> {
+        match self {
+            Self::Down(jog) => Some(jog),
+            Self::Up | Self::Spent(_) => None,
+        }
+    }
+
+    fn held_mut(&mut self) -> Option<&mut Jog> {
+        match self {
+            Self::Down(jog) => Some(jog),
+            Self::Up | Self::Spent(_) => None,
+        }
+    }
+
+    /// The jog that went through the gate.
+    pub(super) fn started(&self) -> Option<&Jog> {
+        self.held().filter(|jog| jog.started)
+    }
+
+    /// Ends a hold whose key is still down.
+    pub(super) fn spend(&mut self) {
+        if let Self::Down(jog) = self {
+            *self = Self::Spent(jog.rates_deg_s);
+        }
+    }
+
+    /// Ends a hold; the same key may begin another.
+    pub(super) fn end(&mut self) {
+        if let Self::Down(_) = self {
+            *self = Self::Up;
+        }
+    }
+}
+
 impl Session {
     /// The key is down. Called again and again while it stays down.
     pub(super) fn hold_jog(&mut self, rates_deg_s: [f64; 2], now: Moment) {
-        // A hold that ended needs a new press, or the same key could move metal
-        // again after a freeze of the window.
-        if self.ended_hold.is_some_and(|ended| is_same_way(ended, rates_deg_s)) {
-            return;
-        }
-        self.ended_hold = None;
         let until = now.steady + LEASE;
-        match &mut self.jog {
-            Some(jog) if same(jog.rates_deg_s, rates_deg_s) => jog.until = until,
-            running => {
+        match &mut self.key {
+            JogKey::Spent(rates) if is_same_way(*rates, rates_deg_s) => return,
+            JogKey::Down(jog) if same(jog.rates_deg_s, rates_deg_s) => jog.until = until,
+            key => {
                 // Another direction or rate: stand still in between.
-                if running.as_ref().is_some_and(|jog| jog.started) {
+                if key.started().is_some() {
                     self.halt_quietly(now);
                 }
-                self.jog =
-                    Some(Jog { rates_deg_s, until, started: false, refused: false, unseen: None });
+                self.key = JogKey::Down(Jog {
+                    rates_deg_s,
+                    until,
+                    started: false,
+                    refused: false,
+                    unseen: None,
+                });
             }
         }
         self.start_jog(now);
@@ -57,36 +111,35 @@ impl Session {
 
     /// The key is up.
     pub(super) fn release_jog(&mut self, now: Moment) {
-        self.ended_hold = None;
-        if self.jog.as_ref().is_some_and(|jog| jog.started) {
+        if self.key.started().is_some() {
             self.halt_quietly(now);
         }
-        self.jog = None;
+        self.key = JogKey::Up;
     }
 
     /// Sends a held jog to the gate once no halt is under way.
     fn start_jog(&mut self, now: Moment) {
-        if self.halting.is_some() || self.jog.as_ref().is_none_or(|jog| jog.started) {
+        if self.stop.is_under_way() || self.key.held().is_none_or(|jog| jog.started) {
             return;
         }
         if !self.is_marked(now) {
             return;
         }
-        let Some(jog) = &mut self.jog else { return };
-        let [x_deg_s, y_deg_s] = jog.rates_deg_s;
-        let motion = Motion::Jog { x_deg_s, y_deg_s };
+        let Some(jog) = self.key.held() else { return };
+        let motion = jog.motion();
+        let intent = self.activity.intent();
         let started = self
             .gate
-            .check(motion, self.intent, now)
+            .check(motion, intent, now)
             .and_then(|()| self.arm_dead_man(now))
-            .and_then(|()| self.gate.start(motion, self.intent, false, now));
+            .and_then(|()| self.gate.start(motion, intent, false, now));
         let before = self.gate.state().measured;
-        let Some(jog) = &mut self.jog else { return };
+        let Some(jog) = self.key.held_mut() else { return };
         match started {
             Ok(()) => {
                 jog.started = true;
                 jog.unseen = before;
-                self.stopped_at = None;
+                self.stop.forget();
             }
             // A key that stays down tries again, but the reason is told once.
             Err(refusal) => {
@@ -99,14 +152,14 @@ impl Session {
 
     /// Tells of a jog that the unit took and that turns nothing.
     fn watch_effect(&mut self) {
-        let Some(jog) = &mut self.jog else { return };
+        let Some(jog) = self.key.held_mut() else { return };
         let Some((before, look)) = jog.unseen.zip(self.gate.state().measured) else { return };
-        let turned = self.figures.turned(&before, &look).is_some();
+        let turned = self.setup.figures.turned(&before, &look).is_some();
         let waited = look.asked.saturating_duration_since(before.asked);
         // The slowest jog must have had the time to show.
         let rate_deg_s = jog.rates_deg_s.into_iter().map(f64::abs).fold(0.0, f64::max);
         let expected_deg = rate_deg_s * waited.saturating_sub(EFFECT).as_secs_f64();
-        let is_due = expected_deg > 4.0 * self.figures.tolerance_deg();
+        let is_due = expected_deg > 4.0 * self.setup.figures.tolerance_deg();
         let has_angles = look.axes.iter().any(|axis| axis.angle_deg.is_some());
         if turned || is_due || !has_angles {
             jog.unseen = None;
@@ -119,11 +172,11 @@ impl Session {
     /// Ends a jog that is no longer renewed, or that moves blindly.
     pub(super) fn watch_jog(&mut self, now: Moment) {
         self.watch_effect();
-        let Some(jog) = &self.jog else { return };
+        let Some(jog) = self.key.held() else { return };
         let over = now.steady >= jog.until;
         if !jog.started {
             if over {
-                self.jog = None;
+                self.key = JogKey::Up;
             } else {
                 self.start_jog(now);
             }
@@ -135,13 +188,13 @@ impl Session {
             Some(Event::JogPositionOld)
         } else {
             // What was free when it began may have become a limit or a fault.
-            let [x_deg_s, y_deg_s] = jog.rates_deg_s;
-            let motion = Motion::Jog { x_deg_s, y_deg_s };
-            self.gate.check(motion, self.intent, now).err().map(Event::NotSent)
+            let intent = self.activity.intent();
+            self.gate.check(jog.motion(), intent, now).err().map(Event::NotSent)
         };
         if let Some(event) = end {
-            self.ended_hold = self.jog.as_ref().map(|jog| jog.rates_deg_s);
+            let rates_deg_s = jog.rates_deg_s;
             self.halt_quietly(now);
+            self.key = JogKey::Spent(rates_deg_s);
             self.tell(event);
         }
     }

@@ -83,22 +83,23 @@ impl Session {
     /// The link goes: keeps what the unit was like, unless it is still compared with
     /// what it was like before.
     pub(super) fn remember_likeness(&mut self) {
-        if !self.unread && self.following.as_ref().is_none_or(|it| it.recheck.is_none()) {
-            self.left_as = Likeness::of(self.gate.state());
+        if !self.contact.unread && self.activity.program().is_none_or(|it| it.recheck.is_none()) {
+            self.contact.left_as = Likeness::of(self.gate.state());
         }
     }
 
     /// Lets a target be followed on once the unit has told that it is as before, and
     /// asks the operator where it is not.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
-        let Some(following) = &mut self.following else { return };
-        let Some(Recheck { since, lost }) = following.recheck.filter(|_| !self.unread) else {
+        let Some(following) = self.activity.program_mut() else { return };
+        let Some(Recheck { since, lost }) = following.recheck.filter(|_| !self.contact.unread)
+        else {
             return;
         };
         let told = Likeness::of(self.gate.state());
         let is_late = now.steady.saturating_duration_since(since) >= READ_AGAIN;
-        let unlike = match self.left_as.differs(&told) {
-            None if self.left_as.is_told(&told) => {
+        let unlike = match self.contact.left_as.differs(&told) {
+            None if self.contact.left_as.is_told(&told) => {
                 following.recheck = None;
                 return;
             }

@@ -15,13 +15,14 @@ impl Session {
         let now = self.now();
         let last_reply = self.gate.state().traffic.last_reply;
         let had_been_up = last_reply.is_some();
-        let since = self.away_since.or(last_reply).unwrap_or(now.steady);
-        if had_been_up && self.away_since.is_none() {
-            self.away_since = Some(since);
+        let since = self.contact.away_since.or(last_reply).unwrap_or(now.steady);
+        if had_been_up && self.contact.away_since.is_none() {
+            self.contact.away_since = Some(since);
         }
-        let news = !matches!(self.link, LinkState::Lost { .. }) && !self.told_lost;
-        self.told_lost = true;
-        self.link = LinkState::Lost { since, reason: reason.clone(), retry_at };
+        let news =
+            !matches!(self.contact.link, LinkState::Lost { .. }) && !self.contact.loss_is_told;
+        self.contact.loss_is_told = true;
+        self.contact.link = LinkState::Lost { since, reason: reason.clone(), retry_at };
         if news {
             self.tell(Event::LinkLost(reason));
         }
@@ -39,10 +40,12 @@ impl Session {
             return Some(if heard { LinkLoss::Unreadable } else { LinkLoss::Silent });
         }
         let late = age > self.gate.device().poll_period() * 2;
-        match (&self.link, late) {
-            (LinkState::Up { .. }, true) => self.link = LinkState::Stale { last_reply: last },
+        match (&self.contact.link, late) {
+            (LinkState::Up { .. }, true) => {
+                self.contact.link = LinkState::Stale { last_reply: last }
+            }
             (LinkState::Stale { .. }, false) => {
-                self.link = LinkState::Up { since: start };
+                self.contact.link = LinkState::Up { since: start };
             }
             _ => {}
         }
@@ -53,7 +56,7 @@ impl Session {
     pub(super) fn link_due(&mut self) -> Option<Instant> {
         let state = self.gate.state();
         let last = state.traffic.last_reply.max(state.link_since)?;
-        let wait = match self.link {
+        let wait = match self.contact.link {
             LinkState::Up { .. } => self.gate.device().poll_period() * 2 + Duration::from_millis(1),
             _ => self.gate.device().patience(),
         };

@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Command, Event, Intent, Session, wanted::Wanted};
+use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
 use crate::{controller::Moment, driver::Refusal, station::LockOut};
 
 /// So long it may take until auto-track is read back as off.
@@ -49,21 +49,17 @@ impl Session {
             return;
         }
         let may_move = self.may_move() || self.active() || self.is_unproved();
-        let is_left_to_others = self.wanted == Wanted::No && !self.is_unproved();
+        let is_left_to_others = self.contact.wanted == Wanted::No && !self.is_unproved();
         if may_move && !is_left_to_others {
             self.halt(now);
-            if self.wanted == Wanted::No {
-                self.wanted = Wanted::ForStop;
+            if self.contact.wanted == Wanted::No {
+                self.contact.wanted = Wanted::ForStop;
             }
         }
-        self.intent = Intent::Standby;
-        self.following = None;
-        self.target = None;
-        self.aim = None;
-        self.pending = None;
+        self.activity = Activity::Standby;
         self.put_lock_out(lock_out, now);
         self.leave_panel();
-        if self.make.capabilities.has_program && !self.link.is_open() {
+        if self.make.capabilities.has_program && !self.contact.link.is_open() {
             self.tell_unproved();
         }
     }
@@ -71,8 +67,8 @@ impl Session {
     /// Where a question takes the panel of the unit from who works on it, nothing but
     /// STOP is said to it from now on.
     fn leave_panel(&mut self) {
-        if self.make.capabilities.waits_for_word && self.wanted == Wanted::Yes {
-            self.wanted = Wanted::ForStop;
+        if self.make.capabilities.waits_for_word && self.contact.wanted == Wanted::Yes {
+            self.contact.wanted = Wanted::ForStop;
         }
     }
 
@@ -97,7 +93,7 @@ impl Session {
     }
 
     fn locking_stops(&self) -> bool {
-        self.locking.is_some() && self.halting.is_some()
+        self.locking.is_some() && self.stop.is_under_way()
     }
 
     /// Whether the command ends here, because the unit is locked out. A jog and what
@@ -125,7 +121,7 @@ impl Session {
             | Command::Park
             | Command::AutoTrack(_) => true,
             // With a link the gate refuses these.
-            Command::Act(_) | Command::ActUnseen(_) => !self.link.is_open(),
+            Command::Act(_) | Command::ActUnseen(_) => !self.contact.link.is_open(),
             Command::Standby
             | Command::Connect
             | Command::Jog { .. }
@@ -156,7 +152,7 @@ impl Session {
         if !self.make.capabilities.has_program {
             return;
         }
-        if self.unread {
+        if self.contact.unread {
             locking.is_asked = false;
             return;
         }

@@ -36,10 +36,10 @@ pub(super) enum Marking {
 impl Session {
     /// Whether the mark is on the disk, or cannot be had; begins to write it.
     pub(super) fn is_marked(&mut self, now: Moment) -> bool {
-        if self.make.capabilities.ends_jogs || !self.debts.has_marks() {
+        if self.make.capabilities.ends_jogs || !self.owed.debts.has_marks() {
             return true;
         }
-        match &mut self.marking {
+        match &mut self.owed.marking {
             Marking::Marked | Marking::Failed => true,
             Marking::Writing { since, writing } => {
                 let is_late = now.steady.saturating_duration_since(*since) >= MOST;
@@ -49,19 +49,19 @@ impl Session {
                 // Finished or given up: no wait either way.
                 let written = if writing.is_finished() { take_now(writing) } else { None };
                 if written.is_some_and(|written| written.is_ok()) {
-                    self.marking = Marking::Marked;
+                    self.owed.marking = Marking::Marked;
                 } else {
-                    self.marking = Marking::Failed;
+                    self.owed.marking = Marking::Failed;
                     self.tell(Event::Safety(Safety::NoMark));
                 }
                 true
             }
             Marking::None | Marking::Removing(_) => {
-                let before = match std::mem::replace(&mut self.marking, Marking::None) {
+                let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
                     Marking::Removing(before) => Some(before),
                     _ => None,
                 };
-                let (debts, unit) = (self.debts.clone(), self.unit.clone());
+                let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
                 let writing = tokio::spawn(async move {
                     // One after the other, or the older removal takes the newer mark.
                     if let Some(before) = before {
@@ -70,7 +70,7 @@ impl Session {
                     let marked = spawn_blocking(move || debts.mark(&unit, now.utc)).await;
                     marked.unwrap_or_else(|error| Err(io::Error::other(error)))
                 });
-                self.marking = Marking::Writing { since: now.steady, writing };
+                self.owed.marking = Marking::Writing { since: now.steady, writing };
                 false
             }
         }
@@ -78,24 +78,24 @@ impl Session {
 
     /// When it is looked again whether the mark is on the disk.
     pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
-        matches!(self.marking, Marking::Writing { .. }).then_some(now + LOOK)
+        matches!(self.owed.marking, Marking::Writing { .. }).then_some(now + LOOK)
     }
 
     /// Standstill is proved: nothing is owed to the unit any more.
     pub(super) fn settle_debt(&mut self) {
-        self.debts.settle(&self.unit);
-        self.left_moving = None;
-        let before = match std::mem::replace(&mut self.marking, Marking::None) {
+        self.owed.debts.settle(&self.owed.unit);
+        self.owed.left_moving = None;
+        let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
             Marking::None => return,
             removing @ Marking::Removing(_) => {
-                self.marking = removing;
+                self.owed.marking = removing;
                 return;
             }
             Marking::Writing { writing, .. } => Some(writing),
             Marking::Marked | Marking::Failed => None,
         };
-        let (debts, unit) = (self.debts.clone(), self.unit.clone());
-        self.marking = Marking::Removing(tokio::spawn(async move {
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
+        self.owed.marking = Marking::Removing(tokio::spawn(async move {
             if let Some(before) = before {
                 before.await.ok();
             }
@@ -106,17 +106,17 @@ impl Session {
     /// Looks whether an earlier run has left the unit moving. STOP is then the
     /// first word to it, unless that is for the operator to decide.
     pub(super) async fn look_for_mark(&mut self) {
-        if !self.debts.has_marks() {
+        if !self.owed.debts.has_marks() {
             return;
         }
-        let (debts, unit) = (self.debts.clone(), self.unit.clone());
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
         let Ok(Some(since)) = spawn_blocking(move || debts.marked(&unit)).await else { return };
         let now = self.now();
         let asks =
             self.make.capabilities.waits_for_word || seconds_between(since, now.utc).abs() > OLD_S;
-        self.marking = Marking::Marked;
+        self.owed.marking = Marking::Marked;
         if asks {
-            self.left_moving = Some(since);
+            self.owed.left_moving = Some(since);
             self.publish(now);
         } else {
             self.halt(now);
@@ -126,12 +126,13 @@ impl Session {
 
     /// Marks on disk that a stop is owed, for a program that ends before it is paid.
     pub(super) async fn mark_debt(&mut self) {
-        let (debts, unit, since) = (self.debts.clone(), self.unit.clone(), self.now().utc);
+        let (debts, unit, since) =
+            (self.owed.debts.clone(), self.owed.unit.clone(), self.now().utc);
         if !debts.has_marks() {
             return;
         }
         if matches!(spawn_blocking(move || debts.mark(&unit, since)).await, Ok(Ok(()))) {
-            self.marking = Marking::Marked;
+            self.owed.marking = Marking::Marked;
         }
     }
 }

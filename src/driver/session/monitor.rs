@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Event, Intent, Session};
+use super::{Event, Session, activity::Activity};
 use crate::{
     astro::Angle,
     controller::{Measured, Moment},
@@ -43,15 +43,15 @@ impl Session {
     /// Looks whether the antenna enters, or is inside, what is forbidden.
     pub(super) fn watch_bounds(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
-        let before = self.watch.last.replace(look);
-        if before.is_some_and(|before| before.received == look.received) || self.unread {
+        let before = self.seen.watch.last.replace(look);
+        if before.is_some_and(|before| before.received == look.received) || self.contact.unread {
             return;
         }
         let Some(axes_deg) = self.gate.axes_deg() else { return };
         let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
         // Without an elevation axis the second one turns something else.
         let rates = [first, if self.make.capabilities.has_elevation { second } else { 0.0 }];
-        self.watch.rates_deg_s = rates;
+        self.seen.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
         let bounds = self.bounds_now().at(now.utc);
@@ -90,23 +90,23 @@ impl Session {
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
         let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
         let goes_deeper = is_inside && goes_deeper;
-        let is_told = self.watch.told.contains(&here.barrier);
+        let is_told = self.seen.watch.told.contains(&here.barrier);
         if !is_inside && !enters {
-            self.watch.told.retain(|barrier| *barrier != here.barrier);
+            self.seen.watch.told.retain(|barrier| *barrier != here.barrier);
             return;
         }
         // Its own motions are stopped in any case: the gate has let them through.
         let stops = (enters || goes_deeper)
             && !here.warns_only
-            && (driver == Mover::Azel || self.monitor == Monitor::Stop);
-        if stops && self.halting.is_none() {
+            && (driver == Mover::Azel || self.setup.monitor == Monitor::Stop);
+        if stops && !self.stop.is_under_way() {
             self.halt(now);
             self.gate.device().disable_auto();
         } else if is_told {
             return;
         }
         if !is_told {
-            self.watch.told.push(here.barrier.clone());
+            self.seen.watch.told.push(here.barrier.clone());
         }
         let response = if stops { Response::Stopped } else { Response::Told };
         self.tell(Event::Safety(Safety::Forbidden { barrier: here.barrier, driver, response }));
@@ -114,11 +114,12 @@ impl Session {
 
     fn mover(&self) -> Mover {
         let state = self.gate.state();
-        let by_azel = self.jog.is_some()
-            || self.stepping.is_some()
-            || self.acts
-            || self.follows()
-            || matches!(self.intent, Intent::Position | Intent::Park) && self.pending.is_some();
+        let by_azel = match &self.activity {
+            Activity::ProgramTrack(_) => true,
+            Activity::GoTo(_) => self.activity.is_pending(),
+            _ => false,
+        };
+        let by_azel = by_azel || self.acts || self.key.held().is_some() || self.stepping.is_some();
         if by_azel {
             Mover::Azel
         } else if state.program.is_some_and(|program| program.enabled) {
@@ -201,17 +202,17 @@ impl Session {
     pub(super) fn begin_run_out(&mut self, now: Moment) {
         let look = self.gate.state().measured;
         let rates = self.rates_now();
-        self.run_out.begin(look.zip(rates), now.steady);
+        self.seen.run_out.begin(look.zip(rates), now.steady);
     }
 
     fn rates_now(&self) -> Option<[f64; 2]> {
         // Other motions may be slowing down already.
-        self.jog.as_ref().filter(|jog| jog.started).map(|_| self.watch.rates_deg_s)
+        self.key.started().map(|_| self.seen.watch.rates_deg_s)
     }
 
     /// How long the axes run on after a STOP, as far as that is known.
     pub(super) fn stopping_way(&self) -> StoppingWay {
-        let RunOut { stops, seen_s, .. } = &self.run_out;
+        let RunOut { stops, seen_s, .. } = &self.seen.run_out;
         StoppingWay {
             run_out_s: self.gate.run_out_s(),
             stops: *stops,
@@ -222,8 +223,8 @@ impl Session {
     /// Learns how long the axes ran on.
     pub(super) fn end_run_out(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
-        let fastest_deg_s = self.manner.fastest_deg_s();
-        if let Some(run_out_s) = self.run_out.end(&rest, fastest_deg_s) {
+        let fastest_deg_s = self.setup.manner.fastest_deg_s();
+        if let Some(run_out_s) = self.seen.run_out.end(&rest, fastest_deg_s) {
             self.gate.set_run_out(run_out_s);
         }
     }

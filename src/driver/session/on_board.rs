@@ -85,7 +85,7 @@ impl Session {
     /// Whether the unit may be started on `pass`; if not, what is to be told.
     pub(super) fn examine_pass(&mut self, pass: OnBoardPass, now: Moment) -> Result<Watch, Event> {
         let name = pass.target.name.clone();
-        let judge = Judge::new(pass, self.ability)
+        let judge = Judge::new(pass, self.setup.ability)
             .map_err(|error| Event::CannotFollow(name, FollowProblem::Orbit(error)))?;
         let watch = Watch::new(Arc::new(judge), &self.gate.state().on_board);
         if let Some(event) = watch.objection() {
@@ -97,7 +97,7 @@ impl Session {
 
     /// What speaks against the pass now that the unit holds it and was read again.
     pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
-        let watch = self.on_board.as_mut()?;
+        let watch = &mut self.activity.on_board_mut()?.watch;
         watch.judge_again(&self.gate.state().on_board, true);
         watch.objection()
     }
@@ -119,42 +119,53 @@ impl Session {
         let from_now_on = OnBoard { window: Some((start.max(own_now), stop)), ..unit.clone() };
         let orbit = self.wires.orbit.borrow().clone();
         let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
-        let judge = pass.and_then(|pass| Judge::new(pass, self.ability).ok());
+        let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability).ok());
         judge.map_or_else(
             || Held::Unknown { name: satellite.name.clone() },
             |judge| Held::Pass(Arc::new(judge)),
         )
     }
 
+    /// The watch over what the unit tracks, asked or unasked.
+    pub(super) fn on_board_watch(&self) -> Option<&Watch> {
+        self.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
+    }
+
     /// Takes up or ends the watch over what the unit tracks without having been asked
     /// from here.
     fn watch_unasked(&mut self) {
         let state = self.gate.state();
-        let is_on = !self.unread && state.program.is_some_and(|program| program.enabled);
-        let orbit = self.wires.orbit.borrow().clone().filter(|_| is_on && !self.follows());
+        let is_on = !self.contact.unread && state.program.is_some_and(|program| program.enabled);
+        let orbit = self
+            .wires
+            .orbit
+            .borrow()
+            .clone()
+            .filter(|_| is_on && self.activity.program().is_none());
         let Some(pass) = orbit.and_then(|orbit| orbit.pass_of(&state.on_board)) else {
-            self.on_board = None;
+            self.unasked = None;
             return;
         };
-        if self.on_board.as_ref().is_some_and(|watch| *watch.judge.pass() == pass) {
+        if self.unasked.as_ref().is_some_and(|watch| *watch.judge.pass() == pass) {
             return;
         }
         // Elements that describe no orbit tell of no place to compare with.
-        let judge = Judge::new(pass, self.ability).ok();
-        self.on_board = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
+        let judge = Judge::new(pass, self.setup.ability).ok();
+        self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
     /// Looks whether the unit is where it should be.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
-        if self.target.is_none() || self.follows() {
+        if self.activity.on_board().is_none() {
             self.watch_unasked();
         }
-        let Some(watch) = &mut self.on_board else { return };
         let state = self.gate.state();
         let is_on = state.program.is_some_and(|program| program.enabled);
-        if !is_on || self.pending.is_some() {
+        if !is_on || self.activity.is_pending() {
             return;
         }
+        let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
+        let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
         watch.judge_again(&state.on_board, true);
         let Some(measured) = state.measured else { return };
         let target = &watch.judge.pass().target;
@@ -166,12 +177,12 @@ impl Session {
         let predicted = watch.judge.direction(measured.at);
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
-        if off <= self.ability.half_beam {
+        if off <= self.setup.ability.half_beam {
             (watch.was_on_target, watch.off_since, watch.missing) = (true, None, None);
             return;
         }
         // Both axes may have to turn by more than the beam.
-        let rate_deg_s = self.ability.maximum_rate_deg_s;
+        let rate_deg_s = self.setup.ability.maximum_rate_deg_s;
         let slew_s = if watch.was_on_target { 0.0 } else { 2.0 * off.degrees() / rate_deg_s };
         let slew = Duration::try_from_secs_f64(slew_s).unwrap_or_default();
         let (since, allowed) = *watch.off_since.get_or_insert((now.steady, OFF_FOR + slew));

@@ -64,29 +64,29 @@ impl Silence {
 impl Session {
     /// Bytes went to the unit.
     pub(super) fn wrote(&mut self, now: Moment) {
-        self.silence.heard(self.gate.state().traffic.replies);
-        self.silence.wrote(now.steady);
+        self.contact.silence.heard(self.gate.state().traffic.replies);
+        self.contact.silence.wrote(now.steady);
     }
 
     /// Whether metal moves on this program's word, as far as is known.
     fn is_in_motion(&mut self) -> bool {
         self.is_unproved()
             && (self.follows_now()
-                || self.halting.is_some()
+                || self.stop.is_under_way()
                 || self.turns()
                 || self.gate.state().program.is_some_and(|program| program.enabled)
-                || self.pending.is_some()
-                || self.jog.is_some()
+                || self.activity.is_pending()
+                || self.key.held().is_some()
                 || self.stepping.is_some()
                 || self.gate.device().motion_under_way())
     }
 
     /// Tells of a unit that does not answer while it moves; once, until it does.
     pub(super) fn watch_silence(&mut self, now: Moment) {
-        self.silence.heard(self.gate.state().traffic.replies);
+        self.contact.silence.heard(self.gate.state().traffic.replies);
         let is_watched = self.is_in_motion();
-        self.silence.watch(is_watched, now.steady);
-        self.gate.device().watch_closely(self.silence.is_watched);
+        self.contact.silence.watch(is_watched, now.steady);
+        self.gate.device().watch_closely(self.contact.silence.is_watched);
         if self.silence_due().is_some_and(|at| now.steady >= at) {
             self.tell_silence();
         }
@@ -101,25 +101,25 @@ impl Session {
 
     /// The operator has looked at it, or leaves it to others.
     pub(super) fn forget_silence(&mut self) {
-        self.silence.is_told = false;
+        self.contact.silence.is_told = false;
     }
 
     fn tell_silence(&mut self) {
-        if !std::mem::replace(&mut self.silence.is_told, true) {
+        if !std::mem::replace(&mut self.contact.silence.is_told, true) {
             self.tell(Event::Safety(Safety::SilentInMotion));
         }
     }
 
     /// The operator was told that it does not answer, and it has not answered since.
     pub(super) fn is_silent(&self) -> bool {
-        self.silence.is_told
+        self.contact.silence.is_told
     }
 
     /// When a silence is to be told.
     pub(super) fn silence_due(&mut self) -> Option<Instant> {
         let prompt = self.gate.device().prompt();
-        let is_open = matches!(self.link, LinkState::Up { .. } | LinkState::Stale { .. });
-        let is_watched = self.silence.is_watched && !self.silence.is_told;
-        self.silence.due(prompt).filter(|_| is_open && is_watched)
+        let is_open = matches!(self.contact.link, LinkState::Up { .. } | LinkState::Stale { .. });
+        let is_watched = self.contact.silence.is_watched && !self.contact.silence.is_told;
+        self.contact.silence.due(prompt).filter(|_| is_open && is_watched)
     }
 }

@@ -21,8 +21,8 @@ impl Session {
     pub(super) fn step(&mut self, steps_deg: [f64; 2], now: Moment) {
         let [x_deg, y_deg] = steps_deg;
         let motion = Motion::Step { x_deg, y_deg };
-        let allowed = self.gate.check(motion, self.intent, now);
-        if allowed.is_ok() && self.halting.is_none() && self.may_move() {
+        let allowed = self.gate.check(motion, self.activity.intent(), now);
+        if allowed.is_ok() && !self.stop.is_under_way() && self.may_move() {
             self.tell(Event::NotSent(Refusal::StillMoving));
         } else if self.start(motion, now) {
             self.stepping = Some(Stepping { steps_deg, since: now.steady });

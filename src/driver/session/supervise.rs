@@ -3,9 +3,12 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Event, Session, command::Waiting};
+use super::{
+    Event, Session,
+    activity::{Activity, GoTo, GoToStage, OnBoardStage},
+};
 use crate::{
-    controller::{Asked, Happening, Moment, Motion, Phase},
+    controller::{Asked, Happening, Moment, Motion, Phase, TrackTarget},
     driver::{Found, Intent},
 };
 
@@ -31,7 +34,7 @@ impl Session {
         while let Some(happening) = self.gate.device().next_happening() {
             self.take(happening, now);
         }
-        self.greet(now);
+        self.report_found(now);
         self.watch_likeness(now);
         self.watch_program();
         self.resolve_doubt(now);
@@ -45,12 +48,12 @@ impl Session {
         self.watch_standstill();
         self.watch_lock_out(now);
         self.forget_old_stop(now);
-        self.start_waiting(now);
-        match self.intent {
-            Intent::Position | Intent::Park => self.watch_position(now),
-            Intent::Track if self.follows() => self.watch_follow(now),
-            Intent::Track => self.watch_track(now),
-            Intent::Standby | Intent::Manual => {}
+        self.start_queued(now);
+        match self.activity {
+            Activity::GoTo(_) => self.watch_go_to(now),
+            Activity::ProgramTrack(_) => self.watch_follow(now),
+            Activity::OnBoardTrack(_) => self.watch_track(now),
+            Activity::Standby | Activity::Manual | Activity::Hold(_) => {}
         }
         self.watch_on_board(now);
         self.watch_silence(now);
@@ -58,11 +61,16 @@ impl Session {
 
     /// When [`Self::supervise`] is to be called at the latest.
     pub(super) fn supervise_due(&self) -> Option<Instant> {
-        let jog = self.jog.as_ref().map(|jog| jog.until);
+        let jog = self.key.held().map(|jog| jog.until);
         // A motion to a position is judged whenever a state comes in.
-        let by_timer =
-            self.intent == Intent::Track && self.waiting.is_none() && self.halting.is_none();
-        let effect = self.pending.filter(|_| by_timer).map(|since| since + TRACK_EFFECT);
+        let effect = match self.activity.on_board().map(|track| track.stage) {
+            Some(OnBoardStage::Loading { since } | OnBoardStage::Starting { since })
+                if !self.stop.is_under_way() =>
+            {
+                Some(since + TRACK_EFFECT)
+            }
+            _ => None,
+        };
         let look = self.follow_due();
         jog.into_iter()
             .chain(effect)
@@ -74,18 +82,10 @@ impl Session {
 
     fn take(&mut self, happening: Happening, now: Moment) {
         match happening {
-            Happening::Prepared(target) => {
-                if self.intent == Intent::Track && self.target.as_ref() == Some(&target) {
-                    if let Some(objection) = self.objection_to_pass() {
-                        return self.give_up(objection, now);
-                    }
-                    self.pending = Some(now.steady);
-                    self.waiting = Some(Waiting::Motion(Motion::StartProgram));
-                }
-            }
+            Happening::Prepared(target) => self.loaded(&target, now),
             Happening::NotPrepared(target, reason) => {
                 // A target that was given up since then needs no word.
-                if self.target.as_ref() == Some(&target) {
+                if self.activity.on_board().is_some_and(|track| track.target == target) {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
@@ -103,6 +103,19 @@ impl Session {
         }
     }
 
+    /// The unit holds the target: its program is started on it.
+    fn loaded(&mut self, target: &TrackTarget, now: Moment) {
+        if self.activity.on_board().is_none_or(|track| track.target != *target) {
+            return;
+        }
+        if let Some(objection) = self.objection_to_pass() {
+            return self.give_up(objection, now);
+        }
+        if let Some(track) = self.activity.on_board_mut() {
+            track.stage = OnBoardStage::StartQueued;
+        }
+    }
+
     /// Ends what was wanted of a motion or action that does not come about.
     fn forget(&mut self, asked: Asked, event: Event, now: Moment) {
         let motion = match asked {
@@ -110,6 +123,10 @@ impl Session {
             Asked::Action(_) => return self.tell(event),
         };
         match motion {
+            // It belongs to what is wanted no more, but its halt ends that as well.
+            Motion::Jog { .. } if self.activity.intent() == Intent::Track => {
+                self.give_up(event, now);
+            }
             Motion::Jog { .. } => {
                 self.halt_quietly(now);
                 self.tell(event);
@@ -141,7 +158,7 @@ impl Session {
     }
 
     /// Says what the device was found doing when the link came up.
-    fn greet(&mut self, now: Moment) {
+    fn report_found(&mut self, now: Moment) {
         let state = self.gate.state();
         let Some(measured) = state.measured else { return };
         let tracks = match state.program {
@@ -149,11 +166,11 @@ impl Session {
             None if self.make.capabilities.has_program => return,
             None => false,
         };
-        if !self.unread || state.link_since.is_none_or(|since| measured.asked < since) {
+        if !self.contact.unread || state.link_since.is_none_or(|since| measured.asked < since) {
             return;
         }
-        self.unread = false;
-        self.program_was_on = tracks;
+        self.contact.unread = false;
+        self.contact.program_was_on = tracks;
         let found = if tracks {
             Found::Tracking
         } else if self.turns() {
@@ -162,21 +179,23 @@ impl Session {
             Found::Still
         };
         let away = self
+            .contact
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
-        let lost = away + std::mem::take(&mut self.slept);
+        let lost = away + std::mem::take(&mut self.contact.slept);
         self.follow_on(lost, measured.pointing, now);
-        let by_device = self.intent == Intent::Track && !self.follows();
-        if by_device && found != Found::Tracking {
-            self.intent = Intent::Standby;
-            self.target = None;
+        match &mut self.activity {
+            Activity::OnBoardTrack(track) if found == Found::Tracking => {
+                track.stage = OnBoardStage::Tracking;
+            }
+            Activity::OnBoardTrack(_) => self.activity = Activity::Standby,
+            // It is watched on; its outcome is still to be told.
+            Activity::GoTo(GoTo { stage: GoToStage::UnderWay { since, .. }, .. }) => {
+                *since = now.steady;
+            }
+            _ => {}
         }
-        // A motion to a position is watched on; its outcome is still to be told.
-        self.pending = self
-            .pending
-            .filter(|_| matches!(self.intent, Intent::Position | Intent::Park))
-            .map(|_| now.steady);
-        let event = match self.away_since.take() {
+        let event = match self.contact.away_since.take() {
             None => Event::Connected(found),
             Some(away_since) => {
                 Event::Back { after: now.steady.saturating_duration_since(away_since), found }
@@ -187,67 +206,73 @@ impl Session {
 
     /// A device that starts to track by itself surprises whoever stands beside it.
     fn watch_program(&mut self) {
-        let Some(program) = self.gate.state().program.filter(|_| !self.unread) else { return };
-        let was_on = std::mem::replace(&mut self.program_was_on, program.enabled);
-        if program.enabled && !was_on && self.intent != Intent::Track {
+        let Some(program) = self.gate.state().program.filter(|_| !self.contact.unread) else {
+            return;
+        };
+        let was_on = std::mem::replace(&mut self.contact.program_was_on, program.enabled);
+        if program.enabled && !was_on && self.activity.intent() != Intent::Track {
             self.tell(Event::StartedByItself);
         }
     }
 
-    fn watch_position(&mut self, now: Moment) {
-        if self.waiting.is_some() {
-            return;
-        }
-        let aim = self.leg.map(|leg| leg.aim).or(self.aim);
-        let (Some(aim), Some(measured)) = (aim, self.gate.state().measured) else { return };
-        let within_deg = self.make.capabilities.arrives_within_deg;
-        let off = measured.pointing.separation(aim);
-        let near = off.is_some_and(|off| off.degrees() <= within_deg);
-        let Some(since) = self.pending else { return };
+    fn watch_go_to(&mut self, now: Moment) {
         let turns = self.turns();
+        let Activity::GoTo(go_to) = &mut self.activity else { return };
+        let GoToStage::UnderWay { since, leg } = go_to.stage else { return };
+        let aim = leg.map(|leg| leg.aim).or(go_to.aim);
+        let (Some(aim), Some(measured)) = (aim, self.gate.state().measured) else { return };
         if measured.asked <= since || turns {
             // Under way: the clock for the first effect starts anew.
             if turns {
-                self.pending = Some(now.steady);
+                go_to.stage = GoToStage::UnderWay { since: now.steady, leg };
             }
             return;
         }
-        if near && let Some(leg) = self.leg.take() {
-            self.pending = Some(now.steady);
-            self.waiting = Some(Waiting::Motion(leg.then));
-        } else if near {
-            self.pending = None;
-            self.tell(Event::Arrived(aim));
-        } else if now.steady.saturating_duration_since(since) >= EFFECT {
-            self.pending = None;
-            self.leg = None;
-            self.tell(Event::EndedShort { aim, at: measured.pointing });
-        }
+        let within_deg = self.make.capabilities.arrives_within_deg;
+        let off = measured.pointing.separation(aim);
+        let is_near = off.is_some_and(|off| off.degrees() <= within_deg);
+        let event = match leg {
+            Some(leg) if is_near => {
+                go_to.stage = GoToStage::Queued { motion: leg.then, leg: None };
+                return;
+            }
+            None if is_near => Event::Arrived(aim),
+            _ if now.steady.saturating_duration_since(since) >= EFFECT => {
+                Event::EndedShort { aim, at: measured.pointing }
+            }
+            _ => return,
+        };
+        go_to.stage = GoToStage::Over;
+        self.tell(event);
     }
 
     fn watch_track(&mut self, now: Moment) {
         let Some(program) = self.gate.state().program else { return };
-        let ended = !program.enabled || program.phase == Phase::Completed;
-        let Some(since) = self.pending else {
-            if ended {
-                // The halt that goes with it switches off a program that is
-                // over but still on, and could start again.
-                let completed = program.phase == Phase::Completed;
+        let read = self.gate.state().measured;
+        let Some(track) = self.activity.on_board_mut() else { return };
+        let completed = program.phase == Phase::Completed;
+        let ended = !program.enabled || completed;
+        match track.stage {
+            // The halt that goes with it switches off a program that is over but still
+            // on, and could start again.
+            OnBoardStage::Tracking if ended => {
                 self.give_up(Event::TrackingEnded { completed }, now);
             }
-            return;
-        };
-        if self.waiting.is_some() || self.halting.is_some() {
-            return;
-        }
-        let read_since = self.gate.state().measured.is_some_and(|read| read.asked > since);
-        if !ended && read_since {
-            self.pending = None;
-            if let Some(target) = self.target.clone() {
+            OnBoardStage::Tracking | OnBoardStage::LoadQueued | OnBoardStage::StartQueued => {}
+            OnBoardStage::Loading { .. } | OnBoardStage::Starting { .. }
+                if self.stop.is_under_way() => {}
+            OnBoardStage::Starting { since }
+                if !ended && read.is_some_and(|read| read.asked > since) =>
+            {
+                track.stage = OnBoardStage::Tracking;
+                let target = track.target.clone();
                 self.tell(Event::Tracking(target));
             }
-        } else if now.steady.saturating_duration_since(since) >= TRACK_EFFECT {
-            self.give_up(Event::TrackingEnded { completed: false }, now);
+            OnBoardStage::Loading { since } | OnBoardStage::Starting { since } => {
+                if now.steady.saturating_duration_since(since) >= TRACK_EFFECT {
+                    self.give_up(Event::TrackingEnded { completed: false }, now);
+                }
+            }
         }
     }
 }

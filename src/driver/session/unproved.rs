@@ -11,16 +11,16 @@ const SETTLED: Duration = Duration::from_secs(5);
 impl Session {
     /// It was moved from here, or a stop is owed, and standstill is not proved.
     pub(super) fn is_unproved(&self) -> bool {
-        self.gate.unproved_since().is_some() || self.halting.is_some()
+        self.gate.unproved_since().is_some() || self.stop.is_under_way()
     }
 
     /// Keeps it for the next session of the unit too, whose antenna may be changed in
     /// the settings meanwhile.
     pub(super) fn keep_unproved(&mut self) {
         let since = self.gate.unproved_since();
-        if since != self.kept_unproved {
-            self.kept_unproved = since;
-            self.debts.keep_unproved(&self.unit, self.number, since);
+        if since != self.owed.kept_unproved {
+            self.owed.kept_unproved = since;
+            self.owed.debts.keep_unproved(&self.owed.unit, self.owed.number, since);
         }
     }
 
@@ -40,7 +40,7 @@ impl Session {
             measured.asked.saturating_duration_since(since) >= SETTLED && !measured.moving()
         });
         let program_is_off = state.program.is_none_or(|program| !program.enabled);
-        if seen && program_is_off && self.following.is_none() && !self.may_move() {
+        if seen && program_is_off && !self.may_move() {
             self.prove_still();
         }
     }

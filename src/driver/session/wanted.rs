@@ -3,8 +3,9 @@
 use tokio::time::sleep_until;
 
 use super::{
-    Event, Intent, Session,
-    converse::{LEAST_WAIT, Turn, next_word},
+    Event, Session,
+    activity::Activity,
+    io_loop::{Input, MIN_WAIT, next_input},
 };
 use crate::driver::{LinkState, Refusal};
 
@@ -22,55 +23,54 @@ pub(super) enum Wanted {
 impl Session {
     /// Waits for the operator to want a link; `false` when the session is to end.
     /// A stop wants one: it is its first word.
-    pub(super) async fn is_sent_for(&mut self) -> bool {
-        self.link = LinkState::Off;
-        self.away_since = None;
-        self.told_lost = false;
-        while self.wanted == Wanted::No {
+    pub(super) async fn wait_until_wanted(&mut self) -> bool {
+        self.contact.link = LinkState::Off;
+        self.contact.away_since = None;
+        self.contact.loss_is_told = false;
+        while self.contact.wanted == Wanted::No {
             let now = self.now();
             self.forget_old_stop(now);
             self.publish(now);
             let due = self.halt_due();
-            let word = next_word(&self.wires);
+            let word = next_input(&self.wires);
             let turn = match due {
                 None => word.await,
                 Some(due) => tokio::select! {
                     turn = word => turn,
-                    () = sleep_until(due.max(now.steady + LEAST_WAIT).into()) => Turn::Time,
+                    () = sleep_until(due.max(now.steady + MIN_WAIT).into()) => Input::Time,
                 },
             };
             // The word may have come hours later.
             let now = self.now();
             match turn {
-                Turn::Over => return false,
-                Turn::Stop => {
-                    self.halt_and_forget(now);
-                    self.wanted = Wanted::ForStop;
+                Input::Over => return false,
+                Input::Stop => {
+                    self.stop_and_void(now);
+                    self.contact.wanted = Wanted::ForStop;
                 }
-                Turn::Command(command) => self.turn_down(command, now),
-                Turn::Sleep(_) | Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+                Input::Command(command) => self.carry_out_offline(command, now),
+                Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
             }
         }
-        self.link = LinkState::Connecting { since: self.now().steady };
+        self.contact.link = LinkState::Connecting { since: self.now().steady };
         true
     }
 
     /// The operator leaves the device to others. What is owed to safety comes
     /// first.
-    pub(super) fn let_go(&mut self) -> bool {
-        if self.halting.is_some() {
+    pub(super) fn disconnect(&mut self) -> bool {
+        if self.stop.is_under_way() {
             self.tell(Event::NotSent(Refusal::Stopping));
             return false;
         }
-        self.wanted = Wanted::No;
+        self.contact.wanted = Wanted::No;
         self.forget_silence();
-        self.intent = Intent::Standby;
-        self.following = None;
+        self.activity = Activity::Standby;
         true
     }
 
     /// The stop for which the link was opened is proved.
-    pub(super) fn let_go_quietly(&mut self) -> bool {
-        self.halting.is_none() && self.let_go()
+    pub(super) fn disconnect_after_stop(&mut self) -> bool {
+        !self.stop.is_under_way() && self.disconnect()
     }
 }

@@ -58,9 +58,11 @@ pub(in crate::driver::session) struct Following {
     /// The unit is still to tell that it is as before.
     pub(in crate::driver::session) recheck: Option<Recheck>,
     /// That a barrier is in the way was told.
-    pub(super) told_barrier: bool,
+    pub(super) barrier_is_told: bool,
     /// Where the last position leads.
     pub(super) commanded: Option<Pointing>,
+    /// The same, as long as the target is not up.
+    pub(in crate::driver::session) aim: Option<Pointing>,
 }
 
 impl Following {
@@ -78,8 +80,9 @@ impl Following {
             predicted: None,
             awaits_word: false,
             recheck: None,
-            told_barrier: false,
+            barrier_is_told: false,
             commanded: None,
+            aim: None,
         }
     }
 

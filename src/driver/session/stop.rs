@@ -3,7 +3,8 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    Event, Intent, Session,
+    Event, Session,
+    activity::Activity,
     standstill::{Looks, Proof},
 };
 use crate::{
@@ -34,24 +35,57 @@ pub(super) struct Halting {
     told: bool,
 }
 
-/// The state of the stop button.
-pub(super) fn shown(
-    halting: Option<&Halting>,
-    stopped_at: Option<Instant>,
-    now: Instant,
-) -> StopState {
-    match (halting, stopped_at) {
-        (Some(&Halting { since, told: true, .. }), _) => StopState::NotConfirmed { since },
-        (Some(&Halting { since, pressed: true, .. }), _) => StopState::Stopping { since },
-        (_, Some(at)) if now.saturating_duration_since(at) < SHOWN => StopState::Stopped { at },
-        _ => StopState::Ready,
+/// STOP of an antenna, whether it was pressed or ends a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Stop {
+    /// None is under way.
+    Ready,
+    /// It was sent, and standstill is not proved.
+    UnderWay(Box<Halting>),
+    /// Standstill was proved then, after it was pressed.
+    Proved { at: Instant },
+}
+
+impl Stop {
+    pub(super) fn is_under_way(&self) -> bool {
+        matches!(self, Self::UnderWay(_))
+    }
+
+    fn halting(&self) -> Option<&Halting> {
+        match self {
+            Self::UnderWay(halting) => Some(halting),
+            Self::Ready | Self::Proved { .. } => None,
+        }
+    }
+
+    /// The state of the stop button.
+    pub(super) fn shown(&self, now: Instant) -> StopState {
+        match self {
+            Self::UnderWay(halting) if halting.told => {
+                StopState::NotConfirmed { since: halting.since }
+            }
+            Self::UnderWay(halting) if halting.pressed => {
+                StopState::Stopping { since: halting.since }
+            }
+            &Self::Proved { at } if now.saturating_duration_since(at) < SHOWN => {
+                StopState::Stopped { at }
+            }
+            _ => StopState::Ready,
+        }
+    }
+
+    /// A motion begins: an earlier standstill counts no more.
+    pub(super) fn forget(&mut self) {
+        if let Self::Proved { .. } = self {
+            *self = Self::Ready;
+        }
     }
 }
 
 impl Session {
     /// The operator wants everything to stand still. Never refused.
     pub(super) fn halt(&mut self, now: Moment) {
-        self.intent = Intent::Standby;
+        self.activity = Activity::Standby;
         self.gate.device().disarm();
         self.begin_halt(true, now);
     }
@@ -62,43 +96,45 @@ impl Session {
     }
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
-        if self.halting.is_none() {
+        if !self.stop.is_under_way() {
             self.begin_run_out(now);
         }
-        if pressed && let Some(jog) = &self.jog {
-            self.ended_hold = Some(jog.rates_deg_s);
+        if pressed {
+            self.key.spend();
         }
-        self.jog = None;
+        self.key.end();
         self.stepping = None;
-        self.waiting = None;
-        self.pending = None;
-        self.aim = None;
-        self.leg = None;
-        self.target = None;
-        self.following = None;
         self.doubt = None;
-        self.stopped_at = None;
+        self.activity.halt();
         let extent = if pressed { Extent::Everything } else { Extent::Motion };
         self.urgent = self.gate.device().halt(extent, now);
-        // Pressing again does not put off the word that standstill is not proved.
-        let running = self.halting.take();
-        self.debts.owe(&self.unit);
-        self.halting = Some(Halting {
-            since: running.as_ref().map_or(now.steady, |halting| halting.since),
-            looks: running.as_ref().map_or_else(Looks::default, |halting| halting.looks),
-            sent_at: running.as_ref().map_or(now.steady, |halting| halting.sent_at),
-            again_at: now.steady + self.gate.device().halt_patience(),
-            pressed: pressed || running.as_ref().is_some_and(|halting| halting.pressed),
-            told: running.is_some_and(|halting| halting.told),
-        });
+        self.owed.debts.owe(&self.owed.unit);
+        let again_at = now.steady + self.gate.device().halt_patience();
+        match &mut self.stop {
+            // Pressing again does not put off the word that standstill is not proved.
+            Stop::UnderWay(halting) => {
+                halting.again_at = again_at;
+                halting.pressed |= pressed;
+            }
+            stop => {
+                *stop = Stop::UnderWay(Box::new(Halting {
+                    since: now.steady,
+                    looks: Looks::default(),
+                    sent_at: now.steady,
+                    again_at,
+                    pressed,
+                    told: false,
+                }));
+            }
+        }
     }
 
     /// Looks whether the antenna stands, and keeps at it while it does not.
     pub(super) fn watch_halt(&mut self, now: Moment) {
-        let figures = self.figures;
+        let figures = self.setup.figures;
         let proof_after = PROOF.max(figures.gap() + BEYOND_PROOF);
         let is_at_rest = self.is_at_rest();
-        let Some(halting) = &mut self.halting else { return };
+        let Stop::UnderWay(halting) = &mut self.stop else { return };
         let state = self.gate.state();
         // A halt that is not the operator's leaves alone what else turns.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
@@ -114,7 +150,7 @@ impl Session {
         let again = now.steady >= halting.again_at && halting.looks.next(figures).is_none();
         let looks_again = halting.looks.is_due(figures, now.steady);
         // Without a link the first thing sent on the next one is the halt.
-        if again && self.link.is_open() {
+        if again && self.contact.link.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
             self.urgent = self.gate.device().halt(Extent::Everything, now);
         }
@@ -127,12 +163,12 @@ impl Session {
     }
 
     fn end_halt(&mut self, proof: Proof, now: Moment) {
-        let is_pressed = self.halting.take().is_some_and(|halting| halting.pressed);
+        let is_pressed = self.stop.halting().is_some_and(|halting| halting.pressed);
+        self.stop = if is_pressed { Stop::Proved { at: now.steady } } else { Stop::Ready };
         self.settle_debt();
         self.prove_still();
         self.end_run_out();
         if is_pressed {
-            self.stopped_at = Some(now.steady);
             self.tell(Event::Stopped);
             if let Proof::Flags { axis } = proof {
                 let axes = self.make.capabilities.axes;
@@ -148,7 +184,7 @@ impl Session {
     /// The operator has seen that it stands.
     pub(super) fn take_word_for_standstill(&mut self) {
         tracing::warn!(antenna = self.name, "standstill by the operator's word");
-        self.halting = None;
+        self.stop = Stop::Ready;
         self.forget_silence();
         self.urgent.clear();
         self.settle_debt();
@@ -164,13 +200,15 @@ impl Session {
 
     /// Tells of an antenna that turns although its unit says that it stands.
     pub(super) fn watch_rest(&mut self) {
-        let is_at_rest = self.is_at_rest() && self.halting.as_ref().is_none_or(|it| it.told);
+        let is_at_rest =
+            self.is_at_rest() && self.stop.halting().is_none_or(|halting| halting.told);
         let Some(look) = self.gate.state().measured else { return };
-        if self.looked == Some(look.received) {
+        if self.seen.looked == Some(look.received) {
             return;
         }
-        self.looked = Some(look.received);
-        if let Some((axis, turned_deg)) = self.rest.take(look, is_at_rest, self.figures) {
+        self.seen.looked = Some(look.received);
+        if let Some((axis, turned_deg)) = self.seen.rest.take(look, is_at_rest, self.setup.figures)
+        {
             let axis = self.make.capabilities.axes.get(axis).copied().unwrap_or_default();
             self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
         }
@@ -178,23 +216,27 @@ impl Session {
 
     /// When a halt has to be looked at again.
     pub(super) fn halt_due(&self) -> Option<Instant> {
-        let proof_after = PROOF.max(self.figures.gap() + BEYOND_PROOF);
-        if let Some(halting) = &self.halting {
+        let proof_after = PROOF.max(self.setup.figures.gap() + BEYOND_PROOF);
+        if let Some(halting) = self.stop.halting() {
             let proof = (!halting.told).then_some(halting.since + proof_after);
-            let again = match halting.looks.next(self.figures) {
+            let again = match halting.looks.next(self.setup.figures) {
                 Some(at) => halting.looks.awaits_look().then_some(at),
                 None => Some(halting.again_at),
             };
-            let again = again.filter(|_| self.link.is_open());
+            let again = again.filter(|_| self.contact.link.is_open());
             return proof.into_iter().chain(again).min();
         }
-        self.stopped_at.map(|at| at + SHOWN)
+        match self.stop {
+            Stop::Proved { at } => Some(at + SHOWN),
+            _ => None,
+        }
     }
 
     /// The outline of the button fades after a while.
     pub(super) fn forget_old_stop(&mut self, now: Moment) {
-        if self.stopped_at.is_some_and(|at| now.steady.saturating_duration_since(at) >= SHOWN) {
-            self.stopped_at = None;
+        if matches!(self.stop, Stop::Proved { at } if now.steady.saturating_duration_since(at) >= SHOWN)
+        {
+            self.stop = Stop::Ready;
         }
     }
 }

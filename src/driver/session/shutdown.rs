@@ -9,28 +9,28 @@ use tokio::{
 
 use super::{
     Session,
-    converse::{CONNECT, HURRY, LEAST_WAIT, WRITE},
+    io_loop::{CONNECT, MIN_WAIT, STOP_RETRY, WRITE},
 };
 use crate::driver::{LinkState, Stream};
 
 /// How long the end of a session waits for standstill, beside what its proof takes.
-const GOODBYE: Duration = Duration::from_millis(1500);
+const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
 
 impl Session {
     /// The last words of a session: a jog must not outlive it. Stays until
     /// standstill is proved or it has taken too long.
-    pub(super) async fn say_goodbye(
+    pub(super) async fn shut_down(
         &mut self,
         reader: &mut ReadHalf<Box<dyn Stream>>,
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) {
         let start = self.now();
-        if self.jog.take().is_some() || self.waiting.is_some() {
+        if self.key.held().is_some() || self.activity.is_queued() {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];
-        let until = tokio::time::Instant::now() + GOODBYE + self.figures.gap();
-        while self.halting.is_some() && tokio::time::Instant::now() < until {
+        let until = tokio::time::Instant::now() + STANDSTILL_WITHIN + self.setup.figures.gap();
+        while self.stop.is_under_way() && tokio::time::Instant::now() < until {
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
                     antenna = self.name,
@@ -55,7 +55,7 @@ impl Session {
                 }
             }
         }
-        if self.halting.is_some() {
+        if self.stop.is_under_way() {
             tracing::error!(antenna = self.name, "standstill was not proved at the end");
         }
         // The socket is closed in order, so that the last bytes are not cut off.
@@ -65,31 +65,31 @@ impl Session {
     /// When the goodbye has something to send or to look at.
     fn next_look(&mut self, until: tokio::time::Instant) -> tokio::time::Instant {
         let now = self.now();
-        let due = self.gate.device().due(now).max(now.steady + LEAST_WAIT);
+        let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
         until.min(self.halt_due().map_or(due, |halt| halt.min(due)).into())
     }
 
     /// The window has let go of this antenna while a stop is owed to its unit: it
     /// is tried until it is proved, or another session of the unit sees to it.
-    pub(super) async fn pay_debt(&mut self) {
+    pub(super) async fn pay_owed_stop(&mut self) {
         let now = self.now();
         self.halt_quietly(now);
-        while self.halting.is_some() {
-            if self.debts.hand_over(&self.unit, self.number) {
+        while self.stop.is_under_way() {
+            if self.owed.debts.hand_over(&self.owed.unit, self.owed.number) {
                 return;
             }
             if let Ok(Ok(stream)) = timeout(CONNECT, (self.dial)()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
-                self.link = LinkState::Up { since: now.steady };
+                self.contact.link = LinkState::Up { since: now.steady };
                 self.halt_quietly(now);
-                self.say_goodbye(&mut reader, &mut writer).await;
+                self.shut_down(&mut reader, &mut writer).await;
                 let now = self.now();
                 self.gate.device().link_down(now);
             }
-            if self.halting.is_some() {
-                tokio::time::sleep(HURRY).await;
+            if self.stop.is_under_way() {
+                tokio::time::sleep(STOP_RETRY).await;
             }
         }
     }

@@ -27,12 +27,12 @@ const BACK_OFF: [Duration; 5] = [
 ];
 
 /// While a stop is owed, the unit is tried again this often.
-pub(super) const HURRY: Duration = Duration::from_millis(250);
+pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
 /// The shortest sleep of the loop.
-pub(super) const LEAST_WAIT: Duration = Duration::from_millis(2);
+pub(super) const MIN_WAIT: Duration = Duration::from_millis(2);
 
 /// What ended a stretch of waiting or talking.
-pub(super) enum Turn {
+pub(super) enum Input {
     Bytes(usize),
     Lost(LinkLoss),
     Command(Command),
@@ -50,7 +50,7 @@ impl Session {
         self.look_for_mark().await;
         let mut attempt = 0;
         loop {
-            if self.wanted == Wanted::No && !self.is_sent_for().await {
+            if self.contact.wanted == Wanted::No && !self.wait_until_wanted().await {
                 break;
             }
             if let Some(loss) = self.connect_and_talk(&mut attempt).await {
@@ -61,15 +61,15 @@ impl Session {
                 }
             }
             // Over, or let go of: in that case the next word is waited for.
-            if self.wanted != Wanted::No {
+            if self.contact.wanted != Wanted::No {
                 break;
             }
         }
-        if self.halting.is_some() || self.jog.is_some() {
+        if self.stop.is_under_way() || self.key.held().is_some() {
             self.mark_debt().await;
-            self.pay_debt().await;
+            self.pay_owed_stop().await;
         }
-        self.link = LinkState::Off;
+        self.contact.link = LinkState::Off;
         let now = self.now();
         self.publish(now);
     }
@@ -87,11 +87,11 @@ impl Session {
         if self.gate.state().traffic.replies > replies_before {
             *attempt = 0;
             // A link on which nothing was ever said is no new one.
-            self.told_lost = false;
+            self.contact.loss_is_told = false;
         }
         self.remember_likeness();
         let now = self.now();
-        self.left_at = self.gate.state().measured.map(|measured| measured.pointing);
+        self.contact.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
         self.record();
         end
@@ -106,15 +106,15 @@ impl Session {
         loop {
             tokio::select! {
                 biased;
-                turn = next_word(&self.wires) => {
-                    if !self.answer_without_link(turn) {
+                turn = next_input(&self.wires) => {
+                    if !self.take_offline(turn) {
                         return Ok(None);
                     }
                 }
                 dialled = &mut dialling => {
                     let stream = dialled.map_err(|error| LinkLoss::Refused(in_words(&error)))?;
                     let now = self.now();
-                    self.link = LinkState::Up { since: now.steady };
+                    self.contact.link = LinkState::Up { since: now.steady };
                     return Ok(Some(stream));
                 }
                 () = sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
@@ -126,21 +126,20 @@ impl Session {
     async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
         let now = self.now();
         self.tell_silence_of_lost_link();
-        if let Some(jog) = self.jog.take() {
-            self.ended_hold = Some(jog.rates_deg_s);
-            if jog.started {
-                self.halt_quietly(now);
-            }
+        let jogs = self.key.started().is_some();
+        self.key.spend();
+        if jogs {
+            self.halt_quietly(now);
         }
-        self.waiting = None;
+        self.activity.drop_queued(now.steady);
         let mut retry_at = now.steady + wait;
         self.lose(loss, retry_at);
         loop {
             let now = self.now();
             // A stop cannot wait for a polite interval.
-            if self.halting.is_some() && retry_at > now.steady + HURRY {
-                retry_at = now.steady + HURRY;
-                if let LinkState::Lost { retry_at: shown, .. } = &mut self.link {
+            if self.stop.is_under_way() && retry_at > now.steady + STOP_RETRY {
+                retry_at = now.steady + STOP_RETRY;
+                if let LinkState::Lost { retry_at: shown, .. } = &mut self.contact.link {
                     *shown = retry_at;
                 }
             }
@@ -154,30 +153,30 @@ impl Session {
             let until = self.halt_due().into_iter().chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
-                turn = next_word(&self.wires) => {
-                    if !self.answer_without_link(turn) {
+                turn = next_input(&self.wires) => {
+                    if !self.take_offline(turn) {
                         return None;
                     }
                 }
-                () = sleep_until(until.max(now.steady + LEAST_WAIT).into()) => {}
+                () = sleep_until(until.max(now.steady + MIN_WAIT).into()) => {}
             }
         }
     }
 
     /// `false` when the session is to end or to let go of the device.
-    fn answer_without_link(&mut self, turn: Turn) -> bool {
+    fn take_offline(&mut self, turn: Input) -> bool {
         let now = self.now();
         match turn {
-            Turn::Over => return false,
-            Turn::Stop => self.halt_and_forget(now),
-            Turn::Command(Command::Disconnect) => return !self.let_go(),
-            Turn::Command(command) => self.turn_down(command, now),
-            Turn::Sleep(awake) => self.before_sleep(awake, now),
-            Turn::Bytes(_) | Turn::Lost(_) | Turn::Time => {}
+            Input::Over => return false,
+            Input::Stop => self.stop_and_void(now),
+            Input::Command(Command::Disconnect) => return !self.disconnect(),
+            Input::Command(command) => self.carry_out_offline(command, now),
+            Input::Sleep(awake) => self.before_sleep(awake, now),
+            Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
         }
         self.let_sleep();
         // The link was wanted for a stop alone, and none is owed any more.
-        if self.wanted == Wanted::ForStop && self.let_go_quietly() {
+        if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
             return false;
         }
         self.publish(now);
@@ -185,7 +184,7 @@ impl Session {
     }
 
     /// What was asked for before a stop is void, whoever it came from.
-    pub(super) fn halt_and_forget(&mut self, now: Moment) {
+    pub(super) fn stop_and_void(&mut self, now: Moment) {
         self.wires.stopper.forget();
         self.halt(now);
     }
@@ -206,12 +205,12 @@ impl Session {
         let mut buffer = [0; 4096];
         let start = self.now();
         self.gate.device().link_up(start);
-        if self.halting.is_some() {
+        if self.stop.is_under_way() {
             self.urgent = self.gate.device().halt(Extent::Everything, start);
         } else {
             self.urgent.clear();
         }
-        self.unread = true;
+        self.contact.unread = true;
         let mut hurries = false;
         loop {
             // After a long wait a jog may be over that the controller would renew.
@@ -228,9 +227,9 @@ impl Session {
             {
                 return Some(loss);
             }
-            if self.wanted == Wanted::ForStop && self.let_go_quietly() {
+            if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
                 self.publish(now);
-                self.say_goodbye(&mut reader, &mut writer).await;
+                self.shut_down(&mut reader, &mut writer).await;
                 return None;
             }
             self.publish(now);
@@ -241,35 +240,35 @@ impl Session {
                 continue;
             }
             match self.wait(&mut reader, &mut buffer).await {
-                Turn::Over => {
-                    self.say_goodbye(&mut reader, &mut writer).await;
+                Input::Over => {
+                    self.shut_down(&mut reader, &mut writer).await;
                     return None;
                 }
-                Turn::Lost(loss) => return Some(loss),
-                Turn::Stop => {
+                Input::Lost(loss) => return Some(loss),
+                Input::Stop => {
                     let now = self.now();
-                    self.halt_and_forget(now);
+                    self.stop_and_void(now);
                 }
-                Turn::Sleep(awake) => {
+                Input::Sleep(awake) => {
                     let now = self.now();
                     self.before_sleep(awake, now);
                 }
-                Turn::Command(Command::Disconnect) => {
-                    if self.let_go() {
-                        self.say_goodbye(&mut reader, &mut writer).await;
+                Input::Command(Command::Disconnect) => {
+                    if self.disconnect() {
+                        self.shut_down(&mut reader, &mut writer).await;
                         return None;
                     }
                 }
-                Turn::Command(command) => {
+                Input::Command(command) => {
                     let now = self.now();
                     self.carry_out(command, now);
                 }
-                Turn::Bytes(count) => {
+                Input::Bytes(count) => {
                     let now = self.now();
                     self.gate.device().receive(buffer.get(..count).unwrap_or_default(), now);
                     self.record();
                 }
-                Turn::Time => {}
+                Input::Time => {}
             }
         }
     }
@@ -296,7 +295,7 @@ impl Session {
         Ok(())
     }
 
-    async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Turn {
+    async fn wait(&mut self, reader: &mut ReadHalf<Box<dyn Stream>>, buffer: &mut [u8]) -> Input {
         let now = self.now();
         let due = self.gate.device().due(now);
         let until = self
@@ -308,27 +307,27 @@ impl Session {
             .chain([due])
             .min();
         // A deadline that brings about nothing must not spin.
-        let until = until.unwrap_or(due).max(now.steady + LEAST_WAIT);
+        let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
-            turn = next_word(&self.wires) => turn,
+            turn = next_input(&self.wires) => turn,
             read = reader.read(buffer) => match read {
-                Ok(0) => Turn::Lost(LinkLoss::Closed),
-                Ok(count) => Turn::Bytes(count),
-                Err(error) => Turn::Lost(LinkLoss::Broken(in_words(&error))),
+                Ok(0) => Input::Lost(LinkLoss::Closed),
+                Ok(count) => Input::Bytes(count),
+                Err(error) => Input::Lost(LinkLoss::Broken(in_words(&error))),
             },
-            () = sleep_until(until.into()) => Turn::Time,
+            () = sleep_until(until.into()) => Input::Time,
         }
     }
 }
 
 /// The next word from the window, a stop before anything else.
-pub(super) async fn next_word(wires: &Wires) -> Turn {
+pub(super) async fn next_input(wires: &Wires) -> Input {
     tokio::select! {
         biased;
-        () = wires.stopper.stop.notified() => Turn::Stop,
-        awake = next_sleep(wires) => Turn::Sleep(awake),
-        command = next_command(wires) => command.map_or(Turn::Over, Turn::Command),
+        () = wires.stopper.stop.notified() => Input::Stop,
+        awake = next_sleep(wires) => Input::Sleep(awake),
+        command = next_command(wires) => command.map_or(Input::Over, Input::Command),
     }
 }
 
