@@ -6,11 +6,11 @@
 
 mod capabilities;
 mod element_files;
-mod make;
 mod on_board;
 pub mod panel;
 pub mod settings;
 mod state;
+mod variant;
 pub(crate) mod wire;
 
 use std::{
@@ -23,9 +23,9 @@ use smol_str::SmolStr;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
 pub use element_files::ElementFiles;
-pub use make::Make;
 pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
+pub use variant::Variant;
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};
 
 use crate::astro::Angle;
@@ -86,7 +86,7 @@ pub enum Motion {
 pub enum Asked {
     /// By [`Moves::start`].
     Motion(Motion),
-    /// By [`Moves::act`]: one of [`Make::actions`], by its key.
+    /// By [`Moves::act`]: one of [`Variant::actions`], by its key.
     Action(&'static str),
 }
 
@@ -315,7 +315,7 @@ pub trait Moves: Device {
     fn start(&mut self, motion: Motion);
 
     /// Queues what only this make can do. A controller without
-    /// [`Make::actions`] is never asked.
+    /// [`Variant::actions`] is never asked.
     fn act(&mut self, _act: Act) {}
 }
 

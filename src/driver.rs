@@ -343,7 +343,7 @@ impl Driver {
 /// Opens the links of `antenna`.
 fn dial(antenna: &Antenna) -> Dial {
     let connection = &antenna.connection;
-    match connection.kind().link {
+    match connection.spec().link {
         Link::Tcp => dial_tcp(connection.address.clone()),
         Link::Line { baud } => dial_line(&connection.address, connection.whole(baud)),
     }

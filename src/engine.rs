@@ -419,7 +419,7 @@ impl Engine {
         // What ran until now ends once something else is taken into use.
         let _demo = self.demo.take();
         let loaded = match &self.settings_path {
-            Some(path) => station::load(path, &makes::kinds()),
+            Some(path) => station::load(path, makes::SPECS),
             None => Err(LoadError::Missing),
         };
         match loaded {

@@ -6,36 +6,17 @@ mod demo;
 pub use demo::DemoAddresses;
 
 use crate::{
-    controller::{Make, rc2000c, rotator_genius, satrak},
+    controller::{rc2000c, rotator_genius, satrak},
     sim,
-    station::Kind,
+    station::ControllerSpec,
 };
 
-/// A make of controller and its simulator.
-#[derive(Debug)]
-pub struct Listed {
-    /// What it says of itself; all that drives and shows it follows from there.
-    pub kind: &'static Kind,
-    /// How it is simulated on the command line.
-    pub simulator: sim::Command,
-}
+/// All that there are, as the reader of the station file wants them.
+pub static SPECS: &[&ControllerSpec] = &[&satrak::SPEC, &rotator_genius::SPEC, &rc2000c::SPEC];
 
-/// All that there are.
-pub static ALL: &[Listed] = &[
-    Listed { kind: &satrak::KIND, simulator: sim::satrak::COMMAND },
-    Listed { kind: &rotator_genius::KIND, simulator: sim::rotator_genius::COMMAND },
-    Listed { kind: &rc2000c::KIND, simulator: sim::rc2000c::COMMAND },
-];
-
-/// The kinds of all of them, as the reader of the station file wants them.
-pub fn kinds() -> Vec<&'static Kind> {
-    ALL.iter().map(|listed| listed.kind).collect()
-}
-
-/// All that the rest of the program may take them for.
-pub fn makes() -> impl Iterator<Item = &'static Make> {
-    ALL.iter().flat_map(|listed| listed.kind.makes).copied()
-}
+/// How each is simulated on the command line.
+pub static SIMULATORS: &[sim::Command] =
+    &[sim::satrak::COMMAND, sim::rotator_genius::COMMAND, sim::rc2000c::COMMAND];
 
 #[cfg(test)]
 mod tests;

@@ -322,7 +322,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
 fn a_unit_of_two_station_files_is_driven_from_the_first_and_stopped_from_both() {
     let units = Units::start(|_| {});
     let other = units.folder.path().join("other.toml");
-    let mut station = station::load(&units.path(), &makes::kinds()).unwrap().station;
+    let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Mast");
     station.antennas[0].name = "Tower".to_owned();
     station::save(&station, &other).unwrap();

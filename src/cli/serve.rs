@@ -118,7 +118,7 @@ pub(super) fn run(
             path.display()
         );
     }
-    if let Err(error) = station::load(&path, &makes::kinds()) {
+    if let Err(error) = station::load(&path, makes::SPECS) {
         bail!("{error}");
     }
     let format = options.format;

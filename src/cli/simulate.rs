@@ -13,7 +13,7 @@ pub(super) struct Simulator {
 
 impl Subcommand for Simulator {
     fn augment_subcommands(command: clap::Command) -> clap::Command {
-        command.subcommands(makes::ALL.iter().map(|make| make.simulator.arguments()))
+        command.subcommands(makes::SIMULATORS.iter().map(sim::Command::arguments))
     }
 
     fn augment_subcommands_for_update(command: clap::Command) -> clap::Command {
@@ -40,7 +40,7 @@ impl FromArgMatches for Simulator {
 }
 
 fn named(name: &str) -> Option<&'static sim::Command> {
-    makes::ALL.iter().map(|make| &make.simulator).find(|command| command.name() == name)
+    makes::SIMULATORS.iter().find(|command| command.name() == name)
 }
 
 /// Serves until the user or the system asks for an end.

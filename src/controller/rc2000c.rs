@@ -9,7 +9,6 @@ mod axes;
 mod checks;
 mod device;
 mod exchange;
-mod kind;
 mod line;
 mod meaning;
 mod names;
@@ -17,16 +16,14 @@ mod past;
 mod readings;
 mod record;
 mod refusal;
+mod spec;
 
 use std::{
     collections::VecDeque,
     time::{Duration, Instant},
 };
 
-use super::{
-    AntennaState, Asked, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Motion,
-    Question, Standstill, wire::WireQueue,
-};
+use super::{AntennaState, Asked, Happening, Moment, Motion, Question, wire::WireQueue};
 use crate::{
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
@@ -35,41 +32,10 @@ use crate::{
 };
 use axes::Axes;
 use exchange::{Outstanding, Purpose};
-pub use kind::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS, KIND};
 use line::Line;
 use names::Names;
 use past::Past;
-
-const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
-const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
-
-/// An RC2000C as the rest of the program knows it.
-pub const MAKE: Make = Make {
-    key: "rc2000c",
-    name: "Research Concepts RC2000C",
-    closed_note: None,
-    capabilities: Capabilities {
-        axes: ["Az", "El"],
-        has_program: false,
-        takes_positions: true,
-        arrives_within_deg: 0.5,
-        position_step_deg: 0.0,
-        has_elevation: true,
-        jog: JogSpeeds::Named(&[SLOW, FAST]),
-        jogs_one_axis: true,
-        steps: false,
-        ends_jogs: true,
-        waits_for_word: true,
-        // A count is some hundredths of a degree; slow speed is a few tenths.
-        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, run_out_s: 0.6 },
-        stop_note: None,
-    },
-    groups: &[],
-    actions: actions::ACTIONS,
-    element_files: None,
-    explain: None,
-    why_no_question: None,
-};
+pub use spec::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS, SPEC, VARIANT};
 
 /// How long the unit jogs after each command: its own timer is the dead-man.
 const JOG: Duration = Duration::from_millis(600);

@@ -8,12 +8,12 @@ mod actions;
 mod changes;
 mod device;
 mod exchange;
-mod kind;
 mod orders;
 mod panel;
 mod record;
 mod roles;
 mod settings;
+mod spec;
 mod state;
 mod turning;
 
@@ -23,7 +23,7 @@ use std::{
 };
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeed, JogSpeeds, Make, Moment, Question, Standstill,
+    AntennaState, Happening, Moment, Question,
     settings::{Change, Settling},
     wire::WireQueue,
 };
@@ -33,49 +33,10 @@ use crate::{
 };
 pub use actions::{OTHER, RESCUE};
 use exchange::{Outstanding, Purpose};
-pub use kind::{KIND, ROTATORS, Rotators};
 use orders::Order;
 pub use settings::GROUPS;
+pub use spec::{ALONE, PAIR, ROTATORS, Rotators, SPEC};
 use turning::Turning;
-
-/// The one speed of its rotators.
-const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
-
-/// A Rotator Genius whose rotators turn azimuth and elevation of one antenna.
-pub const PAIR: Make = Make {
-    key: "genius",
-    name: "4O3A Rotator Genius",
-    closed_note: Some("Perhaps another program holds the connection."),
-    capabilities: Capabilities {
-        axes: ["Az", "El"],
-        has_program: false,
-        takes_positions: true,
-        arrives_within_deg: 1.5,
-        position_step_deg: 1.0,
-        has_elevation: true,
-        jog: SPEEDS,
-        jogs_one_axis: true,
-        steps: false,
-        ends_jogs: false,
-        waits_for_word: false,
-        // Whole degrees; the slowest rotators it drives take two minutes a turn.
-        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, run_out_s: 0.8 },
-        stop_note: Some("STOP stops both rotators."),
-    },
-    groups: GROUPS,
-    actions: &[actions::ARM_RESCUE],
-    element_files: None,
-    explain: None,
-    why_no_question: None,
-};
-
-/// A Rotator Genius of which one rotator turns the azimuth of the antenna and
-/// the other something else.
-pub const ALONE: Make = Make {
-    capabilities: Capabilities { axes: ["Az", "Other"], has_elevation: false, ..PAIR.capabilities },
-    actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
-    ..PAIR
-};
 
 /// No answer within this is none.
 const REPLY: Duration = Duration::from_secs(1);

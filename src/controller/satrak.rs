@@ -6,7 +6,6 @@ mod checks;
 mod device;
 mod element_files;
 mod exchange;
-mod kind;
 mod on_board;
 mod prepare;
 mod record;
@@ -14,6 +13,7 @@ mod reported;
 mod schedule;
 mod settings;
 mod settle;
+mod spec;
 mod state;
 mod words;
 
@@ -24,13 +24,12 @@ use std::{
 
 pub use checks::checks;
 pub use element_files::ELEMENT_FILES;
-pub use kind::{ELEMENT_FILE, KIND};
 pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
+pub use spec::{ELEMENT_FILE, SPEC, VARIANT};
 pub use words::meaning;
 
 use super::{
-    AntennaState, Capabilities, Happening, JogSpeeds, Make, Moment, Motion, PrepareError,
-    Standstill, settings::Change, wire::WireQueue,
+    AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
 };
 use crate::{
     protocol::satrak::{Decoder, Halt, Query, Request},
@@ -41,35 +40,6 @@ use prepare::Preparation;
 use reported::Reported;
 use schedule::Schedule;
 use settle::Settling;
-
-/// A Satrak as the rest of the program knows it.
-pub const MAKE: Make = Make {
-    key: "satrak",
-    name: "SVS Satrak",
-    closed_note: None,
-    capabilities: Capabilities {
-        axes: ["X", "Y"],
-        has_program: true,
-        takes_positions: true,
-        arrives_within_deg: 0.3,
-        position_step_deg: 0.0,
-        has_elevation: true,
-        jog: JogSpeeds::AnyRate,
-        jogs_one_axis: false,
-        steps: true,
-        ends_jogs: false,
-        waits_for_word: false,
-        // Tenths of a degree. What is slower than half a degree a second, such as
-        // tracking, shows later, while the antenna is watched at rest.
-        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, run_out_s: 0.4 },
-        stop_note: None,
-    },
-    groups: GROUPS,
-    actions: &[],
-    element_files: Some(&ELEMENT_FILES),
-    explain: Some(words::explain),
-    why_no_question: Some(words::why_no_question),
-};
 
 /// No answer within this is none.
 const REPLY: Duration = Duration::from_secs(2);

@@ -30,7 +30,7 @@ impl Unit {
     /// The unit of `antenna`.
     pub fn of(antenna: &Antenna) -> Self {
         Self {
-            make: antenna.connection.make().key.to_owned(),
+            make: antenna.connection.spec().key.to_owned(),
             address: antenna.connection.address.trim().to_owned(),
         }
     }

@@ -20,7 +20,7 @@ use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
     controller::{
-        AntennaState, Asked, Capabilities, Device, Make, Moment, Motion, Moves, Pointing, aimed,
+        AntennaState, Asked, Capabilities, Device, Moment, Motion, Moves, Pointing, Variant, aimed,
         panel::{Act, Action},
         settings::Hindrance,
     },
@@ -242,7 +242,7 @@ struct Situation<'a> {
 /// The checker and the controller behind it.
 pub(super) struct Gate {
     controller: Box<dyn Moves>,
-    make: &'static Make,
+    make: &'static Variant,
     rules: Vec<Rule>,
     limits: MotionLimits,
     mount: Mount,
@@ -269,7 +269,7 @@ pub(super) struct Gate {
 impl Gate {
     /// The gate before the controller of `antenna`.
     pub(super) fn new(controller: Box<dyn Moves>, antenna: &Antenna, bounds: Bounds) -> Self {
-        let make = antenna.connection.make();
+        let make = antenna.connection.variant();
         Self {
             controller,
             make,

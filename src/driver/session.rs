@@ -48,7 +48,7 @@ use super::{
     gate::Gate,
 };
 use crate::{
-    controller::{AxisMotion, Make, Moment, Moves, Pointing},
+    controller::{AxisMotion, Moment, Moves, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
@@ -165,7 +165,7 @@ impl Wires {
 
 /// What a new session wants of the link, and how that is shown.
 fn first_link(antenna: &Antenna) -> (Wanted, LinkState) {
-    if antenna.connection.make().capabilities.waits_for_word {
+    if antenna.connection.variant().capabilities.waits_for_word {
         return (Wanted::No, LinkState::Off);
     }
     let since = tokio::time::Instant::now().into_std();
@@ -236,7 +236,7 @@ struct Seen {
 /// One antenna's session.
 pub struct Session {
     name: String,
-    make: &'static Make,
+    make: &'static Variant,
     setup: Setup,
     gate: Gate,
     dial: Dial,
@@ -292,7 +292,7 @@ impl Session {
         bounds: Bounds,
     ) -> Self {
         let mut gate = Gate::new(controller, antenna, bounds);
-        let make = antenna.connection.make();
+        let make = antenna.connection.variant();
         let (wanted, link) = first_link(antenna);
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());

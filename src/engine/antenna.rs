@@ -14,10 +14,10 @@ use jiff::Timestamp;
 use super::{claim::HeldBy, forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
-    controller::{Make, Measured, Phase, panel::Act, settings::Group},
+    controller::{Measured, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, Snapshot, StopState},
     plan::{FollowPhase, Sample, on_board::KnownOrbit},
-    station::{Antenna, AntennaId},
+    station::{Antenna, AntennaId, ControllerSpec},
 };
 
 /// Rates are taken over at least this long, so that rounding does not show.
@@ -109,23 +109,23 @@ impl AntennaModel {
     /// Whether it can be sent to its park position now.
     pub fn can_park(&self) -> bool {
         let snapshot = &self.snapshot;
-        let can = self.make().capabilities;
+        let can = self.variant().capabilities;
         can.takes_positions && snapshot.link.is_open() && snapshot.lock_out.is_none()
     }
 
-    /// Kind of its controller, as the station file names it.
-    pub fn controller(&self) -> &'static str {
-        self.make().key
+    /// The make of its controller.
+    pub fn spec(&self) -> &'static ControllerSpec {
+        self.config.connection.spec()
     }
 
-    /// What its controller is and can do.
-    pub fn make(&self) -> &'static Make {
-        self.config.connection.make()
+    /// What its unit can do and remembers.
+    pub fn variant(&self) -> &'static Variant {
+        self.config.connection.variant()
     }
 
     /// What its controller remembers.
     pub fn groups(&self) -> &'static [&'static Group] {
-        self.make().groups
+        self.variant().groups
     }
 
     /// Compares what the snapshot measured with what is predicted. `followed` finds a
@@ -262,7 +262,7 @@ impl AntennaModel {
         let predicted = self.snapshot.following.as_ref().and_then(|view| view.predicted);
         let mount = self.config.mount;
         predicted.is_some_and(|Sample { mut direction, .. }| {
-            if !self.make().capabilities.has_elevation {
+            if !self.variant().capabilities.has_elevation {
                 let [_, (lowest_deg, _)] = mount.travel_deg();
                 direction.elevation = Angle::from_degrees(lowest_deg);
             }

@@ -158,7 +158,7 @@ impl Engine {
 
     fn track(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
         let Some(antenna) = self.antennas.get(index) else { return };
-        if antenna.shown.make().capabilities.has_program {
+        if antenna.shown.variant().capabilities.has_program {
             return self.track_on_board(index, pass, is_agreed);
         }
         self.follow_pass(index, pass);

@@ -109,7 +109,7 @@ impl Claims {
     pub(super) fn unit(&self, antenna: &Antenna) -> Result<Claim, Unclaimed> {
         let connection = &antenna.connection;
         let address = connection.address.trim().to_lowercase();
-        let unit = format!("{} {address}", connection.kind().key);
+        let unit = format!("{} {address}", connection.spec().key);
         self.claim(lock_name("unit", unit.as_bytes()), Some(antenna.name.clone()))
     }
 

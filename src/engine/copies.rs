@@ -95,7 +95,7 @@ impl CopyWork {
         let head = CopyHead {
             antenna: name.clone(),
             address: antenna.config.connection.address.clone(),
-            controller: antenna.controller().to_owned(),
+            controller: antenna.spec().key.to_owned(),
             saved_at: now,
         };
         let held: &Held = &antenna.snapshot.state.held;
@@ -116,7 +116,7 @@ impl CopyWork {
 
     /// Reads a copy for `antenna`.
     pub(super) fn read(&mut self, path: PathBuf, antenna: &AntennaModel) {
-        let (controller, groups) = (antenna.controller(), antenna.groups());
+        let (controller, groups) = (antenna.spec().key, antenna.groups());
         self.queue.push(Task::Read { path, controller, groups });
     }
 

@@ -122,7 +122,7 @@ impl Engine {
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
         let unit = &antenna.snapshot.state.on_board;
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
-        let can = antenna.make().capabilities.has_program && antenna.snapshot.link.is_open();
+        let can = antenna.variant().capabilities.has_program && antenna.snapshot.link.is_open();
         if !can || !is_told {
             return None;
         }
@@ -201,7 +201,7 @@ impl AntennaModel {
             Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
             Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
             // A unit that is given satellites from here tells soon which it holds.
-            None if self.make().capabilities.has_program => None,
+            None if self.variant().capabilities.has_program => None,
             None => Some(AlarmKind::NotCompared { satellite: None }),
         }
     }

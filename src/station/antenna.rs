@@ -127,7 +127,7 @@ impl PollRates {
 impl Antenna {
     /// Its controller, silent until its link is up.
     pub fn controller(&self) -> Box<dyn Moves> {
-        (self.connection.kind().open)(self)
+        (self.connection.spec().open)(self)
     }
 
     /// Whether two names are too alike for the operator to tell two antennas

@@ -2,38 +2,38 @@
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{CountPoint, Kind, Setting, Value};
-use crate::device::Make;
+use super::{ControllerSpec, CountPoint, Setting, Value};
+use crate::device::Variant;
 
-/// Which controller, where it answers, and the settings that its kind has.
+/// Which controller, where it answers, and the settings that its make has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Connection {
-    kind: &'static Kind,
+    spec: &'static ControllerSpec,
     /// Where the controller answers: a host and a port such as
     /// `192.168.10.21:4001`, or a serial port such as `/dev/ttyUSB0` or `COM3`.
     pub address: String,
-    /// In the order of the settings of the kind.
+    /// In the order of the settings of the make.
     values: Vec<Value>,
 }
 
 impl Connection {
     /// To `address`, with the usual settings.
-    pub(super) fn new(kind: &'static Kind, address: &str) -> Self {
-        let values = kind.settings.iter().map(|setting| setting.usual.clone()).collect();
-        Self { kind, address: address.to_owned(), values }
+    pub(super) fn new(spec: &'static ControllerSpec, address: &str) -> Self {
+        let values = spec.settings.iter().map(|setting| setting.usual.clone()).collect();
+        Self { spec, address: address.to_owned(), values }
     }
 
-    /// What is at the other end.
-    pub fn kind(&self) -> &'static Kind {
-        self.kind
+    /// The make at the other end.
+    pub fn spec(&self) -> &'static ControllerSpec {
+        self.spec
     }
 
-    /// What the rest of the program takes it for.
-    pub fn make(&self) -> &'static Make {
-        (self.kind.make)(self)
+    /// What the unit can do and remembers, with these settings.
+    pub fn variant(&self) -> &'static Variant {
+        (self.spec.variant)(self)
     }
 
-    /// The value of a setting; the usual one where its kind has no such.
+    /// The value of a setting; the usual one where its make has no such.
     pub fn value<'a>(&'a self, setting: &'a Setting) -> &'a Value {
         self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(&setting.usual)
     }
@@ -60,27 +60,27 @@ impl Connection {
     }
 
     /// Puts a value that the setting can hold. One that it cannot hold, or a
-    /// setting that its kind does not have, changes nothing; the reason stands
+    /// setting that its make does not have, changes nothing; the reason stands
     /// behind the name of the setting.
     pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), String> {
         let value = value.into();
         setting.check(&value)?;
         let place = self.place(setting).and_then(|place| self.values.get_mut(place));
-        *place.ok_or_else(|| format!("is no setting of {:?}", self.kind.key))? = value;
+        *place.ok_or_else(|| format!("is no setting of {:?}", self.spec.key))? = value;
         Ok(())
     }
 
     fn place(&self, setting: &Setting) -> Option<usize> {
         let is_it = |of: &&Setting| (of.key, of.table) == (setting.key, setting.table);
-        self.kind.settings.iter().position(is_it)
+        self.spec.settings.iter().position(is_it)
     }
 }
 
 impl Serialize for Connection {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        let all: Vec<Held<'_>> = self.kind.settings.iter().copied().zip(&self.values).collect();
+        let all: Vec<Held<'_>> = self.spec.settings.iter().copied().zip(&self.values).collect();
         let mut map = out.serialize_map(None)?;
-        map.serialize_entry("controller", self.kind.key)?;
+        map.serialize_entry("controller", self.spec.key)?;
         map.serialize_entry("address", &self.address)?;
         for held in all.chunk_by(|(a, _), (b, _)| a.table == b.table) {
             match held.first().and_then(|(setting, _)| setting.table) {

@@ -7,7 +7,7 @@ use std::{
 
 use serde::Serialize;
 
-use super::{Kind, Note, Station, from_toml};
+use super::{ControllerSpec, Note, Station, from_toml};
 use crate::whole_file;
 
 /// The version that this program writes. A file of a later one is left alone.
@@ -76,8 +76,8 @@ pub fn settings_path() -> Option<PathBuf> {
         .map(|dirs| dirs.config_dir().join("station.toml"))
 }
 
-/// Reads the station at `path`, whose controllers are of these kinds.
-pub fn load(path: &Path, kinds: &[&'static Kind]) -> Result<Loaded, LoadError> {
+/// Reads the station at `path`, whose controllers are of these makes.
+pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, LoadError> {
     let text = fs::read_to_string(path).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => LoadError::Missing,
         _ => LoadError::Read { source, path: path.to_owned() },
@@ -88,7 +88,7 @@ pub fn load(path: &Path, kinds: &[&'static Kind]) -> Result<Loaded, LoadError> {
     if version > VERSION {
         return Err(LoadError::Newer { found: version, path: path.to_owned() });
     }
-    let (station, notes) = from_toml(table, kinds);
+    let (station, notes) = from_toml(table, specs);
     Ok(Loaded { station, notes })
 }
 

@@ -37,7 +37,7 @@ struct Unit {
 impl Unit {
     fn of(connection: &Connection) -> Self {
         let address = connection.address.trim().to_lowercase();
-        Self { make: connection.kind().key.to_owned(), address }
+        Self { make: connection.spec().key.to_owned(), address }
     }
 }
 

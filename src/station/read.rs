@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 use toml::{Table, Value};
 
-use super::{Antenna, AntennaId, Kind, OnClose, Station, ranges};
+use super::{Antenna, AntennaId, ControllerSpec, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
@@ -37,9 +37,9 @@ pub enum NoteReason {
     },
 }
 
-/// The station of a parsed settings file whose controllers are of these kinds,
+/// The station of a parsed settings file whose controllers are of these makes,
 /// and what was not taken over.
-pub fn from_toml(mut table: Table, kinds: &[&'static Kind]) -> (Station, Vec<Note>) {
+pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
     let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
     let default = Station::default();
     // Read by `file`, which refuses what a newer program wrote.
@@ -57,7 +57,7 @@ pub fn from_toml(mut table: Table, kinds: &[&'static Kind]) -> (Station, Vec<Not
         on_close: fields.on_close(),
         keep_outs: Vec::new(),
         sun_avoidance: fields.sun_avoidance(),
-        antennas: fields.antennas(kinds),
+        antennas: fields.antennas(specs),
     };
     // They name antennas.
     station.keep_outs = fields.keep_outs(&station.antennas);
@@ -142,7 +142,7 @@ impl Fields<'_> {
         })
     }
 
-    fn antennas(&mut self, kinds: &[&'static Kind]) -> Vec<Antenna> {
+    fn antennas(&mut self, specs: &[&'static ControllerSpec]) -> Vec<Antenna> {
         let tables = match self.table.remove("antenna") {
             None => return Vec::new(),
             Some(Value::Array(tables)) => tables,
@@ -164,7 +164,7 @@ impl Fields<'_> {
             let later = given.iter().skip(index + 1).flatten().copied();
             let taken: Vec<AntennaId> =
                 antennas.iter().map(|other| other.id).chain(later).collect();
-            if let Some(mut antenna) = fields.antenna(kinds, &antennas, &taken) {
+            if let Some(mut antenna) = fields.antenna(specs, &antennas, &taken) {
                 let others: Vec<&str> = antennas.iter().map(|other| &*other.name).collect();
                 let name = Antenna::free_name(&antenna.name, &others);
                 if name != antenna.name {

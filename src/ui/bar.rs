@@ -141,7 +141,7 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
 /// What STOP does, with what it does beyond that for some of the antennas.
 fn stop_about(model: &Model, left_out: &str) -> String {
     let note = |antenna: &AntennaModel| {
-        Some(format!(" {}: {}", antenna.config.name, antenna.make().capabilities.stop_note?))
+        Some(format!(" {}: {}", antenna.config.name, antenna.variant().capabilities.stop_note?))
     };
     let notes: String = model.antennas.iter().filter_map(note).collect();
     let space = if left_out.is_empty() { "" } else { " " };

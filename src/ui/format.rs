@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn a_direction_has_the_decimals_of_its_unit() {
         let at = Pointing::from(crate::astro::AzEl::from_degrees(43.0, 12.0));
-        let satrak = crate::controller::satrak::MAKE.capabilities;
+        let satrak = crate::controller::satrak::VARIANT.capabilities;
         let said = |position_step_deg| {
             let can = Capabilities { position_step_deg, ..satrak };
             (pointing(at, can), decimals(can))

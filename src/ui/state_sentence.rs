@@ -105,7 +105,7 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
         return Some(Spoken::new(SentenceKind::Fault).plain(words));
     }
     let measured = state.measured.filter(|measured| !measured.moving())?;
-    for (axis, name) in measured.axes.iter().zip(antenna.make().capabilities.axes) {
+    for (axis, name) in measured.axes.iter().zip(antenna.variant().capabilities.axes) {
         let plus = match (axis.plus_limit, axis.minus_limit) {
             (true, _) => true,
             (_, true) => false,
@@ -209,7 +209,7 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
 
 fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let snapshot = &antenna.snapshot;
-    let [first, second] = antenna.make().capabilities.axes;
+    let [first, second] = antenna.variant().capabilities.axes;
     if let Some([x, y]) = snapshot.jog {
         let (axis, rate) = if x == 0.0 { (second, y) } else { (first, x) };
         return Some(Spoken::new(SentenceKind::Commanded).plain(jogging(antenna, axis, rate)));
@@ -226,13 +226,13 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     let verb = if snapshot.intent == Intent::Park { "Parking at" } else { "Moving to" };
     Some(
         Spoken::new(SentenceKind::Commanded)
-            .plain(format!("{verb} {}.", format::pointing(aim, antenna.make().capabilities))),
+            .plain(format!("{verb} {}.", format::pointing(aim, antenna.variant().capabilities))),
     )
 }
 
 /// A jog, by the name of its speed where it has one: the figure is not known.
 fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
-    let speeds = antenna.make().capabilities.jog;
+    let speeds = antenna.variant().capabilities.jog;
     let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
     let Some(speed) = speeds.nearest(rate_deg_s, most_deg_s) else {
         let rate = format::signed(rate_deg_s, 2);
@@ -293,7 +293,7 @@ fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestam
 fn place(antenna: &AntennaModel) -> String {
     antenna.snapshot.state.measured.map_or_else(String::new, |measured| match measured.pointing {
         Pointing { azimuth: None, elevation: None } => String::new(),
-        pointing => format!(" at {}", format::pointing(pointing, antenna.make().capabilities)),
+        pointing => format!(" at {}", format::pointing(pointing, antenna.variant().capabilities)),
     })
 }
 

@@ -58,7 +58,7 @@ pub fn show(
         return;
     };
     let name = &antenna.config.name;
-    let Some(takes) = antenna.make().element_files else {
+    let Some(takes) = antenna.spec().element_files else {
         let words = format!("{name} holds no elements: none are uploaded to it.");
         return line(ui, Tone::Plain, &words);
     };

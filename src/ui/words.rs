@@ -45,7 +45,8 @@ pub fn asked(asked: Asked) -> &'static str {
 
 /// What an action of some make is called.
 fn action_name(key: &str) -> &'static str {
-    let mut actions = makes::makes().flat_map(|make| make.actions);
+    let mut actions =
+        makes::SPECS.iter().flat_map(|spec| spec.variants).flat_map(|variant| variant.actions);
     actions.find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 

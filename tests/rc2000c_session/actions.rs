@@ -1,7 +1,7 @@
 //! Moves to stored satellites and to counts.
 
 use azel::{
-    controller::{Asked, panel::CheckState, rc2000c::MAKE, settings::Value},
+    controller::{Asked, panel::CheckState, rc2000c::VARIANT, settings::Value},
     driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rc2000c::SatelliteName,
@@ -216,7 +216,7 @@ async fn counts_are_gone_to_within_the_travel_of_the_mount() {
 async fn in_standby_no_action_moves_anything_and_an_unknown_one_is_none() {
     let mut rig = Rig::in_manual().await;
     rig.send(Command::Standby);
-    for action in MAKE.actions.iter().filter(|action| action.moves) {
+    for action in VARIANT.actions.iter().filter(|action| action.moves) {
         rig.act(action.key, []);
         rig.seconds(0.1).await;
         let wanted = Event::NotSent(Refusal::Intent(Intent::Standby));
@@ -230,11 +230,11 @@ async fn in_standby_no_action_moves_anything_and_an_unknown_one_is_none() {
 
 #[test]
 fn every_action_is_described_and_what_cannot_be_undone_is_asked() {
-    let mut keys: Vec<&str> = MAKE.actions.iter().map(|action| action.key).collect();
+    let mut keys: Vec<&str> = VARIANT.actions.iter().map(|action| action.key).collect();
     keys.sort_unstable();
     keys.dedup();
-    assert_eq!(keys.len(), MAKE.actions.len());
-    for action in MAKE.actions {
+    assert_eq!(keys.len(), VARIANT.actions.len());
+    for action in VARIANT.actions {
         assert!(action.about.ends_with('.'), "{}", action.key);
         let is_reset = action.key.starts_with("reset") || action.key == "restart_track";
         assert_eq!(action.question.is_some(), is_reset, "{}", action.key);
@@ -254,7 +254,7 @@ async fn a_unit_that_is_locked_out_is_told_nothing_also_where_nothing_would_move
     let before = rig.orders();
     let (by, reason) = ("Ada".to_owned(), "feed off".to_owned());
     let refused = Event::NotSent(Refusal::LockedOut { by, reason });
-    for action in MAKE.actions {
+    for action in VARIANT.actions {
         rig.act(action.key, []);
         rig.seconds(1.0).await;
         assert_eq!(rig.events(), std::slice::from_ref(&refused), "{}", action.key);

@@ -65,7 +65,7 @@ fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
     let mut window = demo(&folder);
     let model = window.state().model();
     assert!(model.demo);
-    let keys: Vec<&str> = model.antennas.iter().map(|of| of.make().key).collect();
+    let keys: Vec<&str> = model.antennas.iter().map(|of| of.spec().key).collect();
     assert_eq!(keys, ["satrak", "genius", "rc2000c"]);
     for antenna in [SATRAK, GENIUS] {
         step_until(&mut window, "it is measured", |model| measured(model, antenna).is_some());
@@ -127,7 +127,7 @@ fn the_simulators_end_with_the_demonstration() {
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save and use").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
-    let saved = station::load(&folder.path().join("station.toml"), &makes::kinds()).unwrap();
+    let saved = station::load(&folder.path().join("station.toml"), makes::SPECS).unwrap();
     assert_eq!(saved.notes, []);
     assert_eq!(saved.station, *window.state().model().station);
     for address in addresses {

@@ -387,10 +387,6 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
         model.forecasts.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });
     assert!(
-        station::load(&settings, &makes::kinds())
-            .unwrap()
-            .station
-            .favourites
-            .contains(&METEOR_M2_3)
+        station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(&METEOR_M2_3)
     );
 }

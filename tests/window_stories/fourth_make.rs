@@ -16,12 +16,12 @@ use azel::{
     makes,
     model::View,
     plan::Bounds,
-    station::{self, Antenna, Kind, Station, Value},
+    station::{self, Antenna, ControllerSpec, Station, Value},
 };
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use self::lever::{CODE, GEAR, KIND, SHAFTS, unit};
+use self::lever::{CODE, GEAR, SHAFTS, SPEC, unit};
 use crate::window_stories::{
     preferences::{saved, write},
     rig::{self, SIZES, asked, says, settle},
@@ -30,10 +30,10 @@ use crate::window_stories::{
 /// Longer than anything here takes.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-fn all_kinds() -> Vec<&'static Kind> {
-    let mut kinds = makes::kinds();
-    kinds.push(&KIND);
-    kinds
+fn all_specs() -> Vec<&'static ControllerSpec> {
+    let mut specs = makes::SPECS.to_vec();
+    specs.push(&SPEC);
+    specs
 }
 
 fn at(shown: &Snapshot, azimuth_deg: f64, elevation_deg: f64) -> bool {
@@ -51,7 +51,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     std::fs::write(&path, TEXT).unwrap();
-    let loaded = station::load(&path, &all_kinds()).unwrap();
+    let loaded = station::load(&path, &all_specs()).unwrap();
     let notes: Vec<&str> = loaded.notes.iter().map(|note| &*note.place).collect();
     assert_eq!(
         notes,
@@ -70,17 +70,17 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
     let mut station = loaded.station.clone();
     station.antennas[0].connection.put(&GEAR, Value::Word("high")).unwrap();
     station::save(&station, &path).unwrap();
-    let again = station::load(&path, &all_kinds()).unwrap();
+    let again = station::load(&path, &all_specs()).unwrap();
     assert_eq!((again.station, again.notes), (station, Vec::new()));
 
-    let known = station::load(&path, &makes::kinds()).unwrap();
-    assert_eq!(known.station.antennas, [], "without its kind it is not known");
+    let known = station::load(&path, makes::SPECS).unwrap();
+    assert_eq!(known.station.antennas, [], "without its description it is not known");
 }
 
 #[test]
 fn its_own_settings_are_fields_of_the_form() {
     for size in SIZES {
-        let antenna = KIND.antenna("Lever", KIND.usual_address);
+        let antenna = SPEC.antenna("Lever", SPEC.usual_address);
         let mut model = crate::window_stories::makes::model(antenna.clone(), rig::quiet());
         (model.view, Arc::make_mut(&mut model.station).antennas) =
             (View::Preferences, vec![antenna]);
@@ -109,7 +109,7 @@ fn its_own_settings_are_fields_of_the_form() {
 #[test]
 fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     let (address, heard) = unit();
-    let mut antenna: Antenna = KIND.antenna("Lever", &address);
+    let mut antenna: Antenna = SPEC.antenna("Lever", &address);
     antenna.connection.put(&CODE, "eureka").unwrap();
     let (woke, woken) = mpsc::sync_channel(1);
     let wake = Arc::new(move || {
@@ -148,7 +148,7 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
 #[test]
 fn a_controller_that_breaks_down_is_started_again_with_stop() {
     let (address, heard) = unit();
-    let antenna: Antenna = KIND.antenna("Lever", &address);
+    let antenna: Antenna = SPEC.antenna("Lever", &address);
     let (woke, woken) = mpsc::sync_channel(1);
     let wake = Arc::new(move || {
         let _ = woke.try_send(());

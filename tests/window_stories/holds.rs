@@ -198,7 +198,7 @@ fn a_keep_out_is_told_of_with_its_reason() {
 fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
     const UNSEEN: &str = "Hold 1 s to start it without knowing its end";
     let dish = Antenna::rc2000c("Dish", "in memory");
-    let action = dish.connection.make().actions.iter().find(|action| action.moves).unwrap();
+    let action = dish.connection.variant().actions.iter().find(|action| action.moves).unwrap();
     let act = Act { action: action.key, values: Values::default() };
     for size in SIZES {
         let mut model = shows(states::holding());

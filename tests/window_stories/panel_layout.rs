@@ -87,7 +87,7 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
 fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     let bottom = rig::SMALL[1];
     let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
-    let [first, ..] = model.antennas[0].make().actions else { panic!("no actions") };
+    let [first, ..] = model.antennas[0].variant().actions else { panic!("no actions") };
     // The readings fit; the actions do not, and begin at the top.
     let field = format!("{}: {}", first.label, first.fields[0].label);
     let mut window = rig::window(rig::SMALL, model);

@@ -3,7 +3,7 @@
 
 use azel::{
     controller::{
-        Make,
+        Variant,
         panel::{Act, Action},
         settings::{Field, Kind, Value, Values},
     },
@@ -27,8 +27,8 @@ fn models(intent: Intent) -> [Model; 3] {
     ]
 }
 
-fn make(model: &Model) -> &'static Make {
-    model.antennas[0].make()
+fn variant(model: &Model) -> &'static Variant {
+    model.antennas[0].variant()
 }
 
 /// A window with the actions unfolded.
@@ -58,7 +58,7 @@ fn act(action: &Action, values: Values) -> UiCommand {
 fn every_action_goes_out_with_its_values_and_after_its_question() {
     for size in SIZES {
         for model in models(Intent::Manual) {
-            let actions = make(&model).actions;
+            let actions = variant(&model).actions;
             assert!(!actions.is_empty());
             let mut window = unfolded(size, model);
             for action in actions {
@@ -87,7 +87,7 @@ fn every_action_goes_out_with_its_values_and_after_its_question() {
 fn a_question_that_is_not_agreed_to_brings_nothing_about() {
     for size in SIZES {
         for model in models(Intent::Manual) {
-            let asking = make(&model).actions.iter().find(|action| action.question.is_some());
+            let asking = variant(&model).actions.iter().find(|action| action.question.is_some());
             let Some(action) = asking else { continue };
             let mut window = unfolded(size, model);
             window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
@@ -103,7 +103,7 @@ fn a_question_that_is_not_agreed_to_brings_nothing_about() {
 fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
     for size in SIZES {
         for model in models(Intent::Standby) {
-            let actions = make(&model).actions;
+            let actions = variant(&model).actions;
             let plain = |action: &&Action| action.fields.is_empty() && action.question.is_none();
             let mut window = unfolded(size, model);
             for action in actions.iter().filter(plain) {
@@ -126,7 +126,7 @@ fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
 fn nothing_can_be_asked_for_without_a_link() {
     for size in SIZES {
         let model = makes::model(makes::rc2000c(), makes::rc2000c_off());
-        let actions = make(&model).actions;
+        let actions = variant(&model).actions;
         let mut window = unfolded(size, model);
         for action in actions {
             window.get_by_role_and_label(Role::Button, action.label).click_accesskit();
@@ -139,7 +139,7 @@ fn nothing_can_be_asked_for_without_a_link() {
 fn a_choice_and_a_flag_are_changed_in_their_menus() {
     let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
     let label = |model: &Model| {
-        let action = make(model).actions.iter();
+        let action = variant(model).actions.iter();
         let of = |action: &&'static Action| {
             action.fields.iter().any(|field| matches!(field.kind, Kind::Flag))
         };
@@ -169,7 +169,7 @@ fn a_choice_and_a_flag_are_changed_in_their_menus() {
 #[test]
 fn tab_brings_into_sight_what_it_leads_to() {
     let model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
-    let actions = make(&model).actions;
+    let actions = variant(&model).actions;
     let last = actions.last().expect("an action").label;
     let mut window = unfolded(rig::SMALL, model);
     let place = |window: &Window| window.get_by_role_and_label(Role::Button, last).rect();

@@ -67,7 +67,7 @@ fn reloaded(station: &Station) -> Station {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     station::save(station, &path).unwrap();
-    let loaded = station::load(&path, &makes::kinds()).unwrap();
+    let loaded = station::load(&path, makes::SPECS).unwrap();
     assert_eq!(loaded.notes, []);
     loaded.station
 }
@@ -85,7 +85,7 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
             add(&mut window, button);
         }
         let station = save(&mut window);
-        let makes: Vec<&str> = station.antennas.iter().map(|of| of.connection.make().key).collect();
+        let makes: Vec<&str> = station.antennas.iter().map(|of| of.connection.spec().key).collect();
         assert_eq!(makes, ["satrak", "genius", "rc2000c"]);
         let names: Vec<&str> = station.antennas.iter().map(|of| &*of.name).collect();
         assert_eq!(names, ["Satrak", "Genius", "RC2000C"]);

@@ -241,7 +241,7 @@ fn saving_writes_the_file_and_ends_the_demonstration() {
     window.run_steps(3);
     window.get_by_role_and_label(Role::Button, "Save and use").click();
     step_until(&mut window, "the demonstration is over", |model| !model.demo);
-    let saved = station::load(&path, &makes::kinds()).unwrap();
+    let saved = station::load(&path, makes::SPECS).unwrap();
     assert_eq!(saved.notes, []);
     assert_eq!(saved.station, *window.state().model().station);
     assert!((saved.station.site.latitude().degrees() + 33.5).abs() < 1e-9);

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::{
-    DEVICE_TYPE, HeldJog, MAKE, Names, Past, RENEWAL, Rc2000c, STATUS,
+    DEVICE_TYPE, HeldJog, Names, Past, RENEWAL, Rc2000c, STATUS, VARIANT,
     exchange::{Outstanding, Purpose},
     refusal::is_tracking,
 };
@@ -197,8 +197,9 @@ impl Moves for Rc2000c {
         match motion {
             Motion::Jog { x_deg_s, y_deg_s } => {
                 let rate_deg_s = x_deg_s.abs().max(y_deg_s.abs());
-                let named = MAKE.capabilities.jog.nearest(rate_deg_s, self.maximum_rate_deg_s);
-                let speed = if named == Some(super::FAST) { Speed::Fast } else { Speed::Slow };
+                let named = VARIANT.capabilities.jog.nearest(rate_deg_s, self.maximum_rate_deg_s);
+                let speed =
+                    if named == Some(super::spec::FAST) { Speed::Fast } else { Speed::Slow };
                 let direction = self.axes.direction(x_deg_s, y_deg_s);
                 self.jog = Some(HeldJog { motion, direction, speed, sent: None });
             }

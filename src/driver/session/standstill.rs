@@ -187,7 +187,7 @@ mod tests {
     }
 
     fn figures() -> Figures {
-        Figures::of(satrak::MAKE.capabilities, 0.1)
+        Figures::of(satrak::VARIANT.capabilities, 0.1)
     }
 
     fn proof(angles_deg: impl Fn(f64) -> [Option<f64>; 2]) -> Option<(f64, Proof)> {

@@ -75,7 +75,7 @@ impl UnitNow {
     ) -> Self {
         let Some(antenna) = antenna else { return Self { at, ..Self::default() } };
         let state = &antenna.snapshot.state;
-        let takes = antenna.make().element_files;
+        let takes = antenna.spec().element_files;
         let group = takes.and_then(|takes| state.held.get(takes.group));
         let answer = group.and_then(|group| {
             Some(Answer {
@@ -88,7 +88,7 @@ impl UnitNow {
         let held = state.on_board.satellite.as_ref().map(|held| held.catalog_number);
         let locked_out = antenna.snapshot.lock_out.as_ref();
         let locked_out = locked_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason));
-        let hindrance = antenna.snapshot.hindrance(antenna.make().capabilities, steady);
+        let hindrance = antenna.snapshot.hindrance(antenna.variant().capabilities, steady);
         Self { at, busy: Busy::of(antenna), locked_out, hindrance, held, answer }
     }
 }

@@ -20,7 +20,7 @@ use crate::{
 };
 
 fn load(path: &Path) -> Result<Loaded, LoadError> {
-    station::load(path, &kinds())
+    station::load(path, SPECS)
 }
 
 fn written(text: &str) -> (tempfile::TempDir, PathBuf) {

@@ -6,19 +6,19 @@ use toml::Value;
 
 use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, AntennaId, Connection, Direction, Following, Kind, Monitor, MotionLimits,
-    Mount, PollRates, Resume, Setting, ranges,
+    AfterPass, Antenna, AntennaId, Connection, ControllerSpec, Direction, Following, Monitor,
+    MotionLimits, Mount, PollRates, Resume, Setting, ranges,
 };
 
 impl Fields<'_> {
     /// An antenna needs a controller and an address: nothing stands in for them.
     pub(super) fn antenna(
         &mut self,
-        kinds: &[&'static Kind],
+        specs: &[&'static ControllerSpec],
         before: &[Antenna],
         taken: &[AntennaId],
     ) -> Option<Antenna> {
-        let default = self.inner("connection", |connection| connection.connected(kinds))?;
+        let default = self.inner("connection", |connection| connection.connected(specs))?;
         let name = self.text("name", &default.name);
         Some(Antenna {
             id: self.antenna_id(before, taken),
@@ -61,23 +61,23 @@ impl Fields<'_> {
         })
     }
 
-    /// An antenna with this connection and the usual figures of its kind.
-    fn connected(&mut self, kinds: &[&'static Kind]) -> Option<Antenna> {
+    /// An antenna with this connection and the usual figures of its make.
+    fn connected(&mut self, specs: &[&'static ControllerSpec]) -> Option<Antenna> {
         let controller = self.text("controller", "");
         let address = self.text("address", "");
-        let Some(kind) = kinds.iter().find(|kind| kind.key == controller) else {
-            self.invalid("controller", any_of(kinds));
+        let Some(spec) = specs.iter().find(|spec| spec.key == controller) else {
+            self.invalid("controller", any_of(specs));
             return None;
         };
-        let mut antenna = kind.antenna(kind.name, &address);
-        for settings in kind.settings.chunk_by(|a, b| a.table == b.table) {
+        let mut antenna = spec.antenna(spec.short_name, &address);
+        for settings in spec.settings.chunk_by(|a, b| a.table == b.table) {
             let connection = &mut antenna.connection;
             match settings.first().and_then(|setting| setting.table) {
                 Some(table) => self.inner(table.key, |inner| inner.settings(settings, connection)),
                 None => self.settings(settings, connection),
             }
         }
-        if let Err(why) = kind.check_address(&address) {
+        if let Err(why) = spec.check_address(&address) {
             self.invalid("address", why);
             return None;
         }
@@ -237,8 +237,8 @@ fn above(
 }
 
 /// What the controller of an antenna may be.
-fn any_of(kinds: &[&Kind]) -> String {
-    let keys: Vec<String> = kinds.iter().map(|kind| format!("{:?}", kind.key)).collect();
+fn any_of(specs: &[&ControllerSpec]) -> String {
+    let keys: Vec<String> = specs.iter().map(|spec| format!("{:?}", spec.key)).collect();
     match keys.split_last() {
         Some((last, before)) if !before.is_empty() => {
             format!("must be {} or {last}", before.join(", "))

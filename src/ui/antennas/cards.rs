@@ -42,7 +42,7 @@ pub(super) fn show(
     desk: &mut Desk<'_>,
 ) {
     let room = ui.available_width();
-    let all = Section::of(unit.antenna.make());
+    let all = Section::of(&unit.antenna.config.connection);
     if all.is_empty() {
         return row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
     }

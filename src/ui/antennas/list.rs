@@ -46,7 +46,7 @@ pub(super) fn show(
         }
         let Some((unit, form)) = of_this else { continue };
         y += 4.0;
-        for section in Section::of(unit.antenna.make()) {
+        for section in Section::of(&unit.antenna.config.connection) {
             let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
             y = place.bottom();
             if section_line(ui, place, section, unit, form) {

@@ -3,14 +3,14 @@
 mod satrak;
 
 use super::section::Section;
-use crate::controller::Make;
+use crate::station::ControllerSpec;
 
 /// Makes by their key, with the cards of each.
 static MAKES: [(&str, &[Section]); 1] = [(satrak::KEY, &satrak::SECTIONS)];
 
 /// The cards of a unit of this make; `None` where each group is one.
-pub(super) fn sections(make: &Make) -> Option<&'static [Section]> {
-    MAKES.into_iter().find(|(key, _)| *key == make.key).map(|(_, sections)| sections)
+pub(super) fn sections(spec: &ControllerSpec) -> Option<&'static [Section]> {
+    MAKES.into_iter().find(|(key, _)| *key == spec.key).map(|(_, sections)| sections)
 }
 
 #[cfg(test)]
@@ -20,9 +20,10 @@ mod tests {
     #[test]
     fn every_group_of_a_unit_stands_in_one_section() {
         for (key, sections) in MAKES {
-            let make = crate::makes::makes().find(|make| make.key == key).unwrap();
+            let spec = crate::makes::SPECS.iter().find(|spec| spec.key == key).unwrap();
+            let groups = spec.variants.iter().flat_map(|variant| variant.groups);
             let shown: Vec<_> = sections.iter().flat_map(|section| section.keys).collect();
-            let known: Vec<_> = make.groups.iter().map(|group| &group.key).collect();
+            let known: Vec<_> = groups.map(|group| &group.key).collect();
             assert_eq!(shown, known);
         }
     }

@@ -8,7 +8,7 @@ use super::{
     makes, row,
     unit::Unit,
 };
-use crate::controller::{Make, settings::Group};
+use crate::{controller::settings::Group, station::Connection};
 
 /// Draws what a card holds.
 pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut Desk<'_>);
@@ -40,8 +40,8 @@ impl PartialEq for Section {
 }
 
 impl Section {
-    /// Those of a unit of this make.
-    pub(super) fn of(make: &Make) -> Vec<Self> {
+    /// Those of the unit at the other end of `connection`.
+    pub(super) fn of(connection: &Connection) -> Vec<Self> {
         let plain = |group: &&'static Group| Self {
             title: group.title,
             keys: std::slice::from_ref(&group.key),
@@ -49,8 +49,8 @@ impl Section {
             column: None,
             content: if group.is_service { service::show } else { all_fields },
         };
-        let own = makes::sections(make).map(<[Self]>::to_vec);
-        own.unwrap_or_else(|| make.groups.iter().map(plain).collect())
+        let own = makes::sections(connection.spec()).map(<[Self]>::to_vec);
+        own.unwrap_or_else(|| connection.variant().groups.iter().map(plain).collect())
     }
 }
 
@@ -67,10 +67,11 @@ mod tests {
 
     #[test]
     fn a_make_without_cards_of_its_own_has_one_for_each_of_its_groups() {
-        for make in crate::makes::makes().filter(|make| makes::sections(make).is_none()) {
-            let sections = Section::of(make);
-            assert_eq!(sections.len(), make.groups.len());
-            for (section, group) in sections.iter().zip(make.groups) {
+        for spec in crate::makes::SPECS.iter().filter(|spec| makes::sections(spec).is_none()) {
+            let connection = spec.connection("");
+            let (sections, groups) = (Section::of(&connection), connection.variant().groups);
+            assert_eq!(sections.len(), groups.len());
+            for (section, group) in sections.iter().zip(groups) {
                 assert_eq!((section.keys, section.title), ([group.key].as_slice(), group.title));
             }
         }

@@ -71,7 +71,7 @@ impl<'a> Unit<'a> {
     /// is made to follow from here.
     pub(super) fn tracks(&self) -> bool {
         let program = self.antenna.snapshot.state.program;
-        if self.antenna.make().capabilities.has_program {
+        if self.antenna.variant().capabilities.has_program {
             return program.is_none_or(|program| program.enabled);
         }
         let follows = self.antenna.snapshot.intent == Intent::Track;
@@ -80,7 +80,7 @@ impl<'a> Unit<'a> {
 
     /// Why a setting that decides where the antenna points has to wait.
     pub(super) fn hindrance(&self) -> Option<Hindrance> {
-        let can = self.antenna.make().capabilities;
+        let can = self.antenna.variant().capabilities;
         self.antenna.snapshot.hindrance(can, self.model.steady)
     }
 

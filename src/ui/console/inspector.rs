@@ -90,7 +90,7 @@ fn details(ui: &mut Ui, line: &Line, explained: Option<&Explained>) {
 /// The line as the make of its antenna takes it apart.
 fn explained(model: &Model, line: &Line) -> Option<Explained> {
     let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
-    let explain = antenna.and_then(|antenna| antenna.make().explain);
+    let explain = antenna.and_then(|antenna| antenna.spec().explain);
     explain.map(|explain| explain(line.wire()))
 }
 

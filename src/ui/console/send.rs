@@ -93,7 +93,7 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     }
     let mut questions = antenna.snapshot.state.questions.iter();
     let found = questions.find(|question| bare(&question.key) == bare(&text));
-    Some(found.ok_or_else(|| match antenna.make().why_no_question {
+    Some(found.ok_or_else(|| match antenna.spec().why_no_question {
         Some(why) => why(&text),
         None => "This is no question that the unit answers: pick one from the list.".to_owned(),
     }))

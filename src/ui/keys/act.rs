@@ -74,7 +74,7 @@ impl Act {
             Self::Rate(by) => {
                 let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
                 if let Some(antenna) = model.antenna().filter(manual) {
-                    let speeds = antenna.make().capabilities.jog;
+                    let speeds = antenna.variant().capabilities.jog;
                     let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
                     desk.operate.card.drive.change_rate(by, speeds, most_deg_s);
                 }

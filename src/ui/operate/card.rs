@@ -49,7 +49,7 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let snapshot = &antenna.snapshot;
-    let make = antenna.make();
+    let make = antenna.variant();
     let can = make.capabilities;
     let measured = snapshot.state.measured;
     let second_line = second_line(antenna);
@@ -165,7 +165,7 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
 
 fn second_line(antenna: &AntennaModel) -> String {
     let kind = match antenna.config.mount {
-        Mount::AzEl { .. } => antenna.make().name,
+        Mount::AzEl { .. } => antenna.spec().name,
         Mount::Xy { .. } => "X/Y mount",
     };
     match (&antenna.snapshot.state.unit_name, antenna.config.mount) {
@@ -193,7 +193,7 @@ fn drive<'a>(
     locks: &Locks,
     blocked: &'a [JogDirection],
 ) -> DriveModel<'a> {
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
     DriveModel {
         keys: axes::keys(antenna),
@@ -235,7 +235,7 @@ fn track<'a>(
     let selected = model.selected_pass();
     let number = selected.map(|forecast| forecast.satellite.elements.catalog_number());
     let followed = antenna.snapshot.following.as_ref();
-    let is_here = followed.is_some() || !antenna.make().capabilities.has_program;
+    let is_here = followed.is_some() || !antenna.variant().capabilities.has_program;
     let (head, held, tracks_selected) = if is_here {
         let name = followed.map(|followed| followed.name.as_str());
         let of_it = followed.and_then(|followed| followed.catalog_number);
@@ -260,12 +260,12 @@ fn track<'a>(
             .program
             .filter(|_| antenna.snapshot.link.is_open())
             .and_then(|program| program.auto),
-        follow: antenna.make().capabilities.takes_positions.then(|| FollowModel {
+        follow: antenna.variant().capabilities.takes_positions.then(|| FollowModel {
             by_positions: selected
-                .filter(|_| antenna.make().capabilities.has_program)
+                .filter(|_| antenna.variant().capabilities.has_program)
                 .map(|forecast| forecast.satellite.short_name()),
             here: state.measured.and_then(|measured| target(measured.pointing)),
-            here_decimals: format::decimals(antenna.make().capabilities).min(1),
+            here_decimals: format::decimals(antenna.variant().capabilities).min(1),
             sun_avoidance,
         }),
     }
@@ -295,7 +295,7 @@ fn others(model: &Model) -> Vec<OtherAntenna> {
     let in_short = |(index, antenna): (usize, &AntennaModel)| {
         let measured = antenna.snapshot.state.measured;
         let at = measured
-            .map(|measured| format::pointing(measured.pointing, antenna.make().capabilities))
+            .map(|measured| format::pointing(measured.pointing, antenna.variant().capabilities))
             .unwrap_or_default();
         let in_maintenance = antenna.snapshot.lock_out.is_some();
         let is_old = !at.is_empty() && !antenna.snapshot.link.is_open();

@@ -5,12 +5,12 @@ use super::{
     connection_fields,
     fields::{Description, Placed},
 };
-use crate::station::{AfterPass, Antenna, Kind, Monitor, Mount, Resume, ranges};
+use crate::station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume, ranges};
 
 type Of = Description<Antenna>;
 
-/// All that an antenna of this kind may have.
-pub(super) fn all(kind: &'static Kind) -> Vec<Placed<Antenna>> {
+/// All that an antenna of this make may have.
+pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let common = [
         placed("Beam and park", beam()),
         placed("Limits", limits()),
@@ -19,9 +19,9 @@ pub(super) fn all(kind: &'static Kind) -> Vec<Placed<Antenna>> {
         placed("After an outage", outage()),
         placed("Watch over the antenna", watch()),
     ];
-    let mut all = connection_fields::unit(kind);
+    let mut all = connection_fields::unit(spec);
     all.extend(placed("Mount", mount()));
-    all.extend(connection_fields::tables(kind));
+    all.extend(connection_fields::tables(spec));
     all.extend(common.into_iter().flatten());
     all
 }
@@ -118,7 +118,7 @@ fn limits() -> [Of; 3] {
         Of::number("Maximum step", ranges::MAXIMUM_STEP_DEG, "°", |antenna| {
             Some(&mut antenna.limits.maximum_step_deg)
         })
-        .when(|antenna| antenna.connection.make().capabilities.steps),
+        .when(|antenna| antenna.connection.variant().capabilities.steps),
     ]
 }
 
@@ -212,10 +212,10 @@ const MONITOR: [Monitor; 2] = [Monitor::Stop, Monitor::Alarm];
 
 /// This program can follow a target with it.
 fn takes_positions(antenna: &Antenna) -> bool {
-    antenna.connection.make().capabilities.takes_positions
+    antenna.connection.variant().capabilities.takes_positions
 }
 
 /// The antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
-    antenna.connection.make().capabilities.has_elevation
+    antenna.connection.variant().capabilities.has_elevation
 }

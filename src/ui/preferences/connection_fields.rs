@@ -6,36 +6,38 @@ use super::{
     points,
 };
 use crate::{
-    station::{Antenna, Choice, CountLine, CountPoint, Holds, Kind, Link, Setting, Value},
+    station::{
+        Antenna, Choice, ControllerSpec, CountLine, CountPoint, Holds, Link, Setting, Value,
+    },
     ui::format,
 };
 
 type Of = Description<Antenna>;
 
 /// The name, the address and the settings that stand beside it.
-pub(super) fn unit(kind: &'static Kind) -> Vec<Placed<Antenna>> {
-    let settings = kind.settings.iter().filter(|setting| setting.table.is_none());
+pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
+    let settings = spec.settings.iter().filter(|setting| setting.table.is_none());
     let mut unit = vec![
         ("", Of::text("Name", not_empty, |antenna| Some(&mut antenna.name))),
-        ("", address(kind)),
+        ("", address(spec)),
     ];
     unit.extend(settings.map(|setting| ("", field(setting))));
     unit
 }
 
 /// The settings that stand in tables of their own.
-pub(super) fn tables(kind: &'static Kind) -> Vec<Placed<Antenna>> {
+pub(super) fn tables(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let placed = |setting: &&'static Setting| Some((setting.table?.title, field(setting)));
-    kind.settings.iter().filter_map(placed).collect()
+    spec.settings.iter().filter_map(placed).collect()
 }
 
 pub(super) fn not_empty(text: &str) -> Checked {
     if text.is_empty() { Err("must not be empty") } else { Ok(()) }
 }
 
-fn address(kind: &'static Kind) -> Of {
-    let (label, note) = match kind.link {
-        Link::Tcp => (format!("Address of the {}", kind.name), None),
+fn address(spec: &'static ControllerSpec) -> Of {
+    let (label, note) = match spec.link {
+        Link::Tcp => (format!("Address of the {}", spec.short_name), None),
         Link::Line { .. } => {
             let words = "A serial port, such as /dev/ttyUSB0 or COM3, or the host and port of \
                          a serial server.";
@@ -44,7 +46,7 @@ fn address(kind: &'static Kind) -> Of {
     };
     let write = |antenna: &Antenna| Some(antenna.connection.address.clone());
     let read = |antenna: &mut Antenna, text: &str| {
-        kind.check_address(text)?;
+        spec.check_address(text)?;
         text.clone_into(&mut antenna.connection.address);
         Ok(())
     };

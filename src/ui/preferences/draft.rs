@@ -9,7 +9,7 @@ use super::{
 };
 use jiff::Timestamp;
 
-use crate::station::{Antenna, AntennaId, Kind, Station};
+use crate::station::{Antenna, AntennaId, ControllerSpec, Station};
 
 /// The whole form.
 #[derive(PartialEq)]
@@ -28,16 +28,16 @@ impl Draft {
         }
     }
 
-    /// One more antenna whose controller is of this kind, to be filled in. Its id is
+    /// One more antenna whose controller is of this make, to be filled in. Its id is
     /// made of the time, so that it is not that of one that was removed.
-    pub(super) fn add_antenna(&mut self, kind: &'static Kind, now: Timestamp) {
+    pub(super) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-        let name = Antenna::free_name(kind.name, &taken);
+        let name = Antenna::free_name(spec.short_name, &taken);
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
-        self.antennas.push(typed(Antenna { id, ..kind.antenna(&name, kind.usual_address) }));
+        self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.usual_address) }));
     }
 
     /// The antennas of the form, each by its name before anything was typed.
@@ -93,7 +93,7 @@ impl Draft {
 }
 
 fn typed(antenna: Antenna) -> Typed<Antenna> {
-    let fields = antenna_fields::all(antenna.connection.kind());
+    let fields = antenna_fields::all(antenna.connection.spec());
     Typed::of(antenna, fields)
 }
 
@@ -134,12 +134,13 @@ mod tests {
     #[test]
     fn each_make_can_be_added_and_used_as_it_stands() {
         let mut draft = Draft::of(&Station::default());
-        for kind in makes::kinds().into_iter().chain(makes::kinds()) {
-            draft.add_antenna(kind, Timestamp::UNIX_EPOCH);
+        for spec in makes::SPECS.iter().chain(makes::SPECS) {
+            draft.add_antenna(spec, Timestamp::UNIX_EPOCH);
         }
         let station = draft.read().unwrap();
-        let kinds: Vec<&Kind> = station.antennas.iter().map(|of| of.connection.kind()).collect();
-        assert_eq!(kinds, [makes::kinds(), makes::kinds()].concat());
+        let specs: Vec<&ControllerSpec> =
+            station.antennas.iter().map(|of| of.connection.spec()).collect();
+        assert_eq!(specs, [makes::SPECS, makes::SPECS].concat());
     }
 
     #[test]
@@ -189,7 +190,7 @@ mod tests {
         "steep".clone_into(write(genius, "Elevation to"));
         "Second one".clone_into(write(genius, "Rotators of this antenna"));
         let station = draft.read().unwrap();
-        assert!(!station.antennas[1].connection.make().capabilities.has_elevation);
+        assert!(!station.antennas[1].connection.variant().capabilities.has_elevation);
         "Azimuth, elevation".clone_into(write(&mut draft.antennas[1], "Rotators of this antenna"));
         assert_eq!(draft.read(), None);
         assert_eq!(write(&mut draft.antennas[1], "Elevation to"), "steep");

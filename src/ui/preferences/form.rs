@@ -72,7 +72,7 @@ fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
     for index in 0..draft.antennas.len() {
         let standings = draft.antenna_standings(index);
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
-        let make = antenna.before().connection.make().name;
+        let make = antenna.before().connection.spec().name;
         card(ui, &format!("Antenna {}: {make}", index + 1), |ui| {
             fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
             let before = antenna.before();
@@ -91,10 +91,9 @@ fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
     }
     card(ui, "One more antenna", |ui| {
         ui.horizontal_wrapped(|ui| {
-            for kind in makes::kinds() {
-                let make = kind.connection("").make();
-                if ui.button(format!("Add {}", make.name)).clicked() {
-                    draft.add_antenna(kind, model.now);
+            for spec in makes::SPECS {
+                if ui.button(format!("Add {}", spec.name)).clicked() {
+                    draft.add_antenna(spec, model.now);
                 }
             }
         });

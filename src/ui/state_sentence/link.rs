@@ -38,7 +38,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             // A connection that is closed at once may show as reset.
             let is_turned_away =
                 matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed | LinkLoss::Broken(_));
-            let spoken = match antenna.make().closed_note.filter(|_| is_turned_away) {
+            let spoken = match antenna.spec().closed_note.filter(|_| is_turned_away) {
                 Some(note) => spoken.plain(format!("{note} ")),
                 None => spoken,
             };
@@ -56,7 +56,7 @@ fn off(antenna: &AntennaModel) -> String {
     if let Some(by) = &antenna.held_by {
         return format!("Not known: {by} drives {name}. Nothing goes to it from here.");
     }
-    if antenna.make().capabilities.waits_for_word {
+    if antenna.variant().capabilities.waits_for_word {
         return format!(
             "Not known: {name} is not connected. Nothing is asked of it before Connect, because \
              that may take its panel from somebody who stands in front of it."

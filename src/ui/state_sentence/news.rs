@@ -19,7 +19,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         return None;
     }
     let name = &antenna.config.name;
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
     let reason = |of| words::reason(of, &model.station);
     Some(match event {

@@ -48,7 +48,7 @@ impl Form {
     /// What is known of `antenna`, whose unit takes such files, without being asked.
     pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
-        let setting = connection.kind().settings.iter().find(|it| it.key == takes.setting);
+        let setting = connection.spec().settings.iter().find(|it| it.key == takes.setting);
         Self {
             takes,
             file: setting.map_or("", |setting| connection.text(setting)).to_owned(),

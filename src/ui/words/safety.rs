@@ -99,7 +99,7 @@ pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
 /// A STOP that is owed to a unit of no antenna.
 pub fn owed(unit: &Unit) -> String {
     let Unit { make, address } = unit;
-    let known = makes::makes().find(|known| known.key == make);
+    let known = makes::SPECS.iter().find(|known| known.key == make);
     let make = known.map_or(make.as_str(), |known| known.name);
     format!(
         "The {make} at {address} may still move: a STOP is owed to it, and no antenna of the \

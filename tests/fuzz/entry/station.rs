@@ -13,8 +13,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("station.toml");
     fs::write(&path, bytes).expect("a place on the disk");
-    let kinds = makes::kinds();
-    let first = match load(&path, &kinds) {
+    let first = match load(&path, makes::SPECS) {
         Ok(Loaded { station, .. }) => station,
         Err(error) => {
             assert!(!error.to_string().is_empty());
@@ -27,7 +26,8 @@ pub(crate) fn run(bytes: &[u8]) {
     let old = fs::read(path.with_added_extension("old")).expect("the old file is kept");
     assert_eq!(old, bytes);
     let text = fs::read_to_string(&path).expect("it was saved");
-    let Loaded { station: second, notes } = load(&path, &kinds).expect("what was saved is read");
+    let Loaded { station: second, notes } =
+        load(&path, makes::SPECS).expect("what was saved is read");
     assert_eq!(notes, [], "{text}");
     same(&first, &second);
     save(&second, &path).expect("what was loaded can be saved");

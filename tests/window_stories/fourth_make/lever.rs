@@ -12,21 +12,26 @@ use std::{
 use azel::{
     astro::AzEl,
     controller::{
-        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Make, Measured,
-        Moment, Motion, Moves, Standstill, aimed, satrak,
+        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Moment,
+        Motion, Moves, Standstill, Variant, aimed, satrak,
     },
-    station::{Choice, Connection, Holds, Kind, Link, Setting, Table, Usual, Value},
+    station::{Choice, Connection, ControllerSpec, Holds, Link, Setting, Table, Usual, Value},
 };
 
-pub(crate) static KIND: Kind = Kind {
+pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     key: "lever",
-    name: "Lever",
+    name: "Archimedes Lever",
+    short_name: "Lever",
     link: Link::Tcp,
     usual_address: "lever.example:1",
-    usual: Usual { beam_width_deg: 7.0, ..satrak::KIND.usual },
+    usual: Usual { beam_width_deg: 7.0, ..satrak::SPEC.usual },
     settings: &[&CODE, &GEAR, &SHAFTS],
-    makes: &[&MAKE],
-    make: |_| &MAKE,
+    closed_note: None,
+    element_files: None,
+    explain: None,
+    why_no_question: None,
+    variants: &[&VARIANT],
+    variant: |_| &VARIANT,
     open: |antenna| Box::new(Lever::of(&antenna.connection)),
 };
 
@@ -62,10 +67,7 @@ pub(crate) static SHAFTS: Setting = Setting {
 
 const DRIVE: Table = Table { key: "drive", title: "Drive" };
 
-static MAKE: Make = Make {
-    key: "lever",
-    name: "Archimedes Lever",
-    closed_note: None,
+static VARIANT: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "El"],
         has_program: false,
@@ -83,9 +85,6 @@ static MAKE: Make = Make {
     },
     groups: &[],
     actions: &[],
-    element_files: None,
-    explain: None,
-    why_no_question: None,
 };
 
 /// The order at which the controller breaks down, instead of sending it.

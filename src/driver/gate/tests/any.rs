@@ -98,7 +98,7 @@ fn station(dice: &mut Dice) -> Station {
 }
 
 fn motion(dice: &mut Dice, antenna: &Antenna) -> (Intent, Motion) {
-    let can = antenna.connection.make().capabilities;
+    let can = antenna.connection.variant().capabilities;
     let mut two = |most: f64| {
         let [x, y] = [dice.between(-most, most), dice.between(-most, most)];
         match dice.between(0.0, 3.0) as u8 {

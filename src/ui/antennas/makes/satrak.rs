@@ -9,7 +9,7 @@ mod window;
 
 use crate::{
     controller::{
-        satrak::{GROUPS, MAKE},
+        satrak::{GROUPS, SPEC},
         settings::Group,
     },
     ui::antennas::{
@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-pub(super) const KEY: &str = MAKE.key;
+pub(super) const KEY: &str = SPEC.key;
 
 pub(super) static SECTIONS: [Section; 7] = [
     Section {

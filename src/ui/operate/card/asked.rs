@@ -125,7 +125,7 @@ impl Desk<'_> {
     }
 
     fn act(&mut self, act: Act) {
-        let action = self.antenna.make().action(act.action);
+        let action = self.antenna.variant().action(act.action);
         let command = self.for_antenna(Command::Act(act));
         match action.and_then(|action| Some((action.question?, action.label))) {
             Some((text, yes)) => {

@@ -45,13 +45,13 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
         error_deg: error.and_then(|(_, elevation)| elevation),
         rate_deg_s: rates.map(|(_, elevation)| elevation),
     };
-    let has_elevation = antenna.make().capabilities.has_elevation;
+    let has_elevation = antenna.variant().capabilities.has_elevation;
     std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
 }
 
 /// The axes in their travel. What turns something else has none of its own.
 pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured;
     let count = if can.has_elevation { 2 } else { 1 };
     let axes = can.axes.into_iter().zip(antenna.config.mount.travel_deg()).take(count);
@@ -80,7 +80,7 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     match antenna.config.mount {
         Mount::Xy { .. } => JogKeys::Xy,
-        Mount::AzEl { .. } if antenna.make().capabilities.has_elevation => JogKeys::AzEl,
+        Mount::AzEl { .. } if antenna.variant().capabilities.has_elevation => JogKeys::AzEl,
         Mount::AzEl { .. } => JogKeys::AzOther,
     }
 }
@@ -104,7 +104,7 @@ pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection
 
 /// Which axes are not turned because nobody would see it.
 pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
     match measured.axes.map(|axis| axis.angle_deg.is_none()) {
         [true, true] => Some("No angle is known, so neither axis is turned by hand."),
@@ -120,7 +120,7 @@ pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
 /// How fast the axis turns that is jogged, degrees a second, signed. Where the
 /// speeds have names it is measured, else it is what the unit was told.
 pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     let jog = antenna.snapshot.jog?;
     if can.jog == JogSpeeds::AnyRate {
         let measured = antenna.snapshot.state.measured?;

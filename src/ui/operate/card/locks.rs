@@ -68,7 +68,7 @@ impl Locks {
 /// Why the antenna cannot be sent to a direction, whatever the operator does
 /// here.
 fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
-    let can = antenna.make().capabilities;
+    let can = antenna.variant().capabilities;
     if !can.takes_positions {
         return (!can.has_program).then_some("This controller cannot be sent to a direction.");
     }

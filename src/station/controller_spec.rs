@@ -1,5 +1,5 @@
-//! What a make of controller says of itself, so that the station file, the forms
-//! and the links can be made for it.
+//! The description of a make of controller: the station file, the forms, the links and the
+//! window are driven by it.
 
 use std::fmt;
 
@@ -8,15 +8,17 @@ use super::{
     Resume, Setting, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
     connection::{check_address, check_line},
 };
-use crate::device::{Make, Moves};
+use crate::device::{ElementFiles, Explained, Moves, Variant, WireLine};
 
 /// A make of controller. Everything that an antenna of it needs follows from
-/// here.
-pub struct Kind {
+/// here, but for its simulator, which is no part of a station.
+pub struct ControllerSpec {
     /// Names it in the station file.
     pub key: &'static str,
-    /// How an antenna is called that has no other name.
+    /// As on the box.
     pub name: &'static str,
+    /// How an antenna is called that has no other name.
+    pub short_name: &'static str,
     /// Over what it is reached.
     pub link: Link,
     /// Where it answers as it leaves the factory, or else an example.
@@ -25,11 +27,21 @@ pub struct Kind {
     pub usual: Usual,
     /// What its connection holds besides the address, in the order of the file.
     pub settings: &'static [&'static Setting],
-    /// All that the rest of the program may take it for.
-    pub makes: &'static [&'static Make],
-    /// Which of these it is with the settings of a connection.
-    pub make: fn(&Connection) -> &'static Make,
-    /// The controller of an antenna whose connection is of this kind. Silent until
+    /// Why it may have refused or closed the connection, in a sentence.
+    pub closed_note: Option<&'static str>,
+    /// How it is given files of elements, where it takes any.
+    pub element_files: Option<&'static ElementFiles>,
+    /// Takes a line of its link apart, where it can.
+    pub explain: Option<fn(&WireLine) -> Explained>,
+    /// Why something that was typed, in capitals, is none of
+    /// [`AntennaState::questions`](crate::device::AntennaState::questions); a sentence or
+    /// two. `None` where there is no more to say than that it is none.
+    pub why_no_question: Option<fn(&str) -> String>,
+    /// All that its units can be.
+    pub variants: &'static [&'static Variant],
+    /// Which of these a unit is, by the settings of its connection.
+    pub variant: fn(&Connection) -> &'static Variant,
+    /// The controller of an antenna whose connection is of this make. Silent until
     /// its link is up.
     pub open: fn(&Antenna) -> Box<dyn Moves>,
 }
@@ -64,7 +76,7 @@ pub struct Usual {
     pub follow: Following,
 }
 
-impl Kind {
+impl ControllerSpec {
     /// A connection to `address` with the usual settings.
     pub fn connection(&'static self, address: &str) -> Connection {
         Connection::new(self, address)
@@ -99,15 +111,15 @@ impl Kind {
     }
 }
 
-/// By the key, which no two kinds have in common.
-impl PartialEq for Kind {
+/// By the key, which no two makes have in common.
+impl PartialEq for ControllerSpec {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key
     }
 }
 
-impl fmt::Debug for Kind {
+impl fmt::Debug for ControllerSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Kind").field(&self.key).finish()
+        f.debug_tuple("ControllerSpec").field(&self.key).finish()
     }
 }

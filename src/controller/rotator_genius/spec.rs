@@ -1,16 +1,21 @@
-//! What a Rotator Genius says of itself to the station.
+//! The description of a Rotator Genius.
 
-use super::{ALONE, Genius, PAIR};
+use super::{GROUPS, Genius, actions};
+use crate::controller::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant};
 use crate::station::{
-    AfterPass, Antenna, Choice, Connection, Direction, Following, Holds, Kind, Link, MotionLimits,
-    Mount, PollRates, Setting, Usual, Value,
+    AfterPass, Antenna, Choice, Connection, ControllerSpec, Direction, Following, Holds, Link,
+    MotionLimits, Mount, PollRates, Setting, Usual, Value,
 };
+
+/// The one speed of its rotators.
+const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
 
 /// A Rotator Genius in the station, which turns azimuth and elevation unless
 /// [`ROTATORS`] says something else.
-pub static KIND: Kind = Kind {
-    key: PAIR.key,
-    name: "Genius",
+pub static SPEC: ControllerSpec = ControllerSpec {
+    key: "genius",
+    name: "4O3A Rotator Genius",
+    short_name: "Genius",
     link: Link::Tcp,
     usual_address: "192.168.1.250:9006",
     usual: Usual {
@@ -37,12 +42,46 @@ pub static KIND: Kind = Kind {
         },
     },
     settings: &[&ROTATORS],
-    makes: &[&PAIR, &ALONE],
-    make: |connection| match Rotators::of(connection) {
+    closed_note: Some("Perhaps another program holds the connection."),
+    element_files: None,
+    explain: None,
+    why_no_question: None,
+    variants: &[&PAIR, &ALONE],
+    variant: |connection| match Rotators::of(connection) {
         Rotators::Pair => &PAIR,
         Rotators::First | Rotators::Second => &ALONE,
     },
     open: |antenna| Box::new(Genius::new(antenna.poll, Rotators::of(&antenna.connection))),
+};
+
+/// A Rotator Genius whose rotators turn azimuth and elevation of one antenna.
+pub static PAIR: Variant = Variant {
+    capabilities: Capabilities {
+        axes: ["Az", "El"],
+        has_program: false,
+        takes_positions: true,
+        arrives_within_deg: 1.5,
+        position_step_deg: 1.0,
+        has_elevation: true,
+        jog: SPEEDS,
+        jogs_one_axis: true,
+        steps: false,
+        ends_jogs: false,
+        waits_for_word: false,
+        // Whole degrees; the slowest rotators it drives take two minutes a turn.
+        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, run_out_s: 0.8 },
+        stop_note: Some("STOP stops both rotators."),
+    },
+    groups: GROUPS,
+    actions: &[actions::ARM_RESCUE],
+};
+
+/// A Rotator Genius of which one rotator turns the azimuth of the antenna and
+/// the other something else.
+pub static ALONE: Variant = Variant {
+    capabilities: Capabilities { axes: ["Az", "Other"], has_elevation: false, ..PAIR.capabilities },
+    groups: GROUPS,
+    actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
 
 /// What the two rotators turn: a value of [`Rotators`].
@@ -98,7 +137,7 @@ impl Antenna {
     /// A Rotator Genius at `address` that turns azimuth and elevation, with the
     /// usual figures.
     pub fn genius(name: &str, address: &str) -> Self {
-        KIND.antenna(name, address)
+        SPEC.antenna(name, address)
     }
 }
 
@@ -107,14 +146,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn its_rotators_say_which_make_it_is() {
-        let mut connection = KIND.connection("h:9006");
+    fn its_rotators_say_which_variant_it_is() {
+        let mut connection = SPEC.connection("h:9006");
         for (rotators, has_elevation) in
             [(Rotators::First, false), (Rotators::Second, false), (Rotators::Pair, true)]
         {
             connection.put(&ROTATORS, rotators).unwrap();
             assert_eq!(Rotators::of(&connection), rotators);
-            assert_eq!(connection.make().capabilities.has_elevation, has_elevation);
+            assert_eq!(connection.variant().capabilities.has_elevation, has_elevation);
         }
     }
 }

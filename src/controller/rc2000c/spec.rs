@@ -1,15 +1,20 @@
-//! What an RC2000C says of itself to the station.
+//! The description of an RC2000C.
 
-use super::{MAKE, Rc2000c};
+use super::{Rc2000c, actions};
+use crate::controller::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant};
 use crate::station::{
-    AfterPass, Antenna, Choice, Connection, CountPoint, Direction, Following, Holds, Kind, Link,
-    MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+    AfterPass, Antenna, Choice, Connection, ControllerSpec, CountPoint, Direction, Following,
+    Holds, Link, MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
 };
 
+const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
+pub(super) const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
+
 /// An RC2000C in the station: on the bus address of the factory, not calibrated.
-pub static KIND: Kind = Kind {
-    key: MAKE.key,
-    name: "RC2000C",
+pub static SPEC: ControllerSpec = ControllerSpec {
+    key: "rc2000c",
+    name: "Research Concepts RC2000C",
+    short_name: "RC2000C",
     link: Link::Line { baud: &BAUD },
     usual_address: if cfg!(windows) { "COM3" } else { "/dev/ttyUSB0" },
     usual: Usual {
@@ -35,9 +40,35 @@ pub static KIND: Kind = Kind {
         },
     },
     settings: &[&BAUD, &BUS_ADDRESS, &AZIMUTH_POINTS, &ELEVATION_POINTS],
-    makes: &[&MAKE],
-    make: |_| &MAKE,
+    closed_note: None,
+    element_files: None,
+    explain: None,
+    why_no_question: None,
+    variants: &[&VARIANT],
+    variant: |_| &VARIANT,
     open: |antenna| Box::new(Rc2000c::of(antenna)),
+};
+
+/// All units of this make can do the same.
+pub static VARIANT: Variant = Variant {
+    capabilities: Capabilities {
+        axes: ["Az", "El"],
+        has_program: false,
+        takes_positions: true,
+        arrives_within_deg: 0.5,
+        position_step_deg: 0.0,
+        has_elevation: true,
+        jog: JogSpeeds::Named(&[SLOW, FAST]),
+        jogs_one_axis: true,
+        steps: false,
+        ends_jogs: true,
+        waits_for_word: true,
+        // A count is some hundredths of a degree; slow speed is a few tenths.
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, run_out_s: 0.6 },
+        stop_note: None,
+    },
+    groups: &[],
+    actions: actions::ACTIONS,
 };
 
 /// Bits a second of the line. A serial server is set to it by its own means; here
@@ -127,6 +158,6 @@ impl Antenna {
     /// An RC2000C at `address` on the bus address of the factory, not calibrated,
     /// with the usual figures.
     pub fn rc2000c(name: &str, address: &str) -> Self {
-        KIND.antenna(name, address)
+        SPEC.antenna(name, address)
     }
 }

@@ -1,15 +1,17 @@
-//! What a Satrak says of itself to the station.
+//! The description of a Satrak.
 
-use super::{MAKE, Satrak};
+use super::{ELEMENT_FILES, GROUPS, Satrak, words};
+use crate::controller::{Capabilities, JogSpeeds, Standstill, Variant};
 use crate::station::{
-    AfterPass, Antenna, Direction, Following, Holds, Kind, Link, MotionLimits, Mount, PollRates,
-    Setting, Usual, Value,
+    AfterPass, Antenna, ControllerSpec, Direction, Following, Holds, Link, MotionLimits, Mount,
+    PollRates, Setting, Usual, Value,
 };
 
 /// A Satrak in the station, with the factory figures of its document.
-pub static KIND: Kind = Kind {
-    key: MAKE.key,
-    name: "Satrak",
+pub static SPEC: ControllerSpec = ControllerSpec {
+    key: "satrak",
+    name: "SVS Satrak",
+    short_name: "Satrak",
     link: Link::Tcp,
     usual_address: "192.168.10.21:4001",
     usual: Usual {
@@ -34,12 +36,39 @@ pub static KIND: Kind = Kind {
         },
     },
     settings: &[&ELEMENT_FILE],
-    makes: &[&MAKE],
-    make: |_| &MAKE,
+    closed_note: None,
+    element_files: Some(&ELEMENT_FILES),
+    explain: Some(words::explain),
+    why_no_question: Some(words::why_no_question),
+    variants: &[&VARIANT],
+    variant: |_| &VARIANT,
     open: |antenna| {
         let element_file = antenna.connection.text(&ELEMENT_FILE).to_owned();
         Box::new(Satrak::new(antenna.poll, element_file))
     },
+};
+
+/// All units of this make can do the same.
+pub static VARIANT: Variant = Variant {
+    capabilities: Capabilities {
+        axes: ["X", "Y"],
+        has_program: true,
+        takes_positions: true,
+        arrives_within_deg: 0.3,
+        position_step_deg: 0.0,
+        has_elevation: true,
+        jog: JogSpeeds::AnyRate,
+        jogs_one_axis: false,
+        steps: true,
+        ends_jogs: false,
+        waits_for_word: false,
+        // Tenths of a degree. What is slower than half a degree a second, such as
+        // tracking, shows later, while the antenna is watched at rest.
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, run_out_s: 0.4 },
+        stop_note: None,
+    },
+    groups: GROUPS,
+    actions: &[],
 };
 
 /// The element file on the unit from which satellites are chosen; empty for the
@@ -56,6 +85,6 @@ pub static ELEMENT_FILE: Setting = Setting {
 impl Antenna {
     /// A Satrak at `address` with the usual figures.
     pub fn satrak(name: &str, address: &str) -> Self {
-        KIND.antenna(name, address)
+        SPEC.antenna(name, address)
     }
 }
