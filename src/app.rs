@@ -22,7 +22,7 @@ use std::{
 use self::{effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::Keeper};
 use crate::{
     clock::Clock,
-    controller::AxisMotion,
+    device::AxisMotion,
     driver::TimeSync,
     engine::{
         self, CatalogState, Client, Handle, Settings, alarms::Alarms, antenna::AntennaModel,

@@ -2,13 +2,10 @@
 //! reply means, and how its state maps to the one that all antennas share. Time
 //! comes in as an argument.
 //!
-//! Each make is one folder. What they have in common is [`crate::device`], which
-//! can be reached from here too.
+//! Each make is one folder. What they have in common is [`crate::device`].
 //!
 //! Invariant: nothing here opens a link.
 
 pub mod rc2000c;
 pub mod rotator_genius;
 pub mod satrak;
-
-pub use crate::device::*;

@@ -1,4 +1,4 @@
-//! The makes of controllers that there are: the one list to which another is
+//! The makes of controllers that there are: the lists to which another is
 //! added. The demo station is made of them.
 
 mod demo;

@@ -23,8 +23,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{AntennaState, Asked, Happening, Moment, Motion, Question, wire::WireQueue};
 use crate::{
+    device::{AntennaState, Asked, Happening, Moment, Motion, Question, wire::WireQueue},
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
     },

@@ -22,12 +22,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{
-    AntennaState, Happening, Moment, Question,
-    settings::{Change, Settling},
-    wire::WireQueue,
-};
 use crate::{
+    device::{
+        AntennaState, Happening, Moment, Question,
+        settings::{Change, Settling},
+        wire::WireQueue,
+    },
     protocol::rotator_genius::{Decoder, Request, Status},
     station::PollRates,
 };

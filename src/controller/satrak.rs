@@ -28,10 +28,10 @@ pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
 pub use spec::{ELEMENT_FILE, SPEC, VARIANT};
 pub use words::meaning;
 
-use super::{
-    AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
-};
 use crate::{
+    device::{
+        AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
+    },
     protocol::satrak::{Decoder, Halt, Query, Request},
     station::PollRates,
 };

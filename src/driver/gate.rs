@@ -19,7 +19,7 @@ use std::{
 use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
-    controller::{
+    device::{
         AntennaState, Asked, Capabilities, Device, Moment, Motion, Moves, Pointing, Variant, aimed,
         panel::{Act, Action},
         settings::Hindrance,

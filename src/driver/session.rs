@@ -48,7 +48,7 @@ use super::{
     gate::Gate,
 };
 use crate::{
-    controller::{AxisMotion, Moment, Moves, Pointing, Variant},
+    device::{AxisMotion, Moment, Moves, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 use super::{Intent, Refusal, Safety};
 use crate::{
     astro::Angle,
-    controller::{
+    device::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance},
     },

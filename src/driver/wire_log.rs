@@ -7,7 +7,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use crate::controller::WireLine;
+use crate::device::WireLine;
 
 /// How many lines are kept.
 pub const MOST_LINES: usize = 20_000;
@@ -84,7 +84,7 @@ impl WireLog {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::{Direction, Finding};
+    use crate::device::{Direction, Finding};
 
     fn line(length: usize) -> WireLine {
         WireLine {

@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::claim::HeldBy;
 use crate::{
     astro::Angle,
-    controller::{
+    device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },

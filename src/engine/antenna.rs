@@ -14,7 +14,7 @@ use jiff::Timestamp;
 use super::{claim::HeldBy, forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
-    controller::{Measured, Phase, Variant, panel::Act, settings::Group},
+    device::{Measured, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, Snapshot, StopState},
     plan::{FollowPhase, Sample, on_board::KnownOrbit},
     station::{Antenna, AntennaId, ControllerSpec},

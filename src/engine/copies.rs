@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use super::antenna::AntennaModel;
 use crate::{
-    controller::settings::{Change, CopyHead, Group, Held, SettingsCopy},
+    device::settings::{Change, CopyHead, Group, Held, SettingsCopy},
     job::{BrokeOff, Job, Wake},
     whole_file,
 };

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, Site, time::add_seconds},
-    controller::{OnBoard, TrackTarget, UnitClock},
+    device::{OnBoard, TrackTarget, UnitClock},
     driver::{self, Event, Refusal, Snapshot},
     orbit::{PassSearch, passes},
     plan::{

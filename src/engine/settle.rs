@@ -7,7 +7,7 @@ use super::{
     copies::{OpenCopy, Outcome, Saving, Waiting},
 };
 use crate::{
-    controller::settings::{Change, Guard},
+    device::settings::{Change, Guard},
     driver,
 };
 

@@ -10,7 +10,7 @@ use super::{
     sources::{SourceWork, Task},
 };
 use crate::{
-    controller::panel::CheckState,
+    device::panel::CheckState,
     driver::{Event, LinkState, Refusal, Safety, StopState},
     job::Job,
     station::Station,

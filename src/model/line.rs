@@ -5,7 +5,7 @@ use std::{fmt::Write as _, sync::Arc};
 use jiff::tz::TimeZone;
 
 use crate::{
-    controller::{Direction, Finding, Meaning, WireLine, panel::Tone},
+    device::{Direction, Finding, Meaning, WireLine, panel::Tone},
     driver::Recorded,
 };
 

@@ -35,7 +35,7 @@ use super::{
         travel_gauge::TravelModel,
     },
 };
-use crate::controller::panel::{Act, CheckState, Reading};
+use crate::device::panel::{Act, CheckState, Reading};
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};

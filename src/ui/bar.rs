@@ -14,7 +14,7 @@ use super::{
     words,
 };
 use crate::{
-    controller::Phase,
+    device::Phase,
     driver::{Command, LinkState, StopState, TimeSync},
     engine::{
         alarms::{AlarmKind, Priority},

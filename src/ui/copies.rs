@@ -7,7 +7,7 @@ use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
 
 use super::{format, text, theme};
 use crate::{
-    controller::settings::{Difference, Field, Group, Held, SettingsCopy, Value, Verdict},
+    device::settings::{Difference, Field, Group, Held, SettingsCopy, Value, Verdict},
     engine::{antenna::AntennaModel, copies::OpenCopy},
     model::UiCommand,
 };

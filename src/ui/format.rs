@@ -4,7 +4,7 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use crate::{
     astro::{Angle, AzEl},
-    controller::{Capabilities, Pointing},
+    device::{Capabilities, Pointing},
 };
 
 /// The true minus sign.

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     astro::time::seconds_between,
-    controller::{JogSpeeds, Phase, Pointing},
+    device::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
     engine::{antenna::AntennaModel, forecast::Followed},
     model::Model,

@@ -18,7 +18,7 @@ pub use safety::{
 };
 
 use crate::{
-    controller::{Asked, Motion},
+    device::{Asked, Motion},
     driver::Intent,
     engine::antenna::Stake,
     makes,

@@ -2,12 +2,8 @@
 
 use azel::{
     astro::Angle,
-    controller::{
-        Asked,
-        panel::Act,
-        rotator_genius::{ALONE, OTHER, Rotators},
-        settings::Value,
-    },
+    controller::rotator_genius::{ALONE, OTHER, Rotators},
+    device::{Asked, panel::Act, settings::Value},
     driver::{Command, Event, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Options, RotatorOptions},
@@ -156,7 +152,7 @@ async fn a_rotator_without_a_sensor_that_is_not_ours_is_no_fault() {
     assert!(shown.state.checks.iter().all(|check| !check.name.ends_with('2')));
     let plain = shown.state.readings.iter().find(|reading| reading.label == "Heading 2").unwrap();
     assert_eq!(plain.text, "the sensor is not connected");
-    assert_eq!(plain.tone, azel::controller::panel::Tone::Plain);
+    assert_eq!(plain.tone, azel::device::panel::Tone::Plain);
 }
 
 #[tokio::test(start_paused = true)]

@@ -1,7 +1,8 @@
 //! Positions: what is sent, and what becomes of it.
 
 use azel::{
-    controller::{Asked, Motion, rotator_genius::Rotators},
+    controller::rotator_genius::Rotators,
+    device::{Asked, Motion},
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::RotatorNumber,
     sim::rotator_genius::{Fault, Quirk},

@@ -1,7 +1,7 @@
 //! A unit that is worked on: neither rotator is moved or configured.
 
 use azel::{
-    controller::settings::{Change, SettleError, Value},
+    device::settings::{Change, SettleError, Value},
     driver::{Command, Event, Intent, Refusal},
     station::LockOut,
 };

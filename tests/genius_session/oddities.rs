@@ -1,7 +1,8 @@
 //! Oddities and faults: nothing of it stops the session from being right.
 
 use azel::{
-    controller::{panel::CheckState, rotator_genius::Rotators},
+    controller::rotator_genius::Rotators,
+    device::panel::CheckState,
     driver::{Event, LinkState},
     sim::rotator_genius::{Fault, Quirk},
 };

@@ -2,7 +2,8 @@
 
 use azel::{
     astro::AzEl,
-    controller::{panel::CheckState, rotator_genius::Rotators},
+    controller::rotator_genius::Rotators,
+    device::panel::CheckState,
     driver::{Event, Intent, Refusal},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Fault, Options, RotatorOptions},

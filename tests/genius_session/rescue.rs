@@ -1,9 +1,9 @@
 //! Outside the limits nothing but STOP ends a motion.
 
 use azel::{
-    controller::{
+    controller::rotator_genius::{RESCUE, Rotators},
+    device::{
         panel::{Act, CheckState},
-        rotator_genius::{RESCUE, Rotators},
         settings::Values,
     },
     driver::{Command, Event, Refusal, StopState},

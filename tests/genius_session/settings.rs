@@ -4,10 +4,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
-    controller::{
-        rotator_genius::Rotators,
-        settings::{Change, ReadFailure, SettleError, Value, Values},
-    },
+    controller::rotator_genius::Rotators,
+    device::settings::{Change, ReadFailure, SettleError, Value, Values},
     driver::{AntennaHandle, Command},
     sim::rotator_genius::{Fault, Options, Quirk},
 };

@@ -1,7 +1,7 @@
 //! What went over the link, for the console.
 
 use azel::{
-    controller::{Direction, Finding, WireLine},
+    device::{Direction, Finding, WireLine},
     driver::{Command, Event},
     sim::rotator_genius::Fault,
 };

@@ -14,7 +14,7 @@ use std::{
 use azel::{
     astro::time::add_seconds,
     clock::Clock,
-    controller::Moves,
+    device::Moves,
     driver::{AntennaHandle, Command, Dial, Event, Session, Snapshot, Stream},
     plan::{FollowPhase, FollowStats},
     station::Antenna,

@@ -1,7 +1,8 @@
 //! Moves to stored satellites and to counts.
 
 use azel::{
-    controller::{Asked, panel::CheckState, rc2000c::VARIANT, settings::Value},
+    controller::rc2000c::VARIANT,
+    device::{Asked, panel::CheckState, settings::Value},
     driver::{Command, Event, Intent, Mover, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rc2000c::SatelliteName,

@@ -1,7 +1,7 @@
 //! Alarms: shown by name, forbidding what they must, and cleared on request.
 
 use azel::{
-    controller::{panel::CheckState, settings::Value},
+    device::{panel::CheckState, settings::Value},
     driver::{Command, Event, Intent, Refusal},
     protocol::rc2000c::Alarm,
     sim::rc2000c::Fault,

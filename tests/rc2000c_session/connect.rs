@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::panel::CheckState,
+    device::panel::CheckState,
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
     station::LockOut,

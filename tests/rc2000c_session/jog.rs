@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use azel::{
-    controller::{Asked, Motion, rc2000c::BAUD},
+    controller::rc2000c::BAUD,
+    device::{Asked, Motion},
     driver::{Command, Event, LinkState, Refusal},
     plan::Barrier,
     sim::rc2000c::{Fault, Options, Quirk},

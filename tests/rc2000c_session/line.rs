@@ -1,7 +1,7 @@
 //! What lines do: echoes, noise, pieces, lost and broken replies, wrong addresses.
 
 use azel::{
-    controller::{Direction, Finding, Meaning},
+    device::{Direction, Finding, Meaning},
     driver::{Command, Event, LinkLoss, LinkState},
     protocol::rc2000c::Address,
     sim::rc2000c::{Fault, Options, Quirk},
@@ -84,9 +84,9 @@ async fn the_log_shows_every_frame_and_what_is_wrong_with_it() {
     rig.control.set_fault(Fault::BitError, false);
     rig.control.set_fault(Fault::Garbage, true);
     rig.seconds(5.0).await;
-    let lines: Vec<azel::controller::WireLine> =
+    let lines: Vec<azel::device::WireLine> =
         rig.wire().read_from(0).iter().map(|recorded| recorded.line.clone()).collect();
-    let sent = |line: &&azel::controller::WireLine| line.direction == Direction::Sent;
+    let sent = |line: &&azel::device::WireLine| line.direction == Direction::Sent;
     assert!(lines.iter().filter(sent).all(|line| line.bytes[0] == 0x02));
     assert_eq!(&*lines[0].bytes, b"\x02\x32\x30\x03\x03");
     assert_eq!(&*lines[1].bytes, b"\x06\x32\x302KCA14\x03\x79");

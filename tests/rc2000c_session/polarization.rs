@@ -1,7 +1,7 @@
 //! The polarization: turned by hand, by the stored values, and by the unit.
 
 use azel::{
-    controller::{Asked, settings::Value},
+    device::{Asked, settings::Value},
     driver::{Command, Event, Intent, Refusal},
     sim::rc2000c::Quirk,
 };

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::Angle,
-    controller::{Asked, Motion, panel::CheckState},
+    device::{Asked, Motion, panel::CheckState},
     driver::{Command, Event, Intent, Refusal},
     sim::rc2000c::{Fault, Options, Quirk},
 };

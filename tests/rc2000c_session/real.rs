@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::{Asked, settings::Value},
+    device::{Asked, settings::Value},
     driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
@@ -78,10 +78,8 @@ impl Desk {
         self.until_event(Event::Stopped).await;
         self.send(Command::Manual);
         let values = [("az_counts", Value::Integer(1530)), ("el_counts", Value::Integer(750))];
-        let act = azel::controller::panel::Act {
-            action: "to_counts",
-            values: values.into_iter().collect(),
-        };
+        let act =
+            azel::device::panel::Act { action: "to_counts", values: values.into_iter().collect() };
         self.send(Command::Act(act));
         self.until("there", |_| {
             let state = control.state();

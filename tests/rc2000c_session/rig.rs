@@ -11,9 +11,9 @@ use std::{
 
 use azel::{
     clock::Clock,
-    controller::{
+    controller::rc2000c::Calibration,
+    device::{
         panel::{Act, CheckState},
-        rc2000c::Calibration,
         settings::Value,
     },
     driver::{AntennaHandle, Command, Dial, Event, Found, Session, Snapshot, Stream},

@@ -1,7 +1,7 @@
 //! The track mode of the unit: shown, left alone, and ended only when told.
 
 use azel::{
-    controller::{Asked, panel::CheckState, settings::Value},
+    device::{Asked, panel::CheckState, settings::Value},
     driver::{Command, Event, Found, LinkState},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };

@@ -3,7 +3,7 @@
 
 use azel::{
     astro::Angle,
-    controller::{Asked, Motion},
+    device::{Asked, Motion},
     driver::{Command, Event, Intent},
 };
 

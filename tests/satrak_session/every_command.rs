@@ -3,10 +3,8 @@
 
 use azel::{
     astro::Angle,
-    controller::{
-        satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
-        settings::{Change, Secret, Value},
-    },
+    controller::satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
+    device::settings::{Change, Secret, Value},
     driver::{Command, Event},
     protocol::satrak::{Query, encode},
 };

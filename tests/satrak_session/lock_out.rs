@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{Angle, AzEl},
-    controller::{
+    device::{
         panel::Act,
         settings::{SettleError, Value},
     },

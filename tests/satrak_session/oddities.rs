@@ -4,10 +4,8 @@ use std::collections::BTreeSet;
 
 use azel::{
     astro::{Angle, AzEl},
-    controller::{
-        panel::{Check, CheckState},
-        satrak::checks,
-    },
+    controller::satrak::checks,
+    device::panel::{Check, CheckState},
     driver::{Command, Event, LinkLoss, LinkState, Snapshot},
     sim::satrak::{Fault, Options, Quirk},
 };

@@ -3,7 +3,7 @@
 
 use azel::{
     astro::{Angle, AzEl, time},
-    controller::{Phase, TrackTarget, settings::Value},
+    device::{Phase, TrackTarget, settings::Value},
     driver::{Command, Event, Refusal},
     orbit::{PassSearch, Propagator, passes},
     plan::{
@@ -165,7 +165,7 @@ async fn what_another_client_changes_while_the_unit_tracks_is_read_and_told() {
     rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     let in_pass = |shown: &azel::driver::Snapshot| {
-        shown.state.program.is_some_and(|it| it.phase == azel::controller::Phase::Tracking)
+        shown.state.program.is_some_and(|it| it.phase == azel::device::Phase::Tracking)
     };
     rig.until("in the pass", 120, in_pass).await;
     rig.seconds(20.0).await;

@@ -2,7 +2,7 @@
 
 use azel::{
     astro::Angle,
-    controller::PrepareError,
+    device::PrepareError,
     driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState},
     sim::satrak::Fault,
 };

@@ -11,7 +11,8 @@ use std::{
 use azel::{
     astro::{Angle, Site, time},
     clock::Clock,
-    controller::{TrackTarget, satrak::Satrak},
+    controller::satrak::Satrak,
+    device::TrackTarget,
     driver::{AntennaHandle, Command, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
     plan::{OnBoardPass, on_board::KnownOrbit},

@@ -7,10 +7,8 @@ use std::{
 };
 
 use azel::{
-    controller::{
-        satrak::GROUPS,
-        settings::{CopyHead, Secret, SettingsCopy, Value},
-    },
+    controller::satrak::GROUPS,
+    device::settings::{CopyHead, Secret, SettingsCopy, Value},
     sim::satrak::Fault,
 };
 use tracing_subscriber::fmt::MakeWriter;

@@ -3,10 +3,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
-    controller::{
-        satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
-        settings::{Access, Change, Secret, SettleError, Value, Values},
-    },
+    controller::satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
+    device::settings::{Access, Change, Secret, SettleError, Value, Values},
     driver::Command,
     protocol::satrak::encode,
 };

@@ -1,7 +1,7 @@
 //! Settings that decide where the antenna points wait until it stands.
 
 use azel::{
-    controller::settings::{Change, Hindrance, SettleError, Value},
+    device::settings::{Change, Hindrance, SettleError, Value},
     driver::{Command, Event, Refusal},
 };
 

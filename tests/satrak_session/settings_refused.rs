@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use azel::{
-    controller::settings::{Change, Hindrance, SettleError, SettleStep, Value},
+    device::settings::{Change, Hindrance, SettleError, SettleStep, Value},
     driver::{Command, Snapshot},
     protocol::satrak::encode,
     sim::satrak::Fault,

@@ -1,7 +1,7 @@
 //! Following a satellite with the unit's own program.
 
 use azel::{
-    controller::{Phase, PrepareError, TrackTarget},
+    device::{Phase, PrepareError, TrackTarget},
     driver::{Command, Event, Intent},
 };
 use jiff::SignedDuration;

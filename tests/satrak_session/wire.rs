@@ -4,7 +4,7 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
-    controller::{Direction, Finding, WireLine},
+    device::{Direction, Finding, WireLine},
     driver::{Command, Event, Recorded},
     protocol::satrak::{Query, encode},
     sim::satrak::{Fault, Options},

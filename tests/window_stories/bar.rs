@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use azel::{
-    controller::{Asked, Motion, satrak::checks},
+    controller::satrak::checks,
+    device::{Asked, Motion},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::{AlarmKind, Work},
     model::{ThemeName, UiCommand},

@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use azel::{
     astro::time::add_seconds,
-    controller::{Direction, Finding, WireLine, satrak},
+    controller::satrak,
+    device::{Direction, Finding, WireLine},
     driver::WireLog,
     model::{UiCommand, View},
     protocol::satrak::encode,

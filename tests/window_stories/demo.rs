@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, net::TcpStream};
 use azel::{
     astro::{Angle, AzEl},
     clock::Clock,
-    controller::{Measured, panel::Act, settings::Value},
+    device::{Measured, panel::Act, settings::Value},
     driver::{Command, LinkState, StopState},
     engine::{self, alarms::AlarmKind},
     makes,

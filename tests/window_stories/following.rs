@@ -5,7 +5,7 @@ use azel::{
         Angle, AzEl,
         time::{add_seconds, seconds_between},
     },
-    controller::AxisMotion,
+    device::AxisMotion,
     driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
     engine::forecast::Forecast,
     model::{Model, UiCommand},

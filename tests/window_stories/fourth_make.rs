@@ -11,7 +11,7 @@ use std::{
 use azel::{
     astro::{Angle, AzEl},
     clock::Clock,
-    controller::Pointing,
+    device::Pointing,
     driver::{AntennaHandle, Command, Driver, Event, Safety, Snapshot, StopState},
     makes,
     model::View,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::AzEl,
-    controller::{panel::Act, settings::Values},
+    device::{panel::Act, settings::Values},
     driver::{
         Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
     },

@@ -4,10 +4,10 @@ use std::{sync::Arc, time::Instant};
 
 use azel::{
     astro::Angle,
-    controller::{
+    controller::rotator_genius::{ROTATORS, Rotators},
+    device::{
         AxisMotion, Measured, Pointing,
         panel::{Check, CheckState, Reading, Tone},
-        rotator_genius::{ROTATORS, Rotators},
     },
     driver::{Intent, LinkState, Snapshot},
     model::Model,

@@ -8,7 +8,7 @@ use std::{
 
 use azel::{
     astro::{Angle, time::add_seconds},
-    controller::{Place, settings::Value},
+    device::{Place, settings::Value},
     driver::{OnBoardView, Snapshot},
     engine::alarms::AlarmKind,
     model::{Model, UiCommand},

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use azel::{
     astro::Angle,
-    controller::AxisMotion,
+    device::AxisMotion,
     driver::{Command, Intent, LinkState},
     model::{Model, UiCommand, View},
     station::Antenna,

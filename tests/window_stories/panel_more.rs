@@ -2,7 +2,7 @@
 //! command.
 
 use azel::{
-    controller::{
+    device::{
         Variant,
         panel::{Act, Action},
         settings::{Field, Kind, Value, Values},

@@ -3,7 +3,7 @@
 use azel::{
     astro::AzEl,
     clock::Clock,
-    controller::Measured,
+    device::Measured,
     driver::{Intent, LinkState, StopState},
     engine::CatalogState,
     makes,

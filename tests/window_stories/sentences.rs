@@ -4,7 +4,7 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    controller::{Asked, AxisMotion, Motion, Phase, PrepareError},
+    device::{Asked, AxisMotion, Motion, Phase, PrepareError},
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
     engine::{
         claim::{HeldBy, Holder, HolderKind},

@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    controller::settings::{
-        Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value,
-    },
+    device::settings::{Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value},
     driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
     model::{UiCommand, View},
 };

@@ -1,7 +1,7 @@
 //! What the cards of a unit show beside its settings.
 
 use azel::{
-    controller::{Program, settings::Value},
+    device::{Program, settings::Value},
     driver::Command,
     model::UiCommand,
 };

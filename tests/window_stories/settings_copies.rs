@@ -35,7 +35,7 @@ fn a_copy_tells_what_has_changed_since_and_gives_it_back() {
     step_until(&mut scene.window, "the new value is read", |model| {
         let held = &model.antennas[0].snapshot.state.held["general"].held;
         let value = &held.as_ref().unwrap().values["elevation_threshold_deg"];
-        *value == azel::controller::settings::Value::Decimal(4.0)
+        *value == azel::device::settings::Value::Decimal(4.0)
     });
     press(&mut scene.window, "Compare with file");
     wait_until("the copy is listed", || {

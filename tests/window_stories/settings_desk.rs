@@ -4,10 +4,8 @@
 use std::sync::Arc;
 
 use azel::{
-    controller::{
-        satrak::GROUPS,
-        settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
-    },
+    controller::satrak::GROUPS,
+    device::settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
     driver::Snapshot,
     model::View,
 };

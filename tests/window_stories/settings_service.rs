@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use azel::{controller::settings::Value, driver::Command, model::UiCommand};
+use azel::{device::settings::Value, driver::Command, model::UiCommand};
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

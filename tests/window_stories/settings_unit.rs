@@ -2,7 +2,7 @@
 //! another client meanwhile, and the link lost in the middle.
 
 use azel::{
-    controller::settings::{GroupState, SettleError, Settled},
+    device::settings::{GroupState, SettleError, Settled},
     driver::LinkState,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},

@@ -4,9 +4,8 @@ use std::time::Instant;
 
 use azel::{
     astro::{AzEl, time::add_seconds},
-    controller::{
-        Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget, satrak::checks,
-    },
+    controller::satrak::checks,
+    device::{Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget},
     driver::{Intent, Snapshot},
     model::Model,
     protocol::satrak::{Frame, Reply},

@@ -2,7 +2,7 @@
 
 use super::{Order, Rc2000c, refusal::is_tracking};
 use crate::{
-    controller::{
+    device::{
         Asked, Device, Happening,
         panel::{Act, Action, Lead},
         settings::{Field, Kind, Unfit, Value},

@@ -3,7 +3,7 @@
 use super::Calibration;
 use crate::{
     astro::Angle,
-    controller::{Axis, AxisMotion, Pointing},
+    device::{Axis, AxisMotion, Pointing},
     protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
     station::{CountLine, Mount},
 };

@@ -1,7 +1,7 @@
 //! The alarms of the unit and what to do about each.
 
 use crate::{
-    controller::panel::{Check, CheckState},
+    device::panel::{Check, CheckState},
     protocol::rc2000c::{Alarm, AxisDrive, DeviceType, MountKind, Status, Submode},
 };
 

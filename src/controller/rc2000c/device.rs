@@ -8,7 +8,7 @@ use super::{
     refusal::is_tracking,
 };
 use crate::{
-    controller::{
+    device::{
         AntennaState, Device, Extent, Finding, Happening, Moment, Motion, Moves, PrepareError,
         TrackTarget, WireLine,
         panel::{Act, Lead},

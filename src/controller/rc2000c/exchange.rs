@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
-    controller::{Asked, Happening, Measured, Moment, Motion, Phase, Program},
+    device::{Asked, Happening, Measured, Moment, Motion, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
         PolarizationUnits, Query, Reply, ReplyError, Request, Status,

@@ -1,7 +1,7 @@
 //! What a frame says, in words for the log of the link.
 
 use crate::{
-    controller::{Meaning, panel::Tone},
+    device::{Meaning, panel::Tone},
     protocol::rc2000c::{Address, Decoder, Frame, Motion, Query, Reply, Request, Setting},
 };
 

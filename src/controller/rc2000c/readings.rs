@@ -2,7 +2,7 @@
 
 use super::{checks, names::Names};
 use crate::{
-    controller::panel::{Reading, Tone},
+    device::panel::{Reading, Tone},
     protocol::rc2000c::{
         DeviceType, FeedPosition, FeedReading, LimitEnd, NameDisplay, PolarizationCode,
         PolarizationDevice, PolarizationMotion, Position, Receiver, ReceiverChannel, Status,

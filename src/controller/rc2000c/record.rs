@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
-    controller::{Direction, Finding, Moment, WireLine},
+    device::{Direction, Finding, Moment, WireLine},
     protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
 };
 

@@ -1,10 +1,12 @@
 //! The description of an RC2000C.
 
 use super::{Rc2000c, actions};
-use crate::controller::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant};
-use crate::station::{
-    AfterPass, Antenna, Choice, Connection, ControllerSpec, CountPoint, Direction, Following,
-    Holds, Link, MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+use crate::{
+    device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
+    station::{
+        AfterPass, Antenna, Choice, Connection, ControllerSpec, CountPoint, Direction, Following,
+        Holds, Link, MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+    },
 };
 
 const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };

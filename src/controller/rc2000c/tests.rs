@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{axes::tests::IDLE, *};
 use crate::{
-    controller::{Device, Extent, Moves},
+    device::{Device, Extent, Moves},
     protocol::rc2000c::checksum,
 };
 

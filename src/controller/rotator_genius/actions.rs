@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::controller::{
+use crate::device::{
     panel::Action,
     settings::{Field, Kind},
 };

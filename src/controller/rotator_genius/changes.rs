@@ -7,7 +7,7 @@ use super::{
     settings::{GROUPS, configuration, differing, rotator_of, values},
 };
 use crate::{
-    controller::{
+    device::{
         Moment,
         settings::{Change, SettleError, Settling, Step},
     },

@@ -9,7 +9,7 @@ use super::{
     orders::in_whole_degrees,
 };
 use crate::{
-    controller::{
+    device::{
         AntennaState, Asked, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
         TrackTarget, WireLine,
         panel::{Act, Lead},

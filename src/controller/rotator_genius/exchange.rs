@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
-    controller::{Asked, Happening, Moment, PROMPT},
+    device::{Asked, Happening, Moment, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },

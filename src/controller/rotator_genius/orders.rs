@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     astro::Angle,
-    controller::{Asked, AxisMotion, Moment, Motion, panel::Act, settings::Value},
+    device::{Asked, AxisMotion, Moment, Motion, panel::Act, settings::Value},
     protocol::rotator_genius::{
         self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
     },

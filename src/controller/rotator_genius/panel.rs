@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::roles::Roles;
 use crate::{
-    controller::panel::{Check, CheckState, Reading, Tone},
+    device::panel::{Check, CheckState, Reading, Tone},
     protocol::rotator_genius::{
         Layout, Moving, Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees,
     },

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{Genius, REPLY, exchange::Outstanding};
 use crate::{
-    controller::{Direction, Finding, Meaning, Moment, WireLine, panel::Tone},
+    device::{Direction, Finding, Meaning, Moment, WireLine, panel::Tone},
     protocol::rotator_genius::{Acknowledgement, Received, Reply, Request},
 };
 

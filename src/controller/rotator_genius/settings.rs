@@ -6,7 +6,7 @@
 //! of a status. A status has names of 12 characters, a configuration of 10.
 
 use crate::{
-    controller::settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
+    device::settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
     protocol::rotator_genius::{
         Configuration, MAX_STOP_OFFSET_DEG, Rotator, RotatorKind, RotatorName, RotatorNumber,
         Status, WholeDegrees,

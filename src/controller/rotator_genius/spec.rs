@@ -1,10 +1,12 @@
 //! The description of a Rotator Genius.
 
 use super::{GROUPS, Genius, actions};
-use crate::controller::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant};
-use crate::station::{
-    AfterPass, Antenna, Choice, Connection, ControllerSpec, Direction, Following, Holds, Link,
-    MotionLimits, Mount, PollRates, Setting, Usual, Value,
+use crate::{
+    device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
+    station::{
+        AfterPass, Antenna, Choice, Connection, ControllerSpec, Direction, Following, Holds, Link,
+        MotionLimits, Mount, PollRates, Setting, Usual, Value,
+    },
 };
 
 /// The one speed of its rotators.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::{Genius, panel, roles::Roles, settings};
 use crate::{
     astro::Angle,
-    controller::{Axis, Measured, Moment, Pointing, settings::HeldGroup},
+    device::{Axis, Measured, Moment, Pointing, settings::HeldGroup},
     protocol::rotator_genius::{RotatorNumber, Status},
 };
 

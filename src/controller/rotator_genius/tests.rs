@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::{
     astro::Angle,
-    controller::{
+    device::{
         Device, Extent, Motion, Moves,
         panel::Act,
         settings::{Change, Value, Values},

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::{
-    controller::AxisMotion,
+    device::AxisMotion,
     protocol::rotator_genius::{Moving, Rotator},
 };
 

@@ -5,7 +5,7 @@ use super::{
     settle::{Doing, Next, Settling},
 };
 use crate::{
-    controller::{
+    device::{
         Moment,
         settings::{Change, SettleError},
     },

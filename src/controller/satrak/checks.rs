@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::{
-    controller::panel::{Check, CheckState},
+    device::panel::{Check, CheckState},
     protocol::satrak::{FaultKind, FaultState, Faults},
 };
 

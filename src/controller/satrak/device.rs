@@ -7,7 +7,7 @@ use super::{
     settings::Plan, words,
 };
 use crate::{
-    controller::{
+    device::{
         AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},

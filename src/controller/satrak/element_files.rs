@@ -2,7 +2,7 @@
 
 use super::{ELEMENT_FILE, checks::FILE_CHECKS, settings::FILE};
 use crate::{
-    controller::{
+    device::{
         ElementFiles,
         settings::{Value, Values},
     },

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
     astro::Angle,
-    controller::{Happening, Moment, Motion, PROMPT, PrepareError, settings::ReadFailure},
+    device::{Happening, Moment, Motion, PROMPT, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
         ValueError, Verb, Word,

@@ -2,7 +2,7 @@
 
 use super::reported::Reported;
 use crate::{
-    controller::{HeldSatellite, Offsets, OnBoard, Place},
+    device::{HeldSatellite, Offsets, OnBoard, Place},
     protocol::satrak::Position,
 };
 

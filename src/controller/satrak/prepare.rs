@@ -1,7 +1,7 @@
 //! Puts a target on the unit, step by step, each one read back.
 
 use crate::{
-    controller::{PrepareError, TrackTarget},
+    device::{PrepareError, TrackTarget},
     protocol::satrak::{
         FaultKind, Query, Reply, Request, Satellite, SatelliteChoice, Setting, TextValue,
         TrackWindow,

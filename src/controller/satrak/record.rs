@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{REPLY, Satrak, exchange::Outstanding, words};
 use crate::{
-    controller::{Direction, Finding, Meaning, Moment, WireLine},
+    device::{Direction, Finding, Meaning, Moment, WireLine},
     protocol::satrak::{Decoder, FrameError, Halt, Line, Verb, Word},
 };
 

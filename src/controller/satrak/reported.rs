@@ -1,7 +1,7 @@
 //! What the unit reported of itself.
 
 use crate::{
-    controller::UnitClock,
+    device::UnitClock,
     protocol::satrak::{GpsData, GpsSettings, Satellite, Settings, StartStopTime},
 };
 

@@ -12,9 +12,11 @@ mod source;
 mod times;
 mod wish;
 
-use crate::controller::UnitClock;
 use crate::{
-    controller::settings::{Group, SettleError, Unfit, Values},
+    device::{
+        UnitClock,
+        settings::{Group, SettleError, Unfit, Values},
+    },
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
 pub(super) use proof::{Differing, Judge, Proof};

@@ -4,7 +4,7 @@
 
 use super::settings::{GROUPS, Plan, Proof, Wish, values_of};
 use crate::{
-    controller::{
+    device::{
         Moment,
         settings::{self, Change, Hindrance, ReadFailure, SettleError, Step, Values},
     },

@@ -1,10 +1,12 @@
 //! The description of a Satrak.
 
 use super::{ELEMENT_FILES, GROUPS, Satrak, words};
-use crate::controller::{Capabilities, JogSpeeds, Standstill, Variant};
-use crate::station::{
-    AfterPass, Antenna, ControllerSpec, Direction, Following, Holds, Link, MotionLimits, Mount,
-    PollRates, Setting, Usual, Value,
+use crate::{
+    device::{Capabilities, JogSpeeds, Standstill, Variant},
+    station::{
+        AfterPass, Antenna, ControllerSpec, Direction, Following, Holds, Link, MotionLimits, Mount,
+        PollRates, Setting, Usual, Value,
+    },
 };
 
 /// A Satrak in the station, with the factory figures of its document.

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     astro::{AzEl, time::seconds_between},
-    controller::{
+    device::{
         Axis, AxisMotion, Measured, Moment, Phase, Program, UnitClock,
         settings::{HeldGroup, ReadFailure},
     },

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::{
-    controller::{
+    device::{
         Direction, Explained, ExplainedValue, Finding, Meaning, Question, WireLine, panel::Tone,
     },
     protocol::satrak::{

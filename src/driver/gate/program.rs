@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Gate, Refusal};
 use crate::{
-    controller::{Moment, Motion},
+    device::{Moment, Motion},
     driver::Intent,
     plan::on_board::Judge,
 };

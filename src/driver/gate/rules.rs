@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
-    controller::{
+    device::{
         Asked, Motion, aimed,
         panel::{Act, Lead},
         settings::Hindrance,

@@ -3,7 +3,7 @@
 
 use super::{Check, Gate, Refusal, Situation};
 use crate::{
-    controller::{
+    device::{
         Moment, Motion, TrackTarget,
         settings::{Change, SettleError},
     },

@@ -14,7 +14,7 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
-    controller::{
+    device::{
         Axis, AxisMotion, Extent, Measured, TrackTarget,
         panel::Lead,
         settings::{Change, Values},

@@ -3,7 +3,7 @@
 use super::{Angle, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
-    controller::{
+    device::{
         JogSpeeds, aimed,
         panel::{Act, Lead},
     },

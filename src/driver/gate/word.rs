@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::{Bounds, Gate};
-use crate::{controller::Moment, driver::Intent};
+use crate::{device::Moment, driver::Intent};
 
 /// What the operator has answered for.
 #[derive(Debug, Default)]

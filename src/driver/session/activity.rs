@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::{follow::Following, on_board::Watch};
 use crate::{
-    controller::{Motion, Pointing, TrackTarget},
+    device::{Motion, Pointing, TrackTarget},
     driver::Intent,
 };
 

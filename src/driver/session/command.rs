@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     astro::Angle,
-    controller::{
+    device::{
         Moment, Motion,
         panel::Act,
         settings::{Change, SettleError},

@@ -11,7 +11,7 @@ pub(super) use following::{Following, Manner};
 use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
 use crate::{
     astro::Angle,
-    controller::{Moment, Motion, Pointing},
+    device::{Moment, Motion, Pointing},
     driver::{FollowProblem, Intent, Refusal, Safety, Unlike},
     plan::{
         Bounds, Follow, FollowPhase,

@@ -8,7 +8,7 @@ use std::{
 
 use super::{Event, Session};
 use crate::{
-    controller::Moment,
+    device::Moment,
     driver::{
         Refusal, Safety, Stream,
         dead_man::{BEAT, DeadMan},

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::{Event, Intent, Session};
 use crate::{
     astro::AzEl,
-    controller::{Moment, Motion},
+    device::{Moment, Motion},
     driver::{Inside, Refusal},
     plan::{Barrier, Bounds, Follow},
 };

@@ -9,7 +9,7 @@ use tokio::{
 
 use super::{Command, Numbered, Session, Wires, wanted::Wanted};
 use crate::{
-    controller::{Extent, Moment},
+    device::{Extent, Moment},
     driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
 };
 

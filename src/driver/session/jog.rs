@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::{Event, Session};
 use crate::{
-    controller::{Measured, Moment, Motion},
+    device::{Measured, Moment, Motion},
     driver::Safety,
 };
 

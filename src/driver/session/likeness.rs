@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::Session;
 use crate::{
-    controller::{AntennaState, Moment, Offsets, Place},
+    device::{AntennaState, Moment, Offsets, Place},
     driver::Unlike,
 };
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::{Event, Session};
 use crate::{
-    controller::Moment,
+    device::Moment,
     driver::{LinkLoss, LinkState},
 };
 

@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
-use crate::{controller::Moment, driver::Refusal, station::LockOut};
+use crate::{device::Moment, driver::Refusal, station::LockOut};
 
 /// So long it may take until auto-track is read back as off.
 const READ_BACK: Duration = Duration::from_secs(10);

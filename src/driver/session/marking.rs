@@ -9,7 +9,7 @@ use std::{
 use tokio::task::{JoinHandle, spawn_blocking};
 
 use super::{Event, Session};
-use crate::{astro::time::seconds_between, controller::Moment, driver::Safety};
+use crate::{astro::time::seconds_between, device::Moment, driver::Safety};
 
 /// A disk that takes longer must not keep the operator from moving the antenna.
 const MOST: Duration = Duration::from_millis(300);

@@ -9,7 +9,7 @@ use std::{
 use super::{Event, Session, activity::Activity};
 use crate::{
     astro::Angle,
-    controller::{Measured, Moment},
+    device::{Measured, Moment},
     driver::{
         Safety, StoppingWay,
         safety::{Mover, Response},

@@ -9,7 +9,7 @@ use std::{
 use super::{Event, Session};
 use crate::{
     astro::{Angle, time::add_seconds},
-    controller::{Moment, OnBoard},
+    device::{Moment, OnBoard},
     driver::{FollowProblem, OnBoardView, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::{Event, Session};
 use crate::{
-    controller::Moment,
+    device::Moment,
     driver::{LinkState, Safety},
 };
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::controller::{Capabilities, Measured};
+use crate::device::{Capabilities, Measured};
 
 /// How two looks at a standing antenna compare.
 #[derive(Debug, Clone, Copy)]
@@ -166,7 +166,8 @@ mod tests {
     use super::*;
     use crate::{
         astro::AzEl,
-        controller::{Axis, AxisMotion, satrak},
+        controller::satrak,
+        device::{Axis, AxisMotion},
     };
 
     fn look(start: Instant, at_s: f64, angles_deg: [Option<f64>; 2]) -> Measured {

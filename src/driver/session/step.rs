@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::{Event, Session};
 use crate::{
-    controller::{Moment, Motion},
+    device::{Moment, Motion},
     driver::Refusal,
 };
 

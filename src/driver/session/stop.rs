@@ -8,7 +8,7 @@ use super::{
     standstill::{Looks, Proof},
 };
 use crate::{
-    controller::{Extent, Moment},
+    device::{Extent, Moment},
     driver::{Safety, StopState},
 };
 

@@ -8,7 +8,7 @@ use super::{
     activity::{Activity, GoTo, GoToStage, OnBoardStage},
 };
 use crate::{
-    controller::{Asked, Happening, Moment, Motion, Phase, TrackTarget},
+    device::{Asked, Happening, Moment, Motion, Phase, TrackTarget},
     driver::{Found, Intent},
 };
 

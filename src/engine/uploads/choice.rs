@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
-    controller::ElementFiles,
+    device::ElementFiles,
     orbit::Catalog,
     transfer::{TleFile, TleFileError},
 };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::{
-    controller::ElementFiles,
+    device::ElementFiles,
     transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 
 use crate::{
-    controller::{
+    device::{
         ElementFiles,
         panel::{Check, CheckState},
         settings::{Change, HeldGroup, Hindrance, Settled, Value},
@@ -170,8 +170,7 @@ pub(super) fn pick(
 mod tests {
     use super::*;
     use crate::{
-        controller::{satrak::ELEMENT_FILES, settings::SettleError},
-        driver::Command,
+        controller::satrak::ELEMENT_FILES, device::settings::SettleError, driver::Command,
     };
 
     const NUMBER: u32 = 43_013;

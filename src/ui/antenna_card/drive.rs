@@ -7,7 +7,7 @@ use super::{
     steps::{self, StepState},
 };
 use crate::{
-    controller::JogSpeeds,
+    device::JogSpeeds,
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -4,7 +4,7 @@ use egui::{Align2, Color32, Popup, PopupCloseBehavior, Rect, Sense, Ui, pos2, ve
 
 use super::{Cursor, verdict_icon};
 use crate::{
-    controller::panel::{Check, CheckState},
+    device::panel::{Check, CheckState},
     ui::{
         icons::{self, Icon},
         text::{self, Weight},

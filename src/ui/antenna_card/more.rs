@@ -7,7 +7,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{CardAction, Cursor};
 use crate::{
-    controller::{
+    device::{
         panel::{Act, Action},
         settings::{Field, Kind, Values},
     },
@@ -202,7 +202,7 @@ fn field_row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{controller::settings::Value, ui::widgets::testing};
+    use crate::{device::settings::Value, ui::widgets::testing};
     use egui_kittest::{Harness, kittest::Queryable as _};
 
     const FIELDS: &[Field] = &[

@@ -4,7 +4,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::Cursor;
 use crate::{
-    controller::panel::{Reading, Tone},
+    device::panel::{Reading, Tone},
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -5,7 +5,7 @@ use egui::{Rect, Ui};
 
 use super::DriveModel;
 use crate::{
-    controller::{JogSpeed, JogSpeeds},
+    device::{JogSpeed, JogSpeeds},
     ui::{
         format,
         widgets::{

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    controller::{JogSpeeds, panel::Check},
+    device::{JogSpeeds, panel::Check},
     ui::widgets::{
         jog_pad::{JogDirection, JogKeys},
         link_chip::LinkGlyph,

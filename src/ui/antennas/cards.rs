@@ -12,7 +12,7 @@ use super::{
     unit::Unit,
 };
 use crate::{
-    controller::settings::{Access, Field},
+    device::settings::{Access, Field},
     model::UiCommand,
     ui::{icons::Icon, text, theme},
 };

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, time::Instant};
 use jiff::Timestamp;
 
 use crate::{
-    controller::settings::{Access, Field, Kind, Settled, Unfit, Value, Values},
+    device::settings::{Access, Field, Kind, Settled, Unfit, Value, Values},
     ui::widgets::hold_button::HoldState,
 };
 
@@ -187,7 +187,7 @@ impl Draft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::settings::{Change, SettleError};
+    use crate::device::settings::{Change, SettleError};
 
     static FIELDS: [Field; 2] = [
         Field::edit("low", "Low", Kind::Decimal { least: 0.0, most: 90.0, places: 1 }),

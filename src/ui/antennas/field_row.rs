@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::time::seconds_between,
-    controller::settings::{Access, Field, Group, Kind, Value},
+    device::settings::{Access, Field, Group, Kind, Value},
     ui::{
         format,
         icons::{self, Icon},

@@ -7,7 +7,7 @@ use super::{
     unit::Unit,
 };
 use crate::{
-    controller::settings::{Access, Field, Group, Guard, Unfit, Value},
+    device::settings::{Access, Field, Group, Guard, Unfit, Value},
     ui::format,
 };
 

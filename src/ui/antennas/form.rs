@@ -16,7 +16,7 @@ use super::{
     unlock::Unlock,
 };
 use crate::{
-    controller::settings::{Access, Change, Group, Guard, Hindrance, Values},
+    device::settings::{Access, Change, Group, Guard, Hindrance, Values},
     driver::Command,
     model::UiCommand,
     ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},

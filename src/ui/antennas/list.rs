@@ -4,7 +4,7 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{form::Form, section::Section, unit::Unit};
 use crate::{
-    controller::settings::Value,
+    device::settings::Value,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand, View},
     ui::{

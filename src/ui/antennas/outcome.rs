@@ -2,7 +2,7 @@
 //! now, what to do.
 
 use crate::{
-    controller::settings::{Field, Group, Kind, ReadFailure, SettleError, Settled, Value, Values},
+    device::settings::{Field, Group, Kind, ReadFailure, SettleError, Settled, Value, Values},
     ui::{format, words},
 };
 
@@ -141,10 +141,8 @@ fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::{
-        satrak::GROUPS,
-        settings::{Change, Group, Secret},
-    };
+    use crate::controller::satrak::GROUPS;
+    use crate::device::settings::{Change, Group, Secret};
     use jiff::Timestamp;
 
     fn group(key: &str) -> &'static Group {

@@ -8,7 +8,7 @@ use super::{
     makes, row,
     unit::Unit,
 };
-use crate::{controller::settings::Group, station::Connection};
+use crate::{device::settings::Group, station::Connection};
 
 /// Draws what a card holds.
 pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut Desk<'_>);

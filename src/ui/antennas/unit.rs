@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::add_seconds,
-    controller::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
+    device::settings::{Group, GroupState, Hindrance, ReadFailure, Values},
     driver::Intent,
     engine::antenna::AntennaModel,
     model::Model,
@@ -86,7 +86,7 @@ impl<'a> Unit<'a> {
 
     /// It is known that nothing turns, nor is about to.
     pub(super) fn stands(&self) -> bool {
-        let moving = |measured: crate::controller::Measured| measured.moving();
+        let moving = |measured: crate::device::Measured| measured.moving();
         let measured = self.antenna.snapshot.state.measured;
         self.is_open() && !self.tracks() && measured.is_some_and(|measured| !moving(measured))
     }

@@ -6,7 +6,7 @@ use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use super::{ConsoleState, PADDING};
 use crate::model::Line;
 use crate::{
-    controller::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
+    device::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
     model::Model,
     ui::{
         format, text, theme,

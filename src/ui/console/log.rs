@@ -185,7 +185,7 @@ impl Log {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::{Direction, WireLine};
+    use crate::device::{Direction, WireLine};
     use crate::model::testing::wire;
 
     fn sent(second: i64, text: &str) -> WireLine {

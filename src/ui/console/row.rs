@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Ui, pos2};
 use super::{PADDING, raw};
 use crate::model::Line;
 use crate::{
-    controller::{Direction, Finding, panel::Tone},
+    device::{Direction, Finding, panel::Tone},
     ui::{
         icons::{self, Icon},
         text, theme,

@@ -8,7 +8,7 @@ use egui::{
 
 use super::{PADDING, raw};
 use crate::{
-    controller::Question,
+    device::Question,
     driver,
     engine::antenna::AntennaModel,
     model::{Model, UiCommand},

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use jiff::{SignedDuration, Timestamp};
 
 use super::log::Log;
-use crate::controller::{Finding, panel::Tone};
+use crate::device::{Finding, panel::Tone};
 use crate::model::Line;
 
 /// How far back it is counted.
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
     use crate::model::testing::wire;
     use crate::{
-        controller::{Direction, WireLine},
+        device::{Direction, WireLine},
         driver::WireLog,
     };
 

@@ -13,7 +13,7 @@ use super::antenna_card::{
 };
 use crate::{
     astro::Angle,
-    controller::{Capabilities, HeldSatellite, Pointing},
+    device::{Capabilities, HeldSatellite, Pointing},
     driver::{Intent, LinkState},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},

@@ -5,7 +5,7 @@ use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::{
-    controller::ElementFiles,
+    device::ElementFiles,
     engine::uploads::{Cargo, Chosen, Order},
     orbit::Catalog,
     station::Antenna,

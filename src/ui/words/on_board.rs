@@ -2,7 +2,7 @@
 
 use crate::{
     astro::AzEl,
-    controller::Place,
+    device::Place,
     plan::{
         Supervision,
         on_board::{Cause, OffLimits, Ranked, Trespass, Unknown},

@@ -1,7 +1,7 @@
 //! Why something was not sent or not done.
 
 use crate::{
-    controller::{PrepareError, settings::Hindrance},
+    device::{PrepareError, settings::Hindrance},
     driver::{FollowProblem, LinkLoss, Refusal},
     ui::format,
 };

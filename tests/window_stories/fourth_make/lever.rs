@@ -11,9 +11,10 @@ use std::{
 
 use azel::{
     astro::AzEl,
-    controller::{
+    controller::satrak,
+    device::{
         AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Moment,
-        Motion, Moves, Standstill, Variant, aimed, satrak,
+        Motion, Moves, Standstill, Variant, aimed,
     },
     station::{Choice, Connection, ControllerSpec, Holds, Link, Setting, Table, Usual, Value},
 };

@@ -3,7 +3,7 @@
 
 use super::wish::{Wish, cannot};
 use crate::{
-    controller::settings::{Field, Group, Guard, Kind, SettleError, Value, Values},
+    device::settings::{Field, Group, Guard, Kind, SettleError, Value, Values},
     protocol::satrak::{
         PositionBase, Setting, Settings, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode,
     },

@@ -2,7 +2,7 @@
 
 use super::wish::{Wish, cannot};
 use crate::{
-    controller::settings::{Field, Group, Kind, SettleError, Value, Values},
+    device::settings::{Field, Group, Kind, SettleError, Value, Values},
     protocol::satrak::{GpsData, GpsSettings, GpsSettingsChange, Position, Setting},
 };
 

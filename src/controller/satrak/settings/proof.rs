@@ -1,7 +1,7 @@
 //! What a read-back proves.
 
 use crate::{
-    controller::settings::{Access, Field, Group, Value, Values},
+    device::settings::{Access, Field, Group, Value, Values},
     protocol::satrak::Faults,
 };
 

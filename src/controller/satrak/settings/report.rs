@@ -1,7 +1,7 @@
 //! What the unit only reports (sections 1 and 17).
 
 use crate::{
-    controller::settings::{Field, Group, Kind, Value, Values},
+    device::settings::{Field, Group, Kind, Value, Values},
     protocol::satrak::{TimedPosition, Version},
 };
 

@@ -6,7 +6,7 @@ use super::{
     wish::{Wish, cannot},
 };
 use crate::{
-    controller::settings::{Field, Group, Kind, Secret, SettleError, Unfit, Value, Values},
+    device::settings::{Field, Group, Kind, Secret, SettleError, Unfit, Value, Values},
     protocol::satrak::{
         FaultKind, Faults, FtpTle, HttpTle, Password, Satellite, SatelliteChoice, SatelliteFtp,
         SatelliteHttp, Setting, TleSelection, UrlValue,

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     astro::time::add_seconds,
-    controller::{
+    device::{
         UnitClock,
         settings::{Field, Group, Kind, SettleError, Unfit, Value, Values},
     },

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::unfit;
 use crate::{
-    controller::settings::{SettleError, Unfit, Value, Values},
+    device::settings::{SettleError, Unfit, Value, Values},
     protocol::satrak::{TextValue, ValueError},
 };
 

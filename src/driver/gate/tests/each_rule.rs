@@ -7,7 +7,7 @@ use super::{
     makes::{genius, rc2000c},
     *,
 };
-use crate::controller::{
+use crate::device::{
     Phase, Program,
     settings::{Value, Values},
 };

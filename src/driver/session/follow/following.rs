@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::{
-    controller::{AxisMotion, Capabilities, Measured, Pointing},
+    device::{AxisMotion, Capabilities, Measured, Pointing},
     driver::{FollowView, session::likeness::Recheck},
     plan::{
         FollowPhase, FollowStats, Sample,

@@ -2,7 +2,8 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::{
-    controller::{satrak::ELEMENT_FILES, settings::Hindrance},
+    controller::satrak::ELEMENT_FILES,
+    device::settings::Hindrance,
     engine::uploads::Busy,
     transfer::{
         ConnectError, FileName, FileObject, KeptFile, Origin, Peer, Progress, TleFile, UploadStep,

@@ -8,10 +8,8 @@ mod satellite;
 mod window;
 
 use crate::{
-    controller::{
-        satrak::{GROUPS, SPEC},
-        settings::Group,
-    },
+    controller::satrak::{GROUPS, SPEC},
+    device::settings::Group,
     ui::antennas::{
         cards::{fields, service},
         row,

@@ -2,7 +2,7 @@
 
 use crate::{
     astro::{Angle, AzEl},
-    controller::panel::Act,
+    device::panel::Act,
     driver::{Command, Intent},
     engine::{antenna::AntennaModel, forecast::Forecast},
     model::{Model, UiCommand},

@@ -2,7 +2,7 @@
 
 use crate::{
     astro::Angle,
-    controller::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
+    device::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
     engine::antenna::AntennaModel,
     station::Mount,
     ui::{

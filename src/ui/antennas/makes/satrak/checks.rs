@@ -4,7 +4,7 @@ use egui::Ui;
 
 use crate::ui::antennas::cards::{fields, subtitle};
 use crate::{
-    controller::panel::{Check, CheckState},
+    device::panel::{Check, CheckState},
     ui::{
         antennas::{form::Form, row, unit::Unit},
         format,

@@ -5,10 +5,8 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 use crate::ui::antennas::cards::{fields, is_reported};
 use crate::{
     astro::time::add_seconds,
-    controller::{
-        satrak::{FROM_GPS, FROM_THIS_PC},
-        settings::{Value, Values},
-    },
+    controller::satrak::{FROM_GPS, FROM_THIS_PC},
+    device::settings::{Value, Values},
     engine::forecast::Forecast,
     model::{Model, UiCommand},
     ui::{

@@ -5,7 +5,7 @@ use egui::Ui;
 use crate::ui::antennas::cards::{fields, subtitle};
 use crate::{
     astro::{Site, frames},
-    controller::settings::{Value, Values},
+    device::settings::{Value, Values},
     ui::{
         antennas::{form::Form, row, unit::Unit},
         format,

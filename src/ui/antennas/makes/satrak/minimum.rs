@@ -3,7 +3,7 @@
 use egui::{Sense, Ui, vec2};
 
 use crate::{
-    controller::settings::Value,
+    device::settings::Value,
     ui::{
         antennas::{form::Form, row, unit::Unit},
         format,

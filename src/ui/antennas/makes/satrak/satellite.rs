@@ -4,7 +4,7 @@ use egui::{Rect, Sense, Ui, vec2};
 
 use crate::ui::antennas::cards::{Desk, fields};
 use crate::{
-    controller::settings::{Access, Group, Kind, Value, Values},
+    device::settings::{Access, Group, Kind, Value, Values},
     ui::{
         antennas::{
             form::{Count, Form},

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use crate::ui::antennas::cards::fields;
 use crate::{
-    controller::{
+    device::{
         Asked, Motion,
         settings::{Kind, Value},
     },
