@@ -10,6 +10,7 @@
     reason = "a test may end here, and says what it counted"
 )]
 
+mod common;
 mod documents;
 mod elements_any;
 mod elements_forms;

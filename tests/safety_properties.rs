@@ -30,8 +30,13 @@
 //! a case that fails prints its own seed, and `AZEL_SEED=<that> AZEL_CASES=1` runs it
 //! alone.
 
+mod cases;
+mod line;
+mod scene;
+mod unit;
+mod world;
+
 mod damage;
 mod lies;
 mod link_down;
 mod link_up;
-mod world;

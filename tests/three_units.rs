@@ -3,20 +3,23 @@
 //! it grows until the logs of the links are full, after some two hours, and stays
 //! flat from then on (`AZEL_HOURS=4 cargo test --test azel three_units -- --nocapture`).
 
-use std::{sync::Arc, time::Duration};
+use std::time::Duration;
 
 use azel::{
-    astro::{Angle, AzEl, time},
-    clock::Clock,
+    astro::{Angle, AzEl},
     controller::rc2000c::Calibration,
-    driver::{AntennaHandle, Command, Dial, LinkState, Session, StopState, Stream},
-    sim::{rc2000c, rotator_genius, satrak},
+    driver::{AntennaHandle, Command, LinkState, StopState},
+    sim::{Control, Unit, rc2000c, rotator_genius, satrak},
     station::{Antenna, CountLine, CountPoint, Mount, Station},
 };
 use jiff::Timestamp;
-use tokio::{
-    io::DuplexStream,
-    time::{Instant, sleep},
+use tokio::time::{Instant, sleep};
+
+use crate::common::{
+    clock::TestClock,
+    dice::Dice,
+    network::{Network, link},
+    rig::session,
 };
 
 /// How often the operator looks.
@@ -43,24 +46,11 @@ struct Pair {
     jog_deg_s: f64,
 }
 
-fn clock() -> Clock {
-    let started = Instant::now();
-    let origin = Timestamp::UNIX_EPOCH;
-    Clock::new(move || time::add_seconds(origin, started.elapsed().as_secs_f64()))
-}
-
-/// Dials the simulator behind `serve` through memory.
-fn dial(serve: impl Fn(DuplexStream) + Send + 'static) -> Dial {
-    Box::new(move || {
-        let (near, far) = tokio::io::duplex(4096);
-        serve(far);
-        Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
-    })
-}
-
-fn open(antenna: &Antenna, dial: Dial) -> AntennaHandle {
-    let (session, handle) =
-        Session::new(antenna.controller(), antenna, dial, clock(), Arc::new(|| {}));
+/// A session of `antenna` with the unit in memory.
+fn open<U: Unit>(antenna: &Antenna, control: &Control<U>) -> AntennaHandle {
+    let served = control.clone();
+    let dial = Network::default().dial(move || link(&served));
+    let (session, handle) = session(antenna, dial, TestClock::new(Timestamp::UNIX_EPOCH).clock());
     tokio::spawn(session.run());
     handle
 }
@@ -79,15 +69,11 @@ fn of_satrak() -> Pair {
     ];
     let control = Control::new(&Options::new(Station::default().site, Timestamp::UNIX_EPOCH));
     let antenna = Antenna::satrak("Satrak", "in memory");
-    let served = control.clone();
-    let dial = dial(move |far| {
-        let control = served.clone();
-        tokio::spawn(async move { control.serve(far).await });
-    });
+    let handle = open(&antenna, &control);
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {
         name: "Satrak",
-        handle: open(&antenna, dial),
+        handle,
         set_fault: Box::new(move |fault, on| faulty.set_fault(FAULTS[fault], on)),
         faults: FAULTS.len(),
         drop_clients: Box::new(move || dropping.drop_clients()),
@@ -117,15 +103,11 @@ fn of_genius() -> Pair {
     };
     let control = Control::new(&options);
     let antenna = Antenna::genius("Genius", "in memory");
-    let served = control.clone();
-    let dial = dial(move |far| {
-        let control = served.clone();
-        tokio::spawn(async move { control.serve(far).await });
-    });
+    let handle = open(&antenna, &control);
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {
         name: "Genius",
-        handle: open(&antenna, dial),
+        handle,
         set_fault: Box::new(move |fault, on| faulty.set_fault(FAULTS[fault], on)),
         faults: FAULTS.len(),
         drop_clients: Box::new(move || dropping.drop_clients()),
@@ -167,13 +149,8 @@ fn of_rc2000c() -> Pair {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    let served = control.clone();
-    let dial = dial(move |far| {
-        let control = served.clone();
-        tokio::spawn(async move { control.serve(far).await });
-    });
     calibration.put_into(&mut antenna.connection).unwrap();
-    let handle = open(&antenna, dial);
+    let handle = open(&antenna, &control);
     handle.send(Command::Connect).unwrap();
     let (faulty, dropping, seen) = (control.clone(), control.clone(), control);
     Pair {
@@ -190,18 +167,6 @@ fn of_rc2000c() -> Pair {
         fastest_deg_s: 8.0,
         coarse_deg: 0.1,
         jog_deg_s: 2.0,
-    }
-}
-
-/// Numbers that look random and are the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % end as u64) as usize
     }
 }
 
@@ -303,7 +268,7 @@ fn memory_mb() -> Option<f64> {
 async fn an_hour_with_trouble_on_three_lines_leaves_no_trace() {
     let hours = std::env::var("AZEL_HOURS").ok().and_then(|hours| hours.parse().ok()).unwrap_or(1);
     let mut pairs = [of_satrak(), of_genius(), of_rc2000c()];
-    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut dice = Dice::new(20_261_122);
     let start = Instant::now();
     let mut memory = Vec::new();
     while start.elapsed() < Duration::from_hours(hours) {

@@ -10,12 +10,14 @@ use azel::{
     driver::{AntennaHandle, Dial, Event, Stream},
     protocol::rotator_genius::Request,
 };
+use jiff::Timestamp;
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
     time::{Instant, sleep},
 };
 
-use super::rig::{antenna, session};
+use super::rig::antenna;
+use crate::common::{clock::TestClock, rig::session};
 
 /// What a script says to a command: replies, each after a delay in milliseconds.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, Vec<u8>)> + Send>;
@@ -40,7 +42,8 @@ impl Scripted {
                 Ok(Box::new(near) as Box<dyn Stream>)
             })
         });
-        let (session, handle) = session(&antenna(rotators), dial);
+        let (session, handle) =
+            session(&antenna(rotators), dial, TestClock::new(Timestamp::UNIX_EPOCH).clock());
         tokio::spawn(session.run());
         Self { handle, received, events: Vec::new() }
     }

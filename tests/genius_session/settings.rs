@@ -39,7 +39,7 @@ fn outcome(handle: &AntennaHandle, asked: &Change) -> Option<Result<(), SettleEr
 async fn settle(rig: &mut Rig, change: Change) -> Result<(), SettleError> {
     rig.send(Command::Settle(change.clone()));
     for _ in 0..2000 {
-        if let Some(result) = outcome(rig.handle.as_ref().unwrap(), &change) {
+        if let Some(result) = outcome(rig.handle(), &change) {
             assert_eq!(rig.shown().state.held[change.group].step, None);
             return result;
         }
@@ -154,7 +154,7 @@ async fn a_configuration_without_an_answer_is_judged_by_what_is_read() {
     rig.seconds(0.5).await;
     rig.control.set_fault(Fault::Silence, false);
     rig.seconds(3.0).await;
-    assert_eq!(outcome(rig.handle.as_ref().unwrap(), &asked), Some(Ok(())));
+    assert_eq!(outcome(rig.handle(), &asked), Some(Ok(())));
 
     let script = |command: &str| if command.starts_with("|c") { vec![] } else { plain(command) };
     let mut device = Scripted::start(Rotators::Pair, Box::new(script));
@@ -188,7 +188,7 @@ async fn a_link_that_goes_leaves_it_open_what_the_device_holds() {
     }
     rig.set_off(true);
     rig.seconds(0.1).await;
-    let over = |rig: &Rig, asked: &Change| outcome(rig.handle.as_ref().unwrap(), asked);
+    let over = |rig: &Rig, asked: &Change| outcome(rig.handle(), asked);
     assert_eq!(over(&rig, &asked), Some(Err(SettleError::LinkLost)));
     let asked = change("rotator_1", [offset(3)]);
     rig.send(Command::Settle(asked.clone()));

@@ -23,7 +23,7 @@ async fn commands_and_replies_stand_in_the_log_as_they_went() {
     rig.until_event(30, |event| matches!(event, Event::Arrived(_))).await;
     rig.stop();
     rig.seconds(1.0).await;
-    let lines = lines(rig.handle.as_ref().unwrap());
+    let lines = lines(rig.handle());
     let says = |line: &WireLine, words: &str| {
         line.finding == Finding::Unchecked
             && line.meaning.as_ref().is_some_and(|it| it.text == words)
@@ -65,7 +65,7 @@ async fn a_status_asked_by_hand_goes_out_once_and_is_no_usual_poll() {
     rig.send(Command::Ask("STATUS".into()));
     rig.send(Command::Ask("HELLO".into()));
     rig.seconds(3.0).await;
-    let lines = lines(rig.handle.as_ref().unwrap());
+    let lines = lines(rig.handle());
     let by_hand: Vec<_> = lines.iter().filter(|line| !line.is_poll).collect();
     let directions: Vec<_> = by_hand.iter().map(|line| line.direction).collect();
     assert_eq!(directions, [Direction::Sent, Direction::Received], "{by_hand:?}");

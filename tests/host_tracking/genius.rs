@@ -11,9 +11,11 @@ use azel::{
 };
 
 use super::{
-    rig::{Rig, figures},
+    rig::{self, figures},
     sky::{self, Scene},
 };
+
+type Rig = rig::Rig<Control>;
 
 /// Before AOS, so that the antenna is there in time.
 const LEAD_S: f64 = 180.0;
@@ -55,12 +57,10 @@ pub(super) async fn connected(
 ) -> (Rig, Control) {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
     let control = Control::new(options);
-    let device = control.clone();
-    let mut rig = Rig::start(antenna.controller(), antenna, utc_origin, move |far| {
-        let device = device.clone();
-        async move { device.serve(far).await }
-    });
-    rig.until("it is read", 5.0, |shown| shown.state.measured.is_some()).await;
+    let mut rig =
+        Rig::new(control.clone(), utc_origin, |dial, clock| rig::session(antenna, dial, clock))
+            .looking_every(rig::LOOK);
+    rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
     rig.seconds(1.0).await;
     rig.events();
     (rig, control)
@@ -159,7 +159,7 @@ async fn over_the_zenith_the_sky_shows_where_it_points() {
     // By hand it goes back.
     let (azimuth, elevation) = (Some(predicted.azimuth), Some(predicted.elevation));
     rig.send(Command::Position { azimuth, elevation });
-    rig.until_event(120.0, |event| matches!(event, Event::Arrived(_))).await;
+    rig.until_event(120, |event| matches!(event, Event::Arrived(_))).await;
     let measured = rig.shown().state.measured.unwrap();
     assert!(measured.axes[1].angle_deg.unwrap() < 90.0);
     assert!(measured.direction().unwrap().separation(predicted).degrees() < 1.5);
@@ -201,7 +201,7 @@ async fn a_refusal_of_the_device_ends_it_with_its_reason() {
     options.rotators[0].limit_ccw = WholeDegrees::saturating(8);
     let (mut rig, _) = connected(&options, &antenna(Rotators::Pair), &scene).await;
     rig.send(Command::Follow(Box::new(scene.follow())));
-    rig.until_event(5.0, |event| matches!(event, Event::Refused(..))).await;
+    rig.until_event(5, |event| matches!(event, Event::Refused(..))).await;
     rig.seconds(1.0).await;
     assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
 }

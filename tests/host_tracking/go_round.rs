@@ -6,6 +6,7 @@ use azel::{
     driver::{Command, Event},
     orbit::Propagator,
     plan::Bounds,
+    sim::{Control, Unit},
     station::{Antenna, Entered, KeepOut, Station},
 };
 
@@ -41,21 +42,27 @@ fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
 
 /// How far outside of all margins the antenna was at least while it followed, and how
 /// far beside the target when it set, degrees.
-async fn follow_round(rig: &mut Rig, antenna: &Antenna, scene: &Scene, mast: KeepOut) -> [f64; 2] {
+async fn follow_round<U: Unit>(
+    rig: &mut Rig<Control<U>>,
+    antenna: &Antenna,
+    scene: &Scene,
+    mast: KeepOut,
+) -> [f64; 2] {
     let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
     let bounds = Bounds::of(&station, antenna);
     rig.send(Command::Within(Box::new(bounds.clone())));
     rig.send(Command::Follow(Box::new(scene.follow())));
     let propagator = Propagator::new(&scene.elements).unwrap();
-    let direction =
-        |rig: &Rig| -> AzEl { rig.shown().state.measured.unwrap().pointing.direction().unwrap() };
+    let direction = |rig: &Rig<Control<U>>| -> AzEl {
+        rig.shown().state.measured.unwrap().pointing.direction().unwrap()
+    };
     let (mut least_deg, mut off_deg) = (f64::MAX, f64::MAX);
-    while rig.utc() < scene.pass.los.time {
+    while rig.clock.utc() < scene.pass.los.time {
         rig.seconds(0.2).await;
         let at = direction(rig);
-        let clearance = bounds.at(rig.utc()).nearest(at).unwrap();
+        let clearance = bounds.at(rig.clock.utc()).nearest(at).unwrap();
         least_deg = least_deg.min(clearance.angle.degrees());
-        let target = propagator.look_from(sky::site(), rig.utc()).unwrap().direction;
+        let target = propagator.look_from(sky::site(), rig.clock.utc()).unwrap().direction;
         off_deg = target.separation(at).degrees();
     }
     let told = rig.events();

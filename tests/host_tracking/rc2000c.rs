@@ -10,9 +10,11 @@ use azel::{
 };
 
 use super::{
-    rig::{Rig, figures},
+    rig::{self, figures},
     sky::{self, Scene},
 };
+
+type Rig = rig::Rig<Control>;
 
 /// Before AOS, so that the antenna is there in time.
 const LEAD_S: f64 = 240.0;
@@ -52,13 +54,12 @@ async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
 
 pub(super) async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
     let utc_origin = add_seconds(scene.pass.aos.time, -LEAD_S);
-    let control = Control::new(&Options::default());
-    let mut rig = Rig::start(antenna.controller(), antenna, utc_origin, move |far| {
-        let control = control.clone();
-        async move { control.serve(far).await }
-    });
+    let mut rig = Rig::new(Control::new(&Options::default()), utc_origin, |dial, clock| {
+        rig::session(antenna, dial, clock)
+    })
+    .looking_every(rig::LOOK);
     rig.send(Command::Connect);
-    rig.until("it is read", 20.0, |shown| {
+    rig.until("it is read", 20, |shown| {
         shown.state.measured.is_some() && shown.state.motion_lock.is_some()
     })
     .await;
@@ -122,7 +123,7 @@ async fn a_rate_that_was_set_wrong_is_learned_on_the_way_to_the_pass() {
         let mut rig = connected(&antenna, &scene).await;
         let away = scene.pass.aos.direction.azimuth + Angle::from_degrees(100.0);
         rig.send(Command::Position { azimuth: Some(away.wrapped_360()), elevation: None });
-        rig.until_event(60.0, |event| matches!(event, Event::Arrived(_))).await;
+        rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
         let learned = over(&mut rig, &scene).await;
         let figures =
             |what, stats| figures(&format!("RC2000C, 88 degrees, {share} rate, {what}"), stats);

@@ -1,36 +1,41 @@
 //! A Satrak that is sent from position to position, though it could track by
 //! itself.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety, Unlike},
+    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety, Session, Unlike},
     plan::{Follow, FollowPhase, Target},
     protocol::satrak::{FaultKind, Goto, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},
     station::{AfterPass, Antenna, Resume},
 };
-use jiff::SignedDuration;
+use jiff::{SignedDuration, Timestamp};
 use tokio::io::AsyncWriteExt as _;
 
 use super::{
-    rig::{Rig, figures},
+    rig::{self, figures},
     sky::{self, Scene, site},
 };
+
+type Rig = rig::Rig<Control>;
+
+fn start(control: Control, antenna: &Antenna, utc_origin: Timestamp) -> Rig {
+    Rig::new(control, utc_origin, |dial, clock| {
+        let satrak = Satrak::new(antenna.poll, String::new());
+        Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))
+    })
+    .looking_every(rig::LOOK)
+}
 
 /// A session that has read its unit, `lead_s` seconds before the pass of `scene`.
 pub(super) async fn connected(antenna: &Antenna, scene: &Scene, lead_s: f64) -> (Rig, Control) {
     let utc_origin = add_seconds(scene.pass.aos.time, -lead_s);
     let control = Control::new(&Options::new(site(), utc_origin));
-    let unit = control.clone();
-    let satrak = Satrak::new(antenna.poll, String::new());
-    let mut rig = Rig::start(Box::new(satrak), antenna, utc_origin, move |far| {
-        let unit = unit.clone();
-        async move { unit.serve(far).await }
-    });
-    rig.until("all is read", 5.0, |shown| shown.state.on_board.offsets.is_some()).await;
+    let mut rig = start(control.clone(), antenna, utc_origin);
+    rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
     rig.events();
     (rig, control)
 }
@@ -53,7 +58,7 @@ async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&antenna(), &scene, 120.0).await;
     rig.send(Command::Follow(Box::new(scene.follow())));
-    let told = rig.until_event(1.0, |event| matches!(event, Event::Awaits { .. })).await;
+    let told = rig.until_event(1, |event| matches!(event, Event::Awaits { .. })).await;
     let name = scene.elements.name().to_owned();
     assert_eq!(told, Event::Awaits { name: name.clone(), aos: scene.pass.aos.time });
     rig.seconds(60.0).await;
@@ -154,7 +159,7 @@ async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
     rig.seconds(40.0).await;
     let sent = gotos(&control);
     rig.set_off(false);
-    rig.until_event(20.0, asks).await;
+    rig.until_event(20, asks).await;
     rig.seconds(20.0).await;
     assert_eq!(gotos(&control), sent, "nothing moves without a word");
     assert!(rig.shown().following.as_ref().unwrap().awaits_word);
@@ -167,16 +172,11 @@ async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
 #[tokio::test(start_paused = true)]
 async fn after_a_restart_in_mid_pass_nothing_moves_until_the_operator_asks() {
     let (rig, control, scene) = following(&antenna()).await;
-    let utc = rig.utc();
+    let utc = rig.clock.utc();
     drop(rig);
     tokio::time::sleep(Duration::from_secs(5)).await;
-    let (sent, unit) = (gotos(&control), control.clone());
-    let satrak = Satrak::new(antenna().poll, String::new());
-    let utc_origin = add_seconds(utc, 5.0);
-    let mut rig = Rig::start(Box::new(satrak), &antenna(), utc_origin, move |far| {
-        let unit = unit.clone();
-        async move { unit.serve(far).await }
-    });
+    let sent = gotos(&control);
+    let mut rig = start(control.clone(), &antenna(), add_seconds(utc, 5.0));
     rig.seconds(30.0).await;
     assert_eq!((rig.shown().intent, gotos(&control)), (Intent::Standby, sent));
     assert!(!control.state().is_moving);
@@ -191,7 +191,7 @@ async fn after_a_short_outage_it_goes_on() {
     rig.set_off(true);
     rig.seconds(1.0).await;
     rig.set_off(false);
-    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     let sent = gotos(&control);
     rig.seconds(20.0).await;
     assert!(gotos(&control) > sent && is_followed(&rig, &control));
@@ -211,7 +211,7 @@ async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
         rig.seconds(18.0).await;
         let sent = gotos(&control);
         rig.set_off(false);
-        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
         rig.seconds(20.0).await;
         assert_eq!(gotos(&control) > sent, !is_moved, "moved: {is_moved}");
         assert_eq!(rig.events().iter().any(asks), is_moved);
@@ -222,7 +222,7 @@ async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
 async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
     let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
     let (mut rig, control, _) = following(&goes_on).await;
-    rig.until("its place", 60.0, |shown| shown.state.on_board.place.is_some()).await;
+    rig.until("its place", 60, |shown| shown.state.on_board.place.is_some()).await;
     rig.set_off(true);
     rig.seconds(2.0).await;
     let (mut near, far) = tokio::io::duplex(4096);
@@ -231,13 +231,13 @@ async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
     near.write_all(&encode("GPS_SETTINGS=,0,12.50N,40.10E")).await.unwrap();
     rig.seconds(8.0).await;
     rig.set_off(false);
-    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     let sent = gotos(&control);
     // Before its place was read again.
     rig.set_off(true);
     rig.seconds(0.1).await;
     rig.set_off(false);
-    rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+    rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     rig.seconds(20.0).await;
     assert!(rig.events().iter().any(asks));
     assert_eq!(gotos(&control), sent);
@@ -252,7 +252,7 @@ async fn a_unit_that_comes_back_with_other_settings_is_not_followed_on_with() {
         (None, None),
     ] {
         let (mut rig, control, _) = following(&goes_on).await;
-        rig.until("its place", 60.0, |shown| shown.state.on_board.place.is_some()).await;
+        rig.until("its place", 60, |shown| shown.state.on_board.place.is_some()).await;
         rig.set_off(true);
         rig.seconds(2.0).await;
         if let Some(setting) = setting {
@@ -264,7 +264,7 @@ async fn a_unit_that_comes_back_with_other_settings_is_not_followed_on_with() {
         rig.seconds(8.0).await;
         let sent = gotos(&control);
         rig.set_off(false);
-        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
         rig.seconds(20.0).await;
         let asked = rig.events().into_iter().find_map(|event| match event {
             Event::Safety(Safety::AsksToResume { unlike, .. }) => unlike,
@@ -279,15 +279,15 @@ async fn a_unit_that_comes_back_with_other_settings_is_not_followed_on_with() {
 async fn a_clock_that_is_set_stops_the_following_until_the_operators_word() {
     for by_s in [600, -600, 3] {
         let (mut rig, control, _) = following(&antenna()).await;
-        rig.set_clock(by_s);
+        rig.clock.set(by_s);
         let stepped = |event: &Event| matches!(event, Event::Safety(Safety::ClockStepped { .. }));
-        rig.until_event(2.0, stepped).await;
+        rig.until_event(2, stepped).await;
         rig.seconds(2.0).await;
         let sent = gotos(&control);
         rig.seconds(20.0).await;
         assert_eq!(gotos(&control), sent, "{by_s}");
-        rig.set_clock(0);
-        rig.until_event(2.0, stepped).await;
+        rig.clock.set(0);
+        rig.until_event(2, stepped).await;
     }
 }
 
@@ -295,9 +295,9 @@ async fn a_clock_that_is_set_stops_the_following_until_the_operators_word() {
 async fn after_a_sleep_positions_are_read_anew_and_nothing_moves_by_itself() {
     let (mut rig, control, _) = following(&antenna()).await;
     let sent = gotos(&control);
-    rig.sleep_for(60);
-    rig.until_event(2.0, |event| matches!(event, Event::Safety(Safety::Slept { .. }))).await;
-    rig.until_event(5.0, asks).await;
+    rig.clock.sleep_for(60);
+    rig.until_event(2, |event| matches!(event, Event::Safety(Safety::Slept { .. }))).await;
+    rig.until_event(5, asks).await;
     rig.seconds(20.0).await;
     assert!(gotos(&control) <= sent + 1, "{} {sent}", gotos(&control));
     let measured = rig.shown().state.measured.unwrap();
@@ -320,7 +320,7 @@ async fn a_wish_or_a_stop_without_a_link_is_not_forgotten_when_it_is_back() {
         rig.seconds(1.0).await;
         let sent = gotos(&control);
         rig.set_off(false);
-        rig.until_event(20.0, |event| matches!(event, Event::Back { .. })).await;
+        rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
         rig.seconds(20.0).await;
         assert_eq!((gotos(&control), rig.phase()), (sent, None), "{command:?}");
     }
@@ -403,7 +403,7 @@ async fn a_fault_ends_it_with_its_reason_and_forbids_it_from_the_start() {
     rig.until_utc(add_seconds(scene.pass.aos.time, 120.0)).await;
     rig.events();
     control.set_fault(Fault::Unit(FaultKind::Setup), true);
-    let told = rig.until_event(20.0, |event| matches!(event, Event::CannotFollow(..))).await;
+    let told = rig.until_event(20, |event| matches!(event, Event::CannotFollow(..))).await;
     let refused = FollowProblem::Refused(Refusal::Fault);
     let name = scene.elements.name().to_owned();
     assert_eq!(told, Event::CannotFollow(name.clone(), refused.clone()));

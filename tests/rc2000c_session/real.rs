@@ -8,9 +8,11 @@ use azel::{
     driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
+use jiff::Timestamp;
 use tokio::time::{Instant, sleep};
 
-use super::rig::{antenna, reading, session};
+use super::rig::{antenna, reading};
+use crate::common::{clock::TestClock, rig::session};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
@@ -26,7 +28,11 @@ struct Desk {
 
 impl Desk {
     fn at(address: &str) -> Self {
-        let (session, handle) = session(&antenna(), dial_line(address, 9600));
+        let (session, handle) = session(
+            &antenna(),
+            dial_line(address, 9600),
+            TestClock::new(Timestamp::UNIX_EPOCH).clock(),
+        );
         tokio::spawn(session.run());
         Self { handle, events: Vec::new() }
     }

@@ -8,7 +8,13 @@ use azel::{
 };
 use tokio::time::Instant;
 
-use super::world::{Dice, Scene, Unit, Wish, Word, World, for_each_case};
+use super::{
+    cases::for_each_case,
+    scene::Scene,
+    unit::{Unit, Word},
+    world::{Wish, World},
+};
+use crate::common::dice::Dice;
 
 /// Of all replies, percent: first those that are damaged or lost at all.
 const RATES: [u32; 6] = [1, 2, 5, 10, 20, 50];

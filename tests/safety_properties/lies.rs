@@ -5,7 +5,13 @@ use std::time::Duration;
 use azel::driver::{Command, Event, Safety};
 use tokio::time::Instant;
 
-use super::world::{Dice, Lie, Scene, Unit, Wish, World, for_each_case};
+use super::{
+    cases::for_each_case,
+    scene::Scene,
+    unit::{Lie, Unit},
+    world::{Wish, World},
+};
+use crate::common::dice::Dice;
 
 async fn scene(dice: &mut Dice, makes: usize) -> Scene {
     let least_margin_deg = |world: &World| world.coarse_deg;

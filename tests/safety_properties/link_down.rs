@@ -8,7 +8,13 @@ use azel::{
 };
 use tokio::time::Instant;
 
-use super::world::{Dice, Scene, Wish, Word, World, for_each_case};
+use super::{
+    cases::for_each_case,
+    scene::Scene,
+    unit::Word,
+    world::{Wish, World},
+};
+use crate::common::dice::Dice;
 
 /// How the link fails.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

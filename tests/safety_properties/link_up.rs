@@ -9,7 +9,13 @@ use azel::{
 };
 use tokio::time::Instant;
 
-use super::world::{Dice, Scene, Unit, Wish, World, for_each_case};
+use super::{
+    cases::for_each_case,
+    scene::Scene,
+    unit::Unit,
+    world::{Wish, World},
+};
+use crate::common::dice::Dice;
 
 /// What the operator does next.
 #[derive(Debug)]

@@ -17,11 +17,11 @@ const READINGS_A_SECOND: u64 = 150;
 
 /// Lets time pass and looks how busy the session was.
 async fn assert_calm(rig: &mut Rig, seconds: u32, what: &str) {
-    let (start, before) = (Instant::now(), rig.clock_readings());
+    let (start, before) = (Instant::now(), rig.clock.readings());
     let within = Duration::from_secs(u64::from(seconds) * 2);
     timeout(within, rig.seconds(f64::from(seconds))).await.expect(what);
     assert!(start.elapsed() >= Duration::from_secs(u64::from(seconds)), "{what}");
-    let readings = rig.clock_readings() - before;
+    let readings = rig.clock.readings() - before;
     assert!(readings > 0, "{what}: the session is gone");
     let most = u64::from(seconds) * READINGS_A_SECOND;
     assert!(readings < most, "{what}: {readings} readings in {seconds} s");

@@ -1,12 +1,6 @@
 //! Who takes part: the site, a pass, the unit and the antenna.
 
-use std::{
-    collections::BTreeMap,
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
-};
+use std::{collections::BTreeMap, sync::Arc};
 
 use azel::{
     astro::{Angle, Site, time},
@@ -19,8 +13,6 @@ use azel::{
     sim::satrak::Options,
     station::Antenna,
 };
-use jiff::Timestamp;
-use tokio::time::Instant;
 
 /// The space station in 2008, a published example, and the same orbit under
 /// another name and number.
@@ -31,8 +23,6 @@ TWIN
 1 25545U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2928
 2 25545  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563538
 ";
-/// No test needs more readings of the clock than this.
-const MOST_READINGS: u64 = 2_000_000;
 /// The element file on the unit.
 pub(super) const FILE: &str = "stations.txt";
 
@@ -102,20 +92,8 @@ pub(super) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 
-/// The session of `antenna` over links from `dial`, and its near end. Each turn
-/// of its loop reads the clock, which is counted in `readings`.
-pub(super) fn session(
-    antenna: &Antenna,
-    dial: Dial,
-    utc_origin: Timestamp,
-    readings: Arc<AtomicU64>,
-) -> (Session, AntennaHandle) {
-    let started = Instant::now();
-    let clock = Clock::new(move || {
-        // In paused time a loop that never sleeps would go on for ever.
-        assert!(readings.fetch_add(1, Ordering::Relaxed) < MOST_READINGS, "a busy loop");
-        time::add_seconds(utc_origin, started.elapsed().as_secs_f64())
-    });
+/// The session of `antenna` over links from `dial`, and its near end.
+pub(super) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     let satrak = Satrak::new(antenna.poll, FILE.to_owned());
     Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))
 }

@@ -15,6 +15,7 @@ use tokio::{
 };
 
 use super::scene::{antenna, options, session};
+use crate::common::clock::TestClock;
 
 /// A status of a unit that stands still.
 pub(super) const STILL: &str = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,80.0,35.0,0";
@@ -60,7 +61,8 @@ impl Scripted {
                 Ok(Box::new(near) as Box<dyn Stream>)
             })
         });
-        let (session, handle) = session(&antenna(), dial, options().utc_origin, Arc::default());
+        let (session, handle) =
+            session(&antenna(), dial, TestClock::new(options().utc_origin).clock());
         tokio::spawn(session.run());
         Self { handle, received, events: Vec::new() }
     }

@@ -5,13 +5,14 @@ use azel::{
     sim::satrak::{Control, Options},
 };
 
-use super::rig::{Rig, antenna, options, plain_link};
+use super::rig::{Rig, antenna, options};
+use crate::common::network;
 
 async fn two() -> (Rig, Rig) {
     let options = Options { max_clients: 2, ..options() };
     let control = Control::new(&options);
     let start =
-        || Rig::start_over(control.clone(), options.utc_origin, &antenna(), None, plain_link);
+        || Rig::start_over(control.clone(), options.utc_origin, &antenna(), None, network::link);
     let (mut one, mut other) = (start(), start());
     for rig in [&mut one, &mut other] {
         rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;

@@ -1,0 +1,72 @@
+//! The clock of a session in paused time.
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicI64, AtomicU64, Ordering},
+    },
+    time::Duration,
+};
+
+use azel::{astro::time::add_seconds, clock::Clock};
+use jiff::Timestamp;
+use tokio::time::Instant;
+
+/// No test needs more readings of the clock than this.
+const MOST_READINGS: u64 = 4_000_000;
+
+/// The clock of a computer, which a test can set; clones are the same one.
+#[derive(Clone)]
+pub(crate) struct TestClock {
+    utc_origin: Timestamp,
+    started: Instant,
+    readings: Arc<AtomicU64>,
+    ahead_s: Arc<AtomicI64>,
+    asleep_s: Arc<AtomicU64>,
+}
+
+impl TestClock {
+    /// A clock that is at `utc_origin` now.
+    pub(crate) fn new(utc_origin: Timestamp) -> Self {
+        Self {
+            utc_origin,
+            started: Instant::now(),
+            readings: Arc::default(),
+            ahead_s: Arc::default(),
+            asleep_s: Arc::default(),
+        }
+    }
+
+    /// The clock as a session takes it.
+    pub(crate) fn clock(&self) -> Clock {
+        let (utc, asleep) = (self.clone(), self.clone());
+        let clock = Clock::new(move || {
+            // In paused time a loop that never sleeps would go on for ever.
+            let readings = utc.readings.fetch_add(1, Ordering::Relaxed);
+            assert!(readings < MOST_READINGS, "a busy loop");
+            add_seconds(utc.utc(), utc.ahead_s.load(Ordering::Relaxed) as f64)
+        });
+        clock.sleeping(move || Duration::from_secs(asleep.asleep_s.load(Ordering::Relaxed)))
+    }
+
+    /// The right time, to whatever the clock is set.
+    pub(crate) fn utc(&self) -> Timestamp {
+        add_seconds(self.utc_origin, self.started.elapsed().as_secs_f64())
+    }
+
+    /// Sets the clock `ahead_s` seconds ahead of the right time.
+    pub(crate) fn set(&self, ahead_s: i64) {
+        self.ahead_s.store(ahead_s, Ordering::Relaxed);
+    }
+
+    /// The computer sleeps: UTC goes on meanwhile, the steady clock stands.
+    pub(crate) fn sleep_for(&self, seconds: u32) {
+        self.ahead_s.fetch_add(i64::from(seconds), Ordering::Relaxed);
+        self.asleep_s.fetch_add(u64::from(seconds), Ordering::Relaxed);
+    }
+
+    /// How often the clock was read.
+    pub(crate) fn readings(&self) -> u64 {
+        self.readings.load(Ordering::Relaxed)
+    }
+}

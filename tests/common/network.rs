@@ -1,0 +1,55 @@
+//! Links in memory between a session and a simulated unit.
+
+use std::{
+    io,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use azel::{
+    driver::{Dial, Stream},
+    sim::{Control, Unit},
+};
+use tokio::time::Instant;
+
+/// A network that can be off; clones are the same one.
+#[derive(Clone, Default)]
+pub(crate) struct Network {
+    is_off: Arc<AtomicBool>,
+    dials: Arc<Mutex<Vec<Instant>>>,
+}
+
+impl Network {
+    /// Opens links as `link` makes them, while the network is on.
+    pub(crate) fn dial(&self, mut link: impl FnMut() -> Box<dyn Stream> + Send + 'static) -> Dial {
+        let network = self.clone();
+        Box::new(move || {
+            network.dials.lock().unwrap().push(Instant::now());
+            if network.is_off.load(Ordering::Relaxed) {
+                return Box::pin(async { Err(io::ErrorKind::ConnectionRefused.into()) });
+            }
+            let near = link();
+            Box::pin(async { Ok(near) })
+        })
+    }
+
+    /// New links are refused while it is off.
+    pub(crate) fn set_off(&self, is_off: bool) {
+        self.is_off.store(is_off, Ordering::Relaxed);
+    }
+
+    /// When a link was asked for.
+    pub(crate) fn dials(&self) -> Vec<Instant> {
+        self.dials.lock().unwrap().clone()
+    }
+}
+
+/// A link that the unit serves.
+pub(crate) fn link<U: Unit>(control: &Control<U>) -> Box<dyn Stream> {
+    let (near, far) = tokio::io::duplex(4096);
+    let control = control.clone();
+    tokio::spawn(async move { control.serve(far).await });
+    Box::new(near)
+}

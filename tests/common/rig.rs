@@ -1,0 +1,192 @@
+//! A session and a simulated unit with a stream in memory between them.
+
+use std::{sync::Arc, time::Duration};
+
+use azel::{
+    clock::Clock,
+    driver::{AntennaHandle, Command, Dial, Event, LinkState, Session, Snapshot, Stream, WireLog},
+    sim::{Control, Unit},
+    station::Antenna,
+};
+use jiff::Timestamp;
+use tokio::time::{Instant, sleep};
+
+use super::{
+    clock::TestClock,
+    network::{self, Network},
+};
+
+/// How finely the operator looks, unless a test says otherwise.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// A session with the controller that `antenna` names, and its near end.
+pub(crate) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
+    Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}))
+}
+
+/// An operator in front of a running session. The tests of each make add how their unit
+/// and its session begin, and what their unit received.
+pub(crate) struct Rig<C> {
+    pub(crate) control: C,
+    pub(crate) clock: TestClock,
+    handle: Option<AntennaHandle>,
+    session: tokio::task::JoinHandle<()>,
+    events: Vec<Event>,
+    network: Network,
+    pub(crate) started: Instant,
+    look: Duration,
+}
+
+impl<U: Unit> Rig<Control<U>> {
+    /// Runs what `session` makes, from `utc_origin` on, over links that the unit serves.
+    pub(crate) fn new(
+        control: Control<U>,
+        utc_origin: Timestamp,
+        session: impl FnOnce(Dial, Clock) -> (Session, AntennaHandle),
+    ) -> Self {
+        Self::over(control, utc_origin, network::link, session)
+    }
+
+    /// The same with each link as `link` makes it.
+    pub(crate) fn over(
+        control: Control<U>,
+        utc_origin: Timestamp,
+        mut link: impl FnMut(&Control<U>) -> Box<dyn Stream> + Send + 'static,
+        session: impl FnOnce(Dial, Clock) -> (Session, AntennaHandle),
+    ) -> Self {
+        let (clock, network) = (TestClock::new(utc_origin), Network::default());
+        let unit = control.clone();
+        let (session, handle) = session(network.dial(move || link(&unit)), clock.clock());
+        Self {
+            control,
+            clock,
+            handle: Some(handle),
+            session: tokio::spawn(session.run()),
+            events: Vec::new(),
+            network,
+            started: Instant::now(),
+            look: LOOK,
+        }
+    }
+
+    /// The same with an operator who looks every `look`.
+    pub(crate) fn looking_every(self, look: Duration) -> Self {
+        Self { look, ..self }
+    }
+
+    /// The near end of the session.
+    pub(crate) fn handle(&self) -> &AntennaHandle {
+        self.handle.as_ref().unwrap()
+    }
+
+    pub(crate) fn shown(&self) -> Arc<Snapshot> {
+        self.handle().snapshot()
+    }
+
+    pub(crate) fn wire(&self) -> &WireLog {
+        self.handle().wire()
+    }
+
+    pub(crate) fn send(&self, command: Command) {
+        self.handle().send(command).unwrap();
+    }
+
+    pub(crate) fn stop(&self) {
+        self.handle().stop();
+    }
+
+    /// The window is gone.
+    pub(crate) async fn drop_handle(&mut self) {
+        drop(self.handle.take());
+        (&mut self.session).await.unwrap();
+        // The far end reads what was written last.
+        sleep(LOOK).await;
+    }
+
+    /// Switches the unit's network on or off; the metal goes on.
+    pub(crate) fn set_off(&self, is_off: bool) {
+        self.network.set_off(is_off);
+        if is_off {
+            self.control.drop_clients();
+        }
+    }
+
+    /// When the link was dialled.
+    pub(crate) fn dials(&self) -> Vec<Instant> {
+        self.network.dials()
+    }
+
+    fn collect(&mut self) {
+        if let Some(handle) = &mut self.handle {
+            self.events.extend(std::iter::from_fn(|| handle.next_event()));
+        }
+    }
+
+    /// The events since the last call, without those that [`Self::until_event`] took.
+    pub(crate) fn events(&mut self) -> Vec<Event> {
+        self.collect();
+        std::mem::take(&mut self.events)
+    }
+
+    pub(crate) async fn seconds(&mut self, seconds: f64) {
+        let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+        while Instant::now() < end {
+            sleep(self.look.min(end - Instant::now())).await;
+            self.collect();
+        }
+    }
+
+    /// Waits until it is shown; `limit_s` seconds at most.
+    pub(crate) async fn until(
+        &mut self,
+        what: &str,
+        limit_s: u64,
+        is_so: impl Fn(&Snapshot) -> bool,
+    ) {
+        let end = Instant::now() + Duration::from_secs(limit_s);
+        while !is_so(&self.shown()) {
+            assert!(Instant::now() < end, "not within {limit_s} s: {what}\n{}", self.report());
+            sleep(self.look).await;
+            self.collect();
+        }
+    }
+
+    /// Waits for an event, `limit_s` seconds at most, and takes the first such one; all others stay.
+    pub(crate) async fn until_event(
+        &mut self,
+        limit_s: u64,
+        is_it: impl Fn(&Event) -> bool,
+    ) -> Event {
+        let end = Instant::now() + Duration::from_secs(limit_s);
+        loop {
+            self.collect();
+            if let Some(at) = self.events.iter().position(&is_it) {
+                return self.events.remove(at);
+            }
+            assert!(Instant::now() < end, "no such event\n{}", self.report());
+            sleep(self.look).await;
+        }
+    }
+
+    pub(crate) async fn until_up(&mut self, limit_s: u64) {
+        self.until("up", limit_s, |shown| matches!(shown.link, LinkState::Up { .. })).await;
+    }
+
+    /// Keeps a jog key down.
+    pub(crate) async fn hold(&mut self, rates_deg_s: [f64; 2], seconds: f64) {
+        let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
+        while Instant::now() < end {
+            self.send(Command::Jog { rates_deg_s });
+            self.seconds(0.1).await;
+        }
+    }
+
+    fn report(&self) -> String {
+        let received = self.control.received();
+        let last = received.iter().skip(received.len().saturating_sub(40));
+        let lines: Vec<String> = last
+            .map(|(at, request)| format!("{:?} {request:?}", at.duration_since(self.started)))
+            .collect();
+        format!("{:#?}\nevents {:?}\n{}", self.shown(), self.events, lines.join("\n"))
+    }
+}

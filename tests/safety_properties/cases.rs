@@ -1,0 +1,32 @@
+//! Many cases with one seed after the other.
+
+use std::{future::Future, panic::AssertUnwindSafe};
+
+use crate::common::dice::Dice;
+
+/// Runs `case` in paused time with one seed after the other, `usual` times unless
+/// `AZEL_CASES` says otherwise.
+pub(super) fn for_each_case<Ran: Future<Output = ()>>(
+    class: &str,
+    usual: u64,
+    case: impl Fn(Dice) -> Ran,
+) {
+    let number = |name| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    let seed = number("AZEL_SEED").unwrap_or(20_261_122);
+    let cases = number("AZEL_CASES").unwrap_or(usual);
+    println!("{class}: {cases} cases from seed {seed}");
+    let mut failed = Vec::new();
+    for seed in seed..seed + cases {
+        let run = AssertUnwindSafe(|| {
+            let mut builder = tokio::runtime::Builder::new_current_thread();
+            let runtime = builder.enable_time().start_paused(true).build().unwrap();
+            runtime.block_on(case(Dice::new(seed)));
+        });
+        if std::panic::catch_unwind(run).is_err() {
+            println!("{class}: seed {seed} failed");
+            failed.push(seed);
+            assert!(failed.len() < 10, "{class}: seeds {failed:?} failed");
+        }
+    }
+    assert!(failed.is_empty(), "{class}: of {cases} cases seeds {failed:?} failed");
+}
