@@ -16,7 +16,7 @@ use std::{
         Arc,
         atomic::{AtomicBool, Ordering},
     },
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use self::{effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::Keeper};
@@ -67,9 +67,10 @@ impl App {
         let library = settings.library_path();
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
         let station = Handle::start(settings.clone(), clock.clone(), Arc::clone(&wake))?;
+        let now = clock.now();
         let model = Model {
-            now: clock.utc(),
-            steady: Instant::now(),
+            now: now.utc,
+            steady: now.steady,
             time_sync: TimeSync::NotKnown,
             station: Arc::default(),
             demo: false,
@@ -123,8 +124,8 @@ impl App {
 
     /// Takes everything that has come in since the last frame.
     fn think(&mut self) {
-        self.model.now = self.clock.utc();
-        self.model.steady = Instant::now();
+        let now = self.clock.now();
+        (self.model.now, self.model.steady) = (now.utc, now.steady);
         // They tell of what is published by then.
         let events: Vec<_> = std::iter::from_fn(|| self.station.next_event()).collect();
         if self.station.take() {

@@ -1,29 +1,111 @@
-//! The clocks of a session.
+//! The clocks of a station: UTC, the steady clock and sleep, from the operating system
+//! or from a test.
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    future::Future,
+    num::NonZeroU32,
+    ops::{Add, AddAssign, Sub},
+    sync::{Arc, LazyLock},
+    time::Duration,
+};
 
 use jiff::Timestamp;
-use tokio::time::Instant;
+use serde::{Deserialize, Serialize};
+use tokio::time::error::Elapsed;
 
-use crate::device::Moment;
+/// Where the steady clocks of this process count from.
+static BASE: LazyLock<tokio::time::Instant> = LazyLock::new(tokio::time::Instant::now);
 
-/// Where UTC comes from, and how long the computer has slept; the steady clock is
-/// tokio's, so that tests can pause it.
+/// A reading of a steady clock, which never jumps; nanoseconds from an arbitrary zero.
+/// Unlike the one of the standard library it can be written down, and it may come from
+/// a clock that runs faster than real time: only readings of the same clock compare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Instant(i64);
+
+impl Instant {
+    /// The steady clock of this process.
+    pub fn now() -> Self {
+        Clock::scaled(NonZeroU32::MIN)
+    }
+
+    /// The time since `earlier`; zero where that is later.
+    #[must_use]
+    pub fn saturating_duration_since(self, earlier: Self) -> Duration {
+        Duration::from_nanos(self.0.saturating_sub(earlier.0).try_into().unwrap_or_default())
+    }
+}
+
+impl Add<Duration> for Instant {
+    type Output = Self;
+
+    fn add(self, span: Duration) -> Self {
+        Self(self.0.saturating_add(nanos(span)))
+    }
+}
+
+impl AddAssign<Duration> for Instant {
+    fn add_assign(&mut self, span: Duration) {
+        *self = *self + span;
+    }
+}
+
+impl Sub<Duration> for Instant {
+    type Output = Self;
+
+    fn sub(self, span: Duration) -> Self {
+        Self(self.0.saturating_sub(nanos(span)))
+    }
+}
+
+impl Sub for Instant {
+    type Output = Duration;
+
+    fn sub(self, earlier: Self) -> Duration {
+        self.saturating_duration_since(earlier)
+    }
+}
+
+fn nanos(span: Duration) -> i64 {
+    i64::try_from(span.as_nanos()).unwrap_or(i64::MAX)
+}
+
+/// One instant on both clocks: the steady one for intervals, UTC for the sky.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Moment {
+    /// Never jumps.
+    pub steady: Instant,
+    /// May be corrected at any time.
+    pub utc: Timestamp,
+}
+
+/// UTC, the steady clock, timers, and how long the computer has slept. The steady clock
+/// is tokio's, so that tests can pause it, times the speed.
 #[derive(Clone)]
 pub struct Clock {
     utc: Arc<dyn Fn() -> Timestamp + Send + Sync>,
     asleep: Arc<dyn Fn() -> Duration + Send + Sync>,
+    speed: NonZeroU32,
 }
 
 impl Clock {
     /// The clocks of the operating system.
     pub fn system() -> Self {
-        Self { utc: Arc::new(Timestamp::now), asleep: Arc::new(asleep) }
+        Self { utc: Arc::new(Timestamp::now), asleep: Arc::new(asleep), speed: NonZeroU32::MIN }
     }
 
     /// A clock of one's own, of a computer that never sleeps.
     pub fn new(utc: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
-        Self { utc: Arc::new(utc), asleep: Arc::new(|| Duration::ZERO) }
+        Self { utc: Arc::new(utc), asleep: Arc::new(|| Duration::ZERO), speed: NonZeroU32::MIN }
+    }
+
+    /// A clock that shows `start` now and runs `speed` times as fast as real time.
+    pub fn at_speed(start: Timestamp, speed: NonZeroU32) -> Self {
+        let begun = Self::scaled(speed);
+        let utc = move || {
+            let passed = Self::scaled(speed).saturating_duration_since(begun);
+            start.checked_add(passed).unwrap_or(Timestamp::MAX)
+        };
+        Self { speed, ..Self::new(utc) }
     }
 
     /// The same clock of a computer that has slept for `asleep` in all.
@@ -43,9 +125,34 @@ impl Clock {
         (self.asleep)()
     }
 
-    /// UTC and the steady clock now. Only within a runtime.
+    /// UTC and the steady clock now.
     pub fn now(&self) -> Moment {
-        Moment { steady: Instant::now().into_std(), utc: self.utc() }
+        Moment { steady: Self::scaled(self.speed), utc: self.utc() }
+    }
+
+    /// Waits until the steady clock shows `until`.
+    pub async fn sleep_until(&self, until: Instant) {
+        let left = until.saturating_duration_since(Self::scaled(self.speed));
+        self.sleep(left).await;
+    }
+
+    /// Waits for `span` of this clock.
+    pub async fn sleep(&self, span: Duration) {
+        tokio::time::sleep(span / self.speed.get()).await;
+    }
+
+    /// What `work` comes to, unless it takes longer than `span` of this clock.
+    pub async fn timeout<F: Future>(&self, span: Duration, work: F) -> Result<F::Output, Elapsed> {
+        tokio::time::timeout(span / self.speed.get(), work).await
+    }
+
+    /// A reading of the steady clock that runs at `speed`.
+    fn scaled(speed: NonZeroU32) -> Instant {
+        let (now, base) = (tokio::time::Instant::now(), *BASE);
+        // A paused clock of a test may have begun before the first reading.
+        let since = nanos(now.saturating_duration_since(base));
+        let real = since - nanos(base.saturating_duration_since(now));
+        Instant(real.saturating_mul(speed.get().into()))
     }
 }
 

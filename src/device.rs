@@ -13,10 +13,7 @@ mod state;
 mod variant;
 pub(crate) mod wire;
 
-use std::{
-    borrow::Cow,
-    time::{Duration, Instant},
-};
+use std::{borrow::Cow, time::Duration};
 
 use jiff::Timestamp;
 use smol_str::SmolStr;
@@ -28,18 +25,12 @@ pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Progr
 pub use variant::Variant;
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};
 
-use crate::astro::Angle;
+use crate::{
+    astro::Angle,
+    clock::{Instant, Moment},
+};
 use panel::{Act, Lead};
 use settings::{Change, SettleError};
-
-/// One instant on both clocks: the steady one for intervals, UTC for the sky.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Moment {
-    /// Never jumps.
-    pub steady: Instant,
-    /// May be corrected at any time.
-    pub utc: Timestamp,
-}
 
 /// A reply that has not come after this long is missing while metal moves.
 pub const PROMPT: Duration = Duration::from_millis(600);

@@ -48,6 +48,7 @@ pub use wire_log::{MOST_LINES, Recorded, WireLog};
 
 use self::{before_sleep::BeforeSleep, pulse::Pulse};
 use crate::{
+    clock::Instant,
     plan::{Bounds, on_board::KnownOrbit},
     station::{Antenna, Link, LockOut},
 };
@@ -294,7 +295,8 @@ impl Driver {
         lock_out: Option<LockOut>,
         until_the_end: Box<dyn Send>,
     ) -> AntennaHandle {
-        let (wires, handle) = Wires::new(antenna, Arc::clone(&self.wake), &self.orders);
+        let (wires, handle) =
+            Wires::new(antenna, self.clock.now().steady, Arc::clone(&self.wake), &self.orders);
         let wires = wires.hearing(self.before_sleep.hear());
         let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
@@ -326,7 +328,7 @@ impl Driver {
 
     /// An antenna that is driven from elsewhere: it has no session, and takes nothing.
     pub fn leave_alone(antenna: &Antenna) -> AntennaHandle {
-        Wires::closed(antenna)
+        Wires::closed(antenna, Instant::now())
     }
 
     /// Numbers what is asked for of all its antennas.
@@ -387,9 +389,9 @@ mod tests {
     use super::*;
 
     fn wait_for(what: &str, is_so: impl Fn() -> bool) {
-        let until = std::time::Instant::now() + Duration::from_secs(20);
+        let until = Instant::now() + Duration::from_secs(20);
         while !is_so() {
-            assert!(std::time::Instant::now() < until, "{what}");
+            assert!(Instant::now() < until, "{what}");
             thread::sleep(Duration::from_millis(20));
         }
     }

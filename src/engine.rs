@@ -34,7 +34,7 @@ use std::{
     io,
     path::{Path, PathBuf},
     sync::Arc,
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use jiff::Timestamp;
@@ -60,7 +60,7 @@ pub use self::{
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{
-    clock::Clock,
+    clock::{Clock, Instant},
     driver::{self, AntennaHandle, Driver, JOG_LEASE, TimeSync, Unit},
     job::{Job, Wake},
     makes::{self, DemoAddresses},
@@ -221,13 +221,20 @@ impl Engine {
             uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
         let source_desk = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
         let snapshot = Arc::new(Snapshot::before_anything());
-        let at = Instant::now();
+        let now = clock.now();
+        let at = now.steady;
         let published = Published { at, snapshot, ends: Arc::new([]) };
         let (publish, published) = watch::channel(published);
-        let client = Client::new(requests, Arc::clone(&woken), driver.orders().clone(), published);
+        let client = Client::new(
+            requests,
+            Arc::clone(&woken),
+            driver.orders().clone(),
+            published,
+            clock.clone(),
+        );
         let mut engine = Self {
-            now: clock.utc(),
-            steady: Instant::now(),
+            now: now.utc,
+            steady: now.steady,
             time_sync: TimeSync::NotKnown,
             station: Arc::default(),
             demo: None,
@@ -286,12 +293,12 @@ impl Engine {
                 },
                 () = woken.notified() => {
                     // More comes in at the same moment; a request is not kept waiting.
-                    match tokio::time::timeout(BREATH, inbox.recv()).await {
+                    match self.clock.timeout(BREATH, inbox.recv()).await {
                         Ok(None) => break,
                         taken => taken.ok().flatten(),
                     }
                 }
-                () = tokio::time::sleep(to_next_second(self.clock.utc())) => {
+                () = self.clock.sleep(to_next_second(self.clock.utc())) => {
                     self.set_time();
                     self.take_urgent();
                     self.turn();
@@ -363,8 +370,8 @@ impl Engine {
     }
 
     fn set_time(&mut self) {
-        self.now = self.clock.utc();
-        self.steady = Instant::now();
+        let now = self.clock.now();
+        (self.now, self.steady) = (now.utc, now.steady);
     }
 
     /// Shows the station as it is now.
@@ -401,7 +408,7 @@ impl Engine {
             });
             ends.collect()
         };
-        self.publish.send_replace(Published { at: Instant::now(), snapshot, ends });
+        self.publish.send_replace(Published { at: self.clock.now().steady, snapshot, ends });
         // What they tell of is shown by now.
         for event in std::mem::take(&mut self.told) {
             if self.outbox.events.try_send(event).is_err() {

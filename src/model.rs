@@ -8,11 +8,7 @@ pub mod effects;
 mod line;
 mod theme_name;
 
-use std::{
-    path::PathBuf,
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
@@ -26,6 +22,7 @@ pub use self::{
 };
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
+    clock::Instant,
     driver::{TimeSync, WireLog},
     engine::{
         CatalogState, Handle,

@@ -18,13 +18,11 @@ mod record;
 mod refusal;
 mod spec;
 
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
 use crate::{
-    device::{AntennaState, Asked, Happening, Moment, Motion, Question, wire::WireQueue},
+    clock::{Instant, Moment},
+    device::{AntennaState, Asked, Happening, Motion, Question, wire::WireQueue},
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
     },

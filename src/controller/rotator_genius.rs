@@ -17,14 +17,12 @@ mod spec;
 mod state;
 mod turning;
 
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
 use crate::{
+    clock::{Instant, Moment},
     device::{
-        AntennaState, Happening, Moment, Question,
+        AntennaState, Happening, Question,
         settings::{Change, Settling},
         wire::WireQueue,
     },

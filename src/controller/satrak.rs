@@ -17,10 +17,7 @@ mod spec;
 mod state;
 mod words;
 
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
 pub use checks::checks;
 pub use element_files::ELEMENT_FILES;
@@ -29,9 +26,8 @@ pub use spec::{ELEMENT_FILE, SPEC, VARIANT};
 pub use words::meaning;
 
 use crate::{
-    device::{
-        AntennaState, Happening, Moment, Motion, PrepareError, settings::Change, wire::WireQueue,
-    },
+    clock::{Instant, Moment},
+    device::{AntennaState, Happening, Motion, PrepareError, settings::Change, wire::WireQueue},
     protocol::satrak::{Decoder, Halt, Query, Request},
     station::PollRates,
 };

@@ -1,15 +1,18 @@
 //! The state that all antennas share, as last read from the device.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use jiff::Timestamp;
 
 use super::{
-    Moment, OnBoard, Question,
+    OnBoard, Question,
     panel::{Check, Reading},
     settings::{Change, GroupState, Held, SettleError, Settled},
 };
-use crate::astro::{Angle, AzEl};
+use crate::{
+    astro::{Angle, AzEl},
+    clock::{Instant, Moment},
+};
 
 /// What is known of an antenna. `None` means not read yet, never a default.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -45,16 +45,16 @@ impl DeadMan {
         _: &std::path::Path,
         _: super::link::Duplicate,
         _: &[u8],
-        _: std::time::Instant,
+        _: crate::clock::Instant,
     ) -> std::io::Result<Self> {
         Err(std::io::ErrorKind::Unsupported.into())
     }
 
-    pub(super) fn beat(&mut self, _: std::time::Instant) -> bool {
+    pub(super) fn beat(&mut self, _: crate::clock::Instant) -> bool {
         match self.0 {}
     }
 
-    pub(super) fn due(&self) -> std::time::Instant {
+    pub(super) fn due(&self) -> crate::clock::Instant {
         match self.0 {}
     }
 

@@ -11,16 +11,14 @@ mod settings;
 mod way;
 mod word;
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use super::intent::Intent;
 use crate::{
     astro::{Angle, AzEl},
+    clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Capabilities, Device, Moment, Motion, Moves, Pointing, Variant, aimed,
+        AntennaState, Asked, Capabilities, Device, Motion, Moves, Pointing, Variant, aimed,
         panel::{Act, Action},
         settings::Hindrance,
     },

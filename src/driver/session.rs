@@ -28,11 +28,7 @@ pub(in crate::driver) mod testing;
 mod unproved;
 mod wanted;
 
-use std::{
-    path::PathBuf,
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
@@ -48,7 +44,8 @@ use super::{
     gate::Gate,
 };
 use crate::{
-    device::{AxisMotion, Moment, Moves, Pointing, Variant},
+    clock::{Instant, Moment},
+    device::{AxisMotion, Moves, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
@@ -87,10 +84,15 @@ pub struct Wires {
 
 impl Wires {
     /// The far and the near ends for one antenna.
-    pub(super) fn new(antenna: &Antenna, wake: Wake, orders: &Orders) -> (Self, AntennaHandle) {
+    pub(super) fn new(
+        antenna: &Antenna,
+        now: Instant,
+        wake: Wake,
+        orders: &Orders,
+    ) -> (Self, AntennaHandle) {
         let (send_command, commands) = mpsc::channel(COMMANDS);
         let (events, read_events) = mpsc::channel(EVENTS);
-        let (_, link) = first_link(antenna);
+        let (_, link) = first_link(antenna, now);
         let first = Arc::new(Snapshot::before_anything(link));
         let (snapshots, read_snapshots) = watch::channel(first);
         let stopper = Stopper {
@@ -123,8 +125,8 @@ impl Wires {
     }
 
     /// The near end of an antenna that no session drives: nothing is taken.
-    pub(super) fn closed(antenna: &Antenna) -> AntennaHandle {
-        let (wires, handle) = Self::new(antenna, Arc::new(|| {}), &Orders::default());
+    pub(super) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
+        let (wires, handle) = Self::new(antenna, now, Arc::new(|| {}), &Orders::default());
         let off = Snapshot::before_anything(LinkState::Off);
         wires.snapshots.send_replace(Arc::new(off));
         handle
@@ -164,11 +166,10 @@ impl Wires {
 }
 
 /// What a new session wants of the link, and how that is shown.
-fn first_link(antenna: &Antenna) -> (Wanted, LinkState) {
+fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
     if antenna.connection.variant().capabilities.waits_for_word {
         return (Wanted::No, LinkState::Off);
     }
-    let since = tokio::time::Instant::now().into_std();
     (Wanted::Yes, LinkState::Connecting { since })
 }
 
@@ -276,7 +277,7 @@ impl Session {
         clock: Clock,
         wake: Wake,
     ) -> (Self, AntennaHandle) {
-        let (wires, handle) = Wires::new(antenna, wake, &Orders::default());
+        let (wires, handle) = Wires::new(antenna, clock.now().steady, wake, &Orders::default());
         let bounds = Bounds::of_antenna(antenna);
         (Self::over(controller, antenna, dial, clock, wires, Debts::default(), bounds), handle)
     }
@@ -293,7 +294,7 @@ impl Session {
     ) -> Self {
         let mut gate = Gate::new(controller, antenna, bounds);
         let make = antenna.connection.variant();
-        let (wanted, link) = first_link(antenna);
+        let (wanted, link) = first_link(antenna, clock.now().steady);
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());
         gate.was_moved(debts.unproved_since(&unit));

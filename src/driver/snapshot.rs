@@ -1,15 +1,13 @@
 //! What a session tells the rest of the program: snapshots and events.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
 use super::{Intent, Refusal, Safety};
 use crate::{
     astro::Angle,
+    clock::Instant,
     device::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance},

@@ -4,7 +4,7 @@
 mod errors;
 mod stake;
 
-use std::{collections::VecDeque, sync::Arc, time::Instant};
+use std::{collections::VecDeque, sync::Arc};
 
 pub use errors::{ErrorSample, Errors};
 pub use stake::Stake;
@@ -14,6 +14,7 @@ use jiff::Timestamp;
 use super::{claim::HeldBy, forecast::Followed, on_board::Judged, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
+    clock::Instant,
     device::{Measured, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, Snapshot, StopState},
     plan::{FollowPhase, Sample, on_board::KnownOrbit},

@@ -1,8 +1,8 @@
 //! Asks now and then whether the clock of this computer is kept right.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::job::Job;
+use crate::{clock::Instant, job::Job};
 use crate::{
     driver::{TimeSync, time_sync},
     job::Wake,

@@ -1,9 +1,10 @@
 //! The end while antennas move: first what the operator has said, then the end.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Engine, Event as Told, antenna::Stake};
 use crate::{
+    clock::Instant,
     driver::{Command, Event, Intent, StopState},
     station::{AntennaId, OnClose, Station},
 };

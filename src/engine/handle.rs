@@ -3,14 +3,14 @@
 use std::{
     io,
     sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc::RecvTimeoutError},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use tokio::sync::{Notify, mpsc, watch};
 
 use super::{Command, Engine, Settings, Snapshot};
 use crate::{
-    clock::Clock,
+    clock::{Clock, Instant, Moment},
     driver::{self, Orders, Stopper, WireLog},
     job::Wake,
     station::AntennaId,
@@ -110,6 +110,7 @@ pub struct Client {
     woken: Arc<Notify>,
     orders: Orders,
     published: watch::Receiver<Published>,
+    clock: Clock,
 }
 
 impl Client {
@@ -118,8 +119,14 @@ impl Client {
         woken: Arc<Notify>,
         orders: Orders,
         published: watch::Receiver<Published>,
+        clock: Clock,
     ) -> Self {
-        Self { requests, urgent: Arc::default(), woken, orders, published }
+        Self { requests, urgent: Arc::default(), woken, orders, published, clock }
+    }
+
+    /// The clocks of the station.
+    pub fn now(&self) -> Moment {
+        self.clock.now()
     }
 
     /// Hands over a command. It comes back when the station is too busy to take it or
@@ -131,7 +138,7 @@ impl Client {
             self.urgent().is_overrun = true;
             return Err(command);
         };
-        place.send(Request { command, number, at: Instant::now() });
+        place.send(Request { command, number, at: self.clock.now().steady });
         Ok(())
     }
 
@@ -150,7 +157,7 @@ impl Client {
         // What the station has now, whatever is shown.
         let ends = Arc::clone(&self.published.borrow().ends);
         let mut stopped = Stopped {
-            at: Instant::now(),
+            at: self.clock.now().steady,
             antennas: Vec::new(),
             elsewhere: Vec::new(),
             tracked: Vec::new(),
@@ -262,7 +269,8 @@ impl Handle {
     /// For how long the station has shown nothing new, from two seconds on: it does
     /// each second.
     pub fn stood_for(&self) -> Option<Duration> {
-        let stood = self.client.published.borrow().at.elapsed();
+        let shown = self.client.published.borrow().at;
+        let stood = self.client.now().steady.saturating_duration_since(shown);
         (stood >= STANDS).then_some(stood)
     }
 

@@ -208,8 +208,8 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
     if station.send(Command::Antenna(id, command)).is_err() {
         return Answer::Refused("Azel is too busy to take it".to_owned());
     }
-    let asked = Instant::now();
-    let end = asked + LOCKED_WITHIN;
+    let asked = station.now();
+    let end = Instant::now() + LOCKED_WITHIN;
     loop {
         let snapshot = station.snapshot();
         let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
@@ -222,7 +222,7 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
         let shown = &antenna.snapshot;
         let is_so = shown.lock_out == lock_out;
         let stands = shown.state.measured.is_some_and(|measured| {
-            shown.link.is_open() && measured.asked >= asked.into_std() && !measured.moving()
+            shown.link.is_open() && measured.asked >= asked.steady && !measured.moving()
         });
         if is_so && (lock_out.is_none() || !shown.locking && stands) {
             return Answer::LockOut { proved: true };

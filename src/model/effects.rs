@@ -1,17 +1,14 @@
 //! What the horizon mask and the keep-outs do to the passes of the favourites in
 //! the next 48 hours, as saved and as edited. Worked out on a thread.
 
-use std::{
-    ops::Range,
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{ops::Range, sync::Arc, time::Duration};
 
 use crate::{
     astro::{
         Angle, AzEl, HorizonMask, Site, sun_moon,
         time::{add_seconds, seconds_between},
     },
+    clock::Instant,
     engine::forecast::Forecast,
     plan::Sample,
     station::{Entered, KeepOut, SunAvoidance},

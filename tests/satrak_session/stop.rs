@@ -109,6 +109,7 @@ async fn a_stop_overtakes_a_peer_that_owes_a_reply() {
     rig.control.set_fault(Fault::Silence, true);
     rig.seconds(0.7).await;
     let pressed = tokio::time::Instant::now();
+    let since = azel::clock::Instant::now();
     rig.stop();
     rig.seconds(0.02).await;
     assert_eq!(rig.times("STOP="), [pressed], "not after the reply that is owed");
@@ -116,7 +117,6 @@ async fn a_stop_overtakes_a_peer_that_owes_a_reply() {
     assert!(!rig.control.state().is_moving);
     assert!(is_stopping(rig.shown().stop), "it stands, but that is not known");
     rig.until_event(2, |event| *event == Event::StopNotConfirmed).await;
-    let since = pressed.into_std();
     assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
     let waited = pressed.elapsed().as_secs_f64();
     assert!((3.0..3.1).contains(&waited), "{waited}");
@@ -179,13 +179,13 @@ async fn a_stop_that_is_pressed_again_and_again_is_sent_each_time() {
 async fn pressing_again_does_not_put_off_the_warning() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::Silence, true);
-    let pressed = tokio::time::Instant::now();
+    let since = azel::clock::Instant::now();
     for _ in 0..8 {
         rig.stop();
         rig.seconds(0.5).await;
     }
     assert!(rig.events().contains(&Event::StopNotConfirmed));
-    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since: pressed.into_std() });
+    assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
     assert!(rig.sent("STOP=").len() >= 8);
 }
 

@@ -1,8 +1,7 @@
 //! The bar at the top: alarms, chips, theme; and the table of the axes.
 
-use std::time::Instant;
-
 use azel::{
+    clock::Instant,
     controller::satrak::checks,
     device::{Asked, Motion},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},

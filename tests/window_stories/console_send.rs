@@ -1,9 +1,10 @@
 //! Questions sent from the console, its lines saved, and the whole of it in
 //! every window.
 
-use std::{fs, time::Instant};
+use std::fs;
 
 use azel::{
+    clock::Instant,
     driver::{Command, LinkLoss, LinkState},
     model::{Model, ThemeName, UiCommand, View},
     protocol::satrak::encode,

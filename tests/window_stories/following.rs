@@ -5,6 +5,7 @@ use azel::{
         Angle, AzEl,
         time::{add_seconds, seconds_between},
     },
+    clock::Instant,
     device::AxisMotion,
     driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
     engine::forecast::Forecast,
@@ -13,7 +14,7 @@ use azel::{
     station::{Antenna, Mount},
     ui::bar::activity,
 };
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;

@@ -1,9 +1,10 @@
 //! What a Rotator Genius and an RC2000C may report, ready for the stories.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use azel::{
     astro::Angle,
+    clock::Instant,
     controller::rotator_genius::{ROTATORS, Rotators},
     device::{
         AxisMotion, Measured, Pointing,

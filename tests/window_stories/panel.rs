@@ -1,10 +1,9 @@
 //! Driving antennas whose controllers differ from a Satrak: what the card
 //! offers, and what comes of each of its controls.
 
-use std::time::Instant;
-
 use azel::{
     astro::Angle,
+    clock::Instant,
     device::AxisMotion,
     driver::{Command, Intent, LinkState},
     model::{Model, UiCommand, View},

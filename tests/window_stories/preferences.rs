@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use std::time::Instant;
-
 use azel::{
+    clock::Instant,
     driver::{LinkLoss, LinkState, Snapshot},
     model::{Model, UiCommand, View},
     station::Station,

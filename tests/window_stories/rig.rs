@@ -3,11 +3,12 @@
 
 use std::{
     sync::{Arc, OnceLock},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use azel::{
     astro::time::add_seconds,
+    clock::Instant,
     controller::satrak,
     driver::{LinkState, Snapshot, TimeSync, WireLog},
     engine::{
@@ -161,7 +162,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
 
 /// A moment `seconds` before the frame of `model`.
 pub(crate) fn ago(model: &Model, seconds: u64) -> Instant {
-    model.steady.checked_sub(Duration::from_secs(seconds)).unwrap()
+    model.steady - Duration::from_secs(seconds)
 }
 
 /// A moment an hour after the frame of `model`.

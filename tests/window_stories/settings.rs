@@ -248,7 +248,7 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
         let mut window = desk(size, read());
         write(&mut window, "Minimum elevation", "5");
         change(&mut window, 0, |snapshot| {
-            let now = std::time::Instant::now();
+            let now = azel::clock::Instant::now();
             let reason = LinkLoss::Closed;
             snapshot.link = LinkState::Lost { since: now, reason, retry_at: now };
         });

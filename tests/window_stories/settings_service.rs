@@ -1,8 +1,8 @@
 //! The service functions: locked, opened with care, locked again.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use azel::{device::settings::Value, driver::Command, model::UiCommand};
+use azel::{clock::Instant, device::settings::Value, driver::Command, model::UiCommand};
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 

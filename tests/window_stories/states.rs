@@ -1,9 +1,8 @@
 //! What a Satrak may report, ready for the stories.
 
-use std::time::Instant;
-
 use azel::{
     astro::{AzEl, time::add_seconds},
+    clock::Instant,
     controller::satrak::checks,
     device::{Axis, AxisMotion, HeldSatellite, Measured, Phase, Program, TrackTarget},
     driver::{Intent, Snapshot},

@@ -1,8 +1,9 @@
 //! STOP, whatever is open and whatever became of the last one.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use azel::{
+    clock::Instant,
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::AlarmKind,
     model::{Model, UiCommand, View},

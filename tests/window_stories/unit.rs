@@ -4,16 +4,16 @@ use std::{
     collections::BTreeMap,
     io::{BufRead as _, BufReader, Write as _},
     net::{SocketAddr, TcpStream},
+    num::NonZeroU32,
     ops::RangeInclusive,
     path::Path,
     thread,
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use azel::{
     app::App,
-    astro::time::add_seconds,
-    clock::Clock,
+    clock::{Clock, Instant},
     controller::satrak::ELEMENT_FILE,
     engine::Settings,
     model::Model,
@@ -112,8 +112,7 @@ fn holding(elements: Vec<Elements>, utc: Timestamp) -> Options {
 
 /// A clock that starts at `utc` and runs as clocks do.
 pub(crate) fn clock_from(utc: Timestamp) -> Clock {
-    let start = Instant::now();
-    Clock::new(move || add_seconds(utc, start.elapsed().as_secs_f64()))
+    Clock::at_speed(utc, NonZeroU32::MIN)
 }
 
 /// A window with the real app on the settings at `path`.

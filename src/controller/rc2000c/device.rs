@@ -1,6 +1,6 @@
 //! What the driver asks of an RC2000C.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{
     DEVICE_TYPE, HeldJog, Names, Past, RENEWAL, Rc2000c, STATUS, VARIANT,
@@ -8,9 +8,10 @@ use super::{
     refusal::is_tracking,
 };
 use crate::{
+    clock::{Instant, Moment},
     device::{
-        AntennaState, Device, Extent, Finding, Happening, Moment, Motion, Moves, PrepareError,
-        TrackTarget, WireLine,
+        AntennaState, Device, Extent, Finding, Happening, Motion, Moves, PrepareError, TrackTarget,
+        WireLine,
         panel::{Act, Lead},
     },
     protocol::rc2000c::{

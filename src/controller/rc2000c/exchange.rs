@@ -1,10 +1,9 @@
 //! One command and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::Instant;
-
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
-    device::{Asked, Happening, Measured, Moment, Motion, Phase, Program},
+    clock::{Instant, Moment},
+    device::{Asked, Happening, Measured, Motion, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
         PolarizationUnits, Query, Reply, ReplyError, Request, Status,

@@ -1,12 +1,9 @@
 //! What the unit told a moment ago: an axis that runs out after a stop, or away
 //! without a command, shows by its number alone.
 
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
-use crate::protocol::rc2000c::Status;
+use crate::{clock::Instant, protocol::rc2000c::Status};
 
 /// In this time even the slowest axis shows another number. Replies to commands
 /// may follow one another much faster.

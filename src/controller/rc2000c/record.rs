@@ -4,7 +4,8 @@ use std::time::Duration;
 
 use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
-    device::{Direction, Finding, Moment, WireLine},
+    clock::Moment,
+    device::{Direction, Finding, WireLine},
     protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
 };
 

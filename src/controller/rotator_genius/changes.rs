@@ -7,10 +7,8 @@ use super::{
     settings::{GROUPS, configuration, differing, rotator_of, values},
 };
 use crate::{
-    device::{
-        Moment,
-        settings::{Change, SettleError, Settling, Step},
-    },
+    clock::Moment,
+    device::settings::{Change, SettleError, Settling, Step},
     protocol::rotator_genius::Request,
 };
 

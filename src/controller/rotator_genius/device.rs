@@ -1,6 +1,6 @@
 //! What the driver asks of a Rotator Genius.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{
     Genius, PATIENCE, STATUS,
@@ -9,9 +9,10 @@ use super::{
     orders::in_whole_degrees,
 };
 use crate::{
+    clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Device, Extent, Happening, Moment, Motion, Moves, PrepareError,
-        TrackTarget, WireLine,
+        AntennaState, Asked, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
+        WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError, SettleStep},
     },

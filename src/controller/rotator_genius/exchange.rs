@@ -1,10 +1,11 @@
 //! One request and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
-    device::{Asked, Happening, Moment, PROMPT},
+    clock::{Instant, Moment},
+    device::{Asked, Happening, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },

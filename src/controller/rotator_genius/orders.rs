@@ -7,7 +7,8 @@ use super::{
 };
 use crate::{
     astro::Angle,
-    device::{Asked, AxisMotion, Moment, Motion, panel::Act, settings::Value},
+    clock::Moment,
+    device::{Asked, AxisMotion, Motion, panel::Act, settings::Value},
     protocol::rotator_genius::{
         self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
     },

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use super::{Genius, REPLY, exchange::Outstanding};
 use crate::{
-    device::{Direction, Finding, Meaning, Moment, WireLine, panel::Tone},
+    clock::Moment,
+    device::{Direction, Finding, Meaning, WireLine, panel::Tone},
     protocol::rotator_genius::{Acknowledgement, Received, Reply, Request},
 };
 
@@ -48,7 +49,7 @@ impl Genius {
             }
             Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {
                 let asked = if *to == Acknowledgement::Stop {
-                    self.halts.front().and_then(|until| until.checked_sub(REPLY))
+                    self.halts.front().map(|until| *until - REPLY)
                 } else {
                     asked(&|sent| sent.is_acknowledged_by(*to))
                 };

@@ -1,11 +1,10 @@
 //! From a status to the state that all antennas share.
 
-use std::time::Instant;
-
 use super::{Genius, panel, roles::Roles, settings};
 use crate::{
     astro::Angle,
-    device::{Axis, Measured, Moment, Pointing, settings::HeldGroup},
+    clock::{Instant, Moment},
+    device::{Axis, Measured, Pointing, settings::HeldGroup},
     protocol::rotator_genius::{RotatorNumber, Status},
 };
 

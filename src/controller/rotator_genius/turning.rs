@@ -1,8 +1,9 @@
 //! Whether a rotator turns: what the device drives, and what its readings show.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::{
+    clock::Instant,
     device::AxisMotion,
     protocol::rotator_genius::{Moving, Rotator},
 };

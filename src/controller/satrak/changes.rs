@@ -5,13 +5,10 @@ use super::{
     settle::{Doing, Next, Settling},
 };
 use crate::{
-    device::{
-        Moment,
-        settings::{Change, SettleError},
-    },
+    clock::{Instant, Moment},
+    device::settings::{Change, SettleError},
     protocol::satrak::{Reply, Request},
 };
-use std::time::Instant;
 
 impl Satrak {
     /// Takes up the next change when none is under way.

@@ -1,14 +1,15 @@
 //! What the driver asks of a Satrak.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{
     DRAIN, REPLY, Satrak, checks, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
     settings::Plan, words,
 };
 use crate::{
+    clock::{Instant, Moment},
     device::{
-        AntennaState, Device, Extent, Happening, Moment, Motion, Moves, PrepareError, TrackTarget,
+        AntennaState, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError, SettleStep},

@@ -1,11 +1,12 @@
 //! One request and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
     astro::Angle,
-    device::{Happening, Moment, Motion, PROMPT, PrepareError, settings::ReadFailure},
+    clock::{Instant, Moment},
+    device::{Happening, Motion, PROMPT, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
         ValueError, Verb, Word,

@@ -1,11 +1,12 @@
 //! Tells what goes over the link: lines as the decoder cuts them, each with
 //! what it answers.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{REPLY, Satrak, exchange::Outstanding, words};
 use crate::{
-    device::{Direction, Finding, Meaning, Moment, WireLine},
+    clock::{Instant, Moment},
+    device::{Direction, Finding, Meaning, WireLine},
     protocol::satrak::{Decoder, FrameError, Halt, Line, Verb, Word},
 };
 
@@ -76,7 +77,7 @@ impl Satrak {
     fn halted(&self, (word, verb): (Word, Verb)) -> Option<Instant> {
         let is_answered = |halt: &&(Halt, Instant)| halt.0.word() == word && verb == Verb::Set;
         let (_, until) = self.halts.iter().find(is_answered)?;
-        until.checked_sub(REPLY)
+        Some(*until - REPLY)
     }
 }
 

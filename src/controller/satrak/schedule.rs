@@ -1,8 +1,8 @@
 //! Which question is due when.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::protocol::satrak::Query;
+use crate::{clock::Instant, protocol::satrak::Query};
 
 /// Slower questions that are asked again and again, and how often.
 const SLOW: [(Query, Duration); 7] = [

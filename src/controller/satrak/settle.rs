@@ -4,10 +4,8 @@
 
 use super::settings::{GROUPS, Plan, Proof, Wish, values_of};
 use crate::{
-    device::{
-        Moment,
-        settings::{self, Change, Hindrance, ReadFailure, SettleError, Step, Values},
-    },
+    clock::Moment,
+    device::settings::{self, Change, Hindrance, ReadFailure, SettleError, Step, Values},
     protocol::satrak::{Faults, Reply, Request},
 };
 
@@ -27,7 +25,7 @@ pub(super) enum Next {
     /// This is to be sent.
     Send(Request),
     /// Nothing before this time.
-    At(std::time::Instant),
+    At(crate::clock::Instant),
     /// It is over.
     Over(Result<(), SettleError>),
 }

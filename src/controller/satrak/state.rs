@@ -8,8 +8,9 @@ use super::{
 };
 use crate::{
     astro::{AzEl, time::seconds_between},
+    clock::Moment,
     device::{
-        Axis, AxisMotion, Measured, Moment, Phase, Program, UnitClock,
+        Axis, AxisMotion, Measured, Phase, Program, UnitClock,
         settings::{HeldGroup, ReadFailure},
     },
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},

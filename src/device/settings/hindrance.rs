@@ -1,8 +1,11 @@
 //! When a setting that decides where the antenna points has to wait.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::device::{AntennaState, Capabilities};
+use crate::{
+    clock::Instant,
+    device::{AntennaState, Capabilities},
+};
 
 /// A position that is older says nothing of an antenna that may move.
 const RECENT: Duration = Duration::from_secs(5);

@@ -1,6 +1,6 @@
 //! The near end: starts the child and beats.
 
-use std::{io, path::Path, process::Stdio, time::Instant};
+use std::{io, path::Path, process::Stdio};
 
 use tokio::{
     net::unix::pipe,
@@ -8,7 +8,7 @@ use tokio::{
 };
 
 use super::{BEAT, SUBCOMMAND, word};
-use crate::driver::link::Duplicate;
+use crate::{clock::Instant, driver::link::Duplicate};
 
 /// A child that watches. Dropping it without [`Self::disarm`] closes the pipe,
 /// and the child stops the unit.

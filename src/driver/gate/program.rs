@@ -3,11 +3,7 @@
 use std::sync::Arc;
 
 use super::{Gate, Refusal};
-use crate::{
-    device::{Moment, Motion},
-    driver::Intent,
-    plan::on_board::Judge,
-};
+use crate::{clock::Moment, device::Motion, driver::Intent, plan::on_board::Judge};
 
 /// What a device would follow by itself.
 #[derive(Debug, Clone)]

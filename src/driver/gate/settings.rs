@@ -3,8 +3,9 @@
 
 use super::{Check, Gate, Refusal, Situation};
 use crate::{
+    clock::Moment,
     device::{
-        Moment, Motion, TrackTarget,
+        Motion, TrackTarget,
         settings::{Change, SettleError},
     },
     driver::Intent,

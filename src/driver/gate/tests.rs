@@ -6,7 +6,7 @@ mod makes;
 
 use std::{
     sync::{Arc, LazyLock, Mutex},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use jiff::Timestamp;

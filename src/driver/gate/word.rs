@@ -1,9 +1,7 @@
 //! What the operator's word lets through that the rules alone would refuse.
 
-use std::time::Instant;
-
 use super::{Bounds, Gate};
-use crate::{device::Moment, driver::Intent};
+use crate::{clock::Instant, clock::Moment, driver::Intent};
 
 /// What the operator has answered for.
 #[derive(Debug, Default)]

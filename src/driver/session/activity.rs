@@ -1,9 +1,8 @@
 //! What an antenna is wanted to do, and how far that is.
 
-use std::time::Instant;
-
 use super::{follow::Following, on_board::Watch};
 use crate::{
+    clock::Instant,
     device::{Motion, Pointing, TrackTarget},
     driver::Intent,
 };

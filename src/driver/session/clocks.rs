@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{Event, Session, jog::JogKey};
 use crate::{
     astro::time::seconds_between,
-    device::Moment,
+    clock::Moment,
     driver::{LinkLoss, Safety, before_sleep::Awake},
 };
 

@@ -10,8 +10,9 @@ use super::{
 };
 use crate::{
     astro::Angle,
+    clock::Moment,
     device::{
-        Moment, Motion,
+        Motion,
         panel::Act,
         settings::{Change, SettleError},
     },

@@ -4,14 +4,15 @@
 
 mod following;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 pub(super) use following::{Following, Manner};
 
 use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
 use crate::{
     astro::Angle,
-    device::{Moment, Motion, Pointing},
+    clock::{Instant, Moment},
+    device::{Motion, Pointing},
     driver::{FollowProblem, Intent, Refusal, Safety, Unlike},
     plan::{
         Bounds, Follow, FollowPhase,

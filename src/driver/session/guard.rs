@@ -1,14 +1,10 @@
 //! What stands between a motion by hand and a process that dies: the dead-man.
 
-use std::{
-    io,
-    path::PathBuf,
-    time::{Duration, Instant},
-};
+use std::{io, path::PathBuf, time::Duration};
 
 use super::{Event, Session};
 use crate::{
-    device::Moment,
+    clock::{Instant, Moment},
     driver::{
         Refusal, Safety, Stream,
         dead_man::{BEAT, DeadMan},

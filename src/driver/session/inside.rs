@@ -1,12 +1,13 @@
 //! An antenna that is where it must not point: how it gets out of there, and how it
 //! gets to point at the Sun where that is meant.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Event, Intent, Session};
 use crate::{
     astro::AzEl,
-    device::{Moment, Motion},
+    clock::{Instant, Moment},
+    device::Motion,
     driver::{Inside, Refusal},
     plan::{Barrier, Bounds, Follow},
 };

@@ -2,14 +2,12 @@
 
 use std::{io, time::Duration};
 
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
-    time::{sleep_until, timeout},
-};
+use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
 
 use super::{Command, Numbered, Session, Wires, wanted::Wanted};
 use crate::{
-    device::{Extent, Moment},
+    clock::{Clock, Moment},
+    device::Extent,
     driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
 };
 
@@ -102,7 +100,8 @@ impl Session {
         let now = self.now();
         self.publish(now);
         let mut dialling = (self.dial)();
-        let until = tokio::time::Instant::now() + CONNECT;
+        let clock = self.clock.clone();
+        let until = clock.now().steady + CONNECT;
         loop {
             tokio::select! {
                 biased;
@@ -117,7 +116,7 @@ impl Session {
                     self.contact.link = LinkState::Up { since: now.steady };
                     return Ok(Some(stream));
                 }
-                () = sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
+                () = clock.sleep_until(until) => return Err(LinkLoss::ConnectTimeout),
             }
         }
     }
@@ -132,6 +131,7 @@ impl Session {
             self.halt_quietly(now);
         }
         self.activity.drop_queued(now.steady);
+        let clock = self.clock.clone();
         let mut retry_at = now.steady + wait;
         self.lose(loss, retry_at);
         loop {
@@ -158,7 +158,7 @@ impl Session {
                         return None;
                     }
                 }
-                () = sleep_until(until.max(now.steady + MIN_WAIT).into()) => {}
+                () = clock.sleep_until(until.max(now.steady + MIN_WAIT)) => {}
             }
         }
     }
@@ -280,14 +280,14 @@ impl Session {
     ) -> Result<(), LinkLoss> {
         let urgent = std::mem::take(&mut self.urgent);
         if !urgent.is_empty() {
-            write(writer, &urgent).await?;
+            write(&self.clock, writer, &urgent).await?;
             let now = self.now();
             self.wrote(now);
             self.gate.device().sent(&urgent, now);
         }
         let now = self.now();
         while let Some(bytes) = self.gate.device().poll(now) {
-            write(writer, &bytes).await?;
+            write(&self.clock, writer, &bytes).await?;
             self.wrote(now);
             self.gate.device().sent(&bytes, now);
         }
@@ -306,6 +306,7 @@ impl Session {
             .chain(self.silence_due())
             .chain([due])
             .min();
+        let clock = self.clock.clone();
         // A deadline that brings about nothing must not spin.
         let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
@@ -316,7 +317,7 @@ impl Session {
                 Ok(count) => Input::Bytes(count),
                 Err(error) => Input::Lost(LinkLoss::Broken(in_words(&error))),
             },
-            () = sleep_until(until.into()) => Input::Time,
+            () = clock.sleep_until(until) => Input::Time,
         }
     }
 }
@@ -357,11 +358,12 @@ async fn next_command(wires: &Wires) -> Option<Command> {
     }
 }
 
-pub(super) async fn write(
+async fn write(
+    clock: &Clock,
     writer: &mut WriteHalf<Box<dyn Stream>>,
     bytes: &[u8],
 ) -> Result<(), LinkLoss> {
-    let written = timeout(WRITE, async {
+    let written = clock.timeout(WRITE, async {
         writer.write_all(bytes).await?;
         writer.flush().await
     });

@@ -1,10 +1,11 @@
 //! The lease of a jog: it lives only while the window renews it.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Event, Session};
 use crate::{
-    device::{Measured, Moment, Motion},
+    clock::{Instant, Moment},
+    device::{Measured, Motion},
     driver::Safety,
 };
 

@@ -1,11 +1,12 @@
 //! Whether a unit that was out of sight answers as before: it may have been
 //! exchanged, set anew or lost its memory meanwhile.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Session;
 use crate::{
-    device::{AntennaState, Moment, Offsets, Place},
+    clock::{Instant, Moment},
+    device::{AntennaState, Offsets, Place},
     driver::Unlike,
 };
 

@@ -1,11 +1,11 @@
 //! Whether the unit still answers: the state of the link by the age of its last
 //! good reply.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Event, Session};
 use crate::{
-    device::Moment,
+    clock::{Instant, Moment},
     driver::{LinkLoss, LinkState},
 };
 

@@ -1,13 +1,10 @@
 //! A unit that is worked on: nothing but questions and STOP goes to it, whoever
 //! asks. Before that it is stopped, and kept from starting by itself.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
-use crate::{device::Moment, driver::Refusal, station::LockOut};
+use crate::{clock::Instant, clock::Moment, driver::Refusal, station::LockOut};
 
 /// So long it may take until auto-track is read back as off.
 const READ_BACK: Duration = Duration::from_secs(10);

@@ -1,15 +1,12 @@
 //! The mark on disk that an antenna is moved by hand: should this program end
 //! before it is proved to stand, the next start sends STOP first.
 
-use std::{
-    io,
-    time::{Duration, Instant},
-};
+use std::{io, time::Duration};
 
 use tokio::task::{JoinHandle, spawn_blocking};
 
 use super::{Event, Session};
-use crate::{astro::time::seconds_between, device::Moment, driver::Safety};
+use crate::{astro::time::seconds_between, clock::Instant, clock::Moment, driver::Safety};
 
 /// A disk that takes longer must not keep the operator from moving the antenna.
 const MOST: Duration = Duration::from_millis(300);

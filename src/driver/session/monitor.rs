@@ -1,15 +1,13 @@
 //! Holds what is measured against what the antenna must keep within, whoever
 //! drives it.
 
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
 use super::{Event, Session, activity::Activity};
 use crate::{
     astro::Angle,
-    device::{Measured, Moment},
+    clock::{Instant, Moment},
+    device::Measured,
     driver::{
         Safety, StoppingWay,
         safety::{Mover, Response},

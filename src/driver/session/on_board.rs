@@ -1,15 +1,13 @@
 //! Watches over a pass that the unit tracks by itself: before it starts, by what
 //! the unit tells of itself, and while it runs, by where it points.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{sync::Arc, time::Duration};
 
 use super::{Event, Session};
 use crate::{
     astro::{Angle, time::add_seconds},
-    device::{Moment, OnBoard},
+    clock::{Instant, Moment},
+    device::OnBoard,
     driver::{FollowProblem, OnBoardView, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };

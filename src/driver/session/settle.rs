@@ -1,7 +1,7 @@
 //! Changes of settings on their way to the gate.
 
 use super::{Event, Session};
-use crate::device::{Moment, settings::Change};
+use crate::{clock::Moment, device::settings::Change};
 
 impl Session {
     /// Puts `change` on the device; why it is not sent stands among the outcomes of

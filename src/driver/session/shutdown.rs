@@ -2,16 +2,16 @@
 
 use std::time::Duration;
 
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
-    time::{sleep_until, timeout},
-};
+use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
 
 use super::{
     Session,
     io_loop::{CONNECT, MIN_WAIT, STOP_RETRY, WRITE},
 };
-use crate::driver::{LinkState, Stream};
+use crate::{
+    clock::Instant,
+    driver::{LinkState, Stream},
+};
 
 /// How long the end of a session waits for standstill, beside what its proof takes.
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
@@ -29,8 +29,9 @@ impl Session {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];
-        let until = tokio::time::Instant::now() + STANDSTILL_WITHIN + self.setup.figures.gap();
-        while self.stop.is_under_way() && tokio::time::Instant::now() < until {
+        let clock = self.clock.clone();
+        let until = start.steady + STANDSTILL_WITHIN + self.setup.figures.gap();
+        while self.stop.is_under_way() && self.now().steady < until {
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
                     antenna = self.name,
@@ -49,7 +50,7 @@ impl Session {
                     }
                     _ => break,
                 },
-                () = sleep_until(self.next_look(until)) => {
+                () = clock.sleep_until(self.next_look(until)) => {
                     let now = self.now();
                     self.watch_halt(now);
                 }
@@ -59,14 +60,14 @@ impl Session {
             tracing::error!(antenna = self.name, "standstill was not proved at the end");
         }
         // The socket is closed in order, so that the last bytes are not cut off.
-        let _ = timeout(WRITE, writer.shutdown()).await;
+        let _ = clock.timeout(WRITE, writer.shutdown()).await;
     }
 
     /// When the goodbye has something to send or to look at.
-    fn next_look(&mut self, until: tokio::time::Instant) -> tokio::time::Instant {
+    fn next_look(&mut self, until: Instant) -> Instant {
         let now = self.now();
         let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
-        until.min(self.halt_due().map_or(due, |halt| halt.min(due)).into())
+        until.min(self.halt_due().map_or(due, |halt| halt.min(due)))
     }
 
     /// The window has let go of this antenna while a stop is owed to its unit: it
@@ -78,7 +79,7 @@ impl Session {
             if self.owed.debts.hand_over(&self.owed.unit, self.owed.number) {
                 return;
             }
-            if let Ok(Ok(stream)) = timeout(CONNECT, (self.dial)()).await {
+            if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, (self.dial)()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
@@ -89,7 +90,7 @@ impl Session {
                 self.gate.device().link_down(now);
             }
             if self.stop.is_under_way() {
-                tokio::time::sleep(STOP_RETRY).await;
+                self.clock.sleep(STOP_RETRY).await;
             }
         }
     }

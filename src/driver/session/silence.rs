@@ -4,11 +4,11 @@
 //! controllers ask again at once, and the unit is silent when that is not answered
 //! either.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Event, Session};
 use crate::{
-    device::Moment,
+    clock::{Instant, Moment},
     driver::{LinkState, Safety},
 };
 

@@ -1,8 +1,11 @@
 //! Standstill is proved by angles, not by what a unit says of its drives.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::device::{Capabilities, Measured};
+use crate::{
+    clock::Instant,
+    device::{Capabilities, Measured},
+};
 
 /// How two looks at a standing antenna compare.
 #[derive(Debug, Clone, Copy)]

@@ -1,12 +1,7 @@
 //! One step at a time: the next is judged by a position that shows the last.
 
-use std::time::Instant;
-
 use super::{Event, Session};
-use crate::{
-    device::{Moment, Motion},
-    driver::Refusal,
-};
+use crate::{clock::Instant, clock::Moment, device::Motion, driver::Refusal};
 
 /// A step that was sent.
 #[derive(Debug, Clone, Copy, PartialEq)]

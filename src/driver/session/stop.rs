@@ -1,6 +1,6 @@
 //! A halt from the first byte to proved standstill.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{
     Event, Session,
@@ -8,7 +8,8 @@ use super::{
     standstill::{Looks, Proof},
 };
 use crate::{
-    device::{Extent, Moment},
+    clock::{Instant, Moment},
+    device::Extent,
     driver::{Safety, StopState},
 };
 

@@ -1,14 +1,15 @@
 //! Watches over the intent: what the device answered, whether it does what was
 //! wanted, and when it ends.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{
     Event, Session,
     activity::{Activity, GoTo, GoToStage, OnBoardStage},
 };
 use crate::{
-    device::{Asked, Happening, Moment, Motion, Phase, TrackTarget},
+    clock::{Instant, Moment},
+    device::{Asked, Happening, Motion, Phase, TrackTarget},
     driver::{Found, Intent},
 };
 

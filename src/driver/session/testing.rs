@@ -1,13 +1,11 @@
 //! A session with a simulated Satrak at the other end of a stream in memory.
 
-use std::sync::Arc;
+use std::{num::NonZeroU32, sync::Arc};
 
 use jiff::Timestamp;
-use tokio::time::Instant;
 
 use super::{Session, Wires};
 use crate::{
-    astro::time::add_seconds,
     clock::Clock,
     controller::satrak::Satrak,
     driver::{AntennaHandle, Debts, Dial, Orders, Stream},
@@ -38,9 +36,9 @@ pub(in crate::driver) fn start(
         tokio::spawn(async move { control.serve(far).await });
         Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
     });
-    let started = Instant::now();
-    let clock = Clock::new(move || add_seconds(START, started.elapsed().as_secs_f64()));
-    let (wires, handle) = Wires::new(&antenna, Arc::new(|| {}), &Orders::default());
+    let clock = Clock::at_speed(START, NonZeroU32::MIN);
+    let (wires, handle) =
+        Wires::new(&antenna, clock.now().steady, Arc::new(|| {}), &Orders::default());
     let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
     let bounds = Bounds::of_antenna(&antenna);
     let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts, bounds);

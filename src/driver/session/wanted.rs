@@ -1,7 +1,5 @@
 //! A device that is left to others, and taken again on the operator's word.
 
-use tokio::time::sleep_until;
-
 use super::{
     Event, Session,
     activity::Activity,
@@ -27,6 +25,7 @@ impl Session {
         self.contact.link = LinkState::Off;
         self.contact.away_since = None;
         self.contact.loss_is_told = false;
+        let clock = self.clock.clone();
         while self.contact.wanted == Wanted::No {
             let now = self.now();
             self.forget_old_stop(now);
@@ -37,7 +36,7 @@ impl Session {
                 None => word.await,
                 Some(due) => tokio::select! {
                     turn = word => turn,
-                    () = sleep_until(due.max(now.steady + MIN_WAIT).into()) => Input::Time,
+                    () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => Input::Time,
                 },
             };
             // The word may have come hours later.

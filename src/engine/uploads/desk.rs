@@ -1,11 +1,7 @@
 //! Carries out what an order needs, on threads of their own, and shows how far
 //! it is.
 
-use std::{
-    io,
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{io, sync::Arc, time::Duration};
 
 use super::{
     Ask, Kept, KeptEntry, Places, Stage, Uploads, Warning,
@@ -14,7 +10,7 @@ use super::{
     select::{Selection, UnitNow},
 };
 use crate::{
-    clock::Clock,
+    clock::{Clock, Instant},
     engine::host_keys,
     job::{Job, Wake},
     transfer::Transfer,

@@ -1,10 +1,11 @@
 //! Tells a unit to use a file that was put on it.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use jiff::Timestamp;
 
 use crate::{
+    clock::Instant,
     device::{
         ElementFiles,
         panel::{Check, CheckState},

@@ -1,9 +1,7 @@
 //! What to tell one axis.
 
-use std::time::Instant;
-
 use super::{drives::Drives, path::Path, swing_rate::SwingRate};
-use crate::station::Following;
+use crate::{clock::Instant, station::Following};
 
 /// How often the time of arrival is improved.
 const ROUNDS: usize = 4;

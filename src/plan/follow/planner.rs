@@ -1,7 +1,5 @@
 //! What to command next.
 
-use std::time::Instant;
-
 use jiff::Timestamp;
 
 use super::{
@@ -16,6 +14,7 @@ use crate::{
         AzEl,
         time::{add_seconds, seconds_between},
     },
+    clock::Instant,
     orbit::PropagationError,
     plan::{
         Bounds,

@@ -1,8 +1,6 @@
 //! How fast an axis really turns, as its long swings show.
 
-use std::time::Instant;
-
-use crate::station::ranges;
+use crate::{clock::Instant, station::ranges};
 
 /// As it sets out, and before it arrives, an axis may be slower, degrees.
 const RAMP_DEG: f64 = 5.0;
@@ -83,7 +81,7 @@ impl Swing {
         let after = self.readings.iter().skip(self.readings.len() / 4);
         let pairs = self.readings.iter().zip(after);
         let rate = |((from, from_deg), (to, to_deg)): (&(Instant, f64), &(Instant, f64))| {
-            (to_deg - from_deg).abs() / to.duration_since(*from).as_secs_f64()
+            (to_deg - from_deg).abs() / to.saturating_duration_since(*from).as_secs_f64()
         };
         let mut rates: Vec<f64> = pairs.map(rate).collect();
         rates.sort_by(f64::total_cmp);

@@ -1,10 +1,11 @@
 //! What was typed over one group of settings, and what became of it.
 
-use std::{collections::BTreeMap, time::Instant};
+use std::collections::BTreeMap;
 
 use jiff::Timestamp;
 
 use crate::{
+    clock::Instant,
     device::settings::{Access, Field, Kind, Settled, Unfit, Value, Values},
     ui::widgets::hold_button::HoldState,
 };

@@ -3,7 +3,7 @@
 use std::{
     collections::{BTreeMap, BTreeSet},
     sync::atomic::{AtomicU64, Ordering},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use jiff::Timestamp;
@@ -16,6 +16,7 @@ use super::{
     unlock::Unlock,
 };
 use crate::{
+    clock::Instant,
     device::settings::{Access, Change, Group, Guard, Hindrance, Values},
     driver::Command,
     model::UiCommand,

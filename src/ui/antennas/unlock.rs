@@ -1,7 +1,8 @@
 //! The service functions: opened by the name of the station, for ten minutes,
 //! while the antenna stands.
 
-use std::time::{Duration, Instant};
+use crate::clock::Instant;
+use std::time::Duration;
 
 use super::unit::Unit;
 

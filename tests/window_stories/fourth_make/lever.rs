@@ -6,15 +6,15 @@ use std::{
     net::TcpListener,
     sync::mpsc,
     thread,
-    time::Instant,
 };
 
 use azel::{
     astro::AzEl,
+    clock::{Instant, Moment},
     controller::satrak,
     device::{
-        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Moment,
-        Motion, Moves, Standstill, Variant, aimed,
+        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Motion,
+        Moves, Standstill, Variant, aimed,
     },
     station::{Choice, Connection, ControllerSpec, Holds, Link, Setting, Table, Usual, Value},
 };

@@ -1,8 +1,9 @@
 //! A target that is followed, and how well.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::{
+    clock::Instant,
     device::{AxisMotion, Capabilities, Measured, Pointing},
     driver::{FollowView, session::likeness::Recheck},
     plan::{

@@ -1,11 +1,9 @@
-use std::{
-    collections::VecDeque,
-    time::{Duration, Instant},
-};
+use std::{collections::VecDeque, time::Duration};
 
 use super::*;
 use crate::{
     astro::{Angle, Site},
+    clock::Instant,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{FollowStats, Target},
     station::{AfterPass, Antenna, Entered, KeepOut, MotionLimits, Mount, Station},
