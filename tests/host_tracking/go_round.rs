@@ -30,14 +30,7 @@ fn halfway(scene: &Scene, margin_deg: f64) -> KeepOut {
 fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
     let sides = [azimuth_deg - 8.0, azimuth_deg + 8.0];
     let corners = [(sides[0], -2.0), (sides[1], -2.0), (sides[1], top), (sides[0], top)];
-    KeepOut {
-        name: "mast".to_owned(),
-        entered: Entered::GoRound,
-        reason: String::new(),
-        antenna: None,
-        margin_deg,
-        zone: KeepOut::zone_of(&corners).unwrap(),
-    }
+    KeepOut { entered: Entered::GoRound, margin_deg, ..crate::common::mast(&corners) }
 }
 
 /// How far outside of all margins the antenna was at least while it followed, and how

@@ -7,7 +7,7 @@ use azel::{
     plan::Bounds,
     protocol::rc2000c::SatelliteName,
     sim::rc2000c::{Options, StoredSatellite},
-    station::{Antenna, Entered, KeepOut, LockOut, Monitor, Station},
+    station::{Antenna, LockOut, Monitor, Station},
 };
 
 use super::rig::{Rig, antenna, check, reading, uncalibrated};
@@ -27,14 +27,7 @@ async fn not_sent(rig: &mut Rig) -> Refusal {
 /// A mast before the azimuths from 140 to 150 degrees, up to 60.
 fn mast() -> Bounds {
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
-    let mast = KeepOut {
-        name: "mast".to_owned(),
-        entered: Entered::Hard,
-        reason: String::new(),
-        antenna: None,
-        margin_deg: 1.0,
-        zone: KeepOut::zone_of(&corners_deg).unwrap(),
-    };
+    let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     Bounds::of(&station, &antenna())
 }

@@ -6,7 +6,7 @@ use azel::{
     driver::{Command, Event, FollowProblem, Inside, Refusal, Safety},
     plan::{Barrier, Bounds, Follow, Target},
     sim::satrak::Options,
-    station::{Entered, KeepOut, Station, SunAvoidance},
+    station::{Station, SunAvoidance},
 };
 use jiff::Timestamp;
 
@@ -42,14 +42,7 @@ fn masted(at: AzEl) -> Station {
         (az + wide, el + 5.0),
         (az + wide, el - 5.0),
     ];
-    let mast = KeepOut {
-        name: "mast".to_owned(),
-        reason: String::new(),
-        entered: Entered::Hard,
-        antenna: None,
-        margin_deg: 1.0,
-        zone: KeepOut::zone_of(&corners).unwrap(),
-    };
+    let mast = crate::common::mast(&corners);
     Station { keep_outs: vec![mast], site: site(), ..Station::default() }
 }
 

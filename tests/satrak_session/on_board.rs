@@ -11,7 +11,7 @@ use azel::{
         on_board::{Cause, OffLimits, Trespass},
     },
     protocol::satrak::encode,
-    station::{Entered, KeepOut, Station},
+    station::Station,
 };
 use tokio::io::AsyncWriteExt as _;
 
@@ -250,14 +250,7 @@ fn in_the_way() -> Bounds {
     let highest_deg = scene::pass().tca.direction.azimuth_deg();
     let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];
     let corners_deg = [(from_deg, 20.0), (to_deg, 20.0), (to_deg, 80.0), (from_deg, 80.0)];
-    let mast = KeepOut {
-        name: "mast".to_owned(),
-        entered: Entered::Hard,
-        reason: String::new(),
-        antenna: None,
-        margin_deg: 1.0,
-        zone: KeepOut::zone_of(&corners_deg).unwrap(),
-    };
+    let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     Bounds::of(&station, &antenna())
 }

@@ -11,7 +11,7 @@ use azel::{
     engine::alarms::AlarmKind,
     model::{Model, UiCommand},
     plan::{Barrier, Target},
-    station::{Antenna, AntennaId, Entered, KeepOut, SunAvoidance},
+    station::{Antenna, AntennaId, KeepOut, SunAvoidance},
 };
 use egui_kittest::kittest::Queryable as _;
 
@@ -169,15 +169,9 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
 #[test]
 fn a_keep_out_is_told_of_with_its_reason() {
     let mut model = shows(states::manual());
-    let zone = KeepOut::zone_of(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]);
-    Arc::make_mut(&mut model.station).keep_outs = vec![KeepOut {
-        name: "mast".to_owned(),
-        reason: "Steel mast, 24 m away".to_owned(),
-        entered: Entered::Hard,
-        antenna: None,
-        margin_deg: 1.0,
-        zone: zone.unwrap(),
-    }];
+    let mast = crate::common::mast(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]);
+    let reason = "Steel mast, 24 m away".to_owned();
+    Arc::make_mut(&mut model.station).keep_outs = vec![KeepOut { reason, ..mast }];
     let barrier = || Barrier::KeepOut("mast".into());
     let refusal = Refusal::Forbidden { barrier: barrier(), at: AzEl::from_degrees(90.0, 20.0) };
     model.antennas[0].news = Some((Event::NotSent(refusal), rig::now()));

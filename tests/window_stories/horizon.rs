@@ -43,14 +43,7 @@ pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
 }
 
 fn mast() -> KeepOut {
-    KeepOut {
-        name: "mast".to_owned(),
-        reason: String::new(),
-        entered: Entered::Hard,
-        antenna: None,
-        margin_deg: 1.0,
-        zone: KeepOut::zone_of(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)]).unwrap(),
-    }
+    crate::common::mast(&[(80.0, 0.0), (80.0, 30.0), (100.0, 30.0), (100.0, 0.0)])
 }
 
 fn page_of(size: [f32; 2], mut model: Model) -> Window {
