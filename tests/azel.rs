@@ -11,6 +11,7 @@
 )]
 
 mod common;
+mod declared;
 mod documents;
 mod elements_any;
 mod elements_forms;
