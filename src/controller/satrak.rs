@@ -11,7 +11,7 @@ mod prepare;
 mod record;
 mod reported;
 mod schedule;
-mod settings;
+pub mod settings;
 mod settle;
 mod spec;
 mod state;
@@ -21,7 +21,7 @@ use std::{collections::VecDeque, time::Duration};
 
 pub use checks::checks;
 pub use element_files::ELEMENT_FILES;
-pub use settings::{FROM_GPS, FROM_THIS_PC, GROUPS};
+use settings::GROUPS;
 pub use spec::{ELEMENT_FILE, SPEC, VARIANT};
 pub use words::meaning;
 

@@ -1,6 +1,6 @@
 //! How a unit is given files of elements.
 
-use super::settings::{Value, Values};
+use super::settings::{Key, Values};
 
 /// How every unit of a make takes files of elements over SFTP, and is told which
 /// satellite of which file to use.
@@ -23,16 +23,16 @@ pub struct ElementFiles {
     /// The values of that group for a file and the name of a satellite in it; the present
     /// track ends.
     pub choose: fn(&str, &str) -> Values,
-    /// Key of the value of that group that holds the catalogue number of what it found.
-    pub number: &'static str,
+    /// The value of that group that holds the catalogue number of what it found.
+    pub number: Key<i64>,
     /// Names of the checks that are bad where it does not find the satellite.
     pub checks: &'static [&'static str],
 }
 
 impl ElementFiles {
     /// The catalogue number of what it found in its file.
-    pub fn found<'a>(&self, values: &'a Values) -> Option<&'a Value> {
-        values.get(self.number)
+    pub fn found(&self, values: &Values) -> Option<i64> {
+        self.number.of(values)
     }
 }
 

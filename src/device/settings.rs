@@ -5,6 +5,7 @@ mod copy;
 mod field;
 mod held;
 mod hindrance;
+mod key;
 mod settling;
 mod value;
 
@@ -15,5 +16,6 @@ pub use held::{
     Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
 };
 pub use hindrance::Hindrance;
+pub use key::Key;
 pub(crate) use settling::{Settling, Step};
 pub use value::{Unfit, Value, Values};

@@ -3,7 +3,7 @@
 
 use azel::{
     astro::Angle,
-    controller::satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
+    controller::satrak::settings::{FROM_GPS, FROM_THIS_PC, GROUPS},
     device::settings::{Change, Secret, Value},
     driver::{Command, Event},
     protocol::satrak::{Query, encode},

@@ -7,7 +7,7 @@ use std::{
 };
 
 use azel::{
-    controller::satrak::GROUPS,
+    controller::satrak::settings::GROUPS,
     device::settings::{CopyHead, Secret, SettingsCopy, Value},
     sim::satrak::Fault,
 };

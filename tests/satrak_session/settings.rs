@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
-    controller::satrak::{FROM_GPS, FROM_THIS_PC, GROUPS},
+    controller::satrak::settings::{FROM_GPS, FROM_THIS_PC, GROUPS},
     device::settings::{Access, Change, Secret, SettleError, Value, Values},
     driver::Command,
     protocol::satrak::encode,

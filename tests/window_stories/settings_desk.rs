@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use azel::{
-    controller::satrak::GROUPS,
+    controller::satrak::settings::GROUPS,
     device::settings::{Access, Field, GroupState, Held, HeldGroup, Kind, Secret, Value, Values},
     driver::Snapshot,
     model::View,

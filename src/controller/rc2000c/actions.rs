@@ -5,7 +5,7 @@ use crate::{
     device::{
         Asked, Device, Happening,
         panel::{Act, Action, Lead},
-        settings::{Field, Kind, Unfit, Value},
+        settings::{Field, Key, Unfit},
     },
     protocol::rc2000c::{
         AutoMove, Band, DriveReset, Motion as UnitMotion, Polarity, PolarizationMove,
@@ -30,20 +30,16 @@ const TRACK_C_BAND: &str = "track_c_band";
 const TRACK_K_BAND: &str = "track_k_band";
 const READ_LIST: &str = "read_list";
 
-const SATELLITE: Field = Field::write("satellite", "Satellite", Kind::Text(check_name))
-    .about("As in the list of stored satellites.");
-const POLARITY: Field = Field::write(
-    "polarity",
-    "Polarity",
-    Kind::Choice(&[(0, "As it is"), (1, "Stored H"), (2, "Stored V")]),
-);
-const END_TRACK: Field = Field::write("end_track", "Even during TRACK", Kind::Flag)
+const SATELLITE: Key<String> = Key::text("satellite", check_name);
+const POLARITY: Key<i64> =
+    Key::choice("polarity", &[(0, "As it is"), (1, "Stored H"), (2, "Stored V")]);
+const END_TRACK: Key<bool> = Key::flag("end_track");
+const AZ_COUNTS: Key<i64> = Key::integer("az_counts", 0, 65_535);
+const EL_COUNTS: Key<i64> = Key::integer("el_counts", 0, 65_535);
+const UNITS: Key<i64> = Key::integer("units", 0, 1023);
+
+const EVEN_DURING_TRACK: Field = Field::write(END_TRACK, "Even during TRACK")
     .about("While the unit tracks by itself, a move is sent only with this.");
-const AZ_COUNTS: Field = Field::write("az_counts", "Azimuth", COUNTS).in_unit("counts");
-const EL_COUNTS: Field = Field::write("el_counts", "Elevation", COUNTS).in_unit("counts");
-const COUNTS: Kind = Kind::Integer { least: 0, most: 65_535 };
-const UNITS: Field = Field::write("units", "Polarization", Kind::Integer { least: 0, most: 1023 })
-    .about("0 to 661 with a polarotor, 0 to 1023 with a rotating feed; more is further CCW.");
 
 const NAMES_ONLY: &str = "the unit tells the names of its satellites and not their places, so \
                           where it runs to is known to it alone";
@@ -57,7 +53,11 @@ const UNHEARD_OF: &str = "where this leads is not known";
 /// In the order of the panel.
 pub(super) const ACTIONS: &[Action] = &[
     Action {
-        fields: &[SATELLITE, POLARITY, END_TRACK],
+        fields: &[
+            Field::write(SATELLITE, "Satellite").about("As in the list of stored satellites."),
+            Field::write(POLARITY, "Polarity"),
+            EVEN_DURING_TRACK,
+        ],
         ..moving(
             TO_SATELLITE,
             "Go to a stored satellite",
@@ -66,11 +66,17 @@ pub(super) const ACTIONS: &[Action] = &[
         )
     },
     Action {
-        fields: &[AZ_COUNTS, EL_COUNTS, END_TRACK],
+        fields: &[
+            Field::write(AZ_COUNTS, "Azimuth").in_unit("counts"),
+            Field::write(EL_COUNTS, "Elevation").in_unit("counts"),
+            EVEN_DURING_TRACK,
+        ],
         ..moving(TO_COUNTS, "Go to counts", "Both axes run to these counts of their sensors.")
     },
     Action {
-        fields: &[UNITS],
+        fields: &[Field::write(UNITS, "Polarization").about(
+            "0 to 661 with a polarotor, 0 to 1023 with a rotating feed; more is further CCW.",
+        )],
         ..moving(TO_POLARIZATION, "Turn polarization to", "The polarization alone turns.")
     },
     moving(POLARIZATION_CW, "Polarization CW", "Turns for the moment that is set in the unit."),
@@ -161,7 +167,7 @@ impl Rc2000c {
             TO_SATELLITE => self.to_satellite(act).map(auto_move),
             TO_COUNTS => self.to_counts(act).map(auto_move),
             TO_POLARIZATION => {
-                let units = integer(act, UNITS.key)?;
+                let units = integer(act, &UNITS)?;
                 let units = PolarizationUnits::new(units).map_err(|error| error.to_string())?;
                 Ok(auto_move(AutoMove::polarization(units)))
             }
@@ -201,17 +207,15 @@ impl Rc2000c {
 
     fn to_satellite(&self, act: &Act) -> Result<AutoMove, String> {
         self.check_track(act)?;
-        let Some(Value::Text(typed)) = act.values.get(SATELLITE.key) else {
-            return Err("no satellite was named".to_owned());
-        };
+        let typed = SATELLITE.of(&act.values).ok_or("no satellite was named")?;
         if !self.names.is_complete() {
             return Err("the list of stored satellites was not read yet".to_owned());
         }
-        let name = self.names.find(typed);
+        let name = self.names.find(&typed);
         let name = name.ok_or_else(|| format!("no satellite {:?} is stored", typed.trim()))?;
-        let polarity = match act.values.get(POLARITY.key) {
-            Some(Value::Choice(1)) => Some(Polarity::Horizontal),
-            Some(Value::Choice(2)) => Some(Polarity::Vertical),
+        let polarity = match POLARITY.of(&act.values) {
+            Some(1) => Some(Polarity::Horizontal),
+            Some(2) => Some(Polarity::Vertical),
             _ => None,
         };
         AutoMove::satellite(name, polarity).map_err(|error| error.to_string())
@@ -224,12 +228,12 @@ impl Rc2000c {
     }
 
     fn counts_of(act: &Act) -> Result<[u16; 2], String> {
-        Ok([integer(act, AZ_COUNTS.key)?, integer(act, EL_COUNTS.key)?])
+        Ok([integer(act, &AZ_COUNTS)?, integer(act, &EL_COUNTS)?])
     }
 
     /// A move would take the antenna out of the hands of the unit.
     fn check_track(&self, act: &Act) -> Result<(), String> {
-        let is_told = act.values.get(END_TRACK.key) == Some(&Value::Flag(true));
+        let is_told = END_TRACK.of(&act.values) == Some(true);
         if is_told || !self.status.as_ref().is_some_and(is_tracking) {
             Ok(())
         } else {
@@ -242,10 +246,7 @@ fn auto_move(target: AutoMove) -> Request {
     Request::Motion(UnitMotion::AutoMove(target))
 }
 
-fn integer(act: &Act, key: &str) -> Result<u16, String> {
-    match act.values.get(key) {
-        Some(Value::Integer(number)) => u16::try_from(*number).ok(),
-        _ => None,
-    }
-    .ok_or_else(|| format!("{key} is missing"))
+fn integer(act: &Act, key: &Key<i64>) -> Result<u16, String> {
+    let number = key.of(&act.values).and_then(|number| u16::try_from(number).ok());
+    number.ok_or_else(|| format!("{} is missing", key.name))
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::device::{
     panel::Action,
-    settings::{Field, Kind},
+    settings::{Field, Key},
 };
 
 /// Key of the action that sends the rotator that is not the antenna's.
@@ -12,8 +12,8 @@ pub const OTHER: &str = "other";
 /// Key of the action that allows a jog outside the limits.
 pub const RESCUE: &str = "rescue";
 
-/// Key of the field of [`OTHER`], whole degrees from 0 to 360.
-pub(super) const DIRECTION: &str = "direction_deg";
+/// Where [`OTHER`] leads, whole degrees.
+pub(super) const DIRECTION: Key<i64> = Key::integer("direction_deg", 0, 360);
 /// For how long a rescue stays armed, unless the operator's STOP comes first.
 pub(super) const ARMED: Duration = Duration::from_mins(1);
 
@@ -21,9 +21,7 @@ pub(super) const SEND_OTHER: Action = Action {
     key: OTHER,
     label: "Send the other rotator",
     about: "Turns the rotator that is not this antenna's. STOP stops both.",
-    fields: &[Field::edit(DIRECTION, "Direction", Kind::Integer { least: 0, most: 360 })
-        .in_unit("°")
-        .about("As that rotator counts.")],
+    fields: &[Field::edit(DIRECTION, "Direction").in_unit("°").about("As that rotator counts.")],
     moves: true,
     question: None,
 };

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     astro::Angle,
     clock::Moment,
-    device::{Asked, AxisMotion, Motion, panel::Act, settings::Value},
+    device::{Asked, AxisMotion, Motion, panel::Act},
     protocol::rotator_genius::{
         self as unit, Direction, NoPosition, Rotator, RotatorNumber, WholeDegrees,
     },
@@ -115,12 +115,8 @@ impl Genius {
 
     /// The command that an action is made of.
     pub(super) fn order_for(&self, act: &Act) -> Result<Order, &'static str> {
-        let Some(Value::Integer(degrees)) = act.values.get(DIRECTION) else {
-            return Err(BEYOND);
-        };
-        let target =
-            u16::try_from(*degrees).ok().and_then(|degrees| WholeDegrees::new(degrees).ok());
-        let target = target.ok_or(BEYOND)?;
+        let degrees = DIRECTION.of(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
+        let target = degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(BEYOND)?;
         let Roles { axes: [_, rotator], .. } = self.roles().ok_or(NOT_READ)?;
         let request = unit::Motion::GoTo { rotator, target };
         Ok(Order { request, asked: Asked::Action(act.action) })

@@ -88,7 +88,7 @@ proptest! {
                     genius.start(motion);
                 }
                 Step::Act(action, degrees) => {
-                    let values: Values = [(actions::DIRECTION, Value::Integer(degrees))].into();
+                    let values: Values = [actions::DIRECTION.with(degrees)].into();
                     genius.act(Act { action, values });
                 }
                 Step::Settle => genius.settle(settling(), now),

@@ -135,8 +135,8 @@ impl Device for Satrak {
     }
 
     fn read_group(&mut self, group: &str) {
-        if let Some(Plan { query, .. }) = Plan::of(group) {
-            self.want(query);
+        if let Some(plan) = Plan::of(group) {
+            self.want(plan.query);
         }
     }
 

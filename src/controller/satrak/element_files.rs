@@ -1,11 +1,12 @@
 //! How a Satrak is given files of elements.
 
-use super::{ELEMENT_FILE, checks::FILE_CHECKS, settings::FILE};
+use super::{
+    ELEMENT_FILE,
+    checks::FILE_CHECKS,
+    settings::{CATALOG_NUMBER, CONTINUE_TRACKING, FILE, FILE_NAME, SATELLITE_NAME},
+};
 use crate::{
-    device::{
-        ElementFiles,
-        settings::{Value, Values},
-    },
+    device::{ElementFiles, settings::Values},
     protocol::satrak::TextValue,
 };
 
@@ -21,11 +22,11 @@ pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     group: FILE.key,
     choose: |file, satellite| {
         Values::from([
-            ("file", Value::Text(file.to_owned())),
-            ("name", Value::Text(satellite.to_owned())),
-            ("continue_tracking", Value::Flag(false)),
+            FILE_NAME.with(file.to_owned()),
+            SATELLITE_NAME.with(satellite.to_owned()),
+            CONTINUE_TRACKING.with(false),
         ])
     },
-    number: "catalog_number",
+    number: CATALOG_NUMBER,
     checks: &FILE_CHECKS,
 };

@@ -13,38 +13,82 @@ mod times;
 mod wish;
 
 use crate::{
-    device::{
-        UnitClock,
-        settings::{Group, SettleError, Unfit, Values},
-    },
+    device::settings::{Group, SettleError, Unfit, Values},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
+pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_SOURCE};
+pub use place::{GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER};
 pub(super) use proof::{Differing, Judge, Proof};
-pub(super) use source::FILE;
-pub use times::{FROM_GPS, FROM_THIS_PC};
+pub use report::{POSITION, VERSIONS};
+pub use service::{ANGLES, IMAGE, REDUCTION};
+pub use source::{
+    ADDRESS, CATALOG_NUMBER, CONTINUE_TRACKING, FILE, FILE_NAME, FTP, PASSWORD, PERIOD, PORT,
+    SATELLITE, SATELLITE_NAME, URL, USER, WEB,
+};
+pub(super) use times::ahead;
+pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
 pub(super) use wish::Wish;
 
-/// All groups of a unit, in the order of the forms.
-pub static GROUPS: &[&Group] = &[
-    &general::GENERAL,
-    &place::GPS,
-    &place::RECEIVER,
-    &times::WINDOW,
-    &source::FILE,
-    &source::WEB,
-    &source::FTP,
-    &times::CLOCK,
-    &report::VERSIONS,
-    &report::POSITION,
-    &service::ANGLES,
-    &service::REDUCTION,
-    &service::IMAGE,
+/// All groups of a unit, in the order of the forms, and how each is read and written.
+static PLANS: [Plan; 13] = [
+    Plan::reported(&GENERAL, Query::Settings, general::values).written(general::write),
+    Plan::reported(&GPS, Query::GpsSettings, place::values).written(place::write),
+    Plan::reported(&RECEIVER, Query::GpsData, place::receiver),
+    Plan::reported(&WINDOW, Query::StartStopTime, times::window).written(times::write_window),
+    Plan {
+        judge: source::judge_file,
+        also: SOURCE,
+        ..Plan::reported(&FILE, Query::Satellite, source::file).written(source::write_file)
+    },
+    Plan {
+        differing: source::web_differing,
+        also: SOURCE,
+        ..Plan::reported(&WEB, Query::SatelliteHttp, source::web).written(source::write_web)
+    },
+    Plan {
+        also: SOURCE,
+        ..Plan::reported(&FTP, Query::SatelliteFtp, source::ftp).written(source::write_ftp)
+    },
+    Plan {
+        differing: times::clock_differing,
+        is_clock: true,
+        ..Plan::reported(&CLOCK, Query::Clock, times::clock).written(times::write_clock)
+    },
+    Plan::reported(&VERSIONS, Query::Version, report::versions),
+    Plan::reported(&POSITION, Query::TimedPosition, report::position),
+    Plan {
+        differing: service::angles_differing,
+        ..Plan::reported(&ANGLES, Query::AngleSettings, service::angles)
+            .written(service::write_angles)
+    },
+    Plan::reported(&REDUCTION, Query::Reduction, service::reduction)
+        .written(service::write_reduction),
+    Plan::reported(&IMAGE, Query::ImageStatus, service::image).written(service::write_image),
 ];
+
+/// A new source may be without the satellite, and switches the mode of reading.
+const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
+
+/// The groups of [`PLANS`].
+// A place beyond the end does not compile here, and `get` would have to be unwrapped.
+#[allow(clippy::indexing_slicing)]
+pub static GROUPS: &[&Group] = &{
+    let mut groups = [PLANS[0].group; PLANS.len()];
+    let mut place = 0;
+    while place < PLANS.len() {
+        groups[place] = PLANS[place].group;
+        place += 1;
+    }
+    groups
+};
 
 /// How a group is read and written.
 pub(super) struct Plan {
+    pub(super) group: &'static Group,
     /// Asks for it.
     pub(super) query: Query,
+    /// Its values in the answer; `None` of any other reply.
+    pub(super) values: fn(&Reply) -> Option<Values>,
     /// Makes the command that changes it; `None` for what is only reported.
     pub(super) write: Option<Write>,
     /// What else a change may have changed, or may prove wrong.
@@ -59,79 +103,34 @@ pub(super) struct Plan {
 
 pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, SettleError>;
 
-/// A new source may be without the satellite, and switches the mode of reading.
-const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
-
 impl Plan {
-    const fn read(query: Query) -> Self {
+    const fn reported(
+        group: &'static Group,
+        query: Query,
+        values: fn(&Reply) -> Option<Values>,
+    ) -> Self {
         let (differing, judge): (Differing, Judge) = (proof::plain, proof::no_objection);
-        Self { query, write: None, also: &[], differing, judge, is_clock: false }
+        Self { group, query, values, write: None, also: &[], differing, judge, is_clock: false }
     }
 
-    const fn write(query: Query, write: Write) -> Self {
-        Self { write: Some(write), ..Self::read(query) }
+    const fn written(self, write: Write) -> Self {
+        Self { write: Some(write), ..self }
     }
 
     /// The plan of the group with this key.
-    pub(super) fn of(key: &str) -> Option<Self> {
-        let source = |query, write| Self { also: SOURCE, ..Self::write(query, write) };
-        Some(match key {
-            "general" => Self::write(Query::Settings, general::write),
-            "gps" => Self::write(Query::GpsSettings, place::write),
-            "receiver" => Self::read(Query::GpsData),
-            "window" => Self::write(Query::StartStopTime, times::write_window),
-            "file" => {
-                Self { judge: source::judge_file, ..source(Query::Satellite, source::write_file) }
-            }
-            "web" => Self {
-                differing: source::web_differing,
-                ..source(Query::SatelliteHttp, source::write_web)
-            },
-            "ftp" => source(Query::SatelliteFtp, source::write_ftp),
-            "clock" => Self {
-                differing: times::clock_differing,
-                is_clock: true,
-                ..Self::write(Query::Clock, times::write_clock)
-            },
-            "versions" => Self::read(Query::Version),
-            "position" => Self::read(Query::TimedPosition),
-            "angles" => Self {
-                differing: service::angles_differing,
-                ..Self::write(Query::AngleSettings, service::write_angles)
-            },
-            "reduction" => Self::write(Query::Reduction, service::write_reduction),
-            "image" => Self::write(Query::ImageStatus, service::write_image),
-            _ => return None,
-        })
+    pub(super) fn of(key: &str) -> Option<&'static Self> {
+        PLANS.iter().find(|plan| plan.group.key == key)
     }
 }
 
 /// The group that `query` asks for.
 pub(super) fn group_of(query: Query) -> Option<&'static Group> {
-    GROUPS.iter().copied().find(|group| Plan::of(group.key).is_some_and(|p| p.query == query))
+    PLANS.iter().find(|plan| plan.query == query).map(|plan| plan.group)
 }
 
 /// The group that a reply tells of, with its values.
-pub(super) fn values_of(
-    reply: &Reply,
-    clock: Option<&UnitClock>,
-) -> Option<(&'static Group, Values)> {
-    Some(match reply {
-        Reply::Settings(settings) => (&general::GENERAL, general::values(settings)),
-        Reply::GpsSettings(settings) => (&place::GPS, place::values(settings)),
-        Reply::GpsData(data) => (&place::RECEIVER, place::receiver(data)),
-        Reply::StartStopTime(window) => (&times::WINDOW, times::window(window)),
-        Reply::Satellite(satellite) => (&source::FILE, source::file(satellite)),
-        Reply::SatelliteHttp(web) => (&source::WEB, source::web(web)),
-        Reply::SatelliteFtp(ftp) => (&source::FTP, source::ftp(ftp)),
-        Reply::Clock(read) => (&times::CLOCK, times::clock(*read, clock)),
-        Reply::Version(version) => (&report::VERSIONS, report::versions(version)),
-        Reply::TimedPosition(position) => (&report::POSITION, report::position(position)),
-        Reply::AngleSettings(angles) => (&service::ANGLES, service::angles(angles)),
-        Reply::Reduction(reduction) => (&service::REDUCTION, service::reduction(*reduction)),
-        Reply::ImageStatus(status) => (&service::IMAGE, service::image(status)),
-        Reply::Status(_) | Reply::Faults(_) | Reply::Done | Reply::Refused { .. } => return None,
-    })
+pub(super) fn values_of(reply: &Reply) -> Option<(&'static Group, Values)> {
+    PLANS.iter().find_map(|plan| Some((plan.group, (plan.values)(reply)?)))
 }
 
 /// A text that stands between commas.
@@ -162,10 +161,8 @@ mod tests {
 
     #[test]
     fn every_group_can_be_read_and_written_where_it_has_something_to_write() {
-        for group in GROUPS {
-            let plan = Plan::of(group.key).unwrap();
-            assert_eq!(plan.write.is_some(), group.is_writable(), "{}", group.key);
-            assert_eq!(group_of(plan.query).unwrap().key, group.key);
+        for Plan { group, write, .. } in &PLANS {
+            assert_eq!(write.is_some(), group.is_writable(), "{}", group.key);
             let keys: BTreeSet<_> = group.fields.iter().map(|field| field.key).collect();
             let labels: BTreeSet<_> = group.fields.iter().map(|field| field.label).collect();
             assert_eq!((keys.len(), labels.len()), (group.fields.len(), group.fields.len()));

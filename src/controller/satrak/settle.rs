@@ -60,7 +60,7 @@ impl Settling {
         Ok(Self { core: settings::Settling::new(change, GROUPS)?, asked_also: 0 })
     }
 
-    fn plan(&self) -> Option<Plan> {
+    fn plan(&self) -> Option<&'static Plan> {
         Plan::of(self.core.group.key)
     }
 
@@ -73,7 +73,7 @@ impl Settling {
                 Some(query) => Next::Send(Request::Query(*query)),
                 None => Next::Over(self.core.result()),
             },
-            Step::Send => self.command(&plan, doing, now),
+            Step::Send => self.command(plan, doing, now),
         }
     }
 
@@ -136,7 +136,7 @@ impl Settling {
     }
 
     fn values(&self, reply: &Reply) -> Result<Values, SettleError> {
-        let of_group = values_of(reply, None).filter(|(group, _)| group.key == self.core.group.key);
+        let of_group = values_of(reply).filter(|(group, _)| group.key == self.core.group.key);
         of_group.map(|(_, values)| values).ok_or(SettleError::Unread(ReadFailure::Unanswered))
     }
 

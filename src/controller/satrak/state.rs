@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{
     Satrak, checks,
-    settings::{group_of, values_of},
+    settings::{CLOCK, ahead, group_of, values_of},
 };
 use crate::{
     astro::{AzEl, time::seconds_between},
@@ -65,7 +65,10 @@ impl Satrak {
     }
 
     fn take_values(&mut self, reply: &Reply, now: Moment) {
-        let Some((group, values)) = values_of(reply, self.reported.clock.as_ref()) else { return };
+        let Some((group, mut values)) = values_of(reply) else { return };
+        if group.key == CLOCK.key {
+            values.extend(self.reported.clock.as_ref().map(ahead));
+        }
         let state = self.state.group(group.key);
         state.held = Some(HeldGroup { values, read_at: now.utc });
         state.failure = None;

@@ -1,6 +1,6 @@
 //! The description of a setting.
 
-use super::{Unfit, Value, Values};
+use super::{Key, Unfit, Value, Values};
 
 /// Settings that a device reports with one answer and takes with one command.
 #[derive(Debug)]
@@ -104,12 +104,12 @@ const fn free(_: &Value) -> Guard {
 
 impl Field {
     /// A setting without a unit that the operator may change freely.
-    pub const fn edit(key: &'static str, label: &'static str, kind: Kind) -> Self {
+    pub const fn edit<T>(key: Key<T>, label: &'static str) -> Self {
         Self {
-            key,
+            key: key.name,
             label,
             unit: "",
-            kind,
+            kind: key.kind,
             access: Access::Edit,
             guard: free,
             moves: false,
@@ -118,13 +118,13 @@ impl Field {
     }
 
     /// A value that is only reported.
-    pub const fn read(key: &'static str, label: &'static str, kind: Kind) -> Self {
-        Self { access: Access::Read, ..Self::edit(key, label, kind) }
+    pub const fn read<T>(key: Key<T>, label: &'static str) -> Self {
+        Self { access: Access::Read, ..Self::edit(key, label) }
     }
 
     /// A value that goes along with a change and is never reported.
-    pub const fn write(key: &'static str, label: &'static str, kind: Kind) -> Self {
-        Self { access: Access::Write, ..Self::edit(key, label, kind) }
+    pub const fn write<T>(key: Key<T>, label: &'static str) -> Self {
+        Self { access: Access::Write, ..Self::edit(key, label) }
     }
 
     /// With the unit behind its value.

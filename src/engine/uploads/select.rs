@@ -9,7 +9,7 @@ use crate::{
     device::{
         ElementFiles,
         panel::{Check, CheckState},
-        settings::{Change, HeldGroup, Hindrance, Settled, Value},
+        settings::{Change, HeldGroup, Hindrance, Settled},
     },
     driver,
     engine::antenna::AntennaModel,
@@ -139,7 +139,7 @@ impl Selection {
             .as_ref()
             .filter(|held| held.read_at >= self.since)
             .and_then(|held| self.takes.found(&held.values));
-        if number != Some(&Value::Integer(self.satellite.catalog_number.into())) {
+        if number != Some(self.satellite.catalog_number.into()) {
             return Err("the unit names another object than the one that was chosen");
         }
         if answer.checked_at.is_none_or(|read_at| read_at < self.since) {
@@ -171,7 +171,12 @@ pub(super) fn pick(
 mod tests {
     use super::*;
     use crate::{
-        controller::satrak::ELEMENT_FILES, device::settings::SettleError, driver::Command,
+        controller::satrak::{
+            ELEMENT_FILES,
+            settings::{CATALOG_NUMBER, CONTINUE_TRACKING, PERIOD, SATELLITE_NAME},
+        },
+        device::settings::SettleError,
+        driver::Command,
     };
 
     const NUMBER: u32 = 43_013;
@@ -198,7 +203,7 @@ mod tests {
 
     fn answer(result: Result<(), SettleError>) -> Answer {
         let Command::Settle(change) = selection().command() else { panic!() };
-        let values = [("catalog_number", Value::Integer(NUMBER.into()))].into();
+        let values = [CATALOG_NUMBER.with(NUMBER.into())].into();
         Answer {
             settled: Arc::new(Settled { change, at: time(3), result }),
             held: Some(HeldGroup { values, read_at: time(1) }),
@@ -214,9 +219,9 @@ mod tests {
     #[test]
     fn the_unit_is_told_to_end_its_track_and_to_keep_its_period() {
         let Command::Settle(change) = selection().command() else { panic!() };
-        assert_eq!(change.values.get("continue_tracking"), Some(&Value::Flag(false)));
-        assert_eq!(change.values.get("name"), Some(&Value::Text("NOAA 20".to_owned())));
-        assert!(!change.values.contains_key("period"));
+        assert_eq!(CONTINUE_TRACKING.of(&change.values), Some(false));
+        assert_eq!(SATELLITE_NAME.of(&change.values).as_deref(), Some("NOAA 20"));
+        assert!(!change.values.contains_key(PERIOD.name));
     }
 
     #[test]
@@ -232,7 +237,7 @@ mod tests {
         assert!(problem(&missing).contains("does not find the satellite"));
         let mut wrong = answer(Ok(()));
         let held = wrong.held.as_mut().unwrap();
-        held.values.insert("catalog_number", Value::Integer(0));
+        held.values.extend([CATALOG_NUMBER.with(0)]);
         assert!(problem(&wrong).contains("another object"));
         let stale = answer(Ok(()));
         let held = stale.held.clone().map(|held| HeldGroup { read_at: time(-1), ..held });

@@ -202,12 +202,15 @@ fn field_row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{device::settings::Value, ui::widgets::testing};
+    use crate::{
+        device::settings::{Key, Value},
+        ui::widgets::testing,
+    };
     use egui_kittest::{Harness, kittest::Queryable as _};
 
     const FIELDS: &[Field] = &[
-        Field::write("to", "Heading", Kind::Integer { least: 0, most: 360 }).in_unit("°"),
-        Field::write("way", "Way round", Kind::Choice(&[(0, "Shortest"), (1, "Long")])),
+        Field::write(Key::integer("to", 0, 360), "Heading").in_unit("°"),
+        Field::write(Key::choice("way", &[(0, "Shortest"), (1, "Long")]), "Way round"),
     ];
     const ACTIONS: &[Action] = &[
         Action {

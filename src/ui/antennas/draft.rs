@@ -188,11 +188,11 @@ impl Draft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::settings::{Change, SettleError};
+    use crate::device::settings::{Change, Key, SettleError};
 
     static FIELDS: [Field; 2] = [
-        Field::edit("low", "Low", Kind::Decimal { least: 0.0, most: 90.0, places: 1 }),
-        Field::write("keep", "Keep", Kind::Flag),
+        Field::edit(Key::decimal("low", 0.0, 90.0, 1), "Low"),
+        Field::write(Key::flag("keep"), "Keep"),
     ];
 
     fn held(low: f64) -> Values {

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::{form::Form, section::Section, unit::Unit};
+use super::{form::Form, makes, section::Section, unit::Unit};
 use crate::{
     device::settings::Value,
     engine::antenna::AntennaModel,
@@ -163,7 +163,8 @@ fn badge(
 /// At the foot, where there is room: what the unit calls itself.
 fn versions(ui: &Ui, rect: Rect, unit: &Unit<'_>) {
     let t = theme::tokens(ui);
-    let Some(values) = unit.values("versions") else { return };
+    let own = makes::own(unit.antenna.spec());
+    let Some(values) = own.and_then(|own| unit.values(own.versions.key)) else { return };
     let told = values.values().filter_map(|value| match value {
         Value::Text(text) => Some(text.as_str()),
         _ => None,

@@ -1,16 +1,23 @@
-//! The cards of makes whose settings are more than fields.
+//! Makes whose settings are more than fields.
 
 mod satrak;
 
 use super::section::Section;
-use crate::station::ControllerSpec;
+use crate::{device::settings::Group, station::ControllerSpec};
 
-/// Makes by their key, with the cards of each.
-static MAKES: [(&str, &[Section]); 1] = [(satrak::KEY, &satrak::SECTIONS)];
+/// A make with cards of its own.
+pub(super) struct Own {
+    key: &'static str,
+    pub(super) sections: &'static [Section],
+    /// The group in which a unit says what it calls itself.
+    pub(super) versions: &'static Group,
+}
 
-/// The cards of a unit of this make; `None` where each group is one.
-pub(super) fn sections(spec: &ControllerSpec) -> Option<&'static [Section]> {
-    MAKES.into_iter().find(|(key, _)| *key == spec.key).map(|(_, sections)| sections)
+static MAKES: [Own; 1] = [satrak::OWN];
+
+/// Beyond the settings of this make; `None` where each group is a card.
+pub(super) fn own(spec: &ControllerSpec) -> Option<&'static Own> {
+    MAKES.iter().find(|own| own.key == spec.key)
 }
 
 #[cfg(test)]
@@ -19,8 +26,8 @@ mod tests {
 
     #[test]
     fn every_group_of_a_unit_stands_in_one_section() {
-        for (key, sections) in MAKES {
-            let spec = crate::makes::SPECS.iter().find(|spec| spec.key == key).unwrap();
+        for Own { key, sections, .. } in &MAKES {
+            let spec = crate::makes::SPECS.iter().find(|spec| spec.key == *key).unwrap();
             let groups = spec.variants.iter().flat_map(|variant| variant.groups);
             let shown: Vec<_> = sections.iter().flat_map(|section| section.keys).collect();
             let known: Vec<_> = groups.map(|group| &group.key).collect();

@@ -141,20 +141,16 @@ fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::controller::satrak::GROUPS;
-    use crate::device::settings::{Change, Group, Secret};
+    use crate::controller::satrak::settings::{FTP, GENERAL, PASSWORD};
+    use crate::device::settings::{Change, Secret};
     use jiff::Timestamp;
-
-    fn group(key: &str) -> &'static Group {
-        GROUPS.iter().find(|group| group.key == key).unwrap()
-    }
 
     fn said(values: Values, error: &SettleError, seen: f64, held: f64) -> String {
         let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
-        let group = group("general");
-        let change = Change { ticket: 1, group: "general", values, seen: None, is_unlocked: false };
+        let change =
+            Change { ticket: 1, group: GENERAL.key, values, seen: None, is_unlocked: false };
         let settled = Settled { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
-        sentence(group, &settled, error, Some(&of(seen)), Some(&of(held)))
+        sentence(&GENERAL, &settled, error, Some(&of(seen)), Some(&of(held)))
     }
 
     #[test]
@@ -173,19 +169,18 @@ mod tests {
 
     #[test]
     fn a_password_is_never_in_a_sentence() {
-        let group = group("ftp");
-        let secret = |text: &str| Values::from([("password", Value::Secret(Secret::new(text)))]);
+        let secret = |text: &str| Values::from([PASSWORD.with(Secret::new(text))]);
         let values = secret("hunter2");
-        let change = Change { ticket: 1, group: "ftp", values, seen: None, is_unlocked: false };
+        let change = Change { ticket: 1, group: FTP.key, values, seen: None, is_unlocked: false };
         for error in [
             SettleError::Refused("7".to_owned()),
             SettleError::ChangedMeanwhile,
-            SettleError::Differs(vec!["password"]),
+            SettleError::Differs(vec![PASSWORD.name]),
         ] {
             let result = Err(error.clone());
             let settled = Settled { change: change.clone(), at: Timestamp::UNIX_EPOCH, result };
             let (seen, held) = (secret("hunter3"), secret("hunter4"));
-            let words = sentence(group, &settled, &error, Some(&seen), Some(&held));
+            let words = sentence(&FTP, &settled, &error, Some(&seen), Some(&held));
             assert!(!words.contains("hunter") && words.contains(HIDDEN), "{words}");
         }
     }

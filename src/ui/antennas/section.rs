@@ -49,7 +49,7 @@ impl Section {
             column: None,
             content: if group.is_service { service::show } else { all_fields },
         };
-        let own = makes::sections(connection.spec()).map(<[Self]>::to_vec);
+        let own = makes::own(connection.spec()).map(|own| own.sections.to_vec());
         own.unwrap_or_else(|| connection.variant().groups.iter().map(plain).collect())
     }
 }
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn a_make_without_cards_of_its_own_has_one_for_each_of_its_groups() {
-        for spec in crate::makes::SPECS.iter().filter(|spec| makes::sections(spec).is_none()) {
+        for spec in crate::makes::SPECS.iter().filter(|spec| makes::own(spec).is_none()) {
             let connection = spec.connection("");
             let (sections, groups) = (Section::of(&connection), connection.variant().groups);
             assert_eq!(sections.len(), groups.len());

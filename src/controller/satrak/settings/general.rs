@@ -3,82 +3,70 @@
 
 use super::wish::{Wish, cannot};
 use crate::{
-    device::settings::{Field, Group, Guard, Kind, SettleError, Value, Values},
+    device::settings::{Field, Group, Guard, Key, SettleError, Value, Values},
     protocol::satrak::{
-        PositionBase, Setting, Settings, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode,
+        PositionBase, Reply, Setting, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode,
     },
 };
 
-const OFFSET: Kind = Kind::Decimal { least: -10.0, most: 10.0, places: 2 };
-const ELEVATION: Kind = Kind::Decimal { least: 0.0, most: 90.0, places: 1 };
+const CLOCK_FROM_GPS: Key<bool> = Key::flag("clock_from_gps");
+const TIME_OFFSET_MS: Key<i64> = Key::integer("time_offset_ms", -3_600_000, 3_600_000);
+const AZIMUTH_OFFSET_DEG: Key<f64> = Key::decimal("azimuth_offset_deg", -10.0, 10.0, 2);
+const ELEVATION_OFFSET_DEG: Key<f64> = Key::decimal("elevation_offset_deg", -10.0, 10.0, 2);
+const LEAD_MS: Key<i64> = Key::integer("lead_ms", 0, 3_600_000);
+const POSITION_BASE: Key<i64> =
+    Key::choice("position_base", &[(0, "Resolver+enc."), (1, "Resolver")]);
+pub const MINIMUM_ELEVATION_DEG: Key<f64> = Key::decimal("minimum_elevation_deg", 0.0, 90.0, 1);
+const NORTH_OFFSET_DEG: Key<f64> = Key::decimal("north_offset_deg", -360.0, 360.0, 1);
+const SSPA: Key<i64> = Key::choice("sspa", &[(0, "Off"), (1, "On"), (2, "Auto")]);
+const SSPA_RULE: Key<i64> =
+    Key::choice("sspa_rule", &[(0, "Tracking"), (1, "Carrier lock"), (2, "Both"), (3, "Either")]);
+pub const TLE_SOURCE: Key<i64> = Key::choice("tle_source", &[(0, "File"), (1, "Web"), (2, "FTP")]);
+const ELEVATION_THRESHOLD_DEG: Key<f64> = Key::decimal("elevation_threshold_deg", 0.0, 90.0, 1);
 
-pub(super) static GENERAL: Group = Group {
+pub static GENERAL: Group = Group {
     key: "general",
     title: "General",
     is_service: false,
     fields: &[
-        Field::edit("clock_from_gps", "Clock from GPS", Kind::Flag)
+        Field::edit(CLOCK_FROM_GPS, "Clock from GPS")
             .moving()
             .about("The unit sets its clock from GPS by itself."),
-        Field::edit(
-            "time_offset_ms",
-            "Tracking time offset",
-            Kind::Integer { least: -3_600_000, most: 3_600_000 },
-        )
-        .in_unit("ms")
-        .moving()
-        .about("Shifts the track in time. Whether more is ahead or behind is not documented."),
-        Field::edit("azimuth_offset_deg", "Azimuth offset", OFFSET)
+        Field::edit(TIME_OFFSET_MS, "Tracking time offset")
+            .in_unit("ms")
+            .moving()
+            .about("Shifts the track in time. Whether more is ahead or behind is not documented."),
+        Field::edit(AZIMUTH_OFFSET_DEG, "Azimuth offset")
             .in_unit("°")
             .moving()
             .about("Added to the azimuth while the unit tracks."),
-        Field::edit("elevation_offset_deg", "Elevation offset", OFFSET)
+        Field::edit(ELEVATION_OFFSET_DEG, "Elevation offset")
             .in_unit("°")
             .moving()
             .about("Added to the elevation while the unit tracks."),
-        Field::edit("lead_ms", "Go to start before", Kind::Integer { least: 0, most: 3_600_000 })
+        Field::edit(LEAD_MS, "Go to start before")
             .in_unit("ms")
             .moving()
             .about("So long before the window begins the unit goes to the start of the track."),
-        Field::edit(
-            "position_base",
-            "Position base",
-            Kind::Choice(&[(0, "Resolver+enc."), (1, "Resolver")]),
-        )
-        .moving()
-        .about("The sensors from which the unit takes its position."),
-        Field::edit("minimum_elevation_deg", "Minimum elevation", ELEVATION)
+        Field::edit(POSITION_BASE, "Position base")
+            .moving()
+            .about("The sensors from which the unit takes its position."),
+        Field::edit(MINIMUM_ELEVATION_DEG, "Minimum elevation")
             .in_unit("°")
             .moving()
             .about("The unit does not point lower."),
-        Field::edit(
-            "north_offset_deg",
-            "North offset",
-            Kind::Decimal { least: -360.0, most: 360.0, places: 1 },
-        )
-        .in_unit("°")
-        .moving()
-        .about("Between the mount's zero and north."),
-        Field::edit(
-            "sspa",
-            "Transmitter (SSPA)",
-            Kind::Choice(&[(0, "Off"), (1, "On"), (2, "Auto")]),
-        )
-        .guarded(sspa_guard)
-        .about("Power amplifier of the transmitter. On radiates at once."),
-        Field::edit(
-            "sspa_rule",
-            "SSPA auto rule",
-            Kind::Choice(&[(0, "Tracking"), (1, "Carrier lock"), (2, "Both"), (3, "Either")]),
-        )
-        .about("What switches the amplifier on when it is on Auto."),
-        Field::read(
-            "tle_source",
-            "TLE source in use",
-            Kind::Choice(&[(0, "File"), (1, "Web"), (2, "FTP")]),
-        )
-        .about("No command sets it: presumably the last of file, web and FTP that was set."),
-        Field::edit("elevation_threshold_deg", "Elevation threshold", ELEVATION)
+        Field::edit(NORTH_OFFSET_DEG, "North offset")
+            .in_unit("°")
+            .moving()
+            .about("Between the mount's zero and north."),
+        Field::edit(SSPA, "Transmitter (SSPA)")
+            .guarded(sspa_guard)
+            .about("Power amplifier of the transmitter. On radiates at once."),
+        Field::edit(SSPA_RULE, "SSPA auto rule")
+            .about("What switches the amplifier on when it is on Auto."),
+        Field::read(TLE_SOURCE, "TLE source in use")
+            .about("No command sets it: presumably the last of file, web and FTP that was set."),
+        Field::edit(ELEVATION_THRESHOLD_DEG, "Elevation threshold")
             .in_unit("°")
             .moving()
             .about("What the unit does with it is not documented."),
@@ -93,52 +81,40 @@ fn sspa_guard(value: &Value) -> Guard {
     }
 }
 
-pub(super) fn values(settings: &Settings) -> Values {
-    [
-        ("clock_from_gps", Value::Flag(settings.rtc_from_gps)),
-        ("time_offset_ms", Value::Integer(settings.time_offset_ms)),
-        ("azimuth_offset_deg", Value::Decimal(settings.az_offset_deg)),
-        ("elevation_offset_deg", Value::Decimal(settings.el_offset_deg)),
-        ("lead_ms", Value::Integer(settings.lead_ms)),
-        ("position_base", Value::Choice(settings.position_base.code())),
-        ("minimum_elevation_deg", Value::Decimal(settings.minimum_elevation_deg)),
-        ("north_offset_deg", Value::Decimal(settings.north_offset_deg)),
-        ("sspa", Value::Choice(settings.sspa.code())),
-        ("sspa_rule", Value::Choice(settings.sspa_auto.code())),
-        ("tle_source", Value::Choice(settings.tle_mode.code())),
-        ("elevation_threshold_deg", Value::Decimal(settings.elevation_threshold_deg)),
-    ]
-    .into()
+pub(super) fn values(reply: &Reply) -> Option<Values> {
+    let Reply::Settings(settings) = reply else { return None };
+    Some(Values::from([
+        CLOCK_FROM_GPS.with(settings.rtc_from_gps),
+        TIME_OFFSET_MS.with(settings.time_offset_ms),
+        AZIMUTH_OFFSET_DEG.with(settings.az_offset_deg),
+        ELEVATION_OFFSET_DEG.with(settings.el_offset_deg),
+        LEAD_MS.with(settings.lead_ms),
+        POSITION_BASE.with(settings.position_base.code()),
+        MINIMUM_ELEVATION_DEG.with(settings.minimum_elevation_deg),
+        NORTH_OFFSET_DEG.with(settings.north_offset_deg),
+        SSPA.with(settings.sspa.code()),
+        SSPA_RULE.with(settings.sspa_auto.code()),
+        TLE_SOURCE.with(settings.tle_mode.code()),
+        ELEVATION_THRESHOLD_DEG.with(settings.elevation_threshold_deg),
+    ]))
 }
 
 /// Only what changes is sent; for the rest stands the sign that keeps it.
 pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     let new = wish.new;
-    let integer = |key| match new.get(key) {
-        Some(Value::Integer(number)) => Some(*number),
-        _ => None,
-    };
-    let decimal = |key| match new.get(key) {
-        Some(Value::Decimal(number)) => Some(*number),
-        _ => None,
-    };
-    let code = |key| match new.get(key) {
-        Some(Value::Choice(code)) => Some(*code),
-        _ => None,
-    };
     let change = SettingsChange {
-        rtc_from_gps: new.contains_key("clock_from_gps").then(|| wish.flag("clock_from_gps")),
-        time_offset_ms: integer("time_offset_ms"),
-        az_offset_deg: decimal("azimuth_offset_deg"),
-        el_offset_deg: decimal("elevation_offset_deg"),
-        lead_ms: integer("lead_ms"),
-        position_base: code("position_base").map(PositionBase::from_code),
-        minimum_elevation_deg: decimal("minimum_elevation_deg"),
-        north_offset_deg: decimal("north_offset_deg"),
-        sspa: code("sspa").map(SspaMode::from_code),
-        sspa_auto: code("sspa_rule").map(SspaAutoRule::from_code),
-        elevation_threshold_deg: decimal("elevation_threshold_deg"),
+        rtc_from_gps: CLOCK_FROM_GPS.of(new),
+        time_offset_ms: TIME_OFFSET_MS.of(new),
+        az_offset_deg: AZIMUTH_OFFSET_DEG.of(new),
+        el_offset_deg: ELEVATION_OFFSET_DEG.of(new),
+        lead_ms: LEAD_MS.of(new),
+        position_base: POSITION_BASE.of(new).map(PositionBase::from_code),
+        minimum_elevation_deg: MINIMUM_ELEVATION_DEG.of(new),
+        north_offset_deg: NORTH_OFFSET_DEG.of(new),
+        sspa: SSPA.of(new).map(SspaMode::from_code),
+        sspa_auto: SSPA_RULE.of(new).map(SspaAutoRule::from_code),
+        elevation_threshold_deg: ELEVATION_THRESHOLD_DEG.of(new),
     };
-    let first = new.keys().next().copied().unwrap_or("general");
+    let first = new.keys().next().copied().unwrap_or(GENERAL.key);
     SettingsRequest::new(&change).map(Setting::Settings).map_err(cannot(first))
 }

@@ -1,69 +1,76 @@
 //! Where the unit believes to be (sections 16, 21 and 22).
 
+use jiff::Timestamp;
+
 use super::wish::{Wish, cannot};
 use crate::{
-    device::settings::{Field, Group, Kind, SettleError, Value, Values},
-    protocol::satrak::{GpsData, GpsSettings, GpsSettingsChange, Position, Setting},
+    device::settings::{Field, Group, Key, SettleError, Values},
+    protocol::satrak::{GpsSettingsChange, Position, Reply, Setting},
 };
 
-const LATITUDE: Kind = Kind::Place { most: 90.0, letters: ['N', 'S'] };
-const LONGITUDE: Kind = Kind::Place { most: 180.0, letters: ['E', 'W'] };
+pub const IS_AUTOMATIC: Key<bool> = Key::flag("is_automatic");
+pub const LATITUDE_DEG: Key<f64> = Key::place("latitude_deg", 90.0, ['N', 'S']);
+pub const LONGITUDE_DEG: Key<f64> = Key::place("longitude_deg", 180.0, ['E', 'W']);
+pub const IS_VALID: Key<bool> = Key::flag("is_valid");
+const TIME: Key<Timestamp> = Key::time("time");
 
-pub(super) static GPS: Group = Group {
+pub static GPS: Group = Group {
     key: "gps",
     title: "GPS",
     is_service: false,
     fields: &[
-        Field::edit("is_automatic", "Position from GPS", Kind::Flag)
+        Field::edit(IS_AUTOMATIC, "Position from GPS")
             .moving()
             .about("On: the unit uses its receiver. Off: it uses the place below."),
-        Field::edit("latitude_deg", "Latitude", LATITUDE)
+        Field::edit(LATITUDE_DEG, "Latitude")
             .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
-        Field::edit("longitude_deg", "Longitude", LONGITUDE)
+        Field::edit(LONGITUDE_DEG, "Longitude")
             .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
     ],
 };
 
-pub(super) static RECEIVER: Group = Group {
+pub static RECEIVER: Group = Group {
     key: "receiver",
     title: "GPS receiver",
     is_service: false,
     fields: &[
-        Field::read("is_valid", "Fix", Kind::Flag),
-        Field::read("latitude_deg", "Latitude", LATITUDE),
-        Field::read("longitude_deg", "Longitude", LONGITUDE),
-        Field::read("time", "Time", Kind::Time),
+        Field::read(IS_VALID, "Fix"),
+        Field::read(LATITUDE_DEG, "Latitude"),
+        Field::read(LONGITUDE_DEG, "Longitude"),
+        Field::read(TIME, "Time"),
     ],
 };
 
-pub(super) fn values(settings: &GpsSettings) -> Values {
+pub(super) fn values(reply: &Reply) -> Option<Values> {
+    let Reply::GpsSettings(settings) = reply else { return None };
     let mut values = place(settings.position);
-    values.insert("is_automatic", Value::Flag(settings.automatic));
-    values
+    values.extend([IS_AUTOMATIC.with(settings.automatic)]);
+    Some(values)
 }
 
-pub(super) fn receiver(data: &GpsData) -> Values {
+pub(super) fn receiver(reply: &Reply) -> Option<Values> {
+    let Reply::GpsData(data) = reply else { return None };
     let mut values = place(data.position);
-    values.insert("is_valid", Value::Flag(data.valid));
-    values.extend(data.time.map(|time| ("time", Value::Time(time))));
-    values
+    values.extend([IS_VALID.with(data.valid)]);
+    values.extend(data.time.map(|time| TIME.with(time)));
+    Some(values)
 }
 
 fn place(position: Option<Position>) -> Values {
     let Some(position) = position else { return Values::new() };
-    [
-        ("latitude_deg", Value::Decimal(position.latitude_deg())),
-        ("longitude_deg", Value::Decimal(position.longitude_deg())),
-    ]
-    .into()
+    Values::from([
+        LATITUDE_DEG.with(position.latitude_deg()),
+        LONGITUDE_DEG.with(position.longitude_deg()),
+    ])
 }
 
 /// All three always go out: whether the place is needed on automatic is not
 /// documented.
 pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, SettleError> {
-    let position = Position::new(wish.decimal("latitude_deg")?, wish.decimal("longitude_deg")?)
-        .map_err(cannot("latitude_deg"))?;
-    Ok(Setting::GpsSettings(GpsSettingsChange { automatic: wish.flag("is_automatic"), position }))
+    let position = Position::new(wish.get(&LATITUDE_DEG)?, wish.get(&LONGITUDE_DEG)?)
+        .map_err(cannot(LATITUDE_DEG.name))?;
+    let automatic = wish.is_on(&IS_AUTOMATIC);
+    Ok(Setting::GpsSettings(GpsSettingsChange { automatic, position }))
 }

@@ -1,47 +1,49 @@
 //! What the unit only reports (sections 1 and 17).
 
+use jiff::Timestamp;
+
 use crate::{
-    device::settings::{Field, Group, Kind, Value, Values},
-    protocol::satrak::{TimedPosition, Version},
+    device::settings::{Field, Group, Key, Values},
+    protocol::satrak::Reply,
 };
 
-const TEXT: Kind = Kind::Text(super::text);
-const ANGLE: Kind = Kind::Decimal { least: -360.0, most: 360.0, places: 2 };
+const CONTROL_UNIT: Key<String> = Key::text("control_unit", super::text);
+const DRIVE_UNIT: Key<String> = Key::text("drive_unit", super::text);
+const X_DEG: Key<f64> = Key::decimal("x_deg", -360.0, 360.0, 2);
+const Y_DEG: Key<f64> = Key::decimal("y_deg", -360.0, 360.0, 2);
+const TIME: Key<Timestamp> = Key::time("time");
 
-pub(super) static VERSIONS: Group = Group {
+pub static VERSIONS: Group = Group {
     key: "versions",
     title: "Versions",
     is_service: false,
-    fields: &[
-        Field::read("control_unit", "Control unit", TEXT),
-        Field::read("drive_unit", "Drive unit", TEXT),
-    ],
+    fields: &[Field::read(CONTROL_UNIT, "Control unit"), Field::read(DRIVE_UNIT, "Drive unit")],
 };
 
-pub(super) static POSITION: Group = Group {
+pub static POSITION: Group = Group {
     key: "position",
     title: "Time-stamped position",
     is_service: false,
     fields: &[
-        Field::read("x_deg", "First angle", ANGLE)
+        Field::read(X_DEG, "First angle")
             .in_unit("°")
             .about("X as the document says; its example rather looks like an azimuth."),
-        Field::read("y_deg", "Second angle", ANGLE).in_unit("°"),
-        Field::read("time", "Measured at", Kind::Time).in_unit("UTC"),
+        Field::read(Y_DEG, "Second angle").in_unit("°"),
+        Field::read(TIME, "Measured at").in_unit("UTC"),
     ],
 };
 
-pub(super) fn versions(version: &Version) -> Values {
-    let mut values = Values::from([("control_unit", Value::Text(version.control_unit.clone()))]);
-    values.extend(version.drive_unit.clone().map(|drive| ("drive_unit", Value::Text(drive))));
-    values
+pub(super) fn versions(reply: &Reply) -> Option<Values> {
+    let Reply::Version(version) = reply else { return None };
+    let drive = version.drive_unit.clone().map(|drive| DRIVE_UNIT.with(drive));
+    Some([CONTROL_UNIT.with(version.control_unit.clone())].into_iter().chain(drive).collect())
 }
 
-pub(super) fn position(position: &TimedPosition) -> Values {
-    [
-        ("x_deg", Value::Decimal(position.x_deg)),
-        ("y_deg", Value::Decimal(position.y_deg)),
-        ("time", Value::Time(position.time)),
-    ]
-    .into()
+pub(super) fn position(reply: &Reply) -> Option<Values> {
+    let Reply::TimedPosition(position) = reply else { return None };
+    Some(Values::from([
+        X_DEG.with(position.x_deg),
+        Y_DEG.with(position.y_deg),
+        TIME.with(position.time),
+    ]))
 }

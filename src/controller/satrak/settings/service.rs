@@ -7,86 +7,91 @@ use super::{
     wish::{Wish, cannot},
 };
 use crate::{
-    device::settings::{Field, Group, Kind, SettleError, Value, Values},
-    protocol::satrak::{AngleChange, AngleSettings, ImageStatus, Reduction, SensorAngles, Setting},
+    device::settings::{Field, Group, Key, Kind, SettleError, Values},
+    protocol::satrak::{AngleChange, Reduction, Reply, SensorAngles, Setting},
 };
-
-const COUNT: Kind = Kind::Integer { least: 0, most: 65_535 };
-const ANGLE: Kind = Kind::Decimal { least: -360.0, most: 360.0, places: 1 };
-const RATIO: Kind = Kind::Decimal { least: 0.001, most: 1_000_000.0, places: 0 };
 
 const GIVEN: i64 = 0;
 const PRESENT: i64 = 1;
 
-pub(super) static ANGLES: Group = Group {
+const REFERENCE: Key<i64> =
+    Key::choice("reference", &[(GIVEN, "As given"), (PRESENT, "Present position")]);
+const X_SENSOR: Key<i64> = Key::integer("x_sensor", 0, 65_535);
+const X_DEG: Key<f64> = Key::decimal("x_deg", -360.0, 360.0, 1);
+const Y_SENSOR: Key<i64> = Key::integer("y_sensor", 0, 65_535);
+const Y_DEG: Key<f64> = Key::decimal("y_deg", -360.0, 360.0, 1);
+const X_RATIO: Key<f64> = Key::decimal("x", 0.001, 1_000_000.0, 0);
+const Y_RATIO: Key<f64> = Key::decimal("y", 0.001, 1_000_000.0, 0);
+const STATUS: Key<String> = Key::text("status", text);
+const FILE: Key<String> = Key::text("file", text);
+
+pub static ANGLES: Group = Group {
     key: "angles",
     title: "Angle calibration",
     is_service: true,
     fields: &[
-        Field::write(
-            "reference",
-            "Sensor references",
-            Kind::Choice(&[(GIVEN, "As given"), (PRESENT, "Present position")]),
-        )
-        .moving()
-        .about("Present position: the unit takes the references from where it stands."),
-        Field::edit("x_sensor", "X sensor reference", COUNT).moving(),
-        Field::edit("x_deg", "X angle at it", ANGLE).moving().in_unit("°"),
-        Field::edit("y_sensor", "Y sensor reference", COUNT).moving(),
-        Field::edit("y_deg", "Y angle at it", ANGLE).moving().in_unit("°"),
+        Field::write(REFERENCE, "Sensor references")
+            .moving()
+            .about("Present position: the unit takes the references from where it stands."),
+        Field::edit(X_SENSOR, "X sensor reference").moving(),
+        Field::edit(X_DEG, "X angle at it").moving().in_unit("°"),
+        Field::edit(Y_SENSOR, "Y sensor reference").moving(),
+        Field::edit(Y_DEG, "Y angle at it").moving().in_unit("°"),
     ],
 };
 
-pub(super) static REDUCTION: Group = Group {
+pub static REDUCTION: Group = Group {
     key: "reduction",
     title: "Drive reduction",
     is_service: true,
     fields: &[
-        Field::edit("x", "X reduction", RATIO).moving().about("Its unit is not documented."),
-        Field::edit("y", "Y reduction", RATIO).moving().about("Its unit is not documented."),
+        Field::edit(X_RATIO, "X reduction").moving().about("Its unit is not documented."),
+        Field::edit(Y_RATIO, "Y reduction").moving().about("Its unit is not documented."),
     ],
 };
 
-pub(super) static IMAGE: Group = Group {
+pub static IMAGE: Group = Group {
     key: "image",
     title: "System image",
     is_service: true,
     fields: &[
-        Field::read("status", "Update status", Kind::Text(text))
+        Field::read(STATUS, "Update status")
             .about("As the unit says it: its values are not documented."),
-        Field::write("file", "Image file", Kind::Text(text))
+        Field::write(FILE, "Image file")
             .moving()
             .about("On the unit. Presumably firmware or configuration."),
     ],
 };
 
-pub(super) fn angles(angles: &AngleSettings) -> Values {
-    [
-        ("x_sensor", Value::Integer(angles.x_sensor)),
-        ("x_deg", Value::Decimal(angles.x_deg)),
-        ("y_sensor", Value::Integer(angles.y_sensor)),
-        ("y_deg", Value::Decimal(angles.y_deg)),
-    ]
-    .into()
+pub(super) fn angles(reply: &Reply) -> Option<Values> {
+    let Reply::AngleSettings(angles) = reply else { return None };
+    Some(Values::from([
+        X_SENSOR.with(angles.x_sensor),
+        X_DEG.with(angles.x_deg),
+        Y_SENSOR.with(angles.y_sensor),
+        Y_DEG.with(angles.y_deg),
+    ]))
 }
 
-pub(super) fn reduction(reduction: Reduction) -> Values {
-    [("x", Value::Decimal(reduction.x())), ("y", Value::Decimal(reduction.y()))].into()
+pub(super) fn reduction(reply: &Reply) -> Option<Values> {
+    let Reply::Reduction(reduction) = reply else { return None };
+    Some(Values::from([X_RATIO.with(reduction.x()), Y_RATIO.with(reduction.y())]))
 }
 
-pub(super) fn image(status: &ImageStatus) -> Values {
-    [("status", Value::Text(status.raw.clone()))].into()
+pub(super) fn image(reply: &Reply) -> Option<Values> {
+    let Reply::ImageStatus(status) = reply else { return None };
+    Some(Values::from([STATUS.with(status.raw.clone())]))
 }
 
 pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, SettleError> {
-    let angles = SensorAngles::new(wish.decimal("x_deg")?, wish.decimal("y_deg")?)
-        .map_err(cannot("x_deg"))?;
-    let change = if wish.code("reference").unwrap_or(GIVEN) == PRESENT {
+    let angles =
+        SensorAngles::new(wish.get(&X_DEG)?, wish.get(&Y_DEG)?).map_err(cannot(X_DEG.name))?;
+    let change = if wish.get(&REFERENCE).unwrap_or(GIVEN) == PRESENT {
         AngleChange::PresentPosition(angles)
     } else {
         AngleChange::Given {
-            x_sensor: wish.integer("x_sensor")?,
-            y_sensor: wish.integer("y_sensor")?,
+            x_sensor: wish.whole(&X_SENSOR)?,
+            y_sensor: wish.whole(&Y_SENSOR)?,
             angles,
         }
     };
@@ -94,18 +99,18 @@ pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, SettleError> {
 }
 
 pub(super) fn write_reduction(wish: &Wish<'_>) -> Result<Setting, SettleError> {
-    let reduction = Reduction::new(wish.decimal("x")?, wish.decimal("y")?).map_err(cannot("x"))?;
-    Ok(Setting::Reduction(reduction))
+    let reduction = Reduction::new(wish.get(&X_RATIO)?, wish.get(&Y_RATIO)?);
+    reduction.map(Setting::Reduction).map_err(cannot(X_RATIO.name))
 }
 
 pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, SettleError> {
-    Ok(Setting::LoadImage(wish.text("file")?))
+    Ok(Setting::LoadImage(wish.text(&FILE)?))
 }
 
 /// Where the references are taken from the present position, nobody knows them
 /// before.
 pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
-    let takes_present = proof.new.get("reference") == Some(&Value::Choice(PRESENT));
+    let takes_present = REFERENCE.of(proof.new) == Some(PRESENT);
     proof.differing(|field, new, held| {
         let is_measured = takes_present && matches!(field.kind, Kind::Integer { .. });
         is_measured || field.kind.same(new, held)

@@ -6,82 +6,84 @@ use super::{
     wish::{Wish, cannot},
 };
 use crate::{
-    device::settings::{Field, Group, Kind, Secret, SettleError, Unfit, Value, Values},
+    device::settings::{Field, Group, Key, Secret, SettleError, Unfit, Value, Values},
     protocol::satrak::{
-        FaultKind, Faults, FtpTle, HttpTle, Password, Satellite, SatelliteChoice, SatelliteFtp,
-        SatelliteHttp, Setting, TleSelection, UrlValue,
+        FaultKind, Faults, FtpTle, HttpTle, Password, Reply, SatelliteChoice, Setting,
+        TleSelection, UrlValue,
     },
 };
 
-const PERIOD: Kind = Kind::Integer { least: 0, most: 365 };
-const ON_ERROR: Kind = Kind::Choice(&[(0, "Stop tracking"), (1, "Continue")]);
-const CATALOG_NUMBER: Kind = Kind::Integer { least: 0, most: 999_999_999 };
+const ON_ERROR: Key<i64> = Key::choice("on_error", &[(0, "Stop tracking"), (1, "Continue")]);
+pub const CONTINUE_TRACKING: Key<bool> = Key::flag("continue_tracking");
+const PERIOD_DAYS: Key<i64> = Key::integer("period_days", 0, 365);
+
+/// Of the group [`FILE`], and of [`FTP`].
+pub const FILE_NAME: Key<String> = Key::text("file", text);
+/// Of the group [`FILE`].
+pub const SATELLITE_NAME: Key<String> = Key::text("name", text);
+pub const PERIOD: Key<i64> = Key::integer("period", 0, 365);
+pub const CATALOG_NUMBER: Key<i64> = Key::integer("catalog_number", 0, 999_999_999);
+const MAXIMUM_ELEVATION_DEG: Key<f64> = Key::decimal("maximum_elevation_deg", -90.0, 90.0, 1);
+
+pub const URL: Key<String> = Key::text("url", url);
+
+pub const ADDRESS: Key<String> = Key::text("address", text);
+pub const USER: Key<String> = Key::text("user", text);
+pub const PASSWORD: Key<Secret> = Key::password("password", password);
+pub const PORT: Key<i64> = Key::integer("port", 1, 65_535);
+/// Of the group [`FTP`].
+pub const SATELLITE: Key<String> = Key::text("satellite", text);
 
 const fn continue_tracking() -> Field {
-    Field::write("continue_tracking", "Keep the present track", Kind::Flag)
+    Field::write(CONTINUE_TRACKING, "Keep the present track")
         .moving()
         .about("Off: what the unit tracks now is stopped. On: it goes on until its end.")
 }
 
-pub(in crate::controller::satrak) static FILE: Group = Group {
+pub static FILE: Group = Group {
     key: "file",
     title: "File",
     is_service: false,
     fields: &[
-        Field::edit("file", "TLE file", Kind::Text(text))
-            .moving()
-            .about("In the unit's folder of element files."),
-        Field::edit("name", "Satellite", Kind::Text(text))
-            .moving()
-            .about("Its name as in the file."),
-        Field::edit("period", "Update period", PERIOD)
+        Field::edit(FILE_NAME, "TLE file").moving().about("In the unit's folder of element files."),
+        Field::edit(SATELLITE_NAME, "Satellite").moving().about("Its name as in the file."),
+        Field::edit(PERIOD, "Update period")
             .moving()
             .about("Its unit is not documented here; days for web and FTP."),
         continue_tracking(),
-        Field::read("catalog_number", "Catalogue number", CATALOG_NUMBER)
+        Field::read(CATALOG_NUMBER, "Catalogue number")
             .about("Of the satellite that the unit found in the file; 0 for none."),
-        Field::read(
-            "maximum_elevation_deg",
-            "Maximum elevation",
-            Kind::Decimal { least: -90.0, most: 90.0, places: 1 },
-        )
-        .in_unit("°"),
+        Field::read(MAXIMUM_ELEVATION_DEG, "Maximum elevation").in_unit("°"),
     ],
 };
 
-pub(super) static WEB: Group = Group {
+pub static WEB: Group = Group {
     key: "web",
     title: "Web",
     is_service: false,
     fields: &[
-        Field::edit("url", "Web address", Kind::Text(url))
-            .moving()
-            .about("A comma in it is sent as %2C."),
-        Field::edit("period_days", "Update period", PERIOD).moving().in_unit("days"),
-        Field::edit("on_error", "When a fetch fails", ON_ERROR).moving(),
+        Field::edit(URL, "Web address").moving().about("A comma in it is sent as %2C."),
+        Field::edit(PERIOD_DAYS, "Update period").moving().in_unit("days"),
+        Field::edit(ON_ERROR, "When a fetch fails").moving(),
         continue_tracking(),
     ],
 };
 
-pub(super) static FTP: Group = Group {
+pub static FTP: Group = Group {
     key: "ftp",
     title: "FTP",
     is_service: false,
     fields: &[
-        Field::edit("address", "Server address", Kind::Text(text)).moving(),
-        Field::edit("user", "User", Kind::Text(text)).moving(),
-        Field::edit("password", "Password", Kind::Password(password))
+        Field::edit(ADDRESS, "Server address").moving(),
+        Field::edit(USER, "User").moving(),
+        Field::edit(PASSWORD, "Password")
             .moving()
             .about("The unit sends it in clear, also when it is asked."),
-        Field::edit("port", "Port", Kind::Integer { least: 1, most: 65_535 })
-            .moving()
-            .about("22 is SFTP, 21 is FTP."),
-        Field::edit("file", "TLE file", Kind::Text(text)).moving(),
-        Field::edit("satellite", "Satellite", Kind::Text(text))
-            .moving()
-            .about("Its name as in the file."),
-        Field::edit("period_days", "Update period", PERIOD).moving().in_unit("days"),
-        Field::edit("on_error", "When a fetch fails", ON_ERROR).moving(),
+        Field::edit(PORT, "Port").moving().about("22 is SFTP, 21 is FTP."),
+        Field::edit(FILE_NAME, "TLE file").moving(),
+        Field::edit(SATELLITE, "Satellite").moving().about("Its name as in the file."),
+        Field::edit(PERIOD_DAYS, "Update period").moving().in_unit("days"),
+        Field::edit(ON_ERROR, "When a fetch fails").moving(),
     ],
 };
 
@@ -89,70 +91,71 @@ fn password(text: &str) -> Result<(), Unfit> {
     Password::new(text).map(drop).map_err(super::unfit)
 }
 
-pub(super) fn file(satellite: &Satellite) -> Values {
-    [
-        ("file", Value::Text(satellite.file.clone())),
-        ("name", Value::Text(satellite.name.clone())),
-        ("period", Value::Integer(satellite.period.into())),
-        ("catalog_number", Value::Integer(satellite.catalog_number.into())),
-        ("maximum_elevation_deg", Value::Decimal(satellite.maximum_elevation_deg)),
-    ]
-    .into()
+pub(super) fn file(reply: &Reply) -> Option<Values> {
+    let Reply::Satellite(satellite) = reply else { return None };
+    Some(Values::from([
+        FILE_NAME.with(satellite.file.clone()),
+        SATELLITE_NAME.with(satellite.name.clone()),
+        PERIOD.with(satellite.period.into()),
+        CATALOG_NUMBER.with(satellite.catalog_number.into()),
+        MAXIMUM_ELEVATION_DEG.with(satellite.maximum_elevation_deg),
+    ]))
 }
 
-pub(super) fn web(web: &SatelliteHttp) -> Values {
-    [
-        ("url", Value::Text(web.url.clone())),
-        ("period_days", Value::Integer(web.period_days.into())),
-        ("on_error", Value::Choice(web.on_error.code())),
-    ]
-    .into()
+pub(super) fn web(reply: &Reply) -> Option<Values> {
+    let Reply::SatelliteHttp(web) = reply else { return None };
+    Some(Values::from([
+        URL.with(web.url.clone()),
+        PERIOD_DAYS.with(web.period_days.into()),
+        ON_ERROR.with(web.on_error.code()),
+    ]))
 }
 
-pub(super) fn ftp(ftp: &SatelliteFtp) -> Values {
-    [
-        ("address", Value::Text(ftp.address.clone())),
-        ("user", Value::Text(ftp.user.clone())),
-        ("password", Value::Secret(Secret::new(ftp.password.reveal()))),
-        ("port", Value::Integer(ftp.port.into())),
-        ("file", Value::Text(ftp.file.clone())),
-        ("satellite", Value::Text(ftp.satellite.clone())),
-        ("period_days", Value::Integer(ftp.period_days.into())),
-        ("on_error", Value::Choice(ftp.on_error.code())),
-    ]
-    .into()
+pub(super) fn ftp(reply: &Reply) -> Option<Values> {
+    let Reply::SatelliteFtp(ftp) = reply else { return None };
+    Some(Values::from([
+        ADDRESS.with(ftp.address.clone()),
+        USER.with(ftp.user.clone()),
+        PASSWORD.with(Secret::new(ftp.password.reveal())),
+        PORT.with(ftp.port.into()),
+        FILE_NAME.with(ftp.file.clone()),
+        SATELLITE.with(ftp.satellite.clone()),
+        PERIOD_DAYS.with(ftp.period_days.into()),
+        ON_ERROR.with(ftp.on_error.code()),
+    ]))
 }
 
 pub(super) fn write_file(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     Ok(Setting::Satellite(SatelliteChoice {
-        file: wish.text("file")?,
-        name: wish.text("name")?,
-        period: wish.integer("period")?,
-        continue_tracking: wish.flag("continue_tracking"),
+        file: wish.text(&FILE_NAME)?,
+        name: wish.text(&SATELLITE_NAME)?,
+        period: wish.whole(&PERIOD)?,
+        continue_tracking: wish.is_on(&CONTINUE_TRACKING),
     }))
 }
 
 pub(super) fn write_web(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     Ok(Setting::SatelliteHttp(HttpTle {
-        url: UrlValue::new(wish.str("url")?).map_err(cannot("url"))?,
-        period_days: wish.integer("period_days")?,
-        continue_on_error: wish.code("on_error")? == 1,
-        continue_tracking: wish.flag("continue_tracking"),
+        url: UrlValue::new(&wish.get(&URL)?).map_err(cannot(URL.name))?,
+        period_days: wish.whole(&PERIOD_DAYS)?,
+        continue_on_error: wish.get(&ON_ERROR)? == 1,
+        continue_tracking: wish.is_on(&CONTINUE_TRACKING),
     }))
 }
 
 pub(super) fn write_ftp(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+    let password = wish.get(&PASSWORD)?;
     Ok(Setting::SatelliteFtp(FtpTle {
-        address: wish.text("address")?,
-        user: wish.text("user")?,
-        password: Password::new(wish.str("password")?).map_err(cannot("password"))?,
-        port: wish.integer("port")?,
+        address: wish.text(&ADDRESS)?,
+        user: wish.text(&USER)?,
+        password: Password::new(password.reveal()).map_err(cannot(PASSWORD.name))?,
+        port: wish.whole(&PORT)?,
         selection: Some(TleSelection {
-            file: wish.text("file")?,
-            satellite: wish.text("satellite")?,
+            file: wish.text(&FILE_NAME)?,
+            satellite: wish.text(&SATELLITE)?,
         }),
-        period_days: wish.integer("period_days")?,
-        continue_on_error: wish.code("on_error")? == 1,
+        period_days: wish.whole(&PERIOD_DAYS)?,
+        continue_on_error: wish.get(&ON_ERROR)? == 1,
     }))
 }
 

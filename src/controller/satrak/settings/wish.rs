@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::unfit;
 use crate::{
-    device::settings::{SettleError, Unfit, Value, Values},
+    device::settings::{Key, SettleError, Unfit, Values},
     protocol::satrak::{TextValue, ValueError},
 };
 
@@ -19,54 +19,26 @@ pub(in crate::controller::satrak) struct Wish<'a> {
 }
 
 impl Wish<'_> {
-    fn value(&self, key: &str) -> Option<&Value> {
-        self.new.get(key).or_else(|| self.held.get(key))
+    fn find<T>(&self, key: &Key<T>) -> Option<T> {
+        key.of(self.new).or_else(|| key.of(self.held))
     }
 
     /// A flag, off where nothing is said.
-    pub(super) fn flag(&self, key: &str) -> bool {
-        matches!(self.value(key), Some(Value::Flag(true)))
+    pub(super) fn is_on(&self, key: &Key<bool>) -> bool {
+        self.find(key) == Some(true)
     }
 
-    pub(super) fn code(&self, key: &'static str) -> Result<i64, SettleError> {
-        match self.value(key) {
-            Some(Value::Choice(code)) => Ok(*code),
-            _ => Err(missing(key)),
-        }
+    pub(super) fn get<T>(&self, key: &Key<T>) -> Result<T, SettleError> {
+        self.find(key).ok_or_else(|| missing(key.name))
     }
 
     /// A whole number that fits into `N`.
-    pub(super) fn integer<N: TryFrom<i64>>(&self, key: &'static str) -> Result<N, SettleError> {
-        match self.value(key) {
-            Some(Value::Integer(number)) => N::try_from(*number).map_err(|_| missing(key)),
-            _ => Err(missing(key)),
-        }
+    pub(super) fn whole<N: TryFrom<i64>>(&self, key: &Key<i64>) -> Result<N, SettleError> {
+        N::try_from(self.get(key)?).map_err(|_| missing(key.name))
     }
 
-    pub(super) fn decimal(&self, key: &'static str) -> Result<f64, SettleError> {
-        match self.value(key) {
-            Some(Value::Decimal(number)) => Ok(*number),
-            _ => Err(missing(key)),
-        }
-    }
-
-    pub(super) fn time(&self, key: &'static str) -> Result<Timestamp, SettleError> {
-        match self.value(key) {
-            Some(Value::Time(time)) => Ok(*time),
-            _ => Err(missing(key)),
-        }
-    }
-
-    pub(super) fn str(&self, key: &'static str) -> Result<&str, SettleError> {
-        match self.value(key) {
-            Some(Value::Text(text)) => Ok(text),
-            Some(Value::Secret(secret)) => Ok(secret.reveal()),
-            _ => Err(missing(key)),
-        }
-    }
-
-    pub(super) fn text(&self, key: &'static str) -> Result<TextValue, SettleError> {
-        TextValue::new(key, self.str(key)?).map_err(cannot(key))
+    pub(super) fn text(&self, key: &Key<String>) -> Result<TextValue, SettleError> {
+        TextValue::new(key.name, &self.get(key)?).map_err(cannot(key.name))
     }
 }
 

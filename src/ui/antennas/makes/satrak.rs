@@ -7,9 +7,15 @@ mod minimum;
 mod satellite;
 mod window;
 
+use super::Own;
 use crate::{
-    controller::satrak::{GROUPS, SPEC},
-    device::settings::Group,
+    controller::satrak::{
+        SPEC,
+        settings::{
+            ANGLES, CLOCK, FILE, FTP, GENERAL, GPS, IMAGE, POSITION, RECEIVER, REDUCTION, VERSIONS,
+            WEB, WINDOW,
+        },
+    },
     ui::antennas::{
         cards::{fields, service},
         row,
@@ -17,37 +23,37 @@ use crate::{
     },
 };
 
-pub(super) const KEY: &str = SPEC.key;
+pub(super) const OWN: Own = Own { key: SPEC.key, sections: &SECTIONS, versions: &VERSIONS };
 
-pub(super) static SECTIONS: [Section; 7] = [
+static SECTIONS: [Section; 7] = [
     Section {
         title: "General",
-        keys: &["general"],
+        keys: &[GENERAL.key],
         is_service: false,
         column: Some(Column::Left),
         content: |ui, unit, form, _, _| {
             row::head(ui);
-            fields(ui, unit, form, "general", |_| true);
+            fields(ui, unit, form, GENERAL.key, |_| true);
             minimum::show(ui, unit, form);
         },
     },
     Section {
         title: "GPS",
-        keys: &["gps", "receiver"],
+        keys: &[GPS.key, RECEIVER.key],
         is_service: false,
         column: Some(Column::Left),
         content: |ui, unit, form, _, _| gps::show(ui, unit, form),
     },
     Section {
         title: "Tracking window",
-        keys: &["window"],
+        keys: &[WINDOW.key],
         is_service: false,
         column: Some(Column::Left),
         content: |ui, unit, form, _, desk| window::show(ui, unit, form, desk.commands),
     },
     Section {
         title: "Satellite and TLE",
-        keys: &["file", "web", "ftp"],
+        keys: &[FILE.key, WEB.key, FTP.key],
         is_service: false,
         column: Some(Column::Right),
         // The upload of elements to the unit has its place below this card.
@@ -55,28 +61,23 @@ pub(super) static SECTIONS: [Section; 7] = [
     },
     Section {
         title: "Clock",
-        keys: &["clock"],
+        keys: &[CLOCK.key],
         is_service: false,
         column: Some(Column::Right),
         content: |ui, unit, form, _, desk| clock::show(ui, unit, form, desk.commands),
     },
     Section {
         title: "Versions and faults",
-        keys: &["versions", "position"],
+        keys: &[VERSIONS.key, POSITION.key],
         is_service: false,
         column: Some(Column::Left),
         content: |ui, unit, form, _, _| checks::show(ui, unit, form),
     },
     Section {
         title: "Service",
-        keys: &["angles", "reduction", "image"],
+        keys: &[ANGLES.key, REDUCTION.key, IMAGE.key],
         is_service: true,
         column: Some(Column::Right),
         content: service::show,
     },
 ];
-
-/// The description of the group with this key.
-fn group(key: &str) -> Option<&'static Group> {
-    GROUPS.iter().copied().find(|group| group.key == key)
-}

@@ -4,6 +4,7 @@ use egui::Ui;
 
 use crate::ui::antennas::cards::{fields, subtitle};
 use crate::{
+    controller::satrak::settings::{POSITION, VERSIONS},
     device::panel::{Check, CheckState},
     ui::{
         antennas::{form::Form, row, unit::Unit},
@@ -14,9 +15,9 @@ use crate::{
 };
 
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
-    fields(ui, unit, form, "versions", |_| true);
+    fields(ui, unit, form, VERSIONS.key, |_| true);
     subtitle(ui, "Position with the unit's own time");
-    fields(ui, unit, form, "position", |_| true);
+    fields(ui, unit, form, POSITION.key, |_| true);
     let t = theme::tokens(ui);
     let state = &unit.antenna.snapshot.state;
     let Some(read_at) = state.checked_at else {

@@ -5,8 +5,10 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 use crate::ui::antennas::cards::{fields, is_reported};
 use crate::{
     astro::time::add_seconds,
-    controller::satrak::{FROM_GPS, FROM_THIS_PC},
-    device::settings::{Value, Values},
+    controller::satrak::settings::{
+        AHEAD_S, CATALOG_NUMBER, CLOCK, FILE, FROM_GPS, FROM_THIS_PC, SET_FROM,
+    },
+    device::settings::Values,
     engine::forecast::Forecast,
     model::{Model, UiCommand},
     ui::{
@@ -21,7 +23,7 @@ use crate::{
 const LABEL: &str = "Effect on the track";
 
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
-    fields(ui, unit, form, "clock", is_reported);
+    fields(ui, unit, form, CLOCK.key, is_reported);
     effect(ui, unit);
     ui.add_space(6.0);
     set(ui, unit, form, commands);
@@ -30,10 +32,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
 /// How far the clock puts the beam from the satellite.
 fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     let t = theme::tokens(ui);
-    let ahead_s = unit.values("clock").and_then(|values| match values.get("ahead_s") {
-        Some(Value::Decimal(ahead_s)) => Some(*ahead_s),
-        _ => None,
-    });
+    let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
     let forecast = forecast(unit);
     let rate_deg_s = forecast.and_then(|forecast| rate_at_tca(unit.model, forecast));
     let (Some(ahead_s), Some(forecast), Some(rate_deg_s)) = (ahead_s, forecast, rate_deg_s) else {
@@ -53,10 +52,8 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
 /// The pass of the satellite on the unit, or else the selected one.
 fn forecast<'a>(unit: &Unit<'a>) -> Option<&'a Forecast> {
     let model = unit.model;
-    let number = match unit.values("file").and_then(|values| values.get("catalog_number")) {
-        Some(Value::Integer(number)) => u32::try_from(*number).ok(),
-        _ => None,
-    };
+    let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values));
+    let number = number.and_then(|number| u32::try_from(number).ok());
     number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
 }
 
@@ -72,8 +69,7 @@ fn rate_at_tca(model: &Model, forecast: &Forecast) -> Option<f64> {
 
 fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let Some(group) = super::group("clock") else { return };
-    let is_sending = form.draft(group.key).sent().is_some();
+    let is_sending = form.draft(CLOCK.key).sent().is_some();
     let refusal = if !unit.is_open() {
         Some("There is no link.")
     } else if unit.tracks() {
@@ -92,12 +88,12 @@ fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiComma
         let place = Rect::from_min_size(pos2(left, rect.top()), size);
         left = place.right() + 8.0;
         if button.show(ui, words, place).clicked() {
-            let values = Values::from([("set_from", Value::Choice(from))]);
+            let values = Values::from([SET_FROM.with(from)]);
             form.begin_report();
-            form.send(unit, group, values, commands);
+            form.send(unit, &CLOCK, values, commands);
         }
     }
-    let mark = group.field("set_from").and_then(|field| form.draft(group.key).mark(field, None));
+    let mark = CLOCK.field(SET_FROM.name).and_then(|field| form.draft(CLOCK.key).mark(field, None));
     let said = match (refusal, mark) {
         (Some(refusal), _) => refusal.to_owned(),
         (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {

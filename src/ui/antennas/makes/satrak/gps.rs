@@ -5,7 +5,9 @@ use egui::Ui;
 use crate::ui::antennas::cards::{fields, subtitle};
 use crate::{
     astro::{Site, frames},
-    device::settings::{Value, Values},
+    controller::satrak::settings::{
+        GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER,
+    },
     ui::{
         antennas::{form::Form, row, unit::Unit},
         format,
@@ -20,10 +22,10 @@ const FAR_KM: f64 = 1.0;
 
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     row::head(ui);
-    fields(ui, unit, form, "gps", |_| true);
+    fields(ui, unit, form, GPS.key, |_| true);
     site_check(ui, unit);
     subtitle(ui, "GPS receiver");
-    fields(ui, unit, form, "receiver", |_| true);
+    fields(ui, unit, form, RECEIVER.key, |_| true);
 }
 
 fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
@@ -44,18 +46,14 @@ fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
 
 /// The place that the unit uses: that of its receiver, or the one it was given.
 fn place(unit: &Unit<'_>) -> Option<Site> {
-    let given = unit.values("gps")?;
-    let is_automatic = given.get("is_automatic") == Some(&Value::Flag(true));
+    let given = unit.values(GPS.key)?;
+    let is_automatic = IS_AUTOMATIC.of(given) == Some(true);
     let from_gps = unit
-        .values("receiver")
-        .filter(|receiver| is_automatic && receiver.get("is_valid") == Some(&Value::Flag(true)));
+        .values(RECEIVER.key)
+        .filter(|receiver| is_automatic && IS_VALID.of(receiver) == Some(true));
     let altitude_m = unit.model.station.site.altitude_m();
-    let angle = |values: &Values, key| match values.get(key) {
-        Some(Value::Decimal(angle)) => Some(*angle),
-        _ => None,
-    };
     let values = from_gps.unwrap_or(given);
-    Site::new(angle(values, "latitude_deg")?, angle(values, "longitude_deg")?, altitude_m).ok()
+    Site::new(LATITUDE_DEG.of(values)?, LONGITUDE_DEG.of(values)?, altitude_m).ok()
 }
 
 fn distance_km(a: Site, b: Site) -> f64 {

@@ -3,6 +3,7 @@
 use egui::{Sense, Ui, vec2};
 
 use crate::{
+    controller::satrak::settings::{GENERAL, MINIMUM_ELEVATION_DEG},
     device::settings::Value,
     ui::{
         antennas::{form::Form, row, unit::Unit},
@@ -13,22 +14,19 @@ use crate::{
     },
 };
 
-const GROUP: &str = "general";
-const FIELD: &str = "minimum_elevation_deg";
-
 /// Fills the lowest elevation of the station in, to be applied.
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let station_deg = unit.antenna.config.limits.minimum_elevation_deg;
-    let held = unit.values(GROUP).and_then(|held| held.get(FIELD));
-    let Some(Value::Decimal(unit_deg)) = held else { return };
-    if *unit_deg >= station_deg {
+    let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.of(held));
+    let Some(unit_deg) = held else { return };
+    if unit_deg >= station_deg {
         return;
     }
     let t = theme::tokens(ui);
     let station = format::degrees(station_deg, 1);
     let why = format!(
         "The unit points down to {} by itself, the station allows {station}.",
-        format::degrees(*unit_deg, 1)
+        format::degrees(unit_deg, 1)
     );
     row::note(ui, Some(Icon::Warning), &why, t.warn);
     let (rect, _) =
@@ -36,11 +34,10 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let words = format!("Take {station} from the station");
     let button = Button::normal(&words);
     let place = rect.with_max_x(rect.left() + button.width(ui));
-    let field = super::group(GROUP).and_then(|group| group.field(FIELD));
-    if let Some(field) = field
+    if let Some(field) = GENERAL.field(MINIMUM_ELEVATION_DEG.name)
         && button.show(ui, "take minimum", place).clicked()
     {
         let text = field.kind.text(&Value::Decimal(station_deg));
-        form.draft(GROUP).type_in(field, text, unit.values(GROUP));
+        form.draft(GENERAL.key).type_in(field, text, unit.values(GENERAL.key));
     }
 }

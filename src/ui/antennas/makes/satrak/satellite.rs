@@ -4,7 +4,11 @@ use egui::{Rect, Sense, Ui, vec2};
 
 use crate::ui::antennas::cards::{Desk, fields};
 use crate::{
-    device::settings::{Access, Group, Kind, Value, Values},
+    controller::satrak::settings::{
+        ADDRESS, FILE, FILE_NAME, FTP, GENERAL, PASSWORD, PORT, SATELLITE, TLE_SOURCE, URL, USER,
+        WEB,
+    },
+    device::settings::{Access, Group, Kind, Values},
     ui::{
         antennas::{
             form::{Count, Form},
@@ -23,24 +27,24 @@ use crate::{
     },
 };
 
-/// The groups behind the codes of `tle_source`, with their tabs.
-const SOURCES: [(&str, &str); 3] = [("file", "File"), ("web", "Web"), ("ftp", "FTP")];
+/// The groups behind the codes of [`TLE_SOURCE`]; their titles are the tabs.
+static SOURCES: [&Group; 3] = [&FILE, &WEB, &FTP];
 const TABS: f32 = 216.0;
 
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Desk<'_>) {
     let used = used(unit);
-    let shown = form.tab.or(used).unwrap_or("file");
+    let shown = form.tab.or(used).unwrap_or(FILE.key);
     if let Some(tab) = tabs(ui, unit, form, used, shown) {
         form.tab = Some(tab);
     }
     row::head(ui);
     fields(ui, unit, form, shown, |_| true);
     let t = theme::tokens(ui);
-    if shown == "ftp" {
+    if shown == FTP.key {
         let words = "The unit sends this password in clear. Azel never logs it.";
         row::note(ui, Some(Icon::Info), words, t.t2);
     }
-    if let Some(group) = super::group(shown).filter(|_| used != Some(shown)) {
+    if let Some(group) = source(shown).filter(|_| used != Some(shown)) {
         use_it(ui, unit, form, group, desk);
     }
     test_from_here(ui, unit, form, shown, desk);
@@ -54,29 +58,31 @@ fn test_from_here(
     shown: &'static str,
     desk: &mut Desk<'_>,
 ) {
-    let (Some(group), Some(held)) = (super::group(shown), unit.values(shown)) else { return };
+    let (Some(group), Some(held)) = (source(shown), unit.values(shown)) else { return };
     let draft = form.draft(shown);
     let text = |key: &str| {
         group.field(key).map_or_else(String::new, |field| draft.text(field, Some(held)))
     };
     // A password that nobody typed is the one on the unit.
-    let password = match (text("password"), held.get("password")) {
-        (typed, Some(Value::Secret(held))) if typed.is_empty() => held.reveal().to_owned(),
+    let password = match (text(PASSWORD.name), PASSWORD.of(held)) {
+        (typed, Some(held)) if typed.is_empty() => held.reveal().to_owned(),
         (typed, _) => typed,
     };
     let [url, address, port, user, file, satellite] =
-        ["url", "address", "port", "user", "file", "satellite"].map(text);
-    let typed = match shown {
-        "web" => TypedSource::Web { url: &url },
-        "ftp" => TypedSource::Server {
+        [URL.name, ADDRESS.name, PORT.name, USER.name, FILE_NAME.name, SATELLITE.name].map(text);
+    let typed = if shown == WEB.key {
+        TypedSource::Web { url: &url }
+    } else if shown == FTP.key {
+        TypedSource::Server {
             address: &address,
             port: &port,
             user: &user,
             password: &password,
             file: &file,
             satellite: &satellite,
-        },
-        _ => return,
+        }
+    } else {
+        return;
     };
     ui.add_space(8.0);
     let (model, commands) = (unit.model, &mut *desk.commands);
@@ -88,9 +94,12 @@ fn test_from_here(
 
 /// The group of the source that the unit uses.
 fn used(unit: &Unit<'_>) -> Option<&'static str> {
-    let Some(Value::Choice(code)) = unit.values("general")?.get("tle_source") else { return None };
-    let (group, _) = SOURCES.get(usize::try_from(*code).ok()?)?;
-    Some(group)
+    let code = TLE_SOURCE.of(unit.values(GENERAL.key)?)?;
+    SOURCES.get(usize::try_from(code).ok()?).map(|group| group.key)
+}
+
+fn source(key: &str) -> Option<&'static Group> {
+    SOURCES.into_iter().find(|group| group.key == key)
 }
 
 fn tabs(
@@ -102,15 +111,16 @@ fn tabs(
 ) -> Option<&'static str> {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    let segments = SOURCES
-        .map(|(group, word)| (word, if group == shown { Segment::Chosen } else { Segment::Free }));
+    let segments = SOURCES.map(|group| {
+        (group.title, if group.key == shown { Segment::Chosen } else { Segment::Free })
+    });
     let place = rect.with_max_x(rect.left() + TABS);
     let clicked = segmented::show(ui, "source", place, "Source of the elements", &segments);
-    let word = |of: &str| SOURCES.iter().find(|(group, _)| *group == of).map_or("", |(_, w)| w);
-    let elsewhere = SOURCES.iter().filter(|(group, _)| *group != shown);
+    let word = |of: &str| source(of).map_or("", |group| group.title);
+    let elsewhere = SOURCES.iter().filter(|group| group.key != shown);
     let edited: Vec<&str> = elsewhere
-        .filter(|(group, _)| form.count(unit, &[group]).edited > 0)
-        .map(|(_, word)| *word)
+        .filter(|group| form.count(unit, &[group.key]).edited > 0)
+        .map(|group| group.title)
         .collect();
     let said = match used {
         _ if !edited.is_empty() => format!("Edits under {} too", edited.join(" and ")),
@@ -131,8 +141,7 @@ fn tabs(
         colour,
     );
     row::said(ui, room.with_min_x(room.left() + 20.0), &said, text::small(), t.t2, &said);
-    let (group, _) = SOURCES.get(clicked?)?;
-    Some(group)
+    SOURCES.get(clicked?).map(|group| group.key)
 }
 
 /// The unit takes its elements from the source that was set last: setting one

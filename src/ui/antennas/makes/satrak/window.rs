@@ -4,10 +4,8 @@ use egui::{Align2, Rect, Ui, vec2};
 
 use crate::ui::antennas::cards::fields;
 use crate::{
-    device::{
-        Asked, Motion,
-        settings::{Kind, Value},
-    },
+    controller::satrak::settings::{START, STOP, WINDOW},
+    device::{Asked, Motion, settings::Value},
     driver::{Command, Event, Refusal},
     engine::{forecast::Forecast, on_board},
     model::UiCommand,
@@ -33,7 +31,7 @@ const AUTO: &str = "Automatic tracking";
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     row::head(ui);
     automatic(ui, unit, form, commands);
-    fields(ui, unit, form, "window", |_| true);
+    fields(ui, unit, form, WINDOW.key, |_| true);
     ui.add_space(8.0);
     take_from_pass(ui, unit, form);
 }
@@ -107,7 +105,7 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
         on_board::window(forecast, &unit.antenna.config, model.station.site, model.now)
     };
     let window = pass.map_or(Err(Refusal::PassUnknown), window);
-    let can = window.is_ok() && unit.is_open() && unit.values("window").is_some();
+    let can = window.is_ok() && unit.is_open() && unit.values(WINDOW.key).is_some();
     let button = Button::normal("Take from pass").locked(!can);
     let place = rect.with_max_x(rect.left() + button.width(ui));
     let clicked = button.show(ui, "take from pass", place).clicked();
@@ -125,15 +123,12 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
         },
     );
     row::said(ui, room, &words, text::small(), t.t3, &words);
-    let (true, Some(group)) = (clicked, super::group("window")) else {
-        return;
-    };
-    let Ok((start, stop)) = window else { return };
+    let (true, Ok((start, stop))) = (clicked, window) else { return };
     // The unit takes no time that is over.
-    for (key, time) in [("start", start.max(unit.model.now)), ("stop", stop)] {
-        if let Some(field) = group.field(key) {
-            let text = Kind::Time.text(&Value::Time(time));
-            form.draft(group.key).type_in(field, text, unit.values(group.key));
+    for (key, time) in [(START, start.max(unit.model.now)), (STOP, stop)] {
+        if let Some(field) = WINDOW.field(key.name) {
+            let text = key.kind.text(&Value::Time(time));
+            form.draft(WINDOW.key).type_in(field, text, unit.values(WINDOW.key));
         }
     }
 }

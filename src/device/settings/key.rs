@@ -1,0 +1,120 @@
+//! Keys of fields: what is spelled wrong, or read as another type, does not compile.
+
+use jiff::Timestamp;
+
+use super::{Kind, Secret, Unfit, Value, Values};
+
+/// The key of a field whose value is a `T`, and what that value can be.
+#[derive(Debug)]
+pub struct Key<T: 'static> {
+    /// Names the field within its group.
+    pub name: &'static str,
+    /// What it can hold.
+    pub kind: Kind,
+    wrap: fn(T) -> Value,
+    unwrap: fn(&Value) -> Option<T>,
+}
+
+impl<T> Clone for Key<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Key<T> {}
+
+impl<T> Key<T> {
+    /// The value among `values`; `None` where it is not known.
+    pub fn of(&self, values: &Values) -> Option<T> {
+        values.get(self.name).and_then(self.unwrap)
+    }
+
+    /// An entry of [`Values`].
+    pub fn with(&self, value: T) -> (&'static str, Value) {
+        (self.name, (self.wrap)(value))
+    }
+}
+
+impl Key<bool> {
+    /// On or off.
+    pub const fn flag(name: &'static str) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Flag(on) => Some(*on),
+            _ => None,
+        };
+        Self { name, kind: Kind::Flag, wrap: Value::Flag, unwrap }
+    }
+}
+
+impl Key<i64> {
+    /// A whole number within these ends.
+    pub const fn integer(name: &'static str, least: i64, most: i64) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Integer(number) => Some(*number),
+            _ => None,
+        };
+        Self { name, kind: Kind::Integer { least, most }, wrap: Value::Integer, unwrap }
+    }
+
+    /// One of these codes, each with its name.
+    pub const fn choice(name: &'static str, choices: &'static [(i64, &'static str)]) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Choice(code) => Some(*code),
+            _ => None,
+        };
+        Self { name, kind: Kind::Choice(choices), wrap: Value::Choice, unwrap }
+    }
+}
+
+impl Key<f64> {
+    /// A number within these ends, with so many decimal places.
+    pub const fn decimal(name: &'static str, least: f64, most: f64, places: usize) -> Self {
+        Self::of_kind(name, Kind::Decimal { least, most, places })
+    }
+
+    /// An angle up to this magnitude, degrees, with a letter for each sign.
+    pub const fn place(name: &'static str, most: f64, letters: [char; 2]) -> Self {
+        Self::of_kind(name, Kind::Place { most, letters })
+    }
+
+    const fn of_kind(name: &'static str, kind: Kind) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Decimal(number) => Some(*number),
+            _ => None,
+        };
+        Self { name, kind, wrap: Value::Decimal, unwrap }
+    }
+}
+
+impl Key<String> {
+    /// A text that passes this check.
+    pub const fn text(name: &'static str, check: fn(&str) -> Result<(), Unfit>) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        };
+        Self { name, kind: Kind::Text(check), wrap: Value::Text, unwrap }
+    }
+}
+
+impl Key<Secret> {
+    /// A secret that passes this check.
+    pub const fn password(name: &'static str, check: fn(&str) -> Result<(), Unfit>) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Secret(secret) => Some(secret.clone()),
+            _ => None,
+        };
+        Self { name, kind: Kind::Password(check), wrap: Value::Secret, unwrap }
+    }
+}
+
+impl Key<Timestamp> {
+    /// UTC to the second.
+    pub const fn time(name: &'static str) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Time(time) => Some(*time),
+            _ => None,
+        };
+        Self { name, kind: Kind::Time, wrap: Value::Time, unwrap }
+    }
+}
