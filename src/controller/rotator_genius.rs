@@ -21,11 +21,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use crate::{
     clock::{Instant, Moment},
-    device::{
-        AntennaState, Happening, Question,
-        settings::{Change, Settling},
-        wire::WireQueue,
-    },
+    device::{AntennaState, Happening, Question, settings::ChangeQueue, wire::WireQueue},
     protocol::rotator_genius::{Decoder, Request, Status},
     station::PollRates,
 };
@@ -82,12 +78,7 @@ pub struct Genius {
     /// The operator wants to know the status.
     is_asked: bool,
     rescue_until: Option<Instant>,
-    /// The change that is under way.
-    settling: Option<Settling>,
-    /// Changes that wait for it to be over.
-    changes: VecDeque<Change>,
-    /// The unit is locked out: no setting goes to it.
-    are_changes_locked: bool,
+    changes: ChangeQueue,
     happenings: VecDeque<Happening>,
     wire: WireQueue,
 }
@@ -126,9 +117,7 @@ impl Genius {
             is_rescue_wanted: false,
             is_asked: false,
             rescue_until: None,
-            settling: None,
-            changes: VecDeque::new(),
-            are_changes_locked: false,
+            changes: ChangeQueue::new(GROUPS),
             happenings: VecDeque::new(),
             wire: WireQueue::default(),
         }
@@ -174,7 +163,6 @@ impl Genius {
         !self.orders.is_empty()
             || self.is_rescue_wanted
             || self.is_asked
-            || self.settling.is_some()
             || !self.changes.is_empty()
     }
 

@@ -27,7 +27,9 @@ pub use words::meaning;
 
 use crate::{
     clock::{Instant, Moment},
-    device::{AntennaState, Happening, Motion, PrepareError, settings::Change, wire::WireQueue},
+    device::{
+        AntennaState, Happening, Motion, PrepareError, settings::ChangeQueue, wire::WireQueue,
+    },
     protocol::satrak::{Decoder, Halt, Query, Request},
     station::PollRates,
 };
@@ -35,7 +37,6 @@ use exchange::{Outstanding, Purpose, unit_motion};
 use prepare::Preparation;
 use reported::Reported;
 use schedule::Schedule;
-use settle::Settling;
 
 /// No answer within this is none.
 const REPLY: Duration = Duration::from_secs(2);
@@ -70,15 +71,10 @@ pub struct Satrak {
     halts: VecDeque<(Halt, Instant)>,
     motions: VecDeque<Motion>,
     calm: VecDeque<Halt>,
-    /// The unit is locked out: no setting goes to it.
-    are_changes_locked: bool,
     preparation: Option<Preparation>,
     /// Questions that the operator wants answered.
     wanted: VecDeque<Query>,
-    /// The change that is under way.
-    settling: Option<Settling>,
-    /// Changes that wait for it to be over.
-    changes: VecDeque<Change>,
+    changes: ChangeQueue,
     /// A setting that takes the unit long; other questions go on meanwhile.
     slow: Option<Outstanding>,
     happenings: VecDeque<Happening>,
@@ -112,11 +108,9 @@ impl Satrak {
             halts: VecDeque::new(),
             motions: VecDeque::new(),
             calm: VecDeque::new(),
-            are_changes_locked: false,
             preparation: None,
             wanted: VecDeque::new(),
-            settling: None,
-            changes: VecDeque::new(),
+            changes: ChangeQueue::new(GROUPS),
             slow: None,
             happenings: VecDeque::new(),
             wire: WireQueue::default(),

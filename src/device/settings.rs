@@ -6,6 +6,7 @@ mod field;
 mod held;
 mod hindrance;
 mod key;
+mod queue;
 mod settling;
 mod value;
 
@@ -17,5 +18,6 @@ pub use held::{
 };
 pub use hindrance::Hindrance;
 pub use key::Key;
+pub(crate) use queue::ChangeQueue;
 pub(crate) use settling::{Settling, Step};
 pub use value::{Unfit, Value, Values};

@@ -6,6 +6,7 @@ use std::{borrow::Cow, collections::VecDeque, time::Duration};
 use jiff::Timestamp;
 
 use super::panel::Tone;
+use crate::clock::Moment;
 
 /// How many lines wait to be taken; beyond it the oldest go.
 const MOST_WAITING: usize = 4096;
@@ -151,6 +152,12 @@ impl WireQueue {
             self.0.pop_front();
         }
         self.0.push_back(line);
+    }
+
+    /// A reply is missing, and the question goes out again or is given up.
+    pub(crate) fn no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
+        let finding = Finding::NoReply { waited, is_repeated };
+        self.push(WireLine::new(Direction::Received, &[], finding, now.utc));
     }
 
     /// Takes the oldest.

@@ -294,7 +294,7 @@ impl Rc2000c {
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
         let waited = now.steady.saturating_duration_since(late.sent.steady);
-        self.record_no_reply(waited, is_repeated, now);
+        self.wire.no_reply(waited, is_repeated, now);
         self.end_jog(late, Happening::Unanswered);
     }
 

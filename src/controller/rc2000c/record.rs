@@ -1,7 +1,5 @@
 //! Tells what goes over the link, frame by frame.
 
-use std::time::Duration;
-
 use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
     clock::Moment,
@@ -78,11 +76,5 @@ impl Rc2000c {
         if !noise.is_empty() {
             self.wire.push(WireLine::new(Direction::Received, &noise, finding, now.utc));
         }
-    }
-
-    /// A reply is missing, and the question goes out again or is given up.
-    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
-        let finding = Finding::NoReply { waited, is_repeated };
-        self.wire.push(WireLine::new(Direction::Received, &[], finding, now.utc));
     }
 }

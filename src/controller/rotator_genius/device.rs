@@ -14,7 +14,7 @@ use crate::{
         AntennaState, Asked, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},
-        settings::{Change, SettleError, SettleStep},
+        settings::{Change, SettleError},
     },
     protocol::rotator_genius::Decoder,
 };
@@ -42,7 +42,7 @@ impl Device for Genius {
         self.halts.clear();
         self.orders.clear();
         self.disarm();
-        self.abandon_changes(now);
+        self.changes.abandon(&mut self.state, now);
     }
 
     fn sent(&mut self, bytes: &[u8], now: Moment) {
@@ -107,11 +107,11 @@ impl Device for Genius {
     }
 
     fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
-        self.settled(change, Err(why), now);
+        self.changes.refuse(change, why, &mut self.state, now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {
-        self.are_changes_locked = are_locked;
+        self.changes.lock(are_locked);
     }
 
     fn ask(&mut self, question: &str) {
@@ -156,10 +156,9 @@ impl Moves for Genius {
 
     fn settle(&mut self, change: Change, now: Moment) {
         if self.next_poll.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
+            return self.changes.refuse(change, SettleError::NoLink, &mut self.state, now);
         }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
+        self.changes.push(change, &mut self.state);
     }
 
     fn objection(&self, asked: &Asked, now: Moment) -> Option<&'static str> {

@@ -220,7 +220,7 @@ impl Genius {
         let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
         let waited = now.steady.saturating_duration_since(late.sent);
-        self.record_no_reply(waited, late.is_read(), now);
+        self.wire.no_reply(waited, late.is_read(), now);
         if late.is_read() {
             self.missing_since.get_or_insert(late.sent);
         }

@@ -1,8 +1,6 @@
 //! Tells what goes over the link: commands and replies as the decoder cuts them,
 //! each with what it says.
 
-use std::time::Duration;
-
 use super::{Genius, REPLY, exchange::Outstanding};
 use crate::{
     clock::Moment,
@@ -73,12 +71,6 @@ impl Genius {
             let line = line(Direction::Received, &bytes, now);
             self.wire.push(WireLine { finding: Finding::Unfinished, ..line });
         }
-    }
-
-    /// A reply is missing, and the question goes out again or is given up.
-    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
-        let finding = Finding::NoReply { waited, is_repeated };
-        self.wire.push(WireLine { finding, ..line(Direction::Received, &[], now) });
     }
 }
 

@@ -1,31 +1,17 @@
-//! The queue of changes, and what their answers bring about.
+//! The changes of settings, and what their answers bring about.
 
 use super::{
     Satrak,
-    settle::{Doing, Next, Settling},
+    settings::Plan,
+    settle::{Doing, Next},
 };
 use crate::{
     clock::{Instant, Moment},
-    device::settings::{Change, SettleError},
+    device::settings::{SettleError, Settling},
     protocol::satrak::{Reply, Request},
 };
 
 impl Satrak {
-    /// Takes up the next change when none is under way.
-    pub(super) fn begin_change(&mut self, now: Moment) {
-        while self.settling.is_none()
-            && let Some(change) = self.changes.pop_front()
-        {
-            match Settling::new(&change) {
-                Ok(settling) => {
-                    self.settling = Some(settling);
-                    self.show_change();
-                }
-                Err(error) => self.settled(change, Err(error), now),
-            }
-        }
-    }
-
     fn doing(&self) -> Doing {
         let moves = self.state.measured.is_none_or(|measured| measured.moving());
         let tracks = self.program_may_run();
@@ -34,14 +20,21 @@ impl Satrak {
         Doing { moves, tracks, is_auto }
     }
 
+    /// What is to be done for the change under way; `None` while there is none, or while the
+    /// unit still works on a setting.
+    fn next_of_change(&self, now: Moment) -> Option<Next> {
+        let settling = self.changes.under_way().filter(|_| self.slow.is_none())?;
+        Some(match Plan::of(settling.group.key) {
+            Some(plan) => plan.next(settling, self.doing(), now),
+            None => Next::Over(Err(SettleError::NoSuchSetting)),
+        })
+    }
+
     /// The next request of the change under way. It is over when there is none
     /// and nothing to wait for.
     pub(super) fn settling_request(&mut self, now: Moment) -> Option<Request> {
-        if self.slow.is_some() {
-            return None;
-        }
-        match self.settling.as_ref()?.next(self.doing(), now) {
-            Next::Send(Request::Setting(_)) if self.are_changes_locked => {
+        match self.next_of_change(now)? {
+            Next::Send(Request::Setting(_)) if self.changes.are_locked() => {
                 self.end_change(Err(SettleError::LockedOut), now);
                 None
             }
@@ -56,21 +49,21 @@ impl Satrak {
 
     /// When [`Self::settling_request`] is worth a call.
     pub(super) fn settling_due(&self, now: Moment) -> Option<Instant> {
-        if self.slow.is_some() {
+        if self.slow.is_some() || self.changes.is_empty() {
             return None;
         }
-        let Some(settling) = &self.settling else {
-            return (!self.changes.is_empty()).then_some(now.steady);
-        };
-        Some(match settling.next(self.doing(), now) {
-            Next::At(time) => time,
-            Next::Send(_) | Next::Over(_) => now.steady,
+        Some(match self.next_of_change(now) {
+            Some(Next::At(time)) => time,
+            Some(Next::Send(_) | Next::Over(_)) | None => now.steady,
         })
     }
 
     pub(super) fn change_answered(&mut self, reply: &Reply, now: Moment) {
         let ahead_s = self.reported.clock.map(|clock| clock.ahead_s);
-        self.advance_change(now, |settling| settling.answered(reply, ahead_s));
+        self.advance_change(now, |settling| match Plan::of(settling.group.key) {
+            Some(plan) => plan.answered(settling, reply, ahead_s),
+            None => Err(SettleError::NoSuchSetting),
+        });
     }
 
     pub(super) fn change_refused(&mut self, code: String, now: Moment) {
@@ -86,42 +79,13 @@ impl Satrak {
         now: Moment,
         step: impl FnOnce(&mut Settling) -> Result<(), SettleError>,
     ) {
-        let Some(settling) = &mut self.settling else { return };
-        match step(settling) {
-            Ok(()) => self.show_change(),
-            Err(error) => self.end_change(Err(error), now),
-        }
-    }
-
-    fn show_change(&mut self) {
-        if let Some(settling) = &self.settling {
-            let (group, step) = (settling.core.change.group, settling.core.shown());
-            self.state.group(group).step = Some(step);
+        if self.changes.advance(&mut self.state, now, step) {
+            self.look_soon(now);
         }
     }
 
     fn end_change(&mut self, result: Result<(), SettleError>, now: Moment) {
-        if let Some(settling) = self.settling.take() {
-            self.settled(settling.core.change, result, now);
-        }
+        self.changes.end(result, &mut self.state, now);
         self.look_soon(now);
-    }
-
-    /// The change is over, for good or bad.
-    pub(super) fn settled(&mut self, change: Change, result: Result<(), SettleError>, now: Moment) {
-        let is_followed = self.changes.iter().any(|other| other.group == change.group);
-        self.state.end_change(change, result, is_followed, now);
-    }
-
-    /// The link is gone: what may be on the unit is not known.
-    pub(super) fn abandon_changes(&mut self, now: Moment) {
-        if let Some(settling) = self.settling.take() {
-            let lost = settling.core.may_be_sent();
-            let error = if lost { SettleError::LinkLost } else { SettleError::NoLink };
-            self.settled(settling.core.change, Err(error), now);
-        }
-        while let Some(change) = self.changes.pop_front() {
-            self.settled(change, Err(SettleError::NoLink), now);
-        }
     }
 }

@@ -12,7 +12,7 @@ use crate::{
         AntennaState, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},
-        settings::{Change, SettleError, SettleStep},
+        settings::{Change, SettleError},
     },
     protocol::satrak::{Decoder, Halt, Request},
 };
@@ -48,7 +48,7 @@ impl Device for Satrak {
         self.fail_preparation(PrepareError::Unanswered);
         self.wanted.clear();
         self.slow = None;
-        self.abandon_changes(now);
+        self.changes.abandon(&mut self.state, now);
     }
 
     fn sent(&mut self, bytes: &[u8], now: Moment) {
@@ -74,7 +74,7 @@ impl Device for Satrak {
             return Some(again);
         }
         self.expire_slow(now);
-        self.begin_change(now);
+        self.changes.begin(&mut self.state, now);
         if let Some(probe) = self.begin_probe(now) {
             return Some(probe);
         }
@@ -141,11 +141,11 @@ impl Device for Satrak {
     }
 
     fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
-        self.settled(change, Err(why), now);
+        self.changes.refuse(change, why, &mut self.state, now);
     }
 
     fn lock_changes(&mut self, are_locked: bool) {
-        self.are_changes_locked = are_locked;
+        self.changes.lock(are_locked);
     }
 
     fn ask(&mut self, question: &str) {
@@ -195,10 +195,9 @@ impl Moves for Satrak {
 
     fn settle(&mut self, change: Change, now: Moment) {
         if self.schedule.is_none() {
-            return self.settled(change, Err(SettleError::NoLink), now);
+            return self.changes.refuse(change, SettleError::NoLink, &mut self.state, now);
         }
-        self.state.group(change.group).step = Some(SettleStep::Waiting);
-        self.changes.push_back(change);
+        self.changes.push(change, &mut self.state);
     }
 
     fn start(&mut self, motion: Motion) {

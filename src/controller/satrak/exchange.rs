@@ -277,7 +277,7 @@ impl Satrak {
     pub(super) fn expire_slow(&mut self, now: Moment) {
         if let Some(late) = self.slow.take_if(|slow| now.steady >= slow.deadline()) {
             self.state.traffic.unanswered += 1;
-            self.record_no_reply(SLOW_REPLY, false, now);
+            self.wire.no_reply(SLOW_REPLY, false, now);
             self.give_up(late.purpose, now);
         }
     }
@@ -314,7 +314,7 @@ impl Satrak {
     fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
         let waited = now.steady.saturating_duration_since(late.sent.steady);
-        self.record_no_reply(waited, is_repeated, now);
+        self.wire.no_reply(waited, is_repeated, now);
         if late.is_status() && !is_repeated {
             self.missing_since.get_or_insert(late.first_sent);
         }

@@ -52,12 +52,6 @@ impl Satrak {
         }
     }
 
-    /// A reply is missing, and the question goes out again or is given up.
-    pub(super) fn record_no_reply(&mut self, waited: Duration, is_repeated: bool, now: Moment) {
-        let finding = Finding::NoReply { waited, is_repeated };
-        self.wire.push(WireLine::new(Direction::Received, &[], finding, now.utc));
-    }
-
     /// Whether the line is a question that comes by itself, or its answer.
     fn polls(&self, line: &Line) -> bool {
         let Some(command) = command(line) else { return false };

@@ -2,23 +2,15 @@
 //! still holds what the operator saw, sends, reads back, and asks what the unit
 //! makes of it.
 
-use super::settings::{GROUPS, Plan, Proof, Wish, values_of};
+use super::settings::{Plan, Proof, Wish};
 use crate::{
     clock::Moment,
-    device::settings::{self, Change, Hindrance, ReadFailure, SettleError, Step, Values},
+    device::settings::{Hindrance, ReadFailure, SettleError, Settling, Step},
     protocol::satrak::{Faults, Reply, Request},
 };
 
 /// A clock is set within this after a full second, nanoseconds.
 const FULL_SECOND_NS: i32 = 60_000_000;
-
-/// A change on its way to the unit.
-#[derive(Debug)]
-pub(super) struct Settling {
-    pub(super) core: settings::Settling,
-    /// How many questions of [`Plan::also`] are over.
-    asked_also: usize,
-}
 
 /// What is to be done for a change now.
 pub(super) enum Next {
@@ -54,102 +46,69 @@ impl Doing {
     }
 }
 
-impl Settling {
-    /// The first step of `change`; an error when it cannot be begun.
-    pub(super) fn new(change: &Change) -> Result<Self, SettleError> {
-        Ok(Self { core: settings::Settling::new(change, GROUPS)?, asked_also: 0 })
-    }
-
-    fn plan(&self) -> Option<&'static Plan> {
-        Plan::of(self.core.group.key)
-    }
-
-    /// What is to be done now.
-    pub(super) fn next(&self, doing: Doing, now: Moment) -> Next {
-        let Some(plan) = self.plan() else { return Next::Over(Err(SettleError::NoSuchSetting)) };
-        match self.core.step() {
-            Step::Look | Step::ReadBack => Next::Send(Request::Query(plan.query)),
-            Step::Done => match plan.also.get(self.asked_also) {
+impl Plan {
+    /// What is to be done now for a change of this group.
+    pub(super) fn next(&self, settling: &Settling, doing: Doing, now: Moment) -> Next {
+        match settling.step() {
+            Step::Look | Step::ReadBack => Next::Send(Request::Query(self.query)),
+            Step::Done => match self.also.get(settling.checked()) {
                 Some(query) => Next::Send(Request::Query(*query)),
-                None => Next::Over(self.core.result()),
+                None => Next::Over(settling.result()),
             },
-            Step::Send => self.command(plan, doing, now),
+            Step::Send => self.command(settling, doing, now),
         }
     }
 
-    fn command(&self, plan: &Plan, doing: Doing, now: Moment) -> Next {
-        if self.core.needs_standstill() && doing.moves {
+    fn command(&self, settling: &Settling, doing: Doing, now: Moment) -> Next {
+        if settling.needs_standstill() && doing.moves {
             return Next::Over(Err(SettleError::Moving));
         }
-        if let Some((field, hindrance)) = self.core.moving_field().zip(doing.hindrance()) {
+        if let Some((field, hindrance)) = settling.moving_field().zip(doing.hindrance()) {
             return Next::Over(Err(SettleError::Hindered { field, hindrance }));
         }
-        if plan.is_clock {
+        if self.is_clock {
             let after = now.utc.subsec_nanosecond().rem_euclid(1_000_000_000);
             if after > FULL_SECOND_NS {
                 let wait = 1_000_000_000_u32.saturating_sub(after.unsigned_abs());
                 return Next::At(now.steady + std::time::Duration::from_nanos(wait.into()));
             }
         }
-        let Some(write) = plan.write else { return Next::Over(Err(SettleError::NoSuchSetting)) };
-        let wish = Wish { new: &self.core.change.values, held: self.core.before(), utc: now.utc };
+        let Some(write) = self.write else { return Next::Over(Err(SettleError::NoSuchSetting)) };
+        let wish = Wish { new: &settling.change.values, held: settling.before(), utc: now.utc };
         match write(&wish) {
             Ok(setting) => Next::Send(Request::Setting(setting)),
             Err(error) => Next::Over(Err(error)),
         }
     }
 
-    /// The present step was answered. An error ends it at once.
+    /// The present step of a change of this group was answered. An error ends it at once.
     pub(super) fn answered(
-        &mut self,
+        &self,
+        settling: &mut Settling,
         reply: &Reply,
         ahead_s: Option<f64>,
     ) -> Result<(), SettleError> {
-        match self.core.step() {
-            Step::Look => self.core.looked(self.values(reply)?)?,
-            Step::Send => self.core.accepted(),
+        let values = || (self.values)(reply).ok_or(SettleError::Unread(ReadFailure::Unanswered));
+        match settling.step() {
+            Step::Look => settling.looked(values()?)?,
+            Step::Send => settling.accepted(),
             Step::ReadBack => {
-                let held = self.values(reply)?;
-                let differing = self.differing(&held, ahead_s);
-                self.core.read_back(&held, differing);
+                let (group, held) = (self.group, values()?);
+                let new = &settling.change.values;
+                let differing = (self.differing)(&Proof { group, new, held: &held, ahead_s });
+                settling.read_back(&held, differing);
             }
-            Step::Done => {
-                if let Reply::Faults(faults) = reply {
-                    self.core.judge(self.judge(*faults));
-                }
-                self.asked_also += 1;
-            }
+            Step::Done => settling.judge(match reply {
+                Reply::Faults(faults) => self.judged(*faults),
+                _ => Ok(()),
+            }),
         }
         Ok(())
     }
 
-    /// The unit said no.
-    pub(super) fn refused(&mut self, code: String) -> Result<(), SettleError> {
-        self.asked_also += usize::from(self.core.step() == Step::Done);
-        self.core.refused(code)
-    }
-
-    /// No answer came, or none that can be read.
-    pub(super) fn unanswered(&mut self) -> Result<(), SettleError> {
-        self.asked_also += usize::from(self.core.step() == Step::Done);
-        self.core.unanswered()
-    }
-
-    fn values(&self, reply: &Reply) -> Result<Values, SettleError> {
-        let of_group = values_of(reply).filter(|(group, _)| group.key == self.core.group.key);
-        of_group.map(|(_, values)| values).ok_or(SettleError::Unread(ReadFailure::Unanswered))
-    }
-
-    /// The fields that do not hold what was asked for.
-    fn differing(&self, held: &Values, ahead_s: Option<f64>) -> Vec<&'static str> {
-        let Some(plan) = self.plan() else { return Vec::new() };
-        let (group, new) = (self.core.group, &self.core.change.values);
-        (plan.differing)(&Proof { group, new, held, ahead_s })
-    }
-
     /// What the faults say about values that the unit holds.
-    fn judge(&self, faults: Faults) -> Result<(), SettleError> {
-        let objection = self.plan().and_then(|plan| (plan.judge)(faults));
+    fn judged(&self, faults: Faults) -> Result<(), SettleError> {
+        let objection = (self.judge)(faults);
         objection.map_or(Ok(()), |why| Err(SettleError::Useless(why.to_owned())))
     }
 }

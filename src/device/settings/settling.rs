@@ -15,6 +15,8 @@ pub(crate) struct Settling {
     before: Values,
     /// What came of sending and reading back so far.
     result: Result<(), SettleError>,
+    /// How many questions after the read-back are over.
+    checked: usize,
 }
 
 /// What a change waits for.
@@ -48,7 +50,7 @@ impl Settling {
             return Err(SettleError::Locked);
         }
         let (before, step) = (Values::new(), Step::Look);
-        Ok(Self { change: change.clone(), group, step, before, result: Ok(()) })
+        Ok(Self { change: change.clone(), group, step, before, result: Ok(()), checked: 0 })
     }
 
     /// What it waits for.
@@ -123,7 +125,7 @@ impl Settling {
                 self.step = Step::ReadBack;
             }
             Step::ReadBack => return self.not_read_back(ReadFailure::Refused(code)),
-            Step::Done => {}
+            Step::Done => self.checked += 1,
         }
         Ok(())
     }
@@ -137,7 +139,7 @@ impl Settling {
                 self.step = Step::ReadBack;
             }
             Step::ReadBack => return self.not_read_back(ReadFailure::Unanswered),
-            Step::Done => {}
+            Step::Done => self.checked += 1,
         }
         Ok(())
     }
@@ -149,11 +151,18 @@ impl Settling {
         }
     }
 
-    /// The device holds the values; whether it can work with them is in `verdict`.
+    /// A question after the read-back was answered; whether the device can work with the
+    /// values is in `verdict`.
     pub(crate) fn judge(&mut self, verdict: Result<(), SettleError>) {
+        self.checked += 1;
         if self.result.is_ok() {
             self.result = verdict;
         }
+    }
+
+    /// How many questions after the read-back are over.
+    pub(crate) fn checked(&self) -> usize {
+        self.checked
     }
 
     /// What came of it.
