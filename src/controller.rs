@@ -7,5 +7,6 @@
 //! Invariant: nothing here opens a link.
 
 pub mod rc2000c;
+mod reply_clock;
 pub mod rotator_genius;
 pub mod satrak;

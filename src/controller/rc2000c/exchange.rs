@@ -3,6 +3,7 @@
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
     clock::{Instant, Moment},
+    controller::reply_clock::ReplyClock,
     device::{Asked, Happening, Measured, Motion, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
@@ -34,17 +35,12 @@ pub(super) enum Purpose {
 pub(super) struct Outstanding {
     request: Request,
     pub(super) purpose: Purpose,
-    pub(super) sent: Moment,
-    /// When the question is repeated, its answer may be to the first one.
-    first_sent: Moment,
-    tries: u8,
-    deadline: Instant,
+    pub(super) clock: ReplyClock,
 }
 
 impl Outstanding {
     pub(super) fn new(request: Request, purpose: Purpose, line: Line, now: Moment) -> Self {
-        let deadline = now.steady + line.reply_wait(&request);
-        Self { request, purpose, sent: now, first_sent: now, tries: 1, deadline }
+        Self { request, purpose, clock: ReplyClock::new(now, line.reply_wait(&request)) }
     }
 
     pub(super) fn code(&self) -> u8 {
@@ -113,7 +109,7 @@ impl Rc2000c {
         if answered.purpose == Purpose::Poll {
             self.missing_since = None;
         }
-        let quiet = if answered.tries > 1 { self.line.longest_wait() } else { GAP };
+        let quiet = if answered.clock.is_repeated() { self.line.longest_wait() } else { GAP };
         self.quiet_until = Some(now.steady + quiet);
         self.take_reply(&answered, reply, now);
         self.refresh_panel();
@@ -156,10 +152,10 @@ impl Rc2000c {
         let axes = self.axes.read(&status, self.past.before(now.steady));
         self.past.push(status, now.steady);
         self.status = Some(status);
-        let way = now.steady.saturating_duration_since(answered.sent.steady) / 2;
+        let way = now.steady.saturating_duration_since(answered.clock.sent.steady) / 2;
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked: answered.first_sent.steady,
+            asked: answered.clock.first_sent.steady,
             received: now.steady,
             pointing: Axes::pointing(axes, &self.mount),
             axes,
@@ -174,7 +170,7 @@ impl Rc2000c {
         self.state.turns_besides = status.polarization_motion != PolarizationMotion::Still;
         self.hold_polarization(&status);
         // From question to question, so that a slow line does not make it slower.
-        self.poll_at = Some(answered.sent.steady + self.rates.period(self.moving()));
+        self.poll_at = Some(answered.clock.sent.steady + self.rates.period(self.moving()));
     }
 
     /// A stop of the axes leaves the polarization turning. It is sent to where it
@@ -230,7 +226,7 @@ impl Rc2000c {
     /// What was not answered in time. A question is repeated; anything else
     /// never: the next status tells whether it came through.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
-        if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.deadline) {
+        if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.clock.deadline()) {
             self.miss(&late, false, now);
             self.look_soon(now);
         }
@@ -240,20 +236,18 @@ impl Rc2000c {
         }
         let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
         let mut late = self.outstanding.take_if(|_| is_late)?;
-        let is_repeated =
-            matches!(late.purpose, Purpose::Poll | Purpose::Question) && late.tries < MOST_TRIES;
+        let is_repeated = matches!(late.purpose, Purpose::Poll | Purpose::Question)
+            && late.clock.tries < MOST_TRIES;
         self.miss(&late, is_repeated, now);
         if is_repeated {
-            late.tries += 1;
-            late.sent = now;
-            late.deadline = now.steady + self.line.reply_wait(&late.request);
+            late.clock.repeat(now);
             let bytes = late.request.to_bytes(self.address);
             self.outstanding = Some(late);
             return Some(bytes);
         }
         match late.purpose {
             Purpose::Poll => {
-                self.missing_since.get_or_insert(late.first_sent);
+                self.missing_since.get_or_insert(late.clock.first_sent);
                 self.question_failed(&late.request, now);
             }
             Purpose::Question => self.question_failed(&late.request, now),
@@ -271,9 +265,9 @@ impl Rc2000c {
     pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
         let is_question = matches!(sent.purpose, Purpose::Poll | Purpose::Question);
         if self.is_watched && is_question {
-            sent.sent.steady + self.line.prompt(&sent.request)
+            sent.clock.sent.steady + self.line.prompt(&sent.request)
         } else {
-            sent.deadline
+            sent.clock.deadline()
         }
     }
 
@@ -286,15 +280,14 @@ impl Rc2000c {
     ) -> Outstanding {
         let mut outstanding = Outstanding::new(request, purpose, self.line, now);
         if let Some(missing) = self.missing_since.filter(|_| purpose == Purpose::Poll) {
-            (outstanding.first_sent, outstanding.tries) = (missing, MOST_TRIES);
+            outstanding.clock = outstanding.clock.standing_for(missing);
         }
         outstanding
     }
 
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
-        let waited = now.steady.saturating_duration_since(late.sent.steady);
-        self.wire.no_reply(waited, is_repeated, now);
+        self.wire.no_reply(late.clock.waited(now), is_repeated, now);
         self.end_jog(late, Happening::Unanswered);
     }
 

@@ -50,8 +50,7 @@ impl Rc2000c {
         let request = outstanding.into_iter().find(|sent| sent.code() == frame.code());
         let is_poll =
             !self.is_poll_by_hand && request.is_some_and(|sent| sent.purpose == Purpose::Poll);
-        let reply_after =
-            request.map(|sent| now.steady.saturating_duration_since(sent.sent.steady));
+        let reply_after = request.map(|sent| sent.clock.waited(now));
         let line = WireLine::new(Direction::Received, &bytes, Finding::Good, now.utc);
         let meaning = meaning::of_reply(frame);
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });

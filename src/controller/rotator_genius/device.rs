@@ -74,7 +74,7 @@ impl Device for Genius {
         let (request, purpose) = self.next_request(now)?;
         let bytes = request.to_bytes();
         let is_rescue = self.is_rescue_armed(now.steady);
-        self.outstanding = Some(Outstanding::new(request, purpose, now.steady, is_rescue));
+        self.outstanding = Some(Outstanding::new(request, purpose, now, is_rescue));
         Some(bytes)
     }
 

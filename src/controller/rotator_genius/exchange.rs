@@ -1,10 +1,9 @@
 //! One request and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::Duration;
-
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
     clock::{Instant, Moment},
+    controller::reply_clock::ReplyClock,
     device::{Asked, Happening, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
@@ -34,19 +33,17 @@ pub(super) enum Purpose {
 pub(super) struct Outstanding {
     request: Request,
     purpose: Purpose,
-    sent: Instant,
-    /// How long its answer may take.
-    patience: Duration,
+    clock: ReplyClock,
 }
 
 impl Outstanding {
-    pub(super) fn new(request: Request, purpose: Purpose, sent: Instant, is_rescue: bool) -> Self {
+    pub(super) fn new(request: Request, purpose: Purpose, sent: Moment, is_rescue: bool) -> Self {
         let patience = if is_rescue { RESCUE_REPLY } else { REPLY };
-        Self { request, purpose, sent, patience }
+        Self { request, purpose, clock: ReplyClock::new(sent, patience) }
     }
 
     fn deadline(&self) -> Instant {
-        self.sent + self.patience
+        self.clock.deadline()
     }
 
     pub(super) fn is_motion(&self) -> bool {
@@ -63,7 +60,7 @@ impl Outstanding {
     }
 
     pub(super) fn sent(&self) -> Instant {
-        self.sent
+        self.clock.sent.steady
     }
 
     /// A halt came after it. Reading moves nothing.
@@ -219,10 +216,9 @@ impl Genius {
         let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
         let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
-        let waited = now.steady.saturating_duration_since(late.sent);
-        self.wire.no_reply(waited, late.is_read(), now);
+        self.wire.no_reply(late.clock.waited(now), late.is_read(), now);
         if late.is_read() {
-            self.missing_since.get_or_insert(late.sent);
+            self.missing_since.get_or_insert(late.sent());
         }
         match late.purpose {
             Purpose::Motion(asked) => {
@@ -241,7 +237,7 @@ impl Genius {
     /// When the reply to `sent` is missing.
     pub(super) fn deadline(&self, sent: &Outstanding) -> Instant {
         let is_hurried = self.is_watched && sent.is_read();
-        if is_hurried { sent.deadline().min(sent.sent + PROMPT) } else { sent.deadline() }
+        if is_hurried { sent.deadline().min(sent.sent() + PROMPT) } else { sent.deadline() }
     }
 
     /// The bytes that stop both rotators.

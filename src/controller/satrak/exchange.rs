@@ -1,11 +1,10 @@
 //! One request and its reply: matching, time-outs, what the reply brings about.
 
-use std::time::Duration;
-
 use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    controller::reply_clock::ReplyClock,
     device::{Happening, Motion, PROMPT, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
@@ -37,33 +36,28 @@ pub(super) enum Purpose {
 pub(super) struct Outstanding {
     request: Request,
     purpose: Purpose,
-    sent: Moment,
-    /// When the question is repeated, its answer may be to the first one.
-    first_sent: Moment,
-    again: bool,
-    /// How long its answer may take.
-    patience: Duration,
+    clock: ReplyClock,
 }
 
 impl Outstanding {
     pub(super) fn new(request: Request, purpose: Purpose, sent: Moment) -> Self {
-        Self { request, purpose, sent, first_sent: sent, again: false, patience: REPLY }
+        Self { request, purpose, clock: ReplyClock::new(sent, REPLY) }
     }
 
     pub(super) fn deadline(&self) -> Instant {
-        self.sent.steady + self.patience
+        self.clock.deadline()
     }
 
     /// When its reply is missing while metal moves.
     fn prompt_deadline(&self) -> Instant {
-        self.sent.steady + PROMPT
+        self.clock.sent.steady + PROMPT
     }
 
     /// A setting for which the unit may fetch or read a file before it answers.
     fn is_slow(&self) -> bool {
         let word = self.request.word();
         self.request.verb() == Verb::Set
-            && self.patience == REPLY
+            && self.clock.patience == REPLY
             && matches!(
                 word,
                 Word::Satellite | Word::SatelliteHttp | Word::SatelliteFtp | Word::LoadImage
@@ -88,12 +82,12 @@ impl Outstanding {
 
     /// It is asked again and again, and not for the second time in a row.
     pub(super) fn is_usual_poll(&self) -> bool {
-        !self.again && matches!(self.purpose, Purpose::Poll(_))
+        !self.clock.is_repeated() && matches!(self.purpose, Purpose::Poll(_))
     }
 
     /// When the question went out for the first time.
     pub(super) fn first_sent(&self) -> Instant {
-        self.first_sent.steady
+        self.clock.first_sent.steady
     }
 
     pub(super) fn answers(&self, command: (Word, Verb)) -> bool {
@@ -185,7 +179,7 @@ impl Satrak {
             }
         };
         self.count_reply(now);
-        if outstanding.again {
+        if outstanding.clock.is_repeated() {
             self.drain_until = Some(now.steady + DRAIN);
         }
         if outstanding.is_status() {
@@ -198,15 +192,15 @@ impl Satrak {
             (Reply::Refused { code }, purpose) => self.take_refusal(code, purpose, now),
             (reply, Purpose::Poll(query) | Purpose::Asked(query)) => {
                 let fault_before = self.reported.fault_flag;
-                self.take_report(reply, outstanding.first_sent, now);
+                self.take_report(reply, outstanding.clock.first_sent, now);
                 self.polled(query, fault_before, now);
             }
             (reply, Purpose::Prepare) => {
                 self.advance_preparation(&reply);
-                self.take_report(reply, outstanding.first_sent, now);
+                self.take_report(reply, outstanding.clock.first_sent, now);
             }
             (reply, Purpose::Settle) => {
-                self.take_report(reply.clone(), outstanding.first_sent, now);
+                self.take_report(reply.clone(), outstanding.clock.first_sent, now);
                 self.change_answered(&reply, now);
             }
             (_, Purpose::Motion(motion)) => {
@@ -294,15 +288,14 @@ impl Satrak {
         }
         let mut late = self.outstanding.take()?;
         if late.is_slow() {
-            late.patience = SLOW_REPLY;
+            late.clock.patience = SLOW_REPLY;
             self.slow = Some(late);
             return None;
         }
-        let is_repeated = late.request.verb() == Verb::Query && !late.again;
+        let is_repeated = late.request.verb() == Verb::Query && !late.clock.is_repeated();
         self.missed(&late, is_repeated, now);
         if is_repeated {
-            late.again = true;
-            late.sent = now;
+            late.clock.repeat(now);
             let bytes = late.request.to_bytes();
             self.outstanding = Some(late);
             return Some(bytes);
@@ -313,10 +306,9 @@ impl Satrak {
 
     fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
-        let waited = now.steady.saturating_duration_since(late.sent.steady);
-        self.wire.no_reply(waited, is_repeated, now);
+        self.wire.no_reply(late.clock.waited(now), is_repeated, now);
         if late.is_status() && !is_repeated {
-            self.missing_since.get_or_insert(late.first_sent);
+            self.missing_since.get_or_insert(late.clock.first_sent);
         }
     }
 
@@ -329,7 +321,7 @@ impl Satrak {
     ) -> Outstanding {
         let mut outstanding = Outstanding::new(request, purpose, now);
         if let Some(missing) = self.missing_since.filter(|_| outstanding.is_status()) {
-            (outstanding.first_sent, outstanding.again) = (missing, true);
+            outstanding.clock = outstanding.clock.standing_for(missing);
         }
         outstanding
     }
