@@ -26,7 +26,7 @@ pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
-pub use setting::{Choice, Holds, Setting, Table, Value};
+pub use setting::{Holds, Setting, Table, Value};
 pub use watch::{Monitor, OnClose, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
 
 use serde::{Serialize, Serializer};

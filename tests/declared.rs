@@ -28,9 +28,9 @@ fn antennas(spec: &'static ControllerSpec) -> Vec<Antenna> {
     let mut antennas = vec![usual.clone()];
     for setting in spec.settings {
         let Holds::OneOf(choices) = &setting.holds else { continue };
-        for choice in *choices {
+        for (choice, _) in *choices {
             let mut antenna = usual.clone();
-            antenna.connection.put(setting, choice.value.clone()).unwrap();
+            antenna.connection.put(setting, choice.clone()).unwrap();
             antennas.push(antenna);
         }
     }

@@ -20,7 +20,7 @@ fn each_make_fits_what_it_says_of_itself() {
     for spec in SPECS {
         assert_eq!(spec.check_address(spec.usual_address), Ok(()), "{spec:?}");
         for setting in spec.settings {
-            assert_eq!(setting.check(&setting.usual), Ok(()), "{spec:?}: {}", setting.key);
+            assert_eq!(setting.check(setting.usual), Ok(()), "{spec:?}: {}", setting.key);
             let is_left_out = matches!(setting.holds, Holds::Text | Holds::Points);
             assert_eq!(setting.usual.is_empty(), is_left_out, "{spec:?}: {}", setting.key);
         }

@@ -35,7 +35,7 @@ impl Connection {
 
     /// The value of a setting; the usual one where its make has no such.
     pub fn value<'a>(&'a self, setting: &'a Setting) -> &'a Value {
-        self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(&setting.usual)
+        self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(setting.usual)
     }
 
     /// The text or word of a setting; empty where it holds neither.

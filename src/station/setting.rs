@@ -20,7 +20,7 @@ pub struct Setting {
     /// What it can hold.
     pub holds: Holds,
     /// What it holds where nothing is said.
-    pub usual: Value,
+    pub usual: &'static Value,
     /// What is to be said of a value, in a sentence.
     pub note: fn(&Value) -> Option<&'static str>,
 }
@@ -39,22 +39,13 @@ pub struct Table {
 pub enum Holds {
     /// Any text; an empty one, which is the usual one, is not written to the file.
     Text,
-    /// One of these.
-    OneOf(&'static [Choice]),
+    /// One of these words or whole numbers, each with its name in the form.
+    OneOf(&'static [(Value, &'static str)]),
     /// A whole number within these ends.
     Whole(RangeInclusive<u32>),
     /// Two measured points or more that make a scale, or none; none, which is
     /// usual, are not written to the file.
     Points,
-}
-
-/// A value that can be chosen.
-#[derive(Debug)]
-pub struct Choice {
-    /// As in the file: a word or a whole number.
-    pub value: Value,
-    /// As in the form.
-    pub name: &'static str,
 }
 
 /// The value of a setting.
@@ -70,6 +61,9 @@ pub enum Value {
     /// Of [`Holds::Points`].
     Points(Vec<CountPoint>),
 }
+
+static NO_TEXT: Value = Value::Text(String::new());
+static NO_POINTS: Value = Value::Points(Vec::new());
 
 impl Value {
     /// It holds nothing that could be written.
@@ -101,13 +95,64 @@ impl From<Vec<CountPoint>> for Value {
 }
 
 impl Setting {
+    const fn new(
+        key: &'static str,
+        label: &'static str,
+        holds: Holds,
+        usual: &'static Value,
+    ) -> Self {
+        Self { key, table: None, label, holds, usual, note: |_| None }
+    }
+
+    /// Any text; usually none.
+    pub const fn text(key: &'static str, label: &'static str) -> Self {
+        Self::new(key, label, Holds::Text, &NO_TEXT)
+    }
+
+    /// One of `choices`, each with its name in the form.
+    pub const fn one_of(
+        key: &'static str,
+        label: &'static str,
+        choices: &'static [(Value, &'static str)],
+        usual: &'static Value,
+    ) -> Self {
+        Self::new(key, label, Holds::OneOf(choices), usual)
+    }
+
+    /// A whole number within these ends.
+    pub const fn whole(
+        key: &'static str,
+        label: &'static str,
+        range: RangeInclusive<u32>,
+        usual: &'static Value,
+    ) -> Self {
+        Self::new(key, label, Holds::Whole(range), usual)
+    }
+
+    /// Measured points that make a scale; usually none.
+    pub const fn points(key: &'static str, label: &'static str) -> Self {
+        Self::new(key, label, Holds::Points, &NO_POINTS)
+    }
+
+    /// Within a table of its own.
+    #[must_use]
+    pub const fn in_table(self, table: Table) -> Self {
+        Self { table: Some(table), ..self }
+    }
+
+    /// With what is to be said of a value.
+    #[must_use]
+    pub const fn noted(self, note: fn(&Value) -> Option<&'static str>) -> Self {
+        Self { note, ..self }
+    }
+
     /// Whether it can hold `value`; the reason, to stand behind its name, when it
     /// cannot.
     pub fn check(&self, value: &Value) -> Result<(), String> {
         match (&self.holds, value) {
             (Holds::Text, Value::Text(_)) => Ok(()),
             (Holds::Points, Value::Points(points)) => CountPoint::check(points),
-            (Holds::OneOf(choices), value) if choices.iter().any(|of| of.value == *value) => Ok(()),
+            (Holds::OneOf(choices), value) if choices.iter().any(|(of, _)| of == value) => Ok(()),
             (Holds::Whole(range), Value::Whole(number)) if range.contains(number) => Ok(()),
             _ => Err(self.wanted()),
         }
@@ -118,8 +163,8 @@ impl Setting {
         let read = match &self.holds {
             Holds::Text => value.as_str().filter(|text| !text.trim().is_empty()).map(Value::from),
             Holds::OneOf(choices) => {
-                let found = choices.iter().find(|choice| choice.value.stands_for(&value));
-                found.map(|choice| choice.value.clone())
+                let found = choices.iter().find(|(choice, _)| choice.stands_for(&value));
+                found.map(|(choice, _)| choice.clone())
             }
             Holds::Whole(_) => {
                 let number = value.as_integer().and_then(|number| u32::try_from(number).ok());
@@ -135,10 +180,10 @@ impl Setting {
         match &self.holds {
             Holds::Text => "must be a text that is not empty".to_owned(),
             Holds::OneOf(choices) => {
-                let written = |choice: &Choice| match &choice.value {
+                let written = |(choice, name): &(Value, &str)| match choice {
                     Value::Word(word) => format!("{word:?}"),
                     Value::Whole(number) => number.to_string(),
-                    Value::Text(_) | Value::Points(_) => choice.name.to_owned(),
+                    Value::Text(_) | Value::Points(_) => (*name).to_owned(),
                 };
                 let all: Vec<String> = choices.iter().map(written).collect();
                 format!("must be one of {}", all.join(", "))

@@ -4,8 +4,8 @@ use super::{Rc2000c, actions};
 use crate::{
     device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, Choice, Connection, ControllerSpec, CountPoint, Direction, Following,
-        Holds, Link, MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+        AfterPass, Antenna, Connection, ControllerSpec, CountPoint, Direction, Following, Link,
+        MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
     },
 };
 
@@ -75,54 +75,34 @@ pub static VARIANT: Variant = Variant {
 
 /// Bits a second of the line. A serial server is set to it by its own means; here
 /// it tells how long replies take.
-pub static BAUD: Setting = Setting {
-    key: "baud",
-    table: None,
-    label: "Line speed, baud",
-    holds: Holds::OneOf(&[
-        Choice { value: Value::Whole(300), name: "300" },
-        Choice { value: Value::Whole(600), name: "600" },
-        Choice { value: Value::Whole(1200), name: "1200" },
-        Choice { value: Value::Whole(2400), name: "2400" },
-        Choice { value: Value::Whole(4800), name: "4800" },
-        Choice { value: Value::Whole(9600), name: "9600" },
-    ]),
-    usual: Value::Whole(9600),
-    note: |_| None,
-};
+pub static BAUD: Setting = Setting::one_of(
+    "baud",
+    "Line speed, baud",
+    &[
+        (Value::Whole(300), "300"),
+        (Value::Whole(600), "600"),
+        (Value::Whole(1200), "1200"),
+        (Value::Whole(2400), "2400"),
+        (Value::Whole(4800), "4800"),
+        (Value::Whole(9600), "9600"),
+    ],
+    &Value::Whole(9600),
+);
 
 /// Its address on the bus.
-pub static BUS_ADDRESS: Setting = Setting {
-    key: "bus_address",
-    table: None,
-    label: "Bus address",
-    holds: Holds::Whole(49..=111),
-    usual: Value::Whole(50),
-    note: |_| None,
-};
+pub static BUS_ADDRESS: Setting =
+    Setting::whole("bus_address", "Bus address", 49..=111, &Value::Whole(50));
 
 /// What its counts mean.
 const CALIBRATION: Table = Table { key: "calibration", title: "Calibration" };
 
 /// What the counts of the azimuth mean.
-pub static AZIMUTH_POINTS: Setting = Setting {
-    key: "azimuth",
-    table: Some(CALIBRATION),
-    label: "Azimuth counts",
-    holds: Holds::Points,
-    usual: Value::Points(Vec::new()),
-    note: not_calibrated,
-};
+pub static AZIMUTH_POINTS: Setting =
+    Setting::points("azimuth", "Azimuth counts").in_table(CALIBRATION).noted(not_calibrated);
 
 /// What the counts of the elevation mean.
-pub static ELEVATION_POINTS: Setting = Setting {
-    key: "elevation",
-    table: Some(CALIBRATION),
-    label: "Elevation counts",
-    holds: Holds::Points,
-    usual: Value::Points(Vec::new()),
-    note: not_calibrated,
-};
+pub static ELEVATION_POINTS: Setting =
+    Setting::points("elevation", "Elevation counts").in_table(CALIBRATION).noted(not_calibrated);
 
 fn not_calibrated(value: &Value) -> Option<&'static str> {
     let is_empty = matches!(value, Value::Points(points) if points.is_empty());

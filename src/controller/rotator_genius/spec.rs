@@ -4,8 +4,8 @@ use super::{GROUPS, Genius, actions};
 use crate::{
     device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, Choice, Connection, ControllerSpec, Direction, Following, Holds, Link,
-        MotionLimits, Mount, PollRates, Setting, Usual, Value,
+        AfterPass, Antenna, Connection, ControllerSpec, Direction, Following, Link, MotionLimits,
+        Mount, PollRates, Setting, Usual, Value,
     },
 };
 
@@ -87,21 +87,20 @@ pub static ALONE: Variant = Variant {
 };
 
 /// What the two rotators turn: a value of [`Rotators`].
-pub static ROTATORS: Setting = Setting {
-    key: "rotators",
-    table: None,
-    label: "Rotators of this antenna",
-    holds: Holds::OneOf(&[
-        Choice { value: Value::Word("pair"), name: "Azimuth, elevation" },
-        Choice { value: Value::Word("first"), name: "First one" },
-        Choice { value: Value::Word("second"), name: "Second one" },
-    ]),
-    usual: Value::Word("pair"),
-    note: |value| {
-        let is_alone = *value != Value::Word("pair");
-        is_alone.then_some("It turns the azimuth; the other rotator turns something else.")
-    },
-};
+pub static ROTATORS: Setting = Setting::one_of(
+    "rotators",
+    "Rotators of this antenna",
+    &[
+        (Value::Word("pair"), "Azimuth, elevation"),
+        (Value::Word("first"), "First one"),
+        (Value::Word("second"), "Second one"),
+    ],
+    &Value::Word("pair"),
+)
+.noted(|value| {
+    let is_alone = *value != Value::Word("pair");
+    is_alone.then_some("It turns the azimuth; the other rotator turns something else.")
+});
 
 /// What the two rotators of a Rotator Genius turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use super::{ELEMENT_FILES, GROUPS, Satrak, words};
 use crate::{
     device::{Capabilities, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, ControllerSpec, Direction, Following, Holds, Link, MotionLimits, Mount,
-        PollRates, Setting, Usual, Value,
+        AfterPass, Antenna, ControllerSpec, Direction, Following, Link, MotionLimits, Mount,
+        PollRates, Setting, Usual,
     },
 };
 
@@ -75,14 +75,7 @@ pub static VARIANT: Variant = Variant {
 
 /// The element file on the unit from which satellites are chosen; empty for the
 /// one that the unit uses already.
-pub static ELEMENT_FILE: Setting = Setting {
-    key: "element_file",
-    table: None,
-    label: "Element file on the unit",
-    holds: Holds::Text,
-    usual: Value::Text(String::new()),
-    note: |_| None,
-};
+pub static ELEMENT_FILE: Setting = Setting::text("element_file", "Element file on the unit");
 
 impl Antenna {
     /// A Satrak at `address` with the usual figures.

@@ -6,9 +6,7 @@ use super::{
     points,
 };
 use crate::{
-    station::{
-        Antenna, Choice, ControllerSpec, CountLine, CountPoint, Holds, Link, Setting, Value,
-    },
+    station::{Antenna, ControllerSpec, CountLine, CountPoint, Holds, Link, Setting, Value},
     ui::format,
 };
 
@@ -56,7 +54,7 @@ fn address(spec: &'static ControllerSpec) -> Of {
 fn field(setting: &'static Setting) -> Of {
     let look = match &setting.holds {
         Holds::Text => Look::Words,
-        Holds::OneOf(choices) => Look::Choice(choices.iter().map(|choice| choice.name).collect()),
+        Holds::OneOf(choices) => Look::Choice(choices.iter().map(|(_, name)| *name).collect()),
         Holds::Whole(_) => Look::Number,
         Holds::Points => Look::Lines { hint: "counts degrees, one pair a line" },
     };
@@ -76,8 +74,8 @@ fn field(setting: &'static Setting) -> Of {
 /// A value as it is shown and typed.
 fn text(holds: &Holds, value: &Value) -> String {
     if let Holds::OneOf(choices) = holds {
-        let chosen = choices.iter().find(|choice| choice.value == *value);
-        return chosen.map(|choice| choice.name.to_owned()).unwrap_or_default();
+        let chosen = choices.iter().find(|(choice, _)| choice == value);
+        return chosen.map(|(_, name)| (*name).to_owned()).unwrap_or_default();
     }
     match value {
         Value::Text(text) => text.clone(),
@@ -89,10 +87,12 @@ fn text(holds: &Holds, value: &Value) -> String {
 
 /// The value that is meant by what is typed.
 fn value(setting: &Setting, text: &str) -> Result<Value, String> {
-    let named = |choices: &'static [Choice]| choices.iter().find(|choice| choice.name == text);
     let value = match &setting.holds {
         Holds::Text => Some(text.into()),
-        Holds::OneOf(choices) => named(choices).map(|choice| choice.value.clone()),
+        Holds::OneOf(choices) => {
+            let named = choices.iter().find(|(_, name)| *name == text);
+            named.map(|(choice, _)| choice.clone())
+        }
         Holds::Whole(_) => text.parse().ok().map(Value::Whole),
         Holds::Points => Some(points::read(text)?.into()),
     };

@@ -16,7 +16,7 @@ use azel::{
         AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Motion,
         Moves, Standstill, Variant, aimed,
     },
-    station::{Choice, Connection, ControllerSpec, Holds, Link, Setting, Table, Usual, Value},
+    station::{Connection, ControllerSpec, Link, Setting, Table, Usual, Value},
 };
 
 pub(crate) static SPEC: ControllerSpec = ControllerSpec {
@@ -36,35 +36,19 @@ pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     open: |antenna| Box::new(Lever::of(&antenna.connection)),
 };
 
-pub(crate) static CODE: Setting = Setting {
-    key: "code",
-    table: None,
-    label: "Access code",
-    holds: Holds::Text,
-    usual: Value::Text(String::new()),
-    note: |value| (*value == Value::Text(String::new())).then_some("It takes no orders so."),
-};
+pub(crate) static CODE: Setting = Setting::text("code", "Access code")
+    .noted(|value| (*value == "".into()).then_some("It takes no orders so."));
 
-pub(crate) static GEAR: Setting = Setting {
-    key: "gear",
-    table: Some(DRIVE),
-    label: "Gear",
-    holds: Holds::OneOf(&[
-        Choice { value: Value::Word("low"), name: "Low gear" },
-        Choice { value: Value::Word("high"), name: "High gear" },
-    ]),
-    usual: Value::Word("low"),
-    note: |_| None,
-};
+pub(crate) static GEAR: Setting = Setting::one_of(
+    "gear",
+    "Gear",
+    &[(Value::Word("low"), "Low gear"), (Value::Word("high"), "High gear")],
+    &Value::Word("low"),
+)
+.in_table(DRIVE);
 
-pub(crate) static SHAFTS: Setting = Setting {
-    key: "shafts",
-    table: Some(DRIVE),
-    label: "Shafts",
-    holds: Holds::Whole(1..=4),
-    usual: Value::Whole(2),
-    note: |_| None,
-};
+pub(crate) static SHAFTS: Setting =
+    Setting::whole("shafts", "Shafts", 1..=4, &Value::Whole(2)).in_table(DRIVE);
 
 const DRIVE: Table = Table { key: "drive", title: "Drive" };
 
