@@ -5,6 +5,8 @@
 mod connection;
 mod control;
 mod simulator;
+#[cfg(test)]
+pub(super) mod testing;
 
 pub(super) use connection::{Replies, serve};
 pub use control::Control;

@@ -38,3 +38,22 @@ macro_rules! named {
 }
 
 pub(super) use named;
+
+/// Checks that the names of `all` are read back, and that the answer to a wrong one lists them.
+#[cfg(test)]
+pub(super) fn assert_read_back<T>(all: &[(T, &str)])
+where
+    T: std::str::FromStr<Err = UnknownName>
+        + std::fmt::Display
+        + std::fmt::Debug
+        + Copy
+        + PartialEq,
+{
+    for (value, name) in all {
+        assert_eq!(name.parse(), Ok(*value));
+        assert_eq!(value.to_string(), *name);
+    }
+    let error = "no such name".parse::<T>().unwrap_err().to_string();
+    let names: Vec<&str> = all.iter().map(|(_, name)| *name).collect();
+    assert!(error.contains("no such name") && error.contains(&names.join(", ")), "{error}");
+}

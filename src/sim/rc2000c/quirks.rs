@@ -139,19 +139,12 @@ named!(Quirk is "quirk", Fault is "fault");
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::names::assert_read_back;
 
     #[test]
     fn names_are_read_back_and_wrong_ones_are_answered_with_the_list() {
-        for (quirk, name) in Quirk::ALL {
-            assert_eq!(name.parse(), Ok(quirk));
-            assert_eq!(quirk.to_string(), name);
-        }
-        for (fault, name) in Fault::ALL {
-            assert_eq!(name.parse(), Ok(fault));
-            assert_eq!(fault.to_string(), name);
-        }
-        let error = "az_jm".parse::<Fault>().unwrap_err().to_string();
-        assert!(error.contains("az_jm") && error.contains("az_jam, el_jam"), "{error}");
+        assert_read_back(&Quirk::ALL);
+        assert_read_back(&Fault::ALL);
     }
 
     #[test]

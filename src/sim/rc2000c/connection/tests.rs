@@ -4,28 +4,20 @@ mod line;
 mod motion;
 mod tracking;
 
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
-    time::{sleep, timeout},
-};
+use tokio::{io::AsyncReadExt, time::sleep};
 
 use super::*;
 use crate::protocol::rc2000c::{
-    AutoMove, FrameError, Motion, Query, ReplyError, Request, SatelliteName, Status,
+    AutoMove, Motion, Query, ReplyError, Request, SatelliteName, Status,
 };
+use crate::sim::harness::testing;
 use crate::sim::rc2000c::Options;
 
-struct Client {
-    stream: DuplexStream,
-    decoder: Decoder,
-}
+type Client = testing::Client<Decoder>;
 
 impl Client {
     fn of(control: &Control) -> Self {
-        let (stream, other) = tokio::io::duplex(4096);
-        let control = control.clone();
-        tokio::spawn(async move { control.serve(other).await });
-        Self { stream, decoder: Decoder::new(Address::FACTORY) }
+        Self::connect(control, Decoder::new(Address::FACTORY), Decoder::push)
     }
 
     fn new() -> (Self, Control) {
@@ -34,23 +26,7 @@ impl Client {
     }
 
     async fn send(&mut self, request: Request) {
-        self.stream.write_all(&request.to_bytes(Address::FACTORY)).await.unwrap();
-    }
-
-    /// The next frame or refusal; `None` when nothing comes within 2 s or the
-    /// connection ends.
-    async fn receive(&mut self) -> Option<Result<Frame, FrameError>> {
-        let mut buffer = [0; 256];
-        loop {
-            if let Some(seen) = self.decoder.next() {
-                return Some(seen);
-            }
-            let read = timeout(Duration::from_secs(2), self.stream.read(&mut buffer)).await;
-            match read {
-                Ok(Ok(count)) if count > 0 => self.decoder.push(&buffer[..count]),
-                _ => return None,
-            }
-        }
+        self.write(&request.to_bytes(Address::FACTORY)).await;
     }
 
     async fn ask(&mut self, request: Request) -> Reply {
@@ -62,7 +38,7 @@ impl Client {
     async fn ask_raw(&mut self, command: &[u8]) -> Option<Reply> {
         let mut bytes = command.to_vec();
         bytes.push(checksum(command));
-        self.stream.write_all(&bytes).await.unwrap();
+        self.write(&bytes).await;
         self.receive().await.map(|frame| Reply::parse(&frame.unwrap()).unwrap())
     }
 

@@ -5,32 +5,24 @@ mod motion;
 
 use std::time::Duration;
 
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
-    time::{sleep, timeout},
-};
+use tokio::{io::AsyncReadExt, time::sleep};
 
 use super::*;
 use crate::protocol::rotator_genius::{
     Acknowledgement, Configuration, Decoder, Direction, Motion, Moving, Received, Reply as Said,
     Request, Rotator, RotatorKind, RotatorName, RotatorNumber, Status, WholeDegrees,
 };
+use crate::sim::harness::testing;
 use crate::sim::rotator_genius::{Options, Quirk, RotatorOptions};
 
 const ONE: RotatorNumber = RotatorNumber::One;
 const TWO: RotatorNumber = RotatorNumber::Two;
 
-struct Client {
-    stream: DuplexStream,
-    decoder: Decoder,
-}
+type Client = testing::Client<Decoder>;
 
 impl Client {
     fn of(control: &Control) -> Self {
-        let (stream, other) = tokio::io::duplex(4096);
-        let control = control.clone();
-        tokio::spawn(async move { control.serve(other).await });
-        Self { stream, decoder: Decoder::new() }
+        Self::connect(control, Decoder::new(), Decoder::push)
     }
 
     fn new(options: &Options) -> (Self, Control) {
@@ -39,22 +31,7 @@ impl Client {
     }
 
     async fn send(&mut self, request: &Request) {
-        self.stream.write_all(&request.to_bytes()).await.unwrap();
-    }
-
-    /// The next that comes within 2 s and before the connection ends.
-    async fn receive(&mut self) -> Option<Received> {
-        let mut buffer = [0; 512];
-        loop {
-            if let Some(received) = self.decoder.next() {
-                return Some(received);
-            }
-            let read = timeout(Duration::from_secs(2), self.stream.read(&mut buffer)).await;
-            match read {
-                Ok(Ok(count)) if count > 0 => self.decoder.push(&buffer[..count]),
-                _ => return None,
-            }
-        }
+        self.write(&request.to_bytes()).await;
     }
 
     async fn ask(&mut self, request: Request) -> Said {

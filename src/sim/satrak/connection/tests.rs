@@ -8,17 +8,17 @@ use std::{collections::BTreeMap, time::Duration};
 
 use jiff::Timestamp;
 use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
-    time::{Instant, sleep, timeout},
+    io::AsyncReadExt,
+    time::{Instant, sleep},
 };
 
 use super::*;
 use crate::astro::{Angle, AzEl, Site, time};
 use crate::orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements};
 use crate::protocol::satrak::{
-    Clock, FaultKind, Frame, FrameError, GpsData, Oddity, Reply as Said, ReplyError, Status,
-    TrackState,
+    Clock, FaultKind, Frame, GpsData, Oddity, Reply as Said, ReplyError, Status, TrackState,
 };
+use crate::sim::harness::testing;
 use crate::sim::satrak::Options;
 
 /// The space station in 2008, a published example.
@@ -46,17 +46,11 @@ fn some_day() -> Timestamp {
     "2026-03-17T16:43:00Z".parse().unwrap()
 }
 
-struct Client {
-    stream: DuplexStream,
-    decoder: Decoder,
-}
+type Client = testing::Client<Decoder>;
 
 impl Client {
     fn of(control: &Control) -> Self {
-        let (stream, other) = tokio::io::duplex(4096);
-        let control = control.clone();
-        tokio::spawn(async move { control.serve(other).await });
-        Self { stream, decoder: Decoder::new() }
+        Self::connect(control, Decoder::new(), Decoder::push)
     }
 
     fn new(options: &Options) -> (Self, Control) {
@@ -65,23 +59,7 @@ impl Client {
     }
 
     async fn send(&mut self, payload: &str) {
-        self.stream.write_all(&encode(payload)).await.unwrap();
-    }
-
-    /// The next frame or refusal; `None` when nothing comes within 2 s or the
-    /// connection ends.
-    async fn receive(&mut self) -> Option<Result<Frame, FrameError>> {
-        let mut buffer = [0; 512];
-        loop {
-            if let Some(read) = self.decoder.next() {
-                return Some(read);
-            }
-            let read = timeout(Duration::from_secs(2), self.stream.read(&mut buffer)).await;
-            match read {
-                Ok(Ok(count)) if count > 0 => self.decoder.push(&buffer[..count]),
-                _ => return None,
-            }
-        }
+        self.write(&encode(payload)).await;
     }
 
     async fn ask(&mut self, payload: &str) -> Frame {

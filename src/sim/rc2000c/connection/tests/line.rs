@@ -42,8 +42,8 @@ async fn any_command_takes_the_panel_from_the_local_operator() {
     seconds(2.0).await;
     let state = control.state();
     assert!(state.mode == Mode::Manual && !state.is_turning);
-    client.stream.write_all(b"\x02\x33\x31\x03\x03").await.unwrap();
-    client.stream.write_all(b"\x02\x32\x31\x03\x01").await.unwrap();
+    client.write(b"\x02\x33\x31\x03\x03").await;
+    client.write(b"\x02\x32\x31\x03\x01").await;
     assert!(client.receive().await.is_none());
     assert_eq!(control.state().mode, Mode::Manual, "broken, or for another controller");
 }
@@ -77,9 +77,9 @@ async fn a_command_in_two_halves_is_whole_unless_the_line_was_quiet_between() {
     let (mut client, control) = Client::new();
     let bytes = POLL.to_bytes(Address::FACTORY);
     for (pause_ms, is_answered) in [(90, true), (150, false)] {
-        client.stream.write_all(&bytes[..3]).await.unwrap();
+        client.write(&bytes[..3]).await;
         sleep(Duration::from_millis(pause_ms)).await;
-        client.stream.write_all(&bytes[3..]).await.unwrap();
+        client.write(&bytes[3..]).await;
         assert_eq!(client.receive().await.is_some(), is_answered, "{pause_ms}");
     }
     assert_eq!(control.received().len(), 1);
@@ -118,7 +118,7 @@ async fn each_quirk_of_the_line_does_as_it_says() {
     assert!(client.receive().await.is_none(), "without parity it is not heard");
     let mut bytes = POLL.to_bytes(Address::FACTORY);
     Parity::Software.prepare(&mut bytes);
-    client.stream.write_all(&bytes).await.unwrap();
+    client.write(&bytes).await;
     let mut buffer = [0; 64];
     let count = client.stream.read(&mut buffer).await.unwrap();
     assert!(buffer[..count].iter().any(|byte| *byte >= 0x80));

@@ -34,8 +34,8 @@ async fn the_longer_reply_to_a_go_to_repeats_the_target() {
 #[tokio::test(start_paused = true)]
 async fn requests_together_and_in_pieces_are_answered_in_order() {
     let (mut client, control) = with(&[], &[]);
-    client.stream.write_all(b"|A1200|S|").await.unwrap();
-    client.stream.write_all(b"h").await.unwrap();
+    client.write(b"|A1200|S|").await;
+    client.write(b"h").await;
     for expected in [Acknowledgement::GoTo { target: None }, Acknowledgement::Stop] {
         let reply = Said::Acknowledgement { to: expected, is_accepted: true };
         assert_eq!(client.receive().await, Some(Received::Reply(reply)));

@@ -155,7 +155,7 @@ async fn faults_of_the_unit_are_reported_and_suffered() {
 #[tokio::test(start_paused = true)]
 async fn broken_frames_are_not_answered_and_dropping_closes() {
     let (mut client, control) = Client::new(&options(some_day()));
-    client.stream.write_all(b"$MOVE=,1,0*00\r\n").await.unwrap();
+    client.write(b"$MOVE=,1,0*00\r\n").await;
     assert!(client.receive().await.is_none());
     assert!(!control.state().is_moving && control.received().is_empty());
     control.drop_clients();

@@ -1,0 +1,53 @@
+//! A client at the other end of a stream in memory, for the tests of the makes.
+
+use std::time::Duration;
+
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
+    time::timeout,
+};
+
+use super::{Control, Unit};
+
+/// How long a client waits for a reply.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// A client that reads with the decoder `D`.
+pub(in crate::sim) struct Client<D> {
+    pub(in crate::sim) stream: DuplexStream,
+    pub(in crate::sim) decoder: D,
+    push: fn(&mut D, &[u8]),
+}
+
+impl<D: Iterator> Client<D> {
+    /// A client of a unit; `push` gives what came in to `decoder`.
+    pub(in crate::sim) fn connect<U: Unit>(
+        control: &Control<U>,
+        decoder: D,
+        push: fn(&mut D, &[u8]),
+    ) -> Self {
+        let (stream, other) = tokio::io::duplex(4096);
+        let control = control.clone();
+        tokio::spawn(async move { control.serve(other).await });
+        Self { stream, decoder, push }
+    }
+
+    pub(in crate::sim) async fn write(&mut self, bytes: &[u8]) {
+        self.stream.write_all(bytes).await.unwrap();
+    }
+
+    /// The next that the decoder finds; `None` when nothing comes within 2 s or the
+    /// connection ends.
+    pub(in crate::sim) async fn receive(&mut self) -> Option<D::Item> {
+        let mut buffer = [0; 512];
+        loop {
+            if let Some(found) = self.decoder.next() {
+                return Some(found);
+            }
+            match timeout(PATIENCE, self.stream.read(&mut buffer)).await {
+                Ok(Ok(count)) if count > 0 => (self.push)(&mut self.decoder, &buffer[..count]),
+                _ => return None,
+            }
+        }
+    }
+}
