@@ -4,7 +4,6 @@ mod angle;
 mod azel;
 pub mod frames;
 mod horizon_mask;
-mod refraction;
 mod site;
 pub mod sun_moon;
 pub mod time;
@@ -16,6 +15,5 @@ pub use azel::AzEl;
 pub use horizon_mask::{
     HorizonMask, MOST_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
 };
-pub use refraction::Air;
 pub use site::{Site, SiteError};
 pub use zone::{FEWEST_CORNERS, MOST_CORNERS, Zone, ZoneError};

@@ -15,7 +15,7 @@ mod writer;
 pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError};
-pub use look::{LookAngles, LookOptions, look_angles, look_angles_with};
+pub use look::LookAngles;
 pub use passes::{
     Pass, PassPoint, PassSearch, clear_stretches, passes, passes_and_effort, passes_of_all,
 };

@@ -118,6 +118,4 @@ pub enum TestAsk {
     ForgetHostKey,
     /// Nobody wants it any more.
     Cancel,
-    /// What came of it was read.
-    Dismiss,
 }

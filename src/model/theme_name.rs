@@ -14,9 +14,6 @@ pub enum ThemeName {
 }
 
 impl ThemeName {
-    /// All themes, in the order in which the key for the next theme walks.
-    pub const ALL: [Self; 3] = [Self::Dark, Self::Light, Self::Night];
-
     /// The next theme in the ring.
     #[must_use]
     pub fn next(self) -> Self {

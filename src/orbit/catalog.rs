@@ -17,8 +17,6 @@ pub struct Catalog {
 #[derive(Debug, Clone)]
 struct Entry {
     elements: Elements,
-    /// The place in `groups` of the source of these elements.
-    source: u32,
     /// The line of the source where they start, from 1.
     line: u32,
 }
@@ -66,7 +64,7 @@ impl Catalog {
         for (elements, line) in report.elements.into_iter().zip(report.lines) {
             let number = elements.catalog_number();
             members.push(number);
-            let mut entry = Entry { elements, source, line };
+            let mut entry = Entry { elements, line };
             let (sorted, _) = self.entries.split_at_mut(known);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
@@ -110,12 +108,6 @@ impl Catalog {
     /// The elements of an object.
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
         self.entry(catalog_number).map(|entry| &entry.elements)
-    }
-
-    /// Where the elements of an object came from.
-    pub fn source(&self, catalog_number: u32) -> Option<&str> {
-        let group = self.groups.get(self.entry(catalog_number)?.source as usize)?;
-        Some(group.name.as_str())
     }
 
     /// The sources, each with the number of its objects, in the order of
@@ -247,8 +239,8 @@ mod tests {
         let held = "2026-08-12T00:00:00Z".parse().unwrap();
         let reason = RefusalReason::OlderThanHeld { held };
         assert_eq!(second.refused, [Refusal { line: 1, object: Some("STALE".into()), reason }]);
-        assert_eq!((catalog.get(5).unwrap().name(), catalog.source(5)), ("NEW", Some("second")));
-        assert_eq!((catalog.get(6).unwrap().name(), catalog.source(6)), ("B", Some("first")));
+        assert_eq!(catalog.get(5).unwrap().name(), "NEW");
+        assert_eq!(catalog.get(6).unwrap().name(), "B");
         assert_eq!(catalog.newest_epoch(), Some("2026-08-12T00:00:00Z".parse().unwrap()));
         assert_eq!(catalog.len(), 2);
     }
@@ -269,7 +261,6 @@ mod tests {
         catalog.merge(report(&[(5, "KNOWN", 1), (6, "", 1)]), "one");
         catalog.merge(report(&[(5, "", 2), (6, "LATE", 1)]), "two");
         assert_eq!(catalog.get(5).unwrap().name(), "KNOWN");
-        assert_eq!(catalog.source(5), Some("two"));
         assert_eq!(catalog.get(6).unwrap().name(), "LATE");
     }
 

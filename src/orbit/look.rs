@@ -1,21 +1,21 @@
-//! What a site sees of a satellite.
+//! Look angles: direction, range and range rate of a satellite from a site.
 //!
 //! The direction is geometric, in the frame of [`frames`]. What that leaves out,
 //! as an angle and as the median shift of AOS of low satellites:
 //!
-//! | left out | direction | AOS | |
-//! |---|---|---|---|
-//! | refraction | 0.5 degrees at the horizon, 0.1 at 10 degrees | 10.6 s | [`LookOptions`] |
-//! | UT1 - UTC, at most 0.9 s | 0.004 degrees of Earth rotation | 0.06 s | [`LookOptions`] |
-//! | light time | 0.002 degrees | 0.01 s | |
-//! | polar motion | 0.000 2 degrees | 0.003 s | |
+//! | left out | direction | AOS |
+//! |---|---|---|
+//! | refraction | 0.5 degrees at the horizon, 0.1 at 10 degrees | 10.6 s |
+//! | UT1 - UTC, at most 0.9 s | 0.004 degrees of Earth rotation | 0.06 s |
+//! | light time | 0.002 degrees | 0.01 s |
+//! | polar motion | 0.000 2 degrees | 0.003 s |
 //!
 //! With the UT1 - UTC of 2026, some hundredths of a second, AOS is right to 2 ms.
 
 use jiff::Timestamp;
 
-use super::{PropagationError, Propagator, State};
-use crate::astro::{Air, AzEl, Site, frames, time};
+use super::{PropagationError, Propagator};
+use crate::astro::{AzEl, Site, frames};
 
 /// Speed of light in km/s.
 const LIGHT_KM_S: f64 = 299_792.458;
@@ -39,55 +39,19 @@ impl LookAngles {
     }
 }
 
-/// What look angles take into account beyond geometry: by default nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LookOptions {
-    /// UT1 less UTC in seconds, -0.9 to 0.9, as the IERS publishes it.
-    pub ut1_minus_utc_s: f64,
-    /// The air that lifts the satellite; `None` for the geometric direction.
-    pub air: Option<Air>,
-}
-
-/// What `site` sees of a satellite in `state` (TEME, valid at `at`): geometric,
-/// with UT1 taken as UTC.
-pub fn look_angles(state: &State, site: Site, at: Timestamp) -> LookAngles {
-    look_angles_with(state, site, at, LookOptions::default())
-}
-
-/// The same with `options`. Range and range rate stay geometric.
-pub fn look_angles_with(
-    state: &State,
-    site: Site,
-    at: Timestamp,
-    options: LookOptions,
-) -> LookAngles {
-    let to_ecef = frames::teme_to_ecef(time::add_seconds(at, options.ut1_minus_utc_s));
-    let position_km = to_ecef * state.position_km;
-    let velocity_km_s =
-        frames::velocity_over_ground_km_s(position_km, to_ecef * state.velocity_km_s);
-    let line_km = position_km - frames::site_ecef_km(site);
-    let range_km = line_km.length();
-    let mut direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
-    if let Some(air) = options.air {
-        direction.elevation = direction.elevation + air.refraction(direction.elevation);
-    }
-    LookAngles { direction, range_km, range_rate_km_s: line_km.dot(velocity_km_s) / range_km }
-}
-
 impl Propagator {
-    /// What `site` sees of the satellite at `at`: geometric, with UT1 taken as UTC.
+    /// Look angles of the satellite from `site` at `at`: geometric, with UT1 taken as UTC.
     pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
-        self.look_from_with(site, at, LookOptions::default())
-    }
-
-    /// The same with `options`.
-    pub fn look_from_with(
-        &self,
-        site: Site,
-        at: Timestamp,
-        options: LookOptions,
-    ) -> Result<LookAngles, PropagationError> {
-        Ok(look_angles_with(&self.state_at(at)?, site, at, options))
+        let state = self.state_at(at)?;
+        let to_ecef = frames::teme_to_ecef(at);
+        let position_km = to_ecef * state.position_km;
+        let velocity_km_s =
+            frames::velocity_over_ground_km_s(position_km, to_ecef * state.velocity_km_s);
+        let line_km = position_km - frames::site_ecef_km(site);
+        let range_km = line_km.length();
+        let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
+        let range_rate_km_s = line_km.dot(velocity_km_s) / range_km;
+        Ok(LookAngles { direction, range_km, range_rate_km_s })
     }
 }
 
@@ -112,31 +76,5 @@ mod tests {
             let expected_hz = -change_km / 299_792.458 * 145.8e6;
             assert!((now.doppler_hz(145.8e6) - expected_hz).abs() < 0.5);
         }
-    }
-
-    #[test]
-    fn the_earth_turns_by_ut1_and_the_air_lifts_when_asked() {
-        let catalog = bundled().unwrap();
-        let site = Site::new(0.0, 0.0, 0.0).unwrap();
-        let propagator = Propagator::new(catalog.get(54_743).unwrap()).unwrap();
-        let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let state = propagator.state_at(at).unwrap();
-        let plain = look_angles(&state, site, at);
-        assert_eq!(plain, look_angles_with(&state, site, at, LookOptions::default()));
-
-        let turned =
-            look_angles_with(&state, site, at, LookOptions { ut1_minus_utc_s: 0.9, air: None });
-        // 0.9 s of Earth rotation, a little more from the ground of a satellite
-        // that is not infinitely far.
-        let off_deg = plain.direction.separation(turned.direction).degrees();
-        assert!((0.003_7..0.004_6).contains(&off_deg), "{off_deg}");
-
-        let air = Air::default();
-        let options = LookOptions { air: Some(air), ..LookOptions::default() };
-        let lifted = look_angles_with(&state, site, at, options);
-        let rise = lifted.direction.elevation - plain.direction.elevation;
-        assert_eq!(lifted.direction.azimuth, plain.direction.azimuth);
-        let expected = air.refraction(plain.direction.elevation);
-        assert!((rise - expected).abs().degrees() < 1e-12, "{rise:?}");
     }
 }

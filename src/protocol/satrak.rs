@@ -42,7 +42,7 @@ pub use meaning::{Meaning, Tone};
 pub use motion::{Goto, Motion, Move, Step};
 pub use number::ValueError;
 pub use reply::{Note, ParsedReply, Reply, ReplyError, Version};
-pub use request::{Class, Halt, Query, Request, Setting};
+pub use request::{Halt, Query, Request, Setting};
 pub use request_parse::RequestError;
 pub use satellite::{
     FtpTle, HttpTle, Satellite, SatelliteChoice, SatelliteFtp, SatelliteHttp, TleSelection,

@@ -25,10 +25,6 @@ use crate::{
 
 pub use filter::Filter;
 
-/// Width of the column with thumbnails.
-pub const WIDTH: f32 = 320.0;
-/// Width of the column without thumbnails.
-pub const NARROW_WIDTH: f32 = 264.0;
 /// The lowest maximum elevations that can be chosen, in degrees.
 pub const FLOORS_DEG: [f64; 6] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0];
 

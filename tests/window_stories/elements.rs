@@ -330,9 +330,9 @@ fn newer_elements(folder: &tempfile::TempDir) -> PathBuf {
     path
 }
 
-fn source_of_noaa_20(model: &Model) -> Option<&str> {
+fn epoch_of_noaa_20(model: &Model) -> Option<jiff::Timestamp> {
     match &model.catalog {
-        CatalogState::Ready(catalog) => catalog.source(NOAA_20),
+        CatalogState::Ready(catalog) => Some(catalog.get(NOAA_20)?.epoch()),
         CatalogState::Loading | CatalogState::Failed => None,
     }
 }
@@ -345,7 +345,7 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     station::save(&unit.station(), &settings).unwrap();
     let path = newer_elements(&folder);
     let mut window = open(&settings, clock_from(rig::now()));
-    step_until(&mut window, "the elements", |model| source_of_noaa_20(model).is_some());
+    step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     step_until(&mut window, "the view", |model| model.view == View::Elements);
     window.step();
@@ -358,7 +358,7 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
         window.run_steps(2);
     }
     window.get_by_role_and_label(Role::Button, "Add source").click();
-    let is_used = |model: &Model| source_of_noaa_20(model) == Some("own");
+    let is_used = |model: &Model| epoch_of_noaa_20(model) == "2026-08-14T00:00:00Z".parse().ok();
     step_until(&mut window, "the newer elements", is_used);
     drop(window);
     let mut window = open(&settings, clock_from(rig::now()));
@@ -374,7 +374,7 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     let unit = Unit::start(rig::now());
     station::save(&unit.station(), &settings).unwrap();
     let mut window = open(&settings, clock_from(rig::now()));
-    step_until(&mut window, "the elements", |model| source_of_noaa_20(model).is_some());
+    step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     step_until(&mut window, "the view", |model| model.view == View::Elements);
     window.step();

@@ -42,11 +42,6 @@ impl Errors {
         self.chunks.back().and_then(|chunk| chunk.last())
     }
 
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.back().is_none()
-    }
-
     pub(super) fn clear(&mut self) {
         self.chunks.clear();
     }
@@ -79,7 +74,7 @@ mod tests {
     #[test]
     fn an_hour_is_kept_in_order_and_a_copy_stays_as_it_was() {
         let mut errors = Errors::default();
-        assert!(errors.is_empty());
+        assert_eq!(errors.back(), None);
         for second in 0..300 {
             errors.push(sample(f64::from(second)));
         }
@@ -92,6 +87,6 @@ mod tests {
         assert!(kept.is_sorted() && kept.last() == Some(&4999));
         assert!((3600..3600 + 300).contains(&kept.len()), "{}", kept.len());
         errors.clear();
-        assert!(errors.is_empty());
+        assert_eq!(errors.back(), None);
     }
 }

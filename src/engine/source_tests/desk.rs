@@ -54,7 +54,6 @@ impl Desk {
             (TestAsk::Cancel, TestStage::AsksAboutHostKey(_)) => {
                 shown.stage = failed("cancelled".to_owned());
             }
-            (TestAsk::Dismiss, stage) if !stage.is_open() => shown.stage = TestStage::Idle,
             _ => {}
         }
     }

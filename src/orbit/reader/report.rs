@@ -142,11 +142,6 @@ pub enum RefusalReason {
 }
 
 impl ReadReport {
-    /// How many objects were refused, listed or not.
-    pub fn refused_count(&self) -> usize {
-        self.refused.len() + self.refused_unlisted
-    }
-
     /// Adds an object that starts at `line`.
     pub(super) fn accept(&mut self, line: usize, elements: Elements) {
         self.elements.push(elements);
@@ -185,7 +180,6 @@ mod tests {
             report.refuse(line, None, RefusalReason::Json);
         }
         assert_eq!((report.refused.len(), report.refused_unlisted), (MAX_LISTED, 5));
-        assert_eq!(report.refused_count(), MAX_LISTED + 5);
     }
 
     #[test]

@@ -152,19 +152,6 @@ impl Setting {
     }
 }
 
-/// Who may send a request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Class {
-    /// Changes nothing.
-    Read,
-    /// Moves or stops the antenna.
-    Operate,
-    /// Changes what the antenna will do.
-    Configure,
-    /// Calibration, drive scaling, firmware, transmitter: can spoil the antenna.
-    Service,
-}
-
 impl Request {
     /// The word, repeated by the reply.
     pub fn word(&self) -> Word {
@@ -181,21 +168,6 @@ impl Request {
         match self {
             Self::Query(_) => Verb::Query,
             Self::Halt(_) | Self::Motion(_) | Self::Setting(_) => Verb::Set,
-        }
-    }
-
-    /// Who may send it.
-    pub fn class(&self) -> Class {
-        match self {
-            Self::Query(_) => Class::Read,
-            Self::Halt(_) | Self::Motion(_) => Class::Operate,
-            Self::Setting(
-                Setting::AngleSettings(_) | Setting::LoadImage(_) | Setting::Reduction(_),
-            ) => Class::Service,
-            Self::Setting(Setting::Settings(request)) if request.switches_sspa_on() => {
-                Class::Service
-            }
-            Self::Setting(_) => Class::Configure,
         }
     }
 
@@ -224,7 +196,6 @@ impl Request {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::protocol::satrak::{SettingsChange, SspaMode};
 
     #[test]
     fn every_query_has_its_own_word() {
@@ -232,16 +203,5 @@ mod tests {
             assert_eq!(query.word(), word);
             assert_eq!(Request::Query(query).payload(), format!("{word}?"));
         }
-    }
-
-    #[test]
-    fn switching_the_transmitter_on_is_a_service_function() {
-        let class = |sspa| {
-            let change = SettingsChange { sspa: Some(sspa), ..Default::default() };
-            Request::Setting(Setting::Settings(SettingsRequest::new(&change).unwrap())).class()
-        };
-        assert_eq!(class(SspaMode::On), Class::Service);
-        assert_eq!(class(SspaMode::Off), Class::Configure);
-        assert_eq!(Request::Halt(Halt::Stop).class(), Class::Operate);
     }
 }

@@ -208,11 +208,6 @@ impl SettingsRequest {
         &self.0
     }
 
-    /// Whether the transmitter would be switched on by hand.
-    pub fn switches_sspa_on(&self) -> bool {
-        self.0.sspa == Some(SspaMode::On)
-    }
-
     pub(super) fn values(&self) -> Vec<String> {
         let keep = || "?".to_owned();
         let flag =

@@ -5,16 +5,16 @@ use crate::{
         jog_pad::{JogDirection, JogKeys},
         link_chip::LinkGlyph,
         sentence::{SentenceKind, Span},
-        testing,
+        testing::{self, bold, plain},
     },
 };
 use egui::{Event, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
 
 const SPANS: [Span<'_>; 3] = [
-    Span::plain("Tracking "),
-    Span::bold("NOAA 20"),
-    Span::plain(
+    plain("Tracking "),
+    bold("NOAA 20"),
+    plain(
         " with the elements stored on the unit. The antenna is 0.04° off the predicted path, \
          inside its 0.88° beam. At LOS it stops and holds.",
     ),

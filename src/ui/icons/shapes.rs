@@ -74,10 +74,6 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.outline(&ellipse((10.0, 10.0), 8.0, 5.0, 0.0));
             pen.ring((10.0, 10.0), 2.4);
         }
-        Icon::Dish => {
-            bowl(pen);
-            feed(pen);
-        }
         Icon::Disc => pen.disc((10.0, 10.0), 6.5),
         Icon::HalfDisc => {
             pen.ring((10.0, 10.0), 6.5);

@@ -83,7 +83,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
 }
 
 fn window(desk: Desk) -> Harness<'static, Desk> {
-    let width = if desk.thumbnails { WIDTH } else { NARROW_WIDTH };
+    let width = if desk.thumbnails { 320.0 } else { 264.0 };
     let path: Vec<Sample> = (0..=40)
         .map(|step| Sample {
             time: now(),

@@ -46,18 +46,13 @@ pub enum AlarmPriority {
 
 /// Where an alarm stands in its life.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlarmState<'a> {
+pub enum AlarmState {
     /// Nobody has acknowledged it.
     New,
     /// Acknowledged, the cause is still there.
     Seen,
     /// The cause is gone.
     Cleared,
-    /// Quiet until a time.
-    Shelved {
-        /// The time as it is shown.
-        until: &'a str,
-    },
 }
 
 /// One alarm.
@@ -68,7 +63,7 @@ pub struct AlarmRow<'a> {
     /// How much it matters.
     pub priority: AlarmPriority,
     /// Where it stands.
-    pub state: AlarmState<'a>,
+    pub state: AlarmState,
     /// What is wrong.
     pub text: &'a str,
     /// When it came, as it is shown.
@@ -87,7 +82,7 @@ pub struct AlarmModel<'a> {
 }
 
 impl AlarmModel<'_> {
-    fn count(&self, wanted: impl Fn(AlarmState<'_>) -> bool) -> usize {
+    fn count(&self, wanted: impl Fn(AlarmState) -> bool) -> usize {
         self.rows.iter().filter(|row| wanted(row.state)).count()
     }
 
@@ -222,7 +217,6 @@ fn right_of_text(row: &AlarmRow<'_>) -> f32 {
     match row.state {
         _ if row.moves_away.is_some() => BUTTON + 4.0,
         AlarmState::New => BUTTON + 4.0,
-        AlarmState::Shelved { .. } => 116.0,
         AlarmState::Seen | AlarmState::Cleared => 60.0,
     }
 }
@@ -255,7 +249,6 @@ fn list_row(
         AlarmState::New => "new".to_owned(),
         AlarmState::Seen => "seen".to_owned(),
         AlarmState::Cleared => "cleared".to_owned(),
-        AlarmState::Shelved { until } => format!("shelved to {until}"),
     };
     let name = format!("{}, {}, {words}", row.text, row.time);
     paint::name_text(ui, ("alarm", row.id), room, &name);
@@ -286,7 +279,6 @@ fn list_row(
 fn mark(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
     match (row.state, row.priority) {
         (AlarmState::Cleared, _) => (Icon::Check, t.t3),
-        (AlarmState::Shelved { .. }, _) => (Icon::Dash, t.t3),
         (_, AlarmPriority::Urgent) => (Icon::Octagon, t.bad),
         (_, AlarmPriority::Caution) => (Icon::Warning, t.warn),
     }

@@ -64,18 +64,6 @@ pub struct Span<'a> {
     pub bold: bool,
 }
 
-impl<'a> Span<'a> {
-    /// Running text.
-    pub const fn plain(text: &'a str) -> Self {
-        Self { text, bold: false }
-    }
-
-    /// A name.
-    pub const fn bold(text: &'a str) -> Self {
-        Self { text, bold: true }
-    }
-}
-
 /// A whole sentence.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sentence<'a> {
@@ -130,7 +118,7 @@ pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::widgets::testing;
+    use crate::ui::widgets::testing::{self, bold, plain};
     use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
     #[test]
@@ -140,7 +128,7 @@ mod tests {
         let window = testing::window([400.0, 300.0], heights, move |ui, heights| {
             for (height, words) in heights.iter_mut().zip(["It holds.", long.as_str()]) {
                 let sentence =
-                    Sentence { kind: SentenceKind::Holding, spans: &[Span::plain(words)] };
+                    Sentence { kind: SentenceKind::Holding, spans: &[plain(words)] };
                 ui.push_id(words, |ui| {
                     *height = show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence).height();
                 });
@@ -154,7 +142,7 @@ mod tests {
     fn the_sentence_is_one_live_region() {
         let window = testing::window([400.0, 200.0], (), |ui, ()| {
             let spans =
-                [Span::plain("Waiting at 205° for "), Span::bold("SUOMI NPP"), Span::plain(".")];
+                [plain("Waiting at 205° for "), bold("SUOMI NPP"), plain(".")];
             let sentence = Sentence { kind: SentenceKind::Commanded, spans: &spans };
             show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence);
         });

@@ -3,6 +3,7 @@
 use egui::{Ui, Vec2};
 use egui_kittest::Harness;
 
+use super::sentence::Span;
 use crate::{model::ThemeName, ui::theme};
 
 /// A window of `size` with the fonts and colours of the program.
@@ -15,4 +16,12 @@ pub(crate) fn window<'a, State: 'a>(
         .with_size(size)
         .with_context_setup(|ctx| theme::install(ctx, ThemeName::Dark))
         .build_ui_state(show, state)
+}
+
+pub(crate) const fn plain(text: &str) -> Span<'_> {
+    Span { text, bold: false }
+}
+
+pub(crate) const fn bold(text: &str) -> Span<'_> {
+    Span { text, bold: true }
 }
