@@ -29,13 +29,16 @@ use super::{
         button,
         go_to::Target,
         hold_button::HoldState,
-        mode_selector::{self, Mode, ModeModel},
+        mode_selector::{self, ModeModel},
         paint,
         sentence::{self, Sentence},
         travel_gauge::TravelModel,
     },
 };
-use crate::device::panel::{Act, CheckState, Reading};
+use crate::{
+    device::panel::{Act, CheckState, Reading},
+    driver::Intent,
+};
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
@@ -158,7 +161,7 @@ pub enum CardAction {
     /// Lock the unit out for maintenance, or take that off.
     Maintenance,
     /// Wants another mode.
-    SetMode(Mode),
+    SetMode(Intent),
     /// Holds a jog key. Comes in every frame in which it is held.
     Jog {
         /// Sign of the first axis, −1 to 1.

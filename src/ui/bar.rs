@@ -5,22 +5,19 @@ use jiff::tz::TimeZone;
 
 use super::{
     format, state_sentence, top_bar,
-    top_bar::{ClockHealth, ClockModel, ClockMood, TopBarAction, TopBarModel},
+    top_bar::{ClockHealth, ClockModel, ClockMood, TopBarModel},
     widgets::{
-        alarm_list::{AlarmAction, AlarmModel, AlarmPriority, AlarmRow, AlarmState},
+        alarm_list::{AlarmModel, AlarmRow, AlarmState},
         link_chip::{ChipModel, LinkGlyph},
-        stop_button::StopState as StopLook,
+        stop_button::StopLook,
     },
     words,
 };
 use crate::{
     device::Phase,
-    driver::{Command, LinkState, StopState, TimeSync},
-    engine::{
-        alarms::{AlarmKind, Priority},
-        antenna::AntennaModel,
-    },
-    model::{Model, UiCommand, View},
+    driver::{LinkState, StopState, TimeSync},
+    engine::{alarms::AlarmKind, antenna::AntennaModel},
+    model::{Model, UiCommand},
     plan::Barrier,
 };
 
@@ -69,10 +66,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         .rev()
         .map(|(alarm, (text, time))| AlarmRow {
             id: alarm.id,
-            priority: match alarm.priority() {
-                Priority::Warning => AlarmPriority::Urgent,
-                Priority::Caution => AlarmPriority::Caution,
-            },
+            priority: alarm.priority(),
             state: match (alarm.cleared, alarm.seen) {
                 (true, true) => AlarmState::Cleared,
                 (_, false) => AlarmState::New,
@@ -105,19 +99,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         stop_about: &stop_about(model, &left_out),
         stop_left_out: &left_out,
     };
-    for action in top_bar::show(ui, rect, &bar) {
-        commands.push(match action {
-            TopBarAction::Stop => UiCommand::Stop,
-            TopBarAction::SelectAntenna(index) => UiCommand::SelectAntenna(index),
-            TopBarAction::Alarm(AlarmAction::Opened) => UiCommand::OpenedAlarms,
-            TopBarAction::Alarm(AlarmAction::MoveAway(antenna)) => {
-                UiCommand::Antenna(antenna, Command::MoveAway)
-            }
-            TopBarAction::Alarm(AlarmAction::Acknowledge(id)) => UiCommand::AcknowledgeAlarm(id),
-            TopBarAction::OpenStationSettings => UiCommand::Show(View::Preferences),
-            TopBarAction::SetTheme(name) => UiCommand::SetTheme(name),
-        });
-    }
+    commands.extend(top_bar::show(ui, rect, &bar));
 }
 
 /// Where an antenna must not point that an alarm tells of.

@@ -19,7 +19,8 @@ use jiff::Timestamp;
 use super::{format, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
-    engine::forecast::{Scope, Work},
+    engine::forecast::{PassKey, Scope, Work},
+    model::UiCommand,
     plan::{Loss, Sample},
 };
 
@@ -27,9 +28,6 @@ pub use filter::Filter;
 
 /// The lowest maximum elevations that can be chosen, in degrees.
 pub const FLOORS_DEG: [f64; 6] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0];
-
-/// Names a pass: catalogue number of the satellite and time of AOS.
-pub type PassKey = (u32, Timestamp);
 
 /// One pass.
 #[derive(Debug, Clone, Copy)]
@@ -183,23 +181,6 @@ impl PassListState {
     }
 }
 
-/// What the operator did.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PassListAction {
-    /// A pass was selected.
-    Select(PassKey),
-    /// Another lowest maximum elevation was chosen, degrees.
-    SetFloor(f64),
-    /// Other satellites were chosen.
-    SetScope(Scope),
-    /// Another number of hours was chosen.
-    SetSpan(u32),
-    /// The search is not to go on.
-    CancelSearch,
-    /// The cancelled search is to begin again.
-    ResumeSearch,
-}
-
 /// Shows the column in `rect`: its head and the rows, which scroll.
 /// A pass that was selected elsewhere is scrolled to.
 pub fn show(
@@ -207,14 +188,14 @@ pub fn show(
     rect: Rect,
     model: &PassListModel<'_>,
     state: &mut PassListState,
-) -> Vec<PassListAction> {
-    let mut actions = Vec::new();
+) -> Vec<UiCommand> {
+    let mut commands = Vec::new();
     let (head, mut body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
-    header::show(ui, head, model, &mut state.filter, &mut actions);
+    header::show(ui, head, model, &mut state.filter, &mut commands);
     // Those few that the operator follows are found before anyone could look.
     if model.scope == Scope::All {
         let (strip, rest) = body.split_top_bottom_at_y(body.top() + status::HEIGHT);
-        status::show(ui, strip, model, &mut actions);
+        status::show(ui, strip, model, &mut commands);
         body = rest;
     }
     if state.filter.is_open {
@@ -225,9 +206,9 @@ pub fn show(
     if model.rows == 0 {
         nothing(ui, body, model.empty);
     } else {
-        rows::show(ui, body, model, state, &mut actions);
+        rows::show(ui, body, model, state, &mut commands);
     }
-    actions
+    commands
 }
 
 fn nothing(ui: &Ui, rect: Rect, sentence: &str) {

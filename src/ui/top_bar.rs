@@ -9,13 +9,13 @@ use egui::{Area, Id, Order, Rect, Ui, UiBuilder, pos2, vec2};
 use super::{
     icons, theme,
     widgets::{
-        alarm_list::{self, AlarmAction, AlarmModel},
+        alarm_list::{self, AlarmModel},
         link_chip::ChipModel,
         paint,
-        stop_button::{self, StopState},
+        stop_button::{self, StopLook},
     },
 };
-use crate::model::ThemeName;
+use crate::model::UiCommand;
 pub use clock::{ClockHealth, ClockModel, ClockMood};
 
 /// Height of the bar.
@@ -43,26 +43,11 @@ pub struct TopBarModel<'a> {
     /// Alarms.
     pub alarms: AlarmModel<'a>,
     /// What became of the last STOP.
-    pub stop: StopState<'a>,
+    pub stop: StopLook<'a>,
     /// What STOP does, in a sentence or more.
     pub stop_about: &'a str,
     /// Which antennas STOP leaves alone, and why; empty if none.
     pub stop_left_out: &'a str,
-}
-
-/// What the operator did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TopBarAction {
-    /// Stop every antenna.
-    Stop,
-    /// Show the card of the antenna with this index.
-    SelectAntenna(usize),
-    /// Did something with the alarms.
-    Alarm(AlarmAction),
-    /// Open the settings of the station.
-    OpenStationSettings,
-    /// Change the theme.
-    SetTheme(ThemeName),
 }
 
 /// The height for a window of this height.
@@ -72,14 +57,14 @@ pub fn height(window_height: f32) -> f32 {
 
 /// Shows the bar in `rect`. Draw it before anything else: STOP is the first
 /// control in the order of Tab.
-pub fn show(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>) -> Vec<TopBarAction> {
-    let mut actions = Vec::new();
+pub fn show(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>) -> Vec<UiCommand> {
+    let mut commands = Vec::new();
     let builder = UiBuilder::new().id_salt("top bar").max_rect(rect);
-    ui.scope_builder(builder, |ui| fill(ui, rect, model, &mut actions));
-    actions
+    ui.scope_builder(builder, |ui| fill(ui, rect, model, &mut commands));
+    commands
 }
 
-fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopBarAction>) {
+fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let small = rect.height() < HEIGHT;
     let wide = rect.width() >= TWO_LINES_FROM;
@@ -90,7 +75,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let min = pos2(rect.right() - edge - size.x, rect.center().y - size.y / 2.0);
     let stop = Rect::from_min_size(min, size);
     if stop_clicked(ui, stop, model) {
-        actions.push(TopBarAction::Stop);
+        commands.push(UiCommand::Stop);
     }
 
     let rail = if wide { 72.0 } else { 48.0 };
@@ -100,7 +85,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
     let width = if wide { 200.0 } else { station::one_line_width(ui, model.station) };
     let start = rect.left() + rail;
     let selector = rect.with_min_x(start + 4.0).with_max_x(start + width);
-    station::show(ui, selector, model, wide, actions);
+    station::show(ui, selector, model, wide, commands);
     let mut left = selector.right();
     if wide {
         ui.painter().vline(left, rect.y_range().shrink(8.0), (1.0, t.line));
@@ -129,31 +114,29 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, actions: &mut Vec<TopB
         ),
         model.chips,
         wide,
-        actions,
+        commands,
     );
     let free = rect.with_max_x(chips_left - 8.0);
-    if let StopState::NotConfirmed { text } = model.stop {
+    if let StopLook::NotConfirmed { text } = model.stop {
         clock::not_confirmed(ui, free.with_min_x(clock.utc.right() + 10.0), text);
     }
     let says_left_out = match model.stop {
-        StopState::Stopping | StopState::AllStopped => !model.stop_left_out.is_empty(),
-        StopState::Ready | StopState::NotConfirmed { .. } => false,
+        StopLook::Stopping | StopLook::AllStopped => !model.stop_left_out.is_empty(),
+        StopLook::Ready | StopLook::NotConfirmed { .. } => false,
     };
     if says_left_out {
         clock::left_out(ui, free.with_min_x(clock.utc.right() + 10.0), model.stop_left_out);
     }
     let has_date = rect.width() >= DATE_FROM
         && !says_left_out
-        && !matches!(model.stop, StopState::NotConfirmed { .. });
+        && !matches!(model.stop, StopLook::NotConfirmed { .. });
     let date = free.with_min_x(clock.time + 10.0);
     let told = has_date && clock::date(ui, date, &model.clock);
     if !told && model.clock.health.mood == ClockMood::Bad {
         clock::warn(ui, clock.utc, &model.clock.health);
     }
 
-    let mut done = Vec::new();
-    alarm_list::show(ui, alarms, &model.alarms, !wide, &mut done);
-    actions.extend(done.into_iter().map(TopBarAction::Alarm));
+    alarm_list::show(ui, alarms, &model.alarms, !wide, commands);
 }
 
 /// A mark between the alarms and STOP: not every antenna is stopped from here.

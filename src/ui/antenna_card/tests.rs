@@ -71,7 +71,11 @@ fn model() -> CardModel<'static> {
         ],
         beam: Some(BeamModel { error_deg: Some(0.04), half_beam_deg: 0.44 }),
         travel: &TRAVEL,
-        modes: ModeModel { offered: &Mode::ALL, current: Some(Mode::Track), pending: None },
+        modes: ModeModel {
+            offered: &mode_selector::ALL,
+            current: Some(Intent::Track),
+            pending: None,
+        },
         track: Some(TrackModel {
             head: "The unit holds",
             held: Some("NOAA 20"),
@@ -157,7 +161,7 @@ fn a_mode_goes_out_at_once() {
     let mut window = card(LARGE, &model());
     window.get_by_role_and_label(Role::RadioButton, "Manual").click();
     window.run();
-    assert_eq!(window.state().actions, [CardAction::SetMode(Mode::Manual)]);
+    assert_eq!(window.state().actions, [CardAction::SetMode(Intent::Manual)]);
 }
 
 #[test]
@@ -171,7 +175,7 @@ fn park_has_to_be_held() {
     window.run_steps(6);
     window.drop_at(hold);
     window.run_steps(2);
-    assert_eq!(window.state().actions, [CardAction::SetMode(Mode::Park)]);
+    assert_eq!(window.state().actions, [CardAction::SetMode(Intent::Park)]);
     assert!(window.query_by_label("Hold 1 s to park").is_none());
 }
 

@@ -7,15 +7,17 @@ use super::{
     CardAction, Cursor,
     follow::{self, FollowChoice, FollowModel},
 };
-use crate::ui::{
-    icons::{self, Icon},
-    text, theme,
-    widgets::{
-        button::{self, Button},
-        go_to::Target,
-        hold_button::{self, HoldState},
-        mode_selector::Mode,
-        paint,
+use crate::{
+    driver::Intent,
+    ui::{
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{self, Button},
+            go_to::Target,
+            hold_button::{self, HoldState},
+            paint,
+        },
     },
 };
 
@@ -54,11 +56,11 @@ pub struct TrackState {
 }
 
 /// A mode goes out at once, except for Park, which has to be held.
-pub(super) fn mode_clicked(mode: Mode, state: &mut TrackState, actions: &mut Vec<CardAction>) {
-    state.parking = mode == Mode::Park;
+pub(super) fn mode_clicked(mode: Intent, state: &mut TrackState, actions: &mut Vec<CardAction>) {
+    state.parking = mode == Intent::Park;
     state.asks_sun = false;
     state.hold = HoldState::default();
-    if mode != Mode::Park {
+    if mode != Intent::Park {
         actions.push(CardAction::SetMode(mode));
     }
 }
@@ -145,7 +147,7 @@ fn question_row(
     actions: &mut Vec<CardAction>,
 ) {
     let (words, action) = match question {
-        Question::Park => ("Hold 1 s to park", CardAction::SetMode(Mode::Park)),
+        Question::Park => ("Hold 1 s to park", CardAction::SetMode(Intent::Park)),
         Question::Sun => ("Hold 1 s to follow the Sun", CardAction::Follow(FollowChoice::IntoSun)),
     };
     let cancel = Button::quiet("Cancel");

@@ -31,7 +31,7 @@ use crate::{
             button::Button,
             go_to::Target,
             jog_pad::JogDirection,
-            mode_selector::{Mode, ModeModel},
+            mode_selector::{self, ModeModel},
             paint,
         },
         words,
@@ -67,7 +67,7 @@ pub(super) fn show(
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
     let travel = axes::travel(antenna);
     let modes = modes(can);
-    let mode = mode(snapshot.intent);
+    let mode = snapshot.intent;
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
     let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
@@ -104,7 +104,7 @@ pub(super) fn show(
                 current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
                 pending: snapshot.pending.then_some(mode),
             },
-            track: modes.contains(&Mode::Track).then(|| TrackModel {
+            track: modes.contains(&Intent::Track).then(|| TrackModel {
                 misses: misses.as_deref(),
                 note: note.as_deref(),
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
@@ -322,14 +322,14 @@ fn target(pointing: Pointing) -> Option<Target> {
     })
 }
 
-/// What a controller that can do so much can be told.
-fn modes(can: Capabilities) -> Vec<Mode> {
-    let offers = |mode: &Mode| match mode {
-        Mode::Standby | Mode::Manual => true,
-        Mode::Position | Mode::Park => can.takes_positions,
-        Mode::Track => can.has_program || can.takes_positions,
+/// The modes that a controller with these capabilities offers.
+fn modes(can: Capabilities) -> Vec<Intent> {
+    let offers = |mode: &Intent| match mode {
+        Intent::Standby | Intent::Manual => true,
+        Intent::Position | Intent::Park => can.takes_positions,
+        Intent::Track => can.has_program || can.takes_positions,
     };
-    Mode::ALL.into_iter().filter(offers).collect()
+    mode_selector::ALL.into_iter().filter(offers).collect()
 }
 
 /// The azimuths that are taken, degrees: any of the sky, and those beyond it that
@@ -351,15 +351,5 @@ fn elevation_range_deg(antenna: &AntennaModel) -> (f64, f64) {
         Mount::AzEl { elevation_from_deg, elevation_to_deg, .. } => {
             (lowest.max(elevation_from_deg), elevation_to_deg.min(90.0))
         }
-    }
-}
-
-fn mode(intent: Intent) -> Mode {
-    match intent {
-        Intent::Standby => Mode::Standby,
-        Intent::Manual => Mode::Manual,
-        Intent::Position => Mode::Position,
-        Intent::Track => Mode::Track,
-        Intent::Park => Mode::Park,
     }
 }

@@ -17,7 +17,7 @@ use crate::{
     ui::{
         format,
         pass_header::{self, PassHeaderModel},
-        pass_list::{self, PassListAction, PassListModel, PassListState, PassRow, Verdict},
+        pass_list::{self, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, ProfileModel},
         timeline::{self, Bar, TimelineModel, Zoom},
         words,
@@ -94,16 +94,7 @@ pub(super) fn list(
         thumbnails,
         empty,
     };
-    for action in pass_list::show(ui, rect, &list, state) {
-        commands.push(match action {
-            PassListAction::Select(key) => UiCommand::SelectPass(key),
-            PassListAction::SetFloor(floor_deg) => UiCommand::SetElevationFloor(floor_deg),
-            PassListAction::SetScope(scope) => UiCommand::SetScope(scope),
-            PassListAction::SetSpan(span_h) => UiCommand::SetSpan(span_h),
-            PassListAction::CancelSearch => UiCommand::CancelSearch,
-            PassListAction::ResumeSearch => UiCommand::ResumeSearch,
-        });
-    }
+    commands.extend(pass_list::show(ui, rect, &list, state));
 }
 
 fn selected_key(model: &Model) -> Option<PassKey> {

@@ -3,9 +3,10 @@
 
 use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::{FLOORS_DEG, Filter, PassListAction, PassListModel};
+use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
     engine::forecast::{SPANS_H, Scope},
+    model::UiCommand,
     ui::{
         format,
         icons::{self, Icon},
@@ -36,7 +37,7 @@ pub(super) fn show(
     rect: Rect,
     model: &PassListModel<'_>,
     filter: &mut Filter,
-    actions: &mut Vec<PassListAction>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let room = rect.shrink2(vec2(PADDING, 0.0));
@@ -46,7 +47,7 @@ pub(super) fn show(
     });
     let at = first.left_center();
     let title = paint::text(ui, at, Align2::LEFT_CENTER, "Next passes", text::small_strong(), t.t1);
-    let floor = floors(ui, first, model, actions);
+    let floor = floors(ui, first, model, commands);
     let count = format::number(model.rows as f64, 0);
     let left = first.with_min_x(title.right() + GAP).with_max_x(floor.left() - GAP / 2.0);
     let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, &count, text::small(), t.t3);
@@ -60,21 +61,16 @@ pub(super) fn show(
     if let Some((scope, _)) = chosen.and_then(|index| scopes.get(index))
         && *scope != model.scope
     {
-        actions.push(PassListAction::SetScope(*scope));
+        commands.push(UiCommand::SetScope(*scope));
     }
-    let span = spans(ui, second, model, actions);
+    let span = spans(ui, second, model, commands);
     let side = vec2(SMALL_HEIGHT, SMALL_HEIGHT);
     let place = Rect::from_min_size(pos2(span.left() - GAP - side.x, span.top()), side);
     search(ui, place, filter);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
-fn floors(
-    ui: &Ui,
-    line: Rect,
-    model: &PassListModel<'_>,
-    actions: &mut Vec<PassListAction>,
-) -> Rect {
+fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) -> Rect {
     let same = |floor_deg: &f64| (floor_deg - model.floor_deg).abs() < SAME_DEG;
     let words = |floor_deg: f64| format!("max ≥ {}", format::degrees(floor_deg, 0));
     let menu = Menu { salt: "floor", name: "Lowest maximum elevation", line };
@@ -82,25 +78,20 @@ fn floors(
         for floor_deg in FLOORS_DEG {
             let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
             if ui.add(choice).clicked() && !same(&floor_deg) {
-                actions.push(PassListAction::SetFloor(floor_deg));
+                commands.push(UiCommand::SetElevationFloor(floor_deg));
             }
         }
     })
 }
 
-fn spans(
-    ui: &Ui,
-    line: Rect,
-    model: &PassListModel<'_>,
-    actions: &mut Vec<PassListAction>,
-) -> Rect {
+fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) -> Rect {
     let words = |span_h: u32| format!("{span_h} h");
     let menu = Menu { salt: "span", name: "How far ahead", line };
     menu.show(ui, &words(model.span_h), |ui| {
         for span_h in SPANS_H {
             let choice = egui::Button::selectable(span_h == model.span_h, words(span_h));
             if ui.add(choice).clicked() && span_h != model.span_h {
-                actions.push(PassListAction::SetSpan(span_h));
+                commands.push(UiCommand::SetSpan(span_h));
             }
         }
     })

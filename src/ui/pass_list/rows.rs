@@ -6,17 +6,18 @@ use egui::{
 };
 
 use super::{
-    PassListAction, PassListModel, PassListState, PassRow, Verdict,
+    PassListModel, PassListState, PassRow, Verdict,
     phase::{self, Phase},
     row::{self, Look},
 };
+use crate::model::UiCommand;
 
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &PassListModel<'_>,
     state: &mut PassListState,
-    actions: &mut Vec<PassListAction>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let is_news = state.is_news(model.selected);
     let selected = model.selected.filter(|_| is_news).and_then(model.place);
@@ -49,7 +50,7 @@ pub(super) fn show(
                 let response = one(ui, list, place(index), &pass, model);
                 if response.clicked() {
                     response.request_focus();
-                    actions.push(PassListAction::Select(pass.key));
+                    commands.push(UiCommand::SelectPass(pass.key));
                 }
                 if response.gained_focus() {
                     into_view(ui, place(index));
@@ -59,7 +60,7 @@ pub(super) fn show(
                     && let Some(next) = (model.row)(target)
                 {
                     focus(ui, list.with(next.key), place(target));
-                    actions.push(PassListAction::Select(next.key));
+                    commands.push(UiCommand::SelectPass(next.key));
                 }
             }
         });

@@ -3,9 +3,10 @@
 
 use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
-use super::{PassListAction, PassListModel};
+use super::PassListModel;
 use crate::{
     engine::forecast::Work,
+    model::UiCommand,
     ui::{
         format, text, theme,
         widgets::{
@@ -23,12 +24,7 @@ const GAP: f32 = 8.0;
 /// Thickness of the bar.
 const BAR: f32 = 3.0;
 
-pub(super) fn show(
-    ui: &Ui,
-    rect: Rect,
-    model: &PassListModel<'_>,
-    actions: &mut Vec<PassListAction>,
-) {
+pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let room = rect.shrink2(vec2(PADDING, 0.0));
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
@@ -46,14 +42,14 @@ pub(super) fn show(
             } else {
                 format!("Searched {} of {}", count(done), count(of))
             };
-            (words, t.t2, Some(("Cancel", PassListAction::CancelSearch)))
+            (words, t.t2, Some(("Cancel", UiCommand::CancelSearch)))
         }
         Work::Cancelled => {
             let words = match model.made {
                 Some((_, at)) => format!("Cancelled; list of {}", format::hours_minutes(at)),
                 None => "Cancelled".to_owned(),
             };
-            (words, t.warn, Some(("Search", PassListAction::ResumeSearch)))
+            (words, t.warn, Some(("Search", UiCommand::ResumeSearch)))
         }
     };
     let mut left = room;
@@ -62,7 +58,7 @@ pub(super) fn show(
         let size = vec2(button.width(ui), SMALL_HEIGHT);
         let place = Align2::RIGHT_CENTER.align_size_within_rect(size, room);
         if button.show(ui, "search work", place).clicked() {
-            actions.push(action);
+            commands.push(action);
         }
         left.set_right(place.left() - GAP);
     }

@@ -32,7 +32,7 @@ struct Desk {
     selected: Option<PassKey>,
     floor_deg: f64,
     thumbnails: bool,
-    actions: Vec<PassListAction>,
+    actions: Vec<UiCommand>,
     state: PassListState,
     /// The highest index that was asked for.
     highest: Rc<Cell<usize>>,
@@ -114,12 +114,13 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
         let rect = Rect::from_min_size(egui::Pos2::ZERO, vec2(width, 636.0));
         for action in show(ui, rect, &model, &mut desk.state) {
             match action {
-                PassListAction::Select(key) => desk.selected = Some(key),
-                PassListAction::SetFloor(floor_deg) => desk.floor_deg = floor_deg,
-                PassListAction::SetScope(scope) => desk.scope = scope,
-                PassListAction::SetSpan(span_h) => desk.span_h = span_h,
-                PassListAction::CancelSearch => desk.work = Work::Cancelled,
-                PassListAction::ResumeSearch => desk.work = Work::UnderWay { done: 0, of: 0 },
+                UiCommand::SelectPass(key) => desk.selected = Some(key),
+                UiCommand::SetElevationFloor(floor_deg) => desk.floor_deg = floor_deg,
+                UiCommand::SetScope(scope) => desk.scope = scope,
+                UiCommand::SetSpan(span_h) => desk.span_h = span_h,
+                UiCommand::CancelSearch => desk.work = Work::Cancelled,
+                UiCommand::ResumeSearch => desk.work = Work::UnderWay { done: 0, of: 0 },
+                other => panic!("{other:?}"),
             }
             desk.actions.push(action);
         }
@@ -137,7 +138,7 @@ fn a_row_says_what_it_shows_and_a_click_selects_it() {
     let second = "METEOR-M2 4, AOS T−25:41, max 69°, Loses 12 s at keyhole N";
     window.get_by_role_and_label(Role::ListBoxOption, second).click();
     window.run();
-    assert_eq!(window.state().actions, [PassListAction::Select(key_of(1))]);
+    assert_eq!(window.state().actions, [UiCommand::SelectPass(key_of(1))]);
     let node = window.get_by_label(second);
     assert_eq!(node.accesskit_node().is_selected(), Some(true));
     let other = window.get_by_label_contains("NOAA 20");
@@ -185,7 +186,7 @@ fn another_floor_is_chosen_from_the_drop_down() {
     window.run();
     window.get_by_label("max ≥ 30°").click();
     window.run();
-    assert_eq!(window.state().actions, [PassListAction::SetFloor(30.0)]);
+    assert_eq!(window.state().actions, [UiCommand::SetElevationFloor(30.0)]);
     window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 30°");
 }
 
@@ -199,7 +200,7 @@ fn satellites_and_span_are_chosen_above_the_list() {
         window.run();
         window.get_by_label("6 h").click();
         window.run();
-        let wanted = [PassListAction::SetScope(Scope::All), PassListAction::SetSpan(6)];
+        let wanted = [UiCommand::SetScope(Scope::All), UiCommand::SetSpan(6)];
         assert_eq!(window.state().actions, wanted);
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
@@ -221,10 +222,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     window.get_by_role_and_label(Role::Button, "Search").click();
     window.run();
     window.get_by_label("Preparing the satellites");
-    assert_eq!(
-        window.state().actions,
-        [PassListAction::CancelSearch, PassListAction::ResumeSearch]
-    );
+    assert_eq!(window.state().actions, [UiCommand::CancelSearch, UiCommand::ResumeSearch]);
 }
 
 #[test]

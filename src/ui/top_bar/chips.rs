@@ -2,14 +2,16 @@
 
 use egui::{Align2, Popup, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::TopBarAction;
-use crate::ui::{
-    icons,
-    text::{self, Weight},
-    theme,
-    widgets::{
-        link_chip::{self, ChipForm, ChipModel, LinkGlyph, TWO_LINES_WIDTH},
-        paint,
+use crate::{
+    model::UiCommand,
+    ui::{
+        icons,
+        text::{self, Weight},
+        theme,
+        widgets::{
+            link_chip::{self, ChipForm, ChipModel, LinkGlyph, TWO_LINES_WIDTH},
+            paint,
+        },
     },
 };
 
@@ -23,7 +25,7 @@ pub(super) fn show(
     rect: Rect,
     chips: &[ChipModel<'_>],
     wide: bool,
-    actions: &mut Vec<TopBarAction>,
+    commands: &mut Vec<UiCommand>,
 ) -> f32 {
     let gap = if wide { 8.0 } else { 6.0 };
     let form = match (chips.len() > FULL_CHIPS, wide) {
@@ -41,7 +43,7 @@ pub(super) fn show(
     for (index, (chip, width)) in chips.iter().zip(&widths).take(shown).enumerate() {
         let place = Rect::from_min_size(pos2(x, rect.top()), vec2(*width, rect.height()));
         if link_chip::show(ui, place, chip, form).clicked() {
-            actions.push(TopBarAction::SelectAntenna(index));
+            commands.push(UiCommand::SelectAntenna(index));
         }
         x += width + gap;
     }
@@ -53,7 +55,7 @@ pub(super) fn show(
                 let (place, _) =
                     ui.allocate_exact_size(vec2(TWO_LINES_WIDTH, 40.0), egui::Sense::hover());
                 if link_chip::show(ui, place, chip, ChipForm::TwoLines).clicked() {
-                    actions.push(TopBarAction::SelectAntenna(shown + index));
+                    commands.push(UiCommand::SelectAntenna(shown + index));
                     ui.close();
                 }
             }

@@ -2,9 +2,9 @@
 
 use egui::{Align2, Button, Popup, Rect, Role, Ui, pos2, vec2};
 
-use super::{TopBarAction, TopBarModel};
+use super::TopBarModel;
 use crate::{
-    model::ThemeName,
+    model::{ThemeName, UiCommand, View},
     ui::{
         icons::{self, Icon},
         text::{self, Weight},
@@ -23,7 +23,7 @@ pub(super) fn show(
     rect: Rect,
     model: &TopBarModel<'_>,
     two_lines: bool,
-    actions: &mut Vec<TopBarAction>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let place = rect.shrink2(vec2(0.0, 6.0));
@@ -47,13 +47,13 @@ pub(super) fn show(
     icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 5);
     Popup::menu(&response).width(180.0).accessible_name("Station menu").show(|ui| {
-        menu(ui, actions);
+        menu(ui, commands);
     });
 }
 
-fn menu(ui: &mut Ui, actions: &mut Vec<TopBarAction>) {
+fn menu(ui: &mut Ui, commands: &mut Vec<UiCommand>) {
     if ui.button("Station settings…").clicked() {
-        actions.push(TopBarAction::OpenStationSettings);
+        commands.push(UiCommand::Show(View::Preferences));
     }
     ui.separator();
     let shown = theme::name(ui);
@@ -63,7 +63,7 @@ fn menu(ui: &mut Ui, actions: &mut Vec<TopBarAction>) {
         (ThemeName::Night, "Night theme"),
     ] {
         if ui.add(Button::selectable(shown == theme, word)).clicked() {
-            actions.push(TopBarAction::SetTheme(theme));
+            commands.push(UiCommand::SetTheme(theme));
         }
     }
 }

@@ -1,8 +1,12 @@
 use super::*;
-use crate::ui::widgets::{
-    alarm_list::{AlarmPriority, AlarmRow, AlarmState},
-    link_chip::LinkGlyph,
-    testing,
+use crate::{
+    engine::alarms::Priority,
+    model::{ThemeName, View},
+    ui::widgets::{
+        alarm_list::{AlarmRow, AlarmState},
+        link_chip::LinkGlyph,
+        testing,
+    },
 };
 use egui::{Modal, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -10,7 +14,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 const ALARM: AlarmRow<'_> = AlarmRow {
     moves_away: None,
     id: 3,
-    priority: AlarmPriority::Urgent,
+    priority: Priority::Warning,
     state: AlarmState::New,
     text: "RC2000C does not reply",
     time: "11:05:58Z",
@@ -19,18 +23,18 @@ const ALARM: AlarmRow<'_> = AlarmRow {
 #[test]
 fn many_antennas_leave_room_for_the_rest() {
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
-        let mut window = testing::window(size, Vec::new(), move |ui, actions| {
+        let mut window = testing::window(size, Vec::new(), move |ui, commands| {
             let names = ["North field", "South field", "Mast", "Roof", "Yard", "Hall", "Hill"];
             let chips = names.map(|name| chip(name, LinkGlyph::Live));
             let rect = Rect::from_min_max(pos2(500.0, 8.0), pos2(900.0, 48.0));
-            chips::show(ui, rect, &chips, size[0] > 1200.0, actions);
+            chips::show(ui, rect, &chips, size[0] > 1200.0, commands);
         });
         window.run();
         window.get_by_label_contains("more antennas").click();
         window.run();
         window.get_by_label_contains("Hill: ").click();
         window.run();
-        assert_eq!(*window.state(), [TopBarAction::SelectAntenna(6)]);
+        assert_eq!(*window.state(), [UiCommand::SelectAntenna(6)]);
     }
 }
 
@@ -38,7 +42,7 @@ fn chip(name: &str, link: LinkGlyph) -> ChipModel<'_> {
     ChipModel { name, link, activity: "Tracking", age: "0.3 s", ..ChipModel::default() }
 }
 
-fn show_bar(ui: &mut Ui, stop: StopState<'_>) -> Vec<TopBarAction> {
+fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
     let window = ui.ctx().content_rect();
     let rect = Rect::from_min_size(window.min, vec2(window.width(), height(window.height())));
     let chips = [
@@ -65,9 +69,9 @@ fn show_bar(ui: &mut Ui, stop: StopState<'_>) -> Vec<TopBarAction> {
     show(ui, rect, &model)
 }
 
-fn bar(size: [f32; 2]) -> Harness<'static, Vec<TopBarAction>> {
-    let mut window = testing::window(size, Vec::new(), |ui, actions: &mut Vec<TopBarAction>| {
-        actions.extend(show_bar(ui, StopState::Ready));
+fn bar(size: [f32; 2]) -> Harness<'static, Vec<UiCommand>> {
+    let mut window = testing::window(size, Vec::new(), |ui, commands: &mut Vec<UiCommand>| {
+        commands.extend(show_bar(ui, StopLook::Ready));
     });
     window.run();
     window
@@ -84,7 +88,7 @@ fn stop_stands_at_the_right_end_in_every_size() {
         assert!(wanted.expand(0.5).contains_rect(stop.rect()), "{:?}", stop.rect());
         stop.click();
         window.run();
-        assert_eq!(*window.state(), [TopBarAction::Stop]);
+        assert_eq!(*window.state(), [UiCommand::Stop]);
     }
 }
 
@@ -98,14 +102,14 @@ fn stop_is_the_first_control_in_the_order_of_tab() {
 
 #[test]
 fn stop_works_while_a_dialog_is_open() {
-    let mut window = testing::window([1440.0, 900.0], Vec::new(), |ui, actions| {
-        actions.extend(show_bar(ui, StopState::Ready));
+    let mut window = testing::window([1440.0, 900.0], Vec::new(), |ui, commands| {
+        commands.extend(show_bar(ui, StopLook::Ready));
         Modal::new(Id::unique("dialog")).show(ui.ctx(), |ui| ui.label("Remove the station?"));
     });
     window.run();
     window.get_by_label("STOP").click();
     window.run();
-    assert_eq!(*window.state(), [TopBarAction::Stop]);
+    assert_eq!(*window.state(), [UiCommand::Stop]);
 }
 
 #[test]
@@ -113,7 +117,7 @@ fn a_stop_that_is_not_proved_says_so_in_words() {
     let text = "Satrak still moves 3 s after STOP. Use the local panel.";
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
         let window = testing::window(size, (), move |ui, ()| {
-            show_bar(ui, StopState::NotConfirmed { text });
+            show_bar(ui, StopLook::NotConfirmed { text });
         });
         window.get_by_label(text);
         window.get_by_label(&format!("STOP, not confirmed: {text}"));
@@ -125,7 +129,7 @@ fn a_chip_selects_its_antenna() {
     let mut window = bar([1024.0, 640.0]);
     window.get_by_label_contains("RC2000C: Tracking").click();
     window.run();
-    assert_eq!(*window.state(), [TopBarAction::SelectAntenna(2)]);
+    assert_eq!(*window.state(), [UiCommand::SelectAntenna(2)]);
 }
 
 #[test]
@@ -135,7 +139,7 @@ fn an_alarm_is_acknowledged() {
     window.run();
     window.get_by_label("Acknowledge: RC2000C does not reply").click();
     window.run();
-    let wanted = [AlarmAction::Opened, AlarmAction::Acknowledge(3)].map(TopBarAction::Alarm);
+    let wanted = [UiCommand::OpenedAlarms, UiCommand::AcknowledgeAlarm(3)];
     assert_eq!(*window.state(), wanted);
 }
 
@@ -150,6 +154,6 @@ fn the_station_menu_opens_settings_and_changes_the_theme() {
     window.run();
     window.get_by_role_and_label(Role::Button, "Station settings…").click();
     window.run();
-    let wanted = [TopBarAction::SetTheme(ThemeName::Night), TopBarAction::OpenStationSettings];
+    let wanted = [UiCommand::SetTheme(ThemeName::Night), UiCommand::Show(View::Preferences)];
     assert_eq!(*window.state(), wanted);
 }

@@ -11,11 +11,16 @@ use super::{
     button::{Button, SMALL_HEIGHT},
     close_key, paint,
 };
-use crate::ui::{
-    icons::{self, Icon},
-    text::{self, Weight},
-    theme,
-    tokens::Tokens,
+use crate::{
+    driver::Command,
+    engine::alarms::Priority,
+    model::UiCommand,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+    },
 };
 
 const RADIUS: u8 = 6;
@@ -35,15 +40,6 @@ const ROW_PADDING: f32 = 9.0;
 /// The bell goes on and off once a second until the list was opened.
 const HALF_BLINK_S: f64 = 0.5;
 
-/// How much an alarm matters. Each has its own shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlarmPriority {
-    /// Act now.
-    Urgent,
-    /// Look soon.
-    Caution,
-}
-
 /// Where an alarm stands in its life.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AlarmState {
@@ -61,7 +57,7 @@ pub struct AlarmRow<'a> {
     /// What the answer of the operator names it by.
     pub id: u64,
     /// How much it matters.
-    pub priority: AlarmPriority,
+    pub priority: Priority,
     /// Where it stands.
     pub state: AlarmState,
     /// What is wrong.
@@ -95,36 +91,25 @@ impl AlarmModel<'_> {
     }
 }
 
-/// What the operator did.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlarmAction {
-    /// The list was opened, so the bell may rest.
-    Opened,
-    /// One alarm was acknowledged.
-    Acknowledge(u64),
-    /// The antenna with this index is to move away from the Sun.
-    MoveAway(usize),
-}
-
 /// Shows the button in `rect` and, when it was clicked, the list below it.
 pub fn show(
     ui: &Ui,
     rect: Rect,
     model: &AlarmModel<'_>,
     one_line: bool,
-    actions: &mut Vec<AlarmAction>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let response = button(ui, rect, model, one_line);
     let was_open = Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     if response.clicked() && !was_open {
-        actions.push(AlarmAction::Opened);
+        commands.push(UiCommand::OpenedAlarms);
     }
     Popup::from_toggle_button_response(&response)
         .width(LIST_WIDTH)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Alarms")
         .show(|ui| {
-            list(ui, model, actions);
+            list(ui, model, commands);
             close_key::show(ui);
         });
 }
@@ -180,7 +165,7 @@ fn bell_is_lit(ui: &Ui, blinking: bool) -> bool {
     phase < HALF_BLINK_S
 }
 
-fn list(ui: &mut Ui, model: &AlarmModel<'_>, actions: &mut Vec<AlarmAction>) {
+fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     ui.spacing_mut().item_spacing.y = 0.0;
     if model.rows.is_empty() {
@@ -196,7 +181,7 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, actions: &mut Vec<AlarmAction>) {
             if index > 0 {
                 ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
             }
-            list_row(ui, rect, row, words, actions);
+            list_row(ui, rect, row, words, commands);
         }
     });
 }
@@ -231,7 +216,7 @@ fn list_row(
     rect: Rect,
     row: &AlarmRow<'_>,
     galley: Arc<Galley>,
-    actions: &mut Vec<AlarmAction>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let (icon, colour) = mark(row, t);
@@ -262,13 +247,13 @@ fn list_row(
     if let Some(antenna) = row.moves_away {
         let apart = f32::midpoint(SMALL_HEIGHT, ROW_PADDING);
         if button(centre - apart, "Move away", "move away") {
-            actions.push(AlarmAction::MoveAway(antenna));
+            commands.push(UiCommand::Antenna(antenna, Command::MoveAway));
         }
         centre += apart;
     }
     if new {
         if button(centre, "Acknowledge", "acknowledge") {
-            actions.push(AlarmAction::Acknowledge(row.id));
+            commands.push(UiCommand::AcknowledgeAlarm(row.id));
         }
         return;
     }
@@ -279,8 +264,8 @@ fn list_row(
 fn mark(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
     match (row.state, row.priority) {
         (AlarmState::Cleared, _) => (Icon::Check, t.t3),
-        (_, AlarmPriority::Urgent) => (Icon::Octagon, t.bad),
-        (_, AlarmPriority::Caution) => (Icon::Warning, t.warn),
+        (_, Priority::Warning) => (Icon::Octagon, t.bad),
+        (_, Priority::Caution) => (Icon::Warning, t.warn),
     }
 }
 
@@ -293,7 +278,7 @@ mod tests {
     const ROWS: [AlarmRow<'_>; 2] = [
         AlarmRow {
             id: 7,
-            priority: AlarmPriority::Urgent,
+            priority: Priority::Warning,
             state: AlarmState::New,
             text: "RC2000C does not reply",
             time: "11:05:58Z",
@@ -301,7 +286,7 @@ mod tests {
         },
         AlarmRow {
             id: 5,
-            priority: AlarmPriority::Caution,
+            priority: Priority::Caution,
             state: AlarmState::Seen,
             text: "METEOR-M2 3 elements are 9 days old",
             time: "10:41:10Z",
@@ -333,17 +318,17 @@ mod tests {
 
     #[test]
     fn an_alarm_is_acknowledged_from_the_list() {
-        let mut window = testing::window([500.0, 300.0], Vec::new(), |ui, actions| {
+        let mut window = testing::window([500.0, 300.0], Vec::new(), |ui, commands| {
             let model = AlarmModel { rows: &ROWS, unopened: false };
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(104.0, 40.0));
-            show(ui, rect, &model, false, actions);
+            show(ui, rect, &model, false, commands);
         });
         window.get_by_label("2 alarms, 1 new").click();
         window.run();
-        assert_eq!(*window.state(), [AlarmAction::Opened]);
+        assert_eq!(*window.state(), [UiCommand::OpenedAlarms]);
         window.get_by_label("METEOR-M2 3 elements are 9 days old, 10:41:10Z, seen");
         window.get_by_label("Acknowledge: RC2000C does not reply").click();
         window.run();
-        assert_eq!(*window.state(), [AlarmAction::Opened, AlarmAction::Acknowledge(7)]);
+        assert_eq!(*window.state(), [UiCommand::OpenedAlarms, UiCommand::AcknowledgeAlarm(7)]);
     }
 }

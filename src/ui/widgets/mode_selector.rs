@@ -1,38 +1,22 @@
-//! What the operator wants of an antenna.
+//! The selector of the intent of an antenna.
 
 use egui::{Rect, Ui};
 
 use super::segmented::{self, Segment};
+use crate::driver::Intent;
 
-/// What an antenna can be asked to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
-    /// Drives off.
-    Standby,
-    /// Jog keys move it.
-    Manual,
-    /// It goes to an azimuth and elevation and holds there.
-    Position,
-    /// It follows a satellite.
-    Track,
-    /// It goes to its park position.
-    Park,
-}
+/// All modes in the order in which they are shown.
+pub const ALL: [Intent; 5] =
+    [Intent::Standby, Intent::Manual, Intent::Position, Intent::Track, Intent::Park];
 
-impl Mode {
-    /// All modes in the order in which they are shown.
-    pub const ALL: [Self; 5] =
-        [Self::Standby, Self::Manual, Self::Position, Self::Track, Self::Park];
-
-    /// The word on the segment.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Standby => "Standby",
-            Self::Manual => "Manual",
-            Self::Position => "Position",
-            Self::Track => "Track",
-            Self::Park => "Park",
-        }
+/// The word on the segment.
+fn word(mode: Intent) -> &'static str {
+    match mode {
+        Intent::Standby => "Standby",
+        Intent::Manual => "Manual",
+        Intent::Position => "Position",
+        Intent::Track => "Track",
+        Intent::Park => "Park",
     }
 }
 
@@ -40,17 +24,16 @@ impl Mode {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ModeModel<'a> {
     /// The modes that the unit has; the others are left out.
-    pub offered: &'a [Mode],
+    pub offered: &'a [Intent],
     /// The mode that the unit reports.
-    pub current: Option<Mode>,
+    pub current: Option<Intent>,
     /// The mode that was asked for and is not reported yet.
-    pub pending: Option<Mode>,
+    pub pending: Option<Intent>,
 }
 
 /// Shows the modes in `rect` and returns the one that was clicked.
-pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Mode> {
-    let modes: Vec<Mode> =
-        Mode::ALL.into_iter().filter(|mode| model.offered.contains(mode)).collect();
+pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
+    let modes: Vec<Intent> = ALL.into_iter().filter(|mode| model.offered.contains(mode)).collect();
     let segments: Vec<(&str, Segment)> = modes
         .iter()
         .map(|mode| {
@@ -61,7 +44,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Mode> {
             } else {
                 Segment::Free
             };
-            (mode.word(), state)
+            (word(*mode), state)
         })
         .collect();
     let clicked = segmented::show(ui, "mode", rect, "Mode", &segments)?;
@@ -80,9 +63,9 @@ mod tests {
         let mut window = testing::window([400.0, 80.0], None, |ui, clicked| {
             let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(312.0, 32.0));
             let model = ModeModel {
-                offered: &[Mode::Manual, Mode::Position, Mode::Track],
-                current: Some(Mode::Track),
-                pending: Some(Mode::Manual),
+                offered: &[Intent::Manual, Intent::Position, Intent::Track],
+                current: Some(Intent::Track),
+                pending: Some(Intent::Manual),
             };
             *clicked = show(ui, rect, &model).or(*clicked);
         });
@@ -92,6 +75,6 @@ mod tests {
         assert_eq!(track.accesskit_node().toggled(), Some(egui::accesskit::Toggled::True));
         window.get_by_role_and_label(Role::RadioButton, "Position").click();
         window.run();
-        assert_eq!(*window.state(), Some(Mode::Position));
+        assert_eq!(*window.state(), Some(Intent::Position));
     }
 }

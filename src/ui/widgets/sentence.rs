@@ -127,8 +127,7 @@ mod tests {
         let heights = vec![0.0; 2];
         let window = testing::window([400.0, 300.0], heights, move |ui, heights| {
             for (height, words) in heights.iter_mut().zip(["It holds.", long.as_str()]) {
-                let sentence =
-                    Sentence { kind: SentenceKind::Holding, spans: &[plain(words)] };
+                let sentence = Sentence { kind: SentenceKind::Holding, spans: &[plain(words)] };
                 ui.push_id(words, |ui| {
                     *height = show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence).height();
                 });
@@ -141,8 +140,7 @@ mod tests {
     #[test]
     fn the_sentence_is_one_live_region() {
         let window = testing::window([400.0, 200.0], (), |ui, ()| {
-            let spans =
-                [plain("Waiting at 205° for "), bold("SUOMI NPP"), plain(".")];
+            let spans = [plain("Waiting at 205° for "), bold("SUOMI NPP"), plain(".")];
             let sentence = Sentence { kind: SentenceKind::Commanded, spans: &spans };
             show(ui, pos2(10.0, 10.0), 312.0, 0.0, &sentence);
         });

@@ -20,7 +20,7 @@ const RADIUS: u8 = 6;
 
 /// What became of the last STOP.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum StopState<'a> {
+pub enum StopLook<'a> {
     /// Nothing to report.
     #[default]
     Ready,
@@ -36,22 +36,22 @@ pub enum StopState<'a> {
 }
 
 /// Shows STOP in `rect`; it says `clicked` in every state. The sentence of
-/// [`StopState::NotConfirmed`] is part of its name and has to stand beside it.
+/// [`StopLook::NotConfirmed`] is part of its name and has to stand beside it.
 /// `about` says what it stops to whoever points at it or has it read aloud.
-pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>, about: &str) -> Response {
+pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, about: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
     // In the frame of the click the model does not know of it yet.
-    let is_told = matches!(state, StopState::NotConfirmed { .. });
-    let state = if response.clicked() && !is_told { StopState::Stopping } else { state };
+    let is_told = matches!(state, StopLook::NotConfirmed { .. });
+    let state = if response.clicked() && !is_told { StopLook::Stopping } else { state };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name(state)));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
     let t = theme::tokens(ui);
-    let outline = state == StopState::AllStopped;
+    let outline = state == StopLook::AllStopped;
     let (fill, colour) = if outline { (Color32::TRANSPARENT, t.bad) } else { (t.stop, t.onstop) };
     ui.painter().rect(rect, RADIUS, fill, Stroke::new(2.0, t.stop), StrokeKind::Inside);
     let small = rect.height() < SIZE.y;
     let font = text::sized(if small { 16.0 } else { 18.0 }, Weight::Bold);
-    if state == StopState::Stopping {
+    if state == StopLook::Stopping {
         let inner = Stroke::new(3.0, t.onstop);
         ui.painter().rect_stroke(rect.shrink(3.0), 3.0, inner, StrokeKind::Inside);
         let font = text::sized(15.0, Weight::Bold);
@@ -77,12 +77,12 @@ pub fn show(ui: &Ui, rect: Rect, state: StopState<'_>, about: &str) -> Response 
     response.on_hover_text(about)
 }
 
-fn name(state: StopState<'_>) -> String {
+fn name(state: StopLook<'_>) -> String {
     match state {
-        StopState::Ready => "STOP".to_owned(),
-        StopState::Stopping => "STOP, stopping".to_owned(),
-        StopState::AllStopped => "STOP, all stopped".to_owned(),
-        StopState::NotConfirmed { text } => format!("STOP, not confirmed: {text}"),
+        StopLook::Ready => "STOP".to_owned(),
+        StopLook::Stopping => "STOP, stopping".to_owned(),
+        StopLook::AllStopped => "STOP, all stopped".to_owned(),
+        StopLook::NotConfirmed { text } => format!("STOP, not confirmed: {text}"),
     }
 }
 
@@ -95,10 +95,10 @@ mod tests {
     #[test]
     fn stop_is_clicked_in_every_state_and_size() {
         for state in [
-            StopState::Ready,
-            StopState::Stopping,
-            StopState::AllStopped,
-            StopState::NotConfirmed { text: "Satrak still moves 3 s after STOP." },
+            StopLook::Ready,
+            StopLook::Stopping,
+            StopLook::AllStopped,
+            StopLook::NotConfirmed { text: "Satrak still moves 3 s after STOP." },
         ] {
             for size in [SIZE, SMALL_SIZE] {
                 let mut window = testing::window([200.0, 80.0], 0, |ui, clicks| {

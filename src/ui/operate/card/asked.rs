@@ -10,7 +10,7 @@ use crate::{
     ui::{
         antenna_card::{CardAction, FollowChoice},
         confirm::Question,
-        widgets::{go_to::Target, mode_selector::Mode},
+        widgets::go_to::Target,
     },
 };
 
@@ -36,11 +36,11 @@ impl Desk<'_> {
                 return self.commands.push(UiCommand::SelectAntenna(index));
             }
             CardAction::Follow(choice) => return self.follow(choice),
-            CardAction::SetMode(Mode::Standby) => Command::Standby,
-            CardAction::SetMode(Mode::Manual) => Command::Manual,
-            CardAction::SetMode(Mode::Position) => Command::Hold,
-            CardAction::SetMode(Mode::Park) => Command::Park,
-            CardAction::SetMode(Mode::Track) | CardAction::TrackSelected => {
+            CardAction::SetMode(Intent::Standby) => Command::Standby,
+            CardAction::SetMode(Intent::Manual) => Command::Manual,
+            CardAction::SetMode(Intent::Position) => Command::Hold,
+            CardAction::SetMode(Intent::Park) => Command::Park,
+            CardAction::SetMode(Intent::Track) | CardAction::TrackSelected => {
                 return self.commands.extend(UiCommand::track_selected(self.model));
             }
             CardAction::TrackAgain => {
