@@ -24,7 +24,7 @@ fn main() {
         let start = Instant::now();
         let ready = |app: &App| {
             app.model().antenna().is_some_and(|antenna| antenna.snapshot.state.measured.is_some())
-                && !app.model().forecasts.favourites.passes.is_empty()
+                && !app.model().pass_lists.favourites.passes.is_empty()
         };
         while !ready(harness.state()) {
             assert!(start.elapsed() < Duration::from_secs(30), "the demo station does not start");

@@ -26,7 +26,7 @@ use crate::{
     driver::TimeSync,
     engine::{
         self, CatalogState, Client, Handle, Settings, alarms::Alarms, antenna::AntennaModel,
-        forecast::Forecasts, signals,
+        passes::PassLists, signals,
     },
     job::Wake,
     model::{self, Model, UiCommand, View},
@@ -79,7 +79,7 @@ impl App {
             antennas: Vec::new(),
             wires: Vec::new(),
             selected_antenna: 0,
-            forecasts: Forecasts::default(),
+            pass_lists: PassLists::default(),
             list: keeper.memory.list,
             selected: None,
             sky: model::Sky::default(),

@@ -12,12 +12,12 @@ pub mod closing;
 mod command;
 pub mod copies;
 mod demo;
-pub mod forecast;
 mod handle;
 pub mod host_keys;
 mod lock_outs;
 pub mod on_board;
 mod owed;
+pub mod passes;
 mod settle;
 pub mod signals;
 mod snapshot;
@@ -48,8 +48,8 @@ use self::{
     closing::Closing,
     copies::{Copies, CopyWork},
     demo::Demo,
-    forecast::{Forecasts, Searches},
     handle::{AntennaEnds, Published, Request},
+    passes::{PassLists, Searches},
     source_tests::SourceTests,
     sources::{Outcome, Places, SourceWork, Sources, Task},
     uploads::Uploads,
@@ -129,7 +129,7 @@ struct Engine {
     sessions: u64,
     attention: Attention,
     searches: Searches,
-    forecasts: Forecasts,
+    pass_lists: PassLists,
     uploads: Uploads,
     source_tests: SourceTests,
     alarms: Alarms,
@@ -244,7 +244,7 @@ impl Engine {
             sessions: 0,
             attention: Attention::default(),
             searches: Searches::default(),
-            forecasts: Forecasts::default(),
+            pass_lists: PassLists::default(),
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
             alarms: Alarms::default(),
@@ -384,7 +384,7 @@ impl Engine {
             catalog: self.catalog.clone(),
             sources: shared(&self.sources, &last.sources),
             antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
-            forecasts: self.forecasts.clone(),
+            pass_lists: self.pass_lists.clone(),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             alarms: self.alarms.clone(),

@@ -30,7 +30,9 @@ use crate::{
         antenna::AntennaModel,
         closing::Closing,
         copies::Copies,
-        forecast::{Followed, Forecast, Forecasts, ListChoice, Listed, PassKey, Scope, ahead},
+        passes::{
+            Followed, ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses, ahead,
+        },
         source_tests::SourceTests,
         sources::Sources,
         uploads::Uploads,
@@ -91,7 +93,7 @@ pub struct Model {
     /// Which of them the card shows.
     pub selected_antenna: usize,
     /// The passes to come.
-    pub forecasts: Forecasts,
+    pub pass_lists: PassLists,
     /// Which of them the list shows.
     pub list: ListChoice,
     /// The pass that is shown.
@@ -170,40 +172,40 @@ impl Model {
     }
 
     /// The selected pass, while it is not over.
-    pub fn selected_pass(&self) -> Option<&Forecast> {
-        let selected = self.forecasts.find(self.selected?);
-        selected.filter(|forecast| forecast.pass.los.time > self.now)
+    pub fn selected_pass(&self) -> Option<&PredictedPass> {
+        let selected = self.pass_lists.find(self.selected?);
+        selected.filter(|predicted| predicted.pass.los.time > self.now)
     }
 
     /// The pass of a followed satellite that is under way, or else its next one.
-    pub fn pass_of(&self, catalog_number: u32) -> Option<&Forecast> {
-        let passes = self.forecasts.favourites.listed(self.now);
-        passes.iter().find(|forecast| forecast.number() == catalog_number)
+    pub fn pass_of(&self, catalog_number: u32) -> Option<&PredictedPass> {
+        let passes = self.pass_lists.favourites.upcoming(self.now);
+        passes.iter().find(|predicted| predicted.number() == catalog_number)
     }
 
     /// The pass of a followed satellite that is under way or comes next.
-    pub fn next_pass(&self) -> Option<&Forecast> {
-        self.forecasts.next(self.now)
+    pub fn next_pass(&self) -> Option<&PredictedPass> {
+        self.pass_lists.next(self.now)
     }
 
     /// The passes that the list shows.
-    pub fn listed(&self) -> Listed<'_> {
+    pub fn upcoming(&self) -> UpcomingPasses<'_> {
         match self.list.scope {
-            Scope::Favourites => self.forecasts.favourites.within(self.now, self.list.span_h()),
-            Scope::All => self.forecasts.all.listed(self.now),
+            Scope::Favourites => self.pass_lists.favourites.within(self.now, self.list.span_h()),
+            Scope::All => self.pass_lists.all.upcoming(self.now),
         }
     }
 
     /// Takes what the station shows of itself.
     pub fn take(&mut self, station: &Handle) {
         let shown = Arc::clone(station.snapshot());
-        let renewed = self.forecasts.favourites.edition != shown.forecasts.favourites.edition;
+        let renewed = self.pass_lists.favourites.edition != shown.pass_lists.favourites.edition;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
         self.demo = shown.demo;
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);
-        self.forecasts = shown.forecasts.clone();
+        self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);
         self.alarms = shown.alarms.clone();
@@ -218,7 +220,7 @@ impl Model {
         let wire = |antenna: &AntennaModel| station.wire(antenna.id()).unwrap_or_default();
         self.wires = self.antennas.iter().map(wire).collect();
         if renewed && self.selected_pass().is_none() {
-            self.selected = self.next_pass().map(Forecast::key);
+            self.selected = self.next_pass().map(PredictedPass::key);
         }
     }
 
@@ -234,10 +236,10 @@ impl Model {
     /// Puts everything at its place for `now`.
     pub fn refresh_sky(&mut self) {
         let (site, now) = (self.station.site, self.now);
-        let pass = self.selected.and_then(|key| self.forecasts.find(key));
+        let pass = self.selected.and_then(|key| self.pass_lists.find(key));
         self.sky.clearance.refresh(pass, site, self.station.horizon_mask.as_ref());
-        let selected = self.selected_pass().map(|forecast| Arc::clone(&forecast.satellite));
-        self.sky.refresh(&self.forecasts.favourites.satellites, selected.as_deref(), site, now);
+        let selected = self.selected_pass().map(|predicted| Arc::clone(&predicted.satellite));
+        self.sky.refresh(&self.pass_lists.favourites.satellites, selected.as_deref(), site, now);
     }
 }
 

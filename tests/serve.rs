@@ -23,7 +23,7 @@ use azel::{
         alarms::{Alarm, AlarmKind},
         antenna::AntennaModel,
         claim::HolderKind,
-        forecast::Forecast,
+        passes::PredictedPass,
         status::{AntennaStatus, LinkStatus},
     },
     makes,
@@ -186,7 +186,7 @@ fn track_on_board(client: &Client) {
     wait_for("the dish", || is_measured(client, "Dish"));
     let pass = wait_for("the pass", || {
         let station = client.snapshot();
-        station.forecasts.next(start()).map(Forecast::key)
+        station.pass_lists.next(start()).map(PredictedPass::key)
     });
     client.send(Command::Track { antenna: dish, pass, is_agreed: true }).unwrap();
     wait_for("tracking on board", || {

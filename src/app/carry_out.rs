@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use super::App;
 use crate::{
     driver,
-    engine::{Command, Stopped, antenna::AntennaModel, forecast::Forecast},
+    engine::{Command, Stopped, antenna::AntennaModel, passes::PredictedPass},
     model::UiCommand,
     station::AntennaId,
     ui::theme,
@@ -49,7 +49,7 @@ impl App {
             }
             UiCommand::SelectPass(key) => model.selected = Some(key),
             UiCommand::SelectSatellite(number) => {
-                model.selected = model.pass_of(number).map(Forecast::key).or(model.selected);
+                model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
             }
             UiCommand::SelectAntenna(index) => {
                 model.selected_antenna = index;

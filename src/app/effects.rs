@@ -30,7 +30,7 @@ impl App {
             None => {}
         }
         let Some((question, since)) = &effects.asked else { return };
-        let listing = &self.model.forecasts.favourites;
+        let listing = &self.model.pass_lists.favourites;
         let edition = listing.edition;
         let is_answered = effects
             .effect
@@ -46,7 +46,7 @@ impl App {
         let passes = if known.is_some() {
             Vec::new()
         } else {
-            listing.listed(self.model.now).iter().cloned().collect()
+            listing.upcoming(self.model.now).iter().cloned().collect()
         };
         let asked = question.clone();
         let work = move |cancelled: &(dyn Fn() -> bool + Sync)| {

@@ -12,7 +12,7 @@ use std::{
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::{
-    engine::forecast::{ListChoice, SPANS_H, Scope},
+    engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::ThemeName,
     ui::{Kept, sky_plot::Layers},

@@ -11,7 +11,7 @@ pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::{claim::HeldBy, forecast::Followed, on_board::Judged, track_again::TrackAgain};
+use super::{claim::HeldBy, on_board::Judged, passes::Followed, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     clock::Instant,

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::{
     Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
-    forecast::{Forecast, PassKey},
     handle::Stopped,
+    passes::{PassKey, PredictedPass},
     sources::{self, SourceWork, Task},
     uploads,
 };
@@ -166,14 +166,14 @@ impl Engine {
 
     fn follow_pass(&mut self, index: usize, pass: PassKey) {
         // A pass that is over since it was asked for is not replaced by another.
-        let Some(forecast) = self.pass(pass) else { return };
-        let follow = forecast.follow(self.station.elevation_floor());
+        let Some(predicted) = self.pass(pass) else { return };
+        let follow = predicted.follow(self.station.elevation_floor());
         self.send(index, driver::Command::Follow(Box::new(follow)));
     }
 
     /// A pass that is not over.
-    pub(super) fn pass(&self, key: PassKey) -> Option<&Forecast> {
-        self.forecasts.find(key).filter(|forecast| forecast.pass.los.time > self.now)
+    pub(super) fn pass(&self, key: PassKey) -> Option<&PredictedPass> {
+        self.pass_lists.find(key).filter(|predicted| predicted.pass.los.time > self.now)
     }
 
     /// One at a time: two would write the same files.

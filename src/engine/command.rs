@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{
     closing::CloseHow,
-    forecast::{ListChoice, PassKey, Scope},
+    passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
     uploads,
 };

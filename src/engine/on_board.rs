@@ -9,7 +9,7 @@ use super::{
     Antenna, CatalogState, Engine,
     alarms::AlarmKind,
     antenna::AntennaModel,
-    forecast::{Forecast, PassKey},
+    passes::{PassKey, PredictedPass},
 };
 use crate::{
     astro::{Angle, Site, time::add_seconds},
@@ -35,29 +35,30 @@ pub struct Judged {
     of: (PassKey, OnBoard),
 }
 
-/// From when to when `antenna` may point to the satellite of `forecast`: whole
+/// From when to when `antenna` may point to the satellite of `predicted`: whole
 /// seconds within the first stay above its lowest elevation that is not over. An
 /// error where there is none.
 pub fn window(
-    forecast: &Forecast,
+    predicted: &PredictedPass,
     antenna: &station::Antenna,
     site: Site,
     now: Timestamp,
 ) -> Result<(Timestamp, Timestamp), Refusal> {
     let lowest_deg = antenna.limits.minimum_elevation_deg;
     let lowest = Angle::from_degrees(lowest_deg);
-    let (aos, los) = (forecast.pass.aos.time, forecast.pass.los.time);
+    let (aos, los) = (predicted.pass.aos.time, predicted.pass.los.time);
     let search = PassSearch {
         aos_elevation: lowest,
         floor: lowest,
         ..PassSearch::new(site, add_seconds(aos, -EDGE_S), add_seconds(los, EDGE_S))
     };
-    let stays = passes(&forecast.satellite.propagator, &search, &|| false);
+    let stays = passes(&predicted.satellite.propagator, &search, &|| false);
     let within = stays.iter().map(|stay| (stay.aos.time.max(aos), stay.los.time.min(los)));
     let mut whole = within.map(|(from, until)| (first_second(from), last_second(until)));
-    whole
-        .find(|(from, until)| from < until && now < *until)
-        .ok_or(Refusal::TooLow { highest_deg: forecast.pass.max_elevation().degrees(), lowest_deg })
+    whole.find(|(from, until)| from < until && now < *until).ok_or(Refusal::TooLow {
+        highest_deg: predicted.pass.max_elevation().degrees(),
+        lowest_deg,
+    })
 }
 
 fn first_second(time: Timestamp) -> Timestamp {
@@ -69,15 +70,15 @@ fn last_second(time: Timestamp) -> Timestamp {
     Timestamp::from_second(time.as_second()).unwrap_or(time)
 }
 
-/// What the unit of `antenna` is told to track the pass of `forecast`.
+/// What the unit of `antenna` is told to track the pass of `predicted`.
 fn pass_for(
-    forecast: &Forecast,
+    predicted: &PredictedPass,
     antenna: &station::Antenna,
     site: Site,
     now: Timestamp,
 ) -> Result<OnBoardPass, Refusal> {
-    let (from, until) = window(forecast, antenna, site, now)?;
-    let elements = forecast.satellite.elements.clone();
+    let (from, until) = window(predicted, antenna, site, now)?;
+    let elements = predicted.satellite.elements.clone();
     let target = TrackTarget {
         catalog_number: elements.catalog_number(),
         name: elements.name().to_owned(),
@@ -93,10 +94,10 @@ impl Engine {
     /// operator knows that it may miss.
     pub(super) fn track_on_board(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
         // A pass that is over since it was asked for is not replaced by another.
-        let Some(forecast) = self.pass(pass) else { return };
+        let Some(predicted) = self.pass(pass) else { return };
         let (site, now) = (self.station.site, self.now);
         let Some(antenna) = self.antennas.get(index) else { return };
-        match pass_for(forecast, &antenna.shown.config, site, now) {
+        match pass_for(predicted, &antenna.shown.config, site, now) {
             Ok(pass) => {
                 let pass = OnBoardPass { is_agreed, ..pass };
                 self.send(index, driver::Command::Track(Box::new(pass)));
@@ -127,12 +128,12 @@ impl Engine {
             return None;
         }
         let selected = self.attention.selected.and_then(|key| self.pass(key));
-        let forecast = selected.or_else(|| self.forecasts.next(self.now))?;
-        let of = (forecast.key(), rounded(unit));
+        let predicted = selected.or_else(|| self.pass_lists.next(self.now))?;
+        let of = (predicted.key(), rounded(unit));
         if let Some(before) = antenna.judged.as_ref().filter(|judged| judged.of == of) {
             return Some(before.clone());
         }
-        let pass = pass_for(forecast, &antenna.config, self.station.site, self.now);
+        let pass = pass_for(predicted, &antenna.config, self.station.site, self.now);
         let judge = pass.ok().and_then(|pass| Judge::new(pass, Ability::of(&antenna.config)).ok());
         let found = judge.map(|judge| Arc::new(judge.supervise(&of.1, false)));
         Some(Judged { found, of })
@@ -238,7 +239,7 @@ mod tests {
     use super::*;
     use crate::{
         astro::time::seconds_between,
-        engine::forecast::{Followed, Vantage},
+        engine::passes::{Followed, Observer},
         orbit::{Pass, Propagator, bundled},
         station::Station,
     };
@@ -261,30 +262,31 @@ mod tests {
     }
 
     /// The first pass over 60 degrees as the station lists it.
-    fn forecast(station: &Station) -> Forecast {
+    fn predicted_pass(station: &Station) -> PredictedPass {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();
-        let vantage = Vantage::of(station);
+        let observer = Observer::of(station);
         let search = PassSearch {
-            aos_elevation: vantage.horizon,
+            aos_elevation: observer.horizon,
             ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
         };
         let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;
         let pass = passes(&propagator, &search, &|| false).into_iter().find(high).unwrap();
-        Forecast::new(Arc::new(Followed { elements, propagator }), pass, Arc::new(vantage))
+        PredictedPass::new(Arc::new(Followed { elements, propagator }), pass, Arc::new(observer))
     }
 
     #[test]
     fn the_window_of_an_antenna_keeps_to_its_own_lowest_elevation() {
         let station = station([0.0, 45.0]);
-        let forecast = forecast(&station);
-        let [first, second] = [0, 1]
-            .map(|index| window(&forecast, &station.antennas[index], station.site, now()).unwrap());
+        let predicted = predicted_pass(&station);
+        let [first, second] = [0, 1].map(|index| {
+            window(&predicted, &station.antennas[index], station.site, now()).unwrap()
+        });
         assert!(length_s(first) > 500.0 && length_s(second) < 200.0, "{first:?} {second:?}");
-        let aos = forecast.pass.aos.time;
+        let aos = predicted.pass.aos.time;
         assert!((0.0..1.01).contains(&seconds_between(aos, first.0)), "{aos} {first:?}");
         let elevation = |at| {
-            let look = forecast.satellite.propagator.look_from(station.site, at).unwrap();
+            let look = predicted.satellite.propagator.look_from(station.site, at).unwrap();
             look.direction.elevation_deg()
         };
         for (from, until) in [second] {
@@ -298,9 +300,9 @@ mod tests {
     #[test]
     fn a_pass_that_stays_too_low_has_no_window() {
         let station = station([0.0, 89.5]);
-        let forecast = forecast(&station);
-        let highest_deg = forecast.pass.max_elevation().degrees();
-        let refused = window(&forecast, &station.antennas[1], station.site, now());
+        let predicted = predicted_pass(&station);
+        let highest_deg = predicted.pass.max_elevation().degrees();
+        let refused = window(&predicted, &station.antennas[1], station.site, now());
         assert_eq!(refused, Err(Refusal::TooLow { highest_deg, lowest_deg: 89.5 }));
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{
-    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, forecast::Forecasts,
+    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, passes::PassLists,
     source_tests::SourceTests, sources::Sources, uploads::Uploads,
 };
 use crate::{driver::TimeSync, orbit::Catalog, station::Station};
@@ -35,7 +35,7 @@ pub struct Snapshot {
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     /// The passes to come.
-    pub forecasts: Forecasts,
+    pub pass_lists: PassLists,
     /// Files of elements on their way to units.
     pub uploads: Arc<Uploads>,
     /// The sources that units are told to use, tested from here.
@@ -58,7 +58,7 @@ impl Snapshot {
             catalog: CatalogState::Loading,
             sources: Arc::default(),
             antennas: Vec::new(),
-            forecasts: Forecasts::default(),
+            pass_lists: PassLists::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
             alarms: Alarms::default(),

@@ -31,9 +31,9 @@ impl Engine {
         let (id, ordered) = match command {
             Command::Track { antenna, pass, is_agreed: false }
             | Command::FollowPass { antenna, pass } => {
-                let Some(forecast) = self.forecasts.find(*pass) else { return };
-                let name = forecast.satellite.short_name().to_owned();
-                let until = forecast.pass.los.time;
+                let Some(predicted) = self.pass_lists.find(*pass) else { return };
+                let name = predicted.satellite.short_name().to_owned();
+                let until = predicted.pass.los.time;
                 (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
             }
             Command::Antenna(antenna, driver::Command::Follow(follow)) => {
@@ -100,7 +100,7 @@ impl Engine {
 
     /// Ends the offers whose time is over.
     pub(super) fn forget_tracks(&mut self) {
-        let (now, forecasts) = (self.now, &self.forecasts);
+        let (now, pass_lists) = (self.now, &self.pass_lists);
         for antenna in &mut self.antennas {
             let antenna = &mut antenna.shown;
             let snapshot = &antenna.snapshot;
@@ -108,7 +108,7 @@ impl Engine {
             let is_locked_out = snapshot.lock_out.is_some();
             antenna.track_again.take_if(|again| {
                 let is_gone = match again.command {
-                    Command::Track { pass, .. } => forecasts.find(pass).is_none(),
+                    Command::Track { pass, .. } => pass_lists.find(pass).is_none(),
                     _ => false,
                 };
                 now >= again.until || chosen || is_locked_out || is_gone

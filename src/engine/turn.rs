@@ -46,7 +46,7 @@ impl Engine {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let list = self.attention.list;
         self.searches.refresh(catalog, &self.station, list, self.now, &self.wake);
-        self.forecasts = self.searches.shown();
+        self.pass_lists = self.searches.shown();
         let kind = AlarmKind::BrokeOff(Work::Passes);
         if self.searches.broke_off() {
             self.alarms.raise(None, kind, self.now);
@@ -123,10 +123,10 @@ impl Engine {
     }
 
     fn take_antenna(&mut self, index: usize) {
-        let forecasts = &self.forecasts;
+        let pass_lists = &self.pass_lists;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         antenna.shown.snapshot = antenna.handle.snapshot();
-        antenna.shown.refresh(self.station.site, |number| forecasts.satellite(number));
+        antenna.shown.refresh(self.station.site, |number| pass_lists.satellite(number));
         let mut events = Vec::new();
         while let Some(event) = antenna.handle.next_event() {
             events.push(event);

@@ -2,7 +2,7 @@
 
 use crate::{
     astro::{HorizonMask, Site},
-    engine::forecast::Forecast,
+    engine::passes::PredictedPass,
     orbit::{Pass, clear_stretches},
 };
 
@@ -22,22 +22,22 @@ impl Clearance {
 
     pub(super) fn refresh(
         &mut self,
-        selected: Option<&Forecast>,
+        selected: Option<&PredictedPass>,
         site: Site,
         mask: Option<&HorizonMask>,
     ) {
-        let (Some(forecast), Some(mask)) = (selected, mask) else {
+        let (Some(predicted), Some(mask)) = (selected, mask) else {
             *self = Self::default();
             return;
         };
-        let (number, pass) = (forecast.satellite.elements.catalog_number(), forecast.pass);
+        let (number, pass) = (predicted.satellite.elements.catalog_number(), predicted.pass);
         let same = self.made_of.as_ref().is_some_and(|(of_number, of_pass, of_site, of_mask)| {
             (*of_number, *of_pass, *of_site) == (number, pass, site) && of_mask == mask
         });
         if same {
             return;
         }
-        let clear = clear_stretches(&forecast.satellite.propagator, site, mask, &pass);
+        let clear = clear_stretches(&predicted.satellite.propagator, site, mask, &pass);
         let is_whole = matches!(clear[..], [only]
             if only.aos.time == pass.aos.time && only.los.time == pass.los.time);
         self.cut = (!is_whole).then_some(clear);

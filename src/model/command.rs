@@ -9,7 +9,7 @@ use crate::{
     engine::{
         self,
         closing::CloseHow,
-        forecast::{Forecast, PassKey, Scope},
+        passes::{PassKey, PredictedPass, Scope},
         source_tests, uploads,
     },
     orbit::Source,
@@ -135,7 +135,7 @@ pub enum UiCommand {
 impl UiCommand {
     /// Track what is selected now with the antenna that is selected now.
     pub fn track_selected(model: &Model) -> Option<Self> {
-        let pass = model.selected_pass().map(Forecast::key)?;
+        let pass = model.selected_pass().map(PredictedPass::key)?;
         Some(Self::Track { antenna: model.selected_antenna, pass })
     }
 

@@ -9,7 +9,7 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
-    engine::forecast::Forecast,
+    engine::passes::PredictedPass,
     plan::Sample,
     station::{Entered, KeepOut, SunAvoidance},
 };
@@ -123,11 +123,11 @@ impl Effects {
 }
 
 /// The ways of all passes, or of those that there was time for.
-pub fn ways(passes: &[Forecast], cancelled: &dyn Fn() -> bool) -> Arc<[Way]> {
-    let wanted = passes.iter().filter(|forecast| !forecast.is_always_up());
-    let way = |forecast: &Forecast| Way {
-        number: forecast.number(),
-        samples: forecast.track().iter().step_by(EVERY).copied().collect(),
+pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[Way]> {
+    let wanted = passes.iter().filter(|predicted| !predicted.is_always_up());
+    let way = |predicted: &PredictedPass| Way {
+        number: predicted.number(),
+        samples: predicted.track().iter().step_by(EVERY).copied().collect(),
     };
     wanted.take_while(|_| !cancelled()).map(way).collect()
 }

@@ -20,7 +20,7 @@ use super::{
     timeline::Zoom,
 };
 use crate::{
-    engine::forecast::{Forecast, PassKey},
+    engine::passes::{PassKey, PredictedPass},
     model::{Model, UiCommand},
 };
 use layout::Areas;
@@ -54,7 +54,7 @@ impl OperateState {
     /// The pass so many places below the selected one in the list as it is
     /// filtered.
     pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
-        let listed = model.listed();
+        let listed = model.upcoming();
         let found = self.found.places(model, self.passes.filter.text());
         let place = model.selected.and_then(|key| listed.row(key));
         let at = match found {
@@ -63,7 +63,7 @@ impl OperateState {
         };
         let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
         let place = found.map_or(Some(wanted), |found| found.get(wanted).copied())?;
-        listed.get(place).map(Forecast::key)
+        listed.get(place).map(PredictedPass::key)
     }
 
     /// The card goes out of sight: a key that is held there must not go on.

@@ -19,7 +19,7 @@ use jiff::Timestamp;
 use super::{format, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
-    engine::forecast::{PassKey, Scope, Work},
+    engine::passes::{PassKey, Scope, Work},
     model::UiCommand,
     plan::{Loss, Sample},
 };

@@ -16,7 +16,7 @@ use crate::{
     astro::time::seconds_between,
     device::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
-    engine::{antenna::AntennaModel, forecast::Followed},
+    engine::{antenna::AntennaModel, passes::Followed},
     model::Model,
 };
 
@@ -254,9 +254,9 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
             .plain("Moving, not by this console. Somebody else drives it, or a motion runs out.");
     }
     let next = next_words(
-        model
-            .selected_pass()
-            .map(|forecast| (&*forecast.satellite, forecast.pass.aos.time, forecast.pass.los.time)),
+        model.selected_pass().map(|predicted| {
+            (&*predicted.satellite, predicted.pass.aos.time, predicted.pass.los.time)
+        }),
         model.now,
     );
     let stopped = matches!(antenna.snapshot.stop, StopState::Stopped { .. });

@@ -384,7 +384,7 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     window.run_steps(2);
     window.get_by_label_contains("Add METEOR").click();
     step_until(&mut window, "its passes", |model| {
-        model.forecasts.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
+        model.pass_lists.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });
     assert!(
         station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(&METEOR_M2_3)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     driver::{LinkLoss, LinkState, Snapshot},
-    engine::{CatalogState, forecast::Forecasts},
+    engine::{CatalogState, passes::PassLists},
     model::{Model, Sky, UiCommand, View},
 };
 use egui::{Rect, Role, pos2, vec2};
@@ -66,7 +66,7 @@ fn the_longest_names_cut_nothing() {
             for index in 0..count {
                 config.name = format!("{}{index}", &LONG[..LONG.len() - 1]);
                 let mut antenna = rig::antenna(config.clone(), states::tracking(0.04));
-                antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+                antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
                 model.antennas.push(antenna);
             }
             let window = rig::window(size, model);
@@ -106,7 +106,7 @@ fn a_station_without_antennas_offers_to_set_one_up() {
 
 fn without_elements(mut model: Model) -> Model {
     model.catalog = CatalogState::Failed;
-    model.forecasts = Forecasts::default();
+    model.pass_lists = PassLists::default();
     model.selected = None;
     model.sky = Sky::default();
     model.refresh_sky();

@@ -8,7 +8,7 @@ use azel::{
     clock::Instant,
     device::AxisMotion,
     driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
-    engine::forecast::Forecast,
+    engine::passes::PredictedPass,
     model::{Model, UiCommand},
     plan::{Follow, FollowPhase, FollowStats, Sample, Target},
     station::{Antenna, Mount},
@@ -42,7 +42,7 @@ fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
     snapshot.state.measured = Some(states::measured(134.0, 20.0 + off_deg, motion));
     let mut model = rig::model(rig::quiet());
     let mut antenna = rig::antenna(Antenna::genius("Mast", "192.168.1.250:9006"), snapshot);
-    antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
     model.antennas = vec![antenna];
     model
 }
@@ -149,9 +149,9 @@ fn after_the_pass_it_is_told_how_well_it_was_followed() {
 #[test]
 fn the_selected_pass_and_the_later_ones_are_followed() {
     let model = rig::model(rig::quiet());
-    let passes = &model.forecasts.favourites.passes;
-    let of = |number: u32| passes.iter().filter(move |forecast| forecast.number() == number);
-    let rises_again = |forecast: &&Forecast| of(forecast.number()).count() > 1;
+    let passes = &model.pass_lists.favourites.passes;
+    let of = |number: u32| passes.iter().filter(move |predicted| predicted.number() == number);
+    let rises_again = |predicted: &&PredictedPass| of(predicted.number()).count() > 1;
     let first = passes.iter().find(rises_again).unwrap();
     let floor = model.station.elevation_floor();
     let follow = first.follow(floor);
@@ -163,7 +163,7 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
         assert!(off_s < 0.01 && seconds_between(pass.pass.los.time, *los).abs() < 0.01);
     }
 
-    let fixed = passes.iter().find(|forecast| forecast.is_always_up()).unwrap();
+    let fixed = passes.iter().find(|predicted| predicted.is_always_up()).unwrap();
     assert_eq!(fixed.follow(floor).passes, []);
 }
 

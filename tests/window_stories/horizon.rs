@@ -362,7 +362,7 @@ fn the_effect_on_the_passes_stands_below_the_plot() {
         assert_eq!(question.antenna.as_deref(), Some("Satrak"));
         assert_eq!((&question.before, question.after.keep_outs.len()), (&question.after, 1));
         window.get_by_label_contains("Being worked out.");
-        let passes = window.state().model.forecasts.favourites.passes.clone();
+        let passes = window.state().model.pass_lists.favourites.passes.clone();
         let ways = effects::ways(&passes, &|| false);
         let effect = effects::answer(question.clone(), &ways, 0);
         assert!(effect.after.touched > 0);

@@ -1,7 +1,7 @@
 //! The keys and their list.
 
 use azel::{
-    engine::{alarms::AlarmKind, forecast::Forecast},
+    engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
     ui::keys::{ALL, Binding, Place, list::in_words},
 };
@@ -22,7 +22,7 @@ fn desk(size: [f32; 2]) -> Window {
         model.antennas.push(rig::antenna(config, states::manual()));
     }
     model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), model.now);
-    model.selected = model.forecasts.favourites.passes.get(2).map(Forecast::key);
+    model.selected = model.pass_lists.favourites.passes.get(2).map(PredictedPass::key);
     let mut window = rig::window(size, model);
     // One step from the ends of what can be chosen.
     window.key_press(Key::Plus);
@@ -167,8 +167,15 @@ fn plus_minus_and_zero_zoom_the_strip() {
 fn up_and_down_lead_from_pass_to_pass_wherever_no_control_has_the_focus() {
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::holding()));
-        let keys: Vec<_> =
-            window.state().model.forecasts.favourites.passes.iter().map(Forecast::key).collect();
+        let keys: Vec<_> = window
+            .state()
+            .model
+            .pass_lists
+            .favourites
+            .passes
+            .iter()
+            .map(PredictedPass::key)
+            .collect();
         for (at, key, wanted) in
             [(1, Key::ArrowDown, Some(2)), (2, Key::ArrowUp, Some(1)), (0, Key::ArrowUp, None)]
         {
@@ -192,7 +199,7 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
     /// The lower end of the list in a window that is wide and low.
     const BOTTOM: f32 = 560.0;
     let mut window = rig::window([1440.0, 640.0], rig::model(states::holding()));
-    let passes = window.state().model.forecasts.favourites.passes.clone();
+    let passes = window.state().model.pass_lists.favourites.passes.clone();
     let list = |window: &Window, index: usize| {
         let name = format!("{}, ", passes[index].satellite.short_name());
         let selected = window.query_all_by_role(Role::ListBoxOption).find(|node| {

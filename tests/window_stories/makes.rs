@@ -47,7 +47,7 @@ pub(crate) fn model(config: Antenna, snapshot: Snapshot) -> Model {
     Arc::make_mut(&mut model.station).antennas = vec![config.clone()];
     model.antennas = vec![rig::antenna(config, snapshot)];
     for antenna in &mut model.antennas {
-        antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+        antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
     }
     model
 }

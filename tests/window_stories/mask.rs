@@ -98,10 +98,10 @@ fn old_elements_come_before_the_mask() {
     let mut model = rig::model(states::holding());
     Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 20").ok();
     model.now = add_seconds(model.now, 9.0 * 86_400.0);
-    let satellite = Arc::clone(model.forecasts.satellite(rig::NOAA_20).unwrap());
-    let pass = rig::forecasts(&satellite, model.now).remove(0);
+    let satellite = Arc::clone(model.pass_lists.satellite(rig::NOAA_20).unwrap());
+    let pass = rig::predicted_passes(&satellite, model.now).remove(0);
     model.selected = Some(pass.key());
-    model.forecasts.favourites.passes = vec![pass].into();
+    model.pass_lists.favourites.passes = vec![pass].into();
     model.refresh_sky();
     rig::window(LARGE, model).get_by_label_contains("Elements 10 d old · clear of the mask ");
 }

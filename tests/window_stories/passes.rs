@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::time::add_seconds,
-    engine::forecast::{Forecast, Scope},
+    engine::passes::{PredictedPass, Scope},
     model::{Model, UiCommand},
     ui::{Kept, Views, sky_plot::Layers},
 };
@@ -25,10 +25,10 @@ fn window(size: [f32; 2]) -> Window {
 }
 
 /// The first pass of this satellite that has not begun.
-fn coming(model: &Model, number: u32) -> &Forecast {
-    let of = |forecast: &&Forecast| forecast.satellite.elements.catalog_number() == number;
+fn coming(model: &Model, number: u32) -> &PredictedPass {
+    let of = |predicted: &&PredictedPass| predicted.satellite.elements.catalog_number() == number;
     model
-        .forecasts
+        .pass_lists
         .favourites
         .passes
         .iter()
@@ -169,14 +169,14 @@ fn satellites_and_span_are_chosen_in_list_and_drawer() {
 fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
-        let favourites = std::mem::take(&mut model.forecasts.favourites.passes);
+        let favourites = std::mem::take(&mut model.pass_lists.favourites.passes);
         // The same passes, as if nobody followed their satellites.
-        model.forecasts.all.passes = favourites;
-        model.forecasts.all.satellites = model.forecasts.favourites.satellites.clone();
+        model.pass_lists.all.passes = favourites;
+        model.pass_lists.all.satellites = model.pass_lists.favourites.satellites.clone();
         model.list.scope = Scope::All;
         let is_wanted =
-            |pass: &&Forecast| pass.number() == METEOR_M2_4 && pass.pass.aos.time > model.now;
-        let wanted = model.forecasts.all.passes.iter().find(is_wanted).unwrap().key();
+            |pass: &&PredictedPass| pass.number() == METEOR_M2_4 && pass.pass.aos.time > model.now;
+        let wanted = model.pass_lists.all.passes.iter().find(is_wanted).unwrap().key();
         let mut window = rig::window(size, model);
         open_list(&mut window);
         let row = "METEOR-M2 4, AOS T−1:28:52, max 49°, Trackable";
@@ -204,11 +204,11 @@ fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
 fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
     let mut model = rig::model(states::holding());
     model.list.favourites_h = 6;
-    let (all, listed) = (model.forecasts.favourites.passes.len(), model.listed().len());
+    let (all, listed) = (model.pass_lists.favourites.passes.len(), model.upcoming().len());
     assert!(0 < listed && listed < all);
     let mut window = rig::window(LARGE, model);
     window.get_by_label(&format!("Next passes, {listed}"));
-    Arc::make_mut(&mut window.state_mut().model.forecasts.favourites.passes).clear();
+    Arc::make_mut(&mut window.state_mut().model.pass_lists.favourites.passes).clear();
     settle(&mut window);
     assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));
 }
@@ -226,9 +226,9 @@ fn the_list_is_filtered_by_name_and_number() {
         let rows = rows.filter_map(|row| row.accesskit_node().label());
         let rows: Vec<_> = rows.filter(|name| name.contains("OS T−")).collect();
         assert!(rows.len() > 1 && rows.iter().all(|row| row.starts_with("METEOR")), "{rows:?}");
-        let wanted: Vec<_> = (window.state().model.listed().iter())
+        let wanted: Vec<_> = (window.state().model.upcoming().iter())
             .filter(|pass| pass.number() == METEOR_M2_4)
-            .map(Forecast::key)
+            .map(PredictedPass::key)
             .collect();
         window.state_mut().model.selected = Some(wanted[0]);
         window.get_by_role_and_label(Role::TextInput, "Filter of the list").click();
@@ -249,9 +249,9 @@ fn up_and_down_stay_within_what_is_filtered() {
     settle(&mut window);
     window.event(Event::Text("59051".to_owned()));
     settle(&mut window);
-    let of_meteor: Vec<_> = (window.state().model.listed().iter())
+    let of_meteor: Vec<_> = (window.state().model.upcoming().iter())
         .filter(|pass| pass.number() == METEOR_M2_4)
-        .map(Forecast::key)
+        .map(PredictedPass::key)
         .collect();
     window.state_mut().model.selected = Some(of_meteor[0]);
     // The focus leaves the field.
@@ -289,8 +289,8 @@ fn a_pass_that_is_over_leaves_nothing_selected() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         model.now = add_seconds(states::los(), 1.0);
-        Arc::make_mut(&mut model.forecasts.favourites.passes)
-            .retain(|forecast| forecast.pass.los.time > model.now);
+        Arc::make_mut(&mut model.pass_lists.favourites.passes)
+            .retain(|predicted| predicted.pass.los.time > model.now);
         model.refresh_sky();
         let window = rig::window(size, model);
         window.get_by_label("No pass is selected. Choose one from the list.");

@@ -15,7 +15,7 @@ use azel::{
         CatalogState,
         alarms::Alarms,
         antenna::AntennaModel,
-        forecast::{Followed, Forecast, Forecasts, ListChoice, Vantage},
+        passes::{Followed, ListChoice, Observer, PassLists, PredictedPass},
     },
     model::{Model, Sky, ThemeName, UiCommand, View, effects::Effects},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
@@ -57,7 +57,7 @@ pub(crate) fn now() -> Timestamp {
 struct Orbits {
     catalog: Arc<Catalog>,
     satellites: Vec<Arc<Followed>>,
-    passes: Vec<Forecast>,
+    passes: Vec<PredictedPass>,
 }
 
 fn orbits() -> &'static Orbits {
@@ -66,12 +66,12 @@ fn orbits() -> &'static Orbits {
         let catalog = Arc::new(bundled().unwrap());
         let satellites: Vec<Arc<Followed>> =
             FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
-        let mut passes: Vec<Forecast> =
-            satellites.iter().flat_map(|satellite| forecasts(satellite, now())).collect();
-        passes.sort_by_key(|forecast| forecast.pass.aos.time);
+        let mut passes: Vec<PredictedPass> =
+            satellites.iter().flat_map(|satellite| predicted_passes(satellite, now())).collect();
+        passes.sort_by_key(|predicted| predicted.pass.aos.time);
         // Shared by all stories with what is drawn of them.
-        for forecast in &passes {
-            forecast.path();
+        for predicted in &passes {
+            predicted.path();
         }
         Orbits { catalog, satellites, passes }
     })
@@ -84,19 +84,19 @@ fn followed(catalog: &Catalog, number: u32) -> Followed {
 }
 
 /// The passes of the 12 h after `now`, with the one that is under way.
-pub(crate) fn forecasts(satellite: &Arc<Followed>, now: Timestamp) -> Vec<Forecast> {
+pub(crate) fn predicted_passes(satellite: &Arc<Followed>, now: Timestamp) -> Vec<PredictedPass> {
     let station = station();
-    let vantage = Arc::new(Vantage::of(&station));
+    let observer = Arc::new(Observer::of(&station));
     let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));
     let search = PassSearch {
-        aos_elevation: vantage.horizon,
+        aos_elevation: observer.horizon,
         floor: station.elevation_floor(),
         ..PassSearch::new(station.site, from, to)
     };
     passes(&satellite.propagator, &search, &|| false)
         .into_iter()
         .filter(|pass| pass.los.time > now)
-        .map(|pass| Forecast::new(Arc::clone(satellite), pass, Arc::clone(&vantage)))
+        .map(|pass| PredictedPass::new(Arc::clone(satellite), pass, Arc::clone(&observer)))
         .collect()
 }
 
@@ -125,9 +125,9 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         snapshot.state.checks = satrak::checks(None).into();
     }
     let (station, orbits) = (station(), orbits());
-    let mut forecasts = Forecasts::default();
-    forecasts.favourites.satellites = orbits.satellites.clone().into();
-    forecasts.favourites.passes = orbits.passes.clone().into();
+    let mut pass_lists = PassLists::default();
+    pass_lists.favourites.satellites = orbits.satellites.clone().into();
+    pass_lists.favourites.passes = orbits.passes.clone().into();
     let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
     let mut model = Model {
         now: now(),
@@ -140,7 +140,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
         selected_antenna: 0,
-        forecasts,
+        pass_lists,
         list: ListChoice::default(),
         selected: None,
         sky: Sky::default(),
@@ -152,9 +152,9 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         view: View::Operate,
         closing: None,
     };
-    model.selected = model.pass_of(NOAA_20).map(Forecast::key);
+    model.selected = model.pass_of(NOAA_20).map(PredictedPass::key);
     for antenna in &mut model.antennas {
-        antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+        antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
     }
     model.refresh_sky();
     model

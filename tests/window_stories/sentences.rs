@@ -8,7 +8,7 @@ use azel::{
     driver::{Event, Found, Intent, LinkLoss, LinkState, Refusal, Snapshot, StopState},
     engine::{
         claim::{HeldBy, Holder, HolderKind},
-        forecast::Forecast,
+        passes::PredictedPass,
     },
     model::Model,
 };
@@ -22,7 +22,7 @@ fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> S
     change(&mut model, &mut snapshot);
     let config = model.station.antennas[0].clone();
     let mut antenna = rig::antenna(config, snapshot);
-    antenna.refresh(model.station.site, |number| model.forecasts.satellite(number));
+    antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
     antenna.news = model.antennas.remove(0).news;
     model.antennas = vec![antenna];
     states::sentence(&model)
@@ -60,7 +60,7 @@ fn tracking_says_how_far_off_and_when_it_ends() {
     let by_itself = Snapshot { intent: Intent::Standby, target: None, ..states::tracking(0.04) };
     assert!(told(by_itself, unchanged).starts_with("Tracking NOAA 20 by its own program. "));
     let unknown = told(states::tracking(0.04), |model, _| {
-        Arc::make_mut(&mut model.forecasts.favourites.satellites).clear();
+        Arc::make_mut(&mut model.pass_lists.favourites.satellites).clear();
     });
     assert!(unknown.ends_with("We have no elements of it to compare with."), "{unknown}");
 }
@@ -117,8 +117,9 @@ fn only_while_it_tracks_it_is_compared_with_the_satellite() {
 #[test]
 fn standing_says_where_and_what_comes_next() {
     let coming = |model: &mut Model, _: &mut Snapshot| {
-        let after = |forecast: &&Forecast| forecast.pass.aos.time > model.now;
-        model.selected = model.forecasts.favourites.passes.iter().find(after).map(Forecast::key);
+        let after = |predicted: &&PredictedPass| predicted.pass.aos.time > model.now;
+        model.selected =
+            model.pass_lists.favourites.passes.iter().find(after).map(PredictedPass::key);
     };
     let nothing = |model: &mut Model, _: &mut Snapshot| model.selected = None;
     assert_eq!(

@@ -128,11 +128,11 @@ fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
 
 fn ask_to_track(model: &Model) -> Option<Question> {
     let antenna = model.antenna()?;
-    let forecast = model.selected_pass()?;
+    let predicted = model.selected_pass()?;
     Some(Question {
         text: format!(
             "Track {} with {}? The antenna moves.",
-            forecast.satellite.short_name(),
+            predicted.satellite.short_name(),
             antenna.config.name
         ),
         yes: "Track",

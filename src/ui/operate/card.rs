@@ -233,7 +233,7 @@ fn track<'a>(
 ) -> TrackModel<'a> {
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass();
-    let number = selected.map(|forecast| forecast.satellite.elements.catalog_number());
+    let number = selected.map(|predicted| predicted.satellite.elements.catalog_number());
     let followed = antenna.snapshot.following.as_ref();
     let is_here = followed.is_some() || !antenna.variant().capabilities.has_program;
     let (head, held, tracks_selected) = if is_here {
@@ -251,7 +251,7 @@ fn track<'a>(
     TrackModel {
         head,
         held: held.map(short),
-        selected: selected.map(|forecast| forecast.satellite.short_name()),
+        selected: selected.map(|predicted| predicted.satellite.short_name()),
         tracks_selected,
         refusal: locks.track,
         misses: None,
@@ -263,7 +263,7 @@ fn track<'a>(
         follow: antenna.variant().capabilities.takes_positions.then(|| FollowModel {
             by_positions: selected
                 .filter(|_| antenna.variant().capabilities.has_program)
-                .map(|forecast| forecast.satellite.short_name()),
+                .map(|predicted| predicted.satellite.short_name()),
             here: state.measured.and_then(|measured| target(measured.pointing)),
             here_decimals: format::decimals(antenna.variant().capabilities).min(1),
             sun_avoidance,
@@ -275,7 +275,7 @@ fn track<'a>(
 /// how it tracks by itself.
 fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let Some(found) = antenna.supervision() else { return [None, None] };
-    let name = model.selected_pass().map(|forecast| forecast.satellite.short_name());
+    let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;
     let misses = name.filter(|_| is_missed).map(|name| {
         let why = words::would_miss(name, found);

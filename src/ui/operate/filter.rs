@@ -2,7 +2,7 @@
 //! looked for.
 
 use crate::{
-    engine::forecast::{Forecast, Scope},
+    engine::passes::{PredictedPass, Scope},
     model::Model,
 };
 
@@ -20,18 +20,18 @@ impl Found {
         if text.is_empty() {
             return None;
         }
-        let (scope, listed) = (model.list.scope, model.listed());
-        let edition = model.forecasts.of(scope).edition;
+        let (scope, listed) = (model.list.scope, model.upcoming());
+        let edition = model.pass_lists.of(scope).edition;
         let made_of = Some((text.to_lowercase(), scope, edition, listed.version()));
         if self.made_of != made_of {
             let text = text.to_lowercase();
-            let is_found = |forecast: &Forecast| {
-                forecast.satellite.elements.name().to_lowercase().contains(&text)
-                    || forecast.number().to_string().starts_with(&text)
+            let is_found = |predicted: &PredictedPass| {
+                predicted.satellite.elements.name().to_lowercase().contains(&text)
+                    || predicted.number().to_string().starts_with(&text)
             };
             let listed = listed.iter().enumerate();
             self.places = listed
-                .filter_map(|(place, forecast)| is_found(forecast).then_some(place))
+                .filter_map(|(place, predicted)| is_found(predicted).then_some(place))
                 .collect();
             self.made_of = made_of;
         }

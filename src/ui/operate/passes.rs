@@ -9,7 +9,7 @@ use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::{
         CatalogState,
-        forecast::{Forecast, PassKey, Work},
+        passes::{PassKey, PredictedPass, Work},
     },
     model::{Model, UiCommand},
     orbit::Pass,
@@ -34,14 +34,15 @@ pub(super) fn list(
     found: &mut Found,
     commands: &mut Vec<UiCommand>,
 ) {
-    let passes = model.listed();
-    let listing = model.forecasts.of(model.list.scope);
+    let passes = model.upcoming();
+    let listing = model.pass_lists.of(model.list.scope);
     let found = found.places(model, state.filter.text());
     let in_maintenance = model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some());
     let row = |index: usize| {
-        let forecast = passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
-        let pass = &forecast.pass;
-        let trackability = forecast.trackability(model.selected_antenna);
+        let predicted =
+            passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
+        let pass = &predicted.pass;
+        let trackability = predicted.trackability(model.selected_antenna);
         let misses = model.antenna().is_some_and(|antenna| antenna.misses().is_some());
         let verdict = trackability.map(|trackability| match trackability {
             _ if in_maintenance => Verdict::InMaintenance,
@@ -51,8 +52,8 @@ pub(super) fn list(
             Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
         });
         Some(PassRow {
-            key: forecast.key(),
-            name: forecast.satellite.short_name(),
+            key: predicted.key(),
+            name: predicted.satellite.short_name(),
             aos: pass.aos.time,
             los: pass.los.time,
             starts_before: pass.starts_before,
@@ -61,7 +62,7 @@ pub(super) fn list(
             aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
             los_azimuth_deg: pass.los.direction.azimuth_deg(),
             verdict,
-            path: forecast.path(),
+            path: predicted.path(),
         })
     };
     let place = |key| {
@@ -98,13 +99,13 @@ pub(super) fn list(
 }
 
 fn selected_key(model: &Model) -> Option<PassKey> {
-    model.selected_pass().map(Forecast::key)
+    model.selected_pass().map(PredictedPass::key)
 }
 
 /// Shows the header of the selected pass; `true` when its drawer button was
 /// clicked.
 pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> bool {
-    let Some(forecast) = model.selected_pass() else {
+    let Some(predicted) = model.selected_pass() else {
         let empty = PassHeaderModel {
             drawer_button: small,
             empty: Some("No pass is selected. Choose one from the list."),
@@ -112,14 +113,14 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
         };
         return pass_header::show(ui, rect, &empty);
     };
-    let elements = &forecast.satellite.elements;
-    let name = forecast.satellite.short_name();
+    let elements = &predicted.satellite.elements;
+    let name = predicted.satellite.short_name();
     let other_name =
         elements.name().split_once(" (").map_or("", |(_, rest)| rest.trim_end_matches(')'));
     let detail = format!("{other_name} {}", elements.catalog_number());
-    let pass = &forecast.pass;
+    let pass = &predicted.pass;
     let until = |time: Timestamp| format::countdown(seconds_between(model.now, time));
-    let (event, at) = if forecast.in_progress(model.now) {
+    let (event, at) = if predicted.in_progress(model.now) {
         ("LOS", pass.los.time)
     } else {
         ("AOS", pass.aos.time)
@@ -135,7 +136,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
         &PassHeaderModel {
             name,
             detail: detail.trim(),
-            second_line: &second_line(model, forecast, age_s),
+            second_line: &second_line(model, predicted, age_s),
             second_line_warns: age_s > words::OLD_ELEMENTS_S
                 || model.sky.clearance.cut().is_some_and(<[Pass]>::is_empty),
             tca_countdown: &tca,
@@ -148,7 +149,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 }
 
 /// What matters most comes first: the end has no room in a small window.
-fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
+fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
     let mask = model.sky.clearance.cut().map(clear_of_mask);
     let elements = Some(format!("elements {} old", format::age(age_s)));
     let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
@@ -158,7 +159,7 @@ fn second_line(model: &Model, forecast: &Forecast, age_s: f64) -> String {
     if let (Some(held), Some(antenna)) = (held, model.antenna()) {
         let word = if held.name.is_empty() {
             "no satellite"
-        } else if held.catalog_number == forecast.satellite.elements.catalog_number() {
+        } else if held.catalog_number == predicted.satellite.elements.catalog_number() {
             "same satellite"
         } else {
             "another satellite"
@@ -193,20 +194,20 @@ pub(super) fn timeline(
     let usual = if rect.height() < timeline::SMALL_BELOW { 4 } else { 12 };
     let hours = f64::from(zoom.hours(usual));
     let end = add_seconds(model.now, hours * 3600.0);
-    let of = |forecast: &Forecast| forecast.trackability(model.selected_antenna);
-    let listed = model.forecasts.favourites.listed(model.now);
+    let of = |predicted: &PredictedPass| predicted.trackability(model.selected_antenna);
+    let listed = model.pass_lists.favourites.upcoming(model.now);
     let bars: Vec<Bar<'_>> = listed
         .iter()
-        .filter(|forecast| !(forecast.pass.starts_before && forecast.pass.ends_after))
-        .filter(|forecast| forecast.pass.aos.time < end)
-        .map(|forecast| Bar {
-            key: forecast.key(),
-            name: forecast.satellite.short_name(),
-            aos: forecast.pass.aos.time,
-            los: forecast.pass.los.time,
-            max_elevation_deg: forecast.pass.max_elevation().degrees(),
-            loses: matches!(of(forecast), Some(Trackability::Loses { .. })),
-            possible: of(forecast) != Some(Trackability::Nothing),
+        .filter(|predicted| !(predicted.pass.starts_before && predicted.pass.ends_after))
+        .filter(|predicted| predicted.pass.aos.time < end)
+        .map(|predicted| Bar {
+            key: predicted.key(),
+            name: predicted.satellite.short_name(),
+            aos: predicted.pass.aos.time,
+            los: predicted.pass.los.time,
+            max_elevation_deg: predicted.pass.max_elevation().degrees(),
+            loses: matches!(of(predicted), Some(Trackability::Loses { .. })),
+            possible: of(predicted) != Some(Trackability::Nothing),
         })
         .collect();
     let lane = model.antenna().map_or("Passes", |antenna| antenna.config.name.as_str());
@@ -223,10 +224,10 @@ pub(super) fn timeline(
 
 /// Shows the profile of the selected pass.
 pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
-    let Some(forecast) = model.selected_pass() else {
+    let Some(predicted) = model.selected_pass() else {
         return profile::show(ui, rect, None);
     };
-    let number = forecast.satellite.elements.catalog_number();
+    let number = predicted.satellite.elements.catalog_number();
     let antenna = model.antenna().filter(|antenna| antenna.tracked_number() == Some(number));
     let errors: Vec<(Timestamp, f32)> = antenna
         .into_iter()
@@ -234,14 +235,14 @@ pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
         .map(|error| (error.time, error.off_beam.degrees() as f32))
         .collect();
     let beam_width_deg = model.antenna().map_or(1.0, |antenna| antenna.config.beam_width_deg);
-    let pass = &forecast.pass;
+    let pass = &predicted.pass;
     profile::show(
         ui,
         rect,
         Some(&ProfileModel {
             now: model.now,
-            name: forecast.satellite.short_name(),
-            track: forecast.track(),
+            name: predicted.satellite.short_name(),
+            track: predicted.track(),
             tca: Sample { time: pass.tca.time, direction: pass.tca.direction },
             cut: pass.starts_before || pass.ends_after,
             mask: model.station.horizon_mask.as_ref(),

@@ -35,8 +35,8 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let antenna = model.antenna();
-    let forecast = model.selected_pass();
-    let selected = forecast.map(|forecast| forecast.satellite.elements.catalog_number());
+    let predicted = model.selected_pass();
+    let selected = predicted.map(|predicted| predicted.satellite.elements.catalog_number());
     let others: Vec<OtherSatellite<'_>> = model
         .sky
         .satellites
@@ -52,15 +52,15 @@ pub(super) fn show(
         .collect();
     let look = model.sky.selected.map(|selected| selected.look);
     let sample = |point: &PassPoint| Sample { time: point.time, direction: point.direction };
-    let track = forecast.map(|forecast| Track {
-        catalog_number: forecast.satellite.elements.catalog_number(),
-        name: forecast.satellite.short_name(),
-        samples: forecast.track(),
-        aos: sample(&forecast.pass.aos),
-        tca: sample(&forecast.pass.tca),
-        los: sample(&forecast.pass.los),
-        show_aos: !forecast.pass.starts_before,
-        show_los: !forecast.pass.ends_after,
+    let track = predicted.map(|predicted| Track {
+        catalog_number: predicted.satellite.elements.catalog_number(),
+        name: predicted.satellite.short_name(),
+        samples: predicted.track(),
+        aos: sample(&predicted.pass.aos),
+        tca: sample(&predicted.pass.tca),
+        los: sample(&predicted.pass.los),
+        show_aos: !predicted.pass.starts_before,
+        show_los: !predicted.pass.ends_after,
         position: look.map(|look| look.direction).filter(|at| at.elevation_deg() > 0.0),
     });
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));

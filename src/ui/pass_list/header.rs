@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
-    engine::forecast::{SPANS_H, Scope},
+    engine::passes::{SPANS_H, Scope},
     model::UiCommand,
     ui::{
         format,

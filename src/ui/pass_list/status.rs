@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
 use super::PassListModel;
 use crate::{
-    engine::forecast::Work,
+    engine::passes::Work,
     model::UiCommand,
     ui::{
         format, text, theme,

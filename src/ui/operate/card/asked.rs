@@ -4,7 +4,7 @@ use crate::{
     astro::{Angle, AzEl},
     device::panel::Act,
     driver::{Command, Intent},
-    engine::{antenna::AntennaModel, forecast::Forecast},
+    engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{self, Follow},
     ui::{
@@ -50,7 +50,7 @@ impl Desk<'_> {
                     .extend(again.map(|again| UiCommand::Station(again.command.clone())));
             }
             CardAction::TrackAnyway => {
-                let pass = self.model.selected_pass().map(Forecast::key);
+                let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.model.selected_antenna;
                 let command = pass.map(|pass| UiCommand::TrackAnyway { antenna, pass });
                 return self.commands.extend(command);
@@ -87,7 +87,7 @@ impl Desk<'_> {
     fn follow(&mut self, choice: FollowChoice) {
         let target = match choice {
             FollowChoice::Selected => {
-                let pass = self.model.selected_pass().map(Forecast::key);
+                let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.model.selected_antenna;
                 let command = pass.map(|pass| UiCommand::FollowPass { antenna, pass });
                 return self.commands.extend(command);

@@ -9,7 +9,7 @@ use crate::{
         AHEAD_S, CATALOG_NUMBER, CLOCK, FILE, FROM_GPS, FROM_THIS_PC, SET_FROM,
     },
     device::settings::Values,
-    engine::forecast::Forecast,
+    engine::passes::PredictedPass,
     model::{Model, UiCommand},
     ui::{
         antennas::{draft::Mark, form::Form, row, unit::Unit},
@@ -33,14 +33,14 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
 fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     let t = theme::tokens(ui);
     let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
-    let forecast = forecast(unit);
-    let rate_deg_s = forecast.and_then(|forecast| rate_at_tca(unit.model, forecast));
-    let (Some(ahead_s), Some(forecast), Some(rate_deg_s)) = (ahead_s, forecast, rate_deg_s) else {
+    let predicted = predicted_pass(unit);
+    let rate_deg_s = predicted.and_then(|predicted| rate_at_tca(unit.model, predicted));
+    let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s) else {
         return row::plain(ui, LABEL, "not known without clock and pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();
     let off = format::degrees(off_deg, 1);
-    let value = format!("{off} along the path of {}", forecast.satellite.short_name());
+    let value = format!("{off} along the path of {}", predicted.satellite.short_name());
     let verdict = if off_deg <= unit.antenna.config.beam_width_deg / 2.0 {
         (Some(Icon::Check), "Inside beam", t.t3)
     } else {
@@ -50,7 +50,7 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
 }
 
 /// The pass of the satellite on the unit, or else the selected one.
-fn forecast<'a>(unit: &Unit<'a>) -> Option<&'a Forecast> {
+fn predicted_pass<'a>(unit: &Unit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
     let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values));
     let number = number.and_then(|number| u32::try_from(number).ok());
@@ -58,11 +58,11 @@ fn forecast<'a>(unit: &Unit<'a>) -> Option<&'a Forecast> {
 }
 
 /// How fast the satellite goes over the sky at its highest, degrees a second.
-fn rate_at_tca(model: &Model, forecast: &Forecast) -> Option<f64> {
-    let tca = forecast.pass.tca.time;
+fn rate_at_tca(model: &Model, predicted: &PredictedPass) -> Option<f64> {
+    let tca = predicted.pass.tca.time;
     let at = |seconds| {
         let time = add_seconds(tca, seconds);
-        forecast.satellite.propagator.look_from(model.station.site, time).ok()
+        predicted.satellite.propagator.look_from(model.station.site, time).ok()
     };
     Some(at(-0.5)?.direction.separation(at(0.5)?.direction).degrees())
 }

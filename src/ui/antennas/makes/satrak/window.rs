@@ -7,7 +7,7 @@ use crate::{
     controller::satrak::settings::{START, STOP, WINDOW},
     device::{Asked, Motion, settings::Value},
     driver::{Command, Event, Refusal},
-    engine::{forecast::Forecast, on_board},
+    engine::{on_board, passes::PredictedPass},
     model::UiCommand,
     ui::{
         antennas::{
@@ -101,8 +101,8 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), egui::Sense::hover());
     let model = unit.model;
-    let window = |forecast: &Forecast| {
-        on_board::window(forecast, &unit.antenna.config, model.station.site, model.now)
+    let window = |predicted: &PredictedPass| {
+        on_board::window(predicted, &unit.antenna.config, model.station.site, model.now)
     };
     let window = pass.map_or(Err(Refusal::PassUnknown), window);
     let can = window.is_ok() && unit.is_open() && unit.values(WINDOW.key).is_some();
@@ -112,8 +112,8 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let room = Rect::from_min_max(place.right_top() + vec2(8.0, 0.0), rect.max);
     let words = pass.map_or_else(
         || "No pass is selected.".to_owned(),
-        |forecast| {
-            let name = forecast.satellite.short_name();
+        |predicted| {
+            let name = predicted.satellite.short_name();
             match &window {
                 Ok((start, stop)) => {
                     format!("{name}, {} to {}", format::time(*start), format::time_z(*stop))

@@ -38,9 +38,9 @@ impl Followed {
     }
 }
 
-/// From where passes are seen, and with what.
+/// The site, the horizon and the antennas of a station, as passes depend on them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vantage {
+pub struct Observer {
     /// The place.
     pub site: Site,
     /// Elevation of AOS and LOS.
@@ -49,8 +49,8 @@ pub struct Vantage {
     pub antennas: Vec<Reach>,
 }
 
-impl Vantage {
-    /// The vantage of a station: its first antenna sets the horizon.
+impl Observer {
+    /// The observer of a station; its first antenna sets the horizon.
     pub fn of(station: &Station) -> Self {
         let antenna = station.antennas.first();
         Self {
@@ -65,12 +65,12 @@ impl Vantage {
 
 /// A pass with all that is shown of it.
 #[derive(Debug, Clone)]
-pub struct Forecast {
+pub struct PredictedPass {
     /// Its satellite.
     pub satellite: Arc<Followed>,
     /// Its three events.
     pub pass: Pass,
-    vantage: Arc<Vantage>,
+    observer: Arc<Observer>,
     outline: OnceLock<Box<Outline>>,
 }
 
@@ -83,10 +83,10 @@ struct Outline {
     track: OnceLock<Vec<Sample>>,
 }
 
-impl Forecast {
-    /// A pass of `satellite` seen from `vantage`.
-    pub fn new(satellite: Arc<Followed>, pass: Pass, vantage: Arc<Vantage>) -> Self {
-        Self { satellite, pass, vantage, outline: OnceLock::new() }
+impl PredictedPass {
+    /// A pass of `satellite` seen from `observer`.
+    pub fn new(satellite: Arc<Followed>, pass: Pass, observer: Arc<Observer>) -> Self {
+        Self { satellite, pass, observer, outline: OnceLock::new() }
     }
 
     /// Which pass this is.
@@ -101,9 +101,9 @@ impl Forecast {
         // The end of the search has cut it: it goes on.
         let from = if self.pass.ends_after { self.pass.tca.time } else { los };
         let search = PassSearch {
-            aos_elevation: self.vantage.horizon,
+            aos_elevation: self.observer.horizon,
             floor,
-            ..PassSearch::new(self.vantage.site, from, add_seconds(from, LATER_S))
+            ..PassSearch::new(self.observer.site, from, add_seconds(from, LATER_S))
         };
         let mut spans = Vec::new();
         if !self.is_always_up() {
@@ -119,7 +119,7 @@ impl Forecast {
         }
         let elements = Box::new(self.satellite.elements.clone());
         let target = Target::Satellite(elements);
-        Follow { target, site: self.vantage.site, passes: spans }
+        Follow { target, site: self.observer.site, passes: spans }
     }
 
     /// Catalogue number of its satellite.
@@ -156,7 +156,7 @@ impl Forecast {
     fn outline(&self) -> &Outline {
         self.outline.get_or_init(|| {
             let track = self.sampled();
-            let antennas = self.vantage.antennas.iter();
+            let antennas = self.observer.antennas.iter();
             Box::new(Outline {
                 trackability: antennas.map(|reach| trackability(&track, *reach)).collect(),
                 path: thinned(&track),
@@ -172,7 +172,7 @@ impl Forecast {
         (0..=count)
             .map(|index| add_seconds(self.pass.aos.time, (index as f64 * step_s).min(duration_s)))
             .filter_map(|time| {
-                let look = self.satellite.propagator.look_from(self.vantage.site, time).ok()?;
+                let look = self.satellite.propagator.look_from(self.observer.site, time).ok()?;
                 Some(Sample { time, direction: look.direction })
             })
             .collect()
@@ -215,24 +215,28 @@ mod tests {
         let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         let station = Station::demo(&DemoAddresses::default());
         let search = PassSearch::new(station.site, from, add_seconds(from, 86_400.0));
-        let vantage = Arc::new(Vantage::of(&station));
+        let observer = Arc::new(Observer::of(&station));
         let found = passes(&propagator, &search, &|| false);
         let satellite = Arc::new(Followed { elements, propagator });
         assert!(found.len() > 3);
         for pass in found {
-            let forecast = Forecast::new(Arc::clone(&satellite), pass, Arc::clone(&vantage));
-            let (path, track) = (forecast.path(), forecast.track());
+            let predicted = PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer));
+            let (path, track) = (predicted.path(), predicted.track());
             assert_eq!((path.first(), path.last()), (track.first(), track.last()));
             assert!(path.len() > 10 && path.len() < 70, "{}", path.len());
             assert!(track.len() as f64 >= pass.duration_s() / 2.0);
-            for (index, reach) in vantage.antennas.iter().enumerate() {
-                assert_eq!(forecast.trackability(index), Some(trackability(track, *reach)));
+            for (index, reach) in observer.antennas.iter().enumerate() {
+                assert_eq!(predicted.trackability(index), Some(trackability(track, *reach)));
             }
         }
     }
 
     #[test]
     fn a_hundred_thousand_passes_are_small() {
-        assert!(size_of::<Forecast>() * 100_000 < 15_000_000, "{}", size_of::<Forecast>());
+        assert!(
+            size_of::<PredictedPass>() * 100_000 < 15_000_000,
+            "{}",
+            size_of::<PredictedPass>()
+        );
     }
 }

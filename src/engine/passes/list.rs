@@ -1,17 +1,14 @@
-//! The passes of some satellites, and the search for the next list in the
-//! background. The list that is held stays until the next one is whole.
+//! The list of passes of some satellites, and the search for the next one in the
+//! background. A list stays until the next one is complete.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicUsize, Ordering},
-};
+use std::sync::{Arc, atomic::Ordering};
 
 use jiff::Timestamp;
 
 use super::{
     PassKey,
-    outlook::{Followed, Forecast},
-    search::{Basis, Found, search},
+    predicted_pass::{Followed, PredictedPass},
+    search::{Found, Progress, SearchKey, search},
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -25,12 +22,12 @@ const SAME_AOS_S: f64 = 60.0;
 
 /// Passes of some satellites. A copy shares them.
 #[derive(Debug, Clone)]
-pub struct Listing {
+pub struct PassList {
     /// The satellites, in the order of the station or by catalogue number.
     pub satellites: Arc<Vec<Arc<Followed>>>,
     /// Passes by AOS, then by catalogue number. In a list of all satellites those that
     /// are always up come last. Some of them may be over.
-    pub passes: Arc<Vec<Forecast>>,
+    pub passes: Arc<Vec<PredictedPass>>,
     /// Another number whenever the passes are others.
     pub edition: u64,
     /// When the search for this list began; `None` before the first list.
@@ -39,7 +36,7 @@ pub struct Listing {
     pub work: Work,
 }
 
-impl Default for Listing {
+impl Default for PassList {
     fn default() -> Self {
         Self {
             satellites: Arc::default(),
@@ -54,25 +51,18 @@ impl Default for Listing {
 /// A list, and the search for the next one.
 #[derive(Default)]
 pub(in crate::engine) struct Search {
-    pub(super) list: Listing,
-    made_of: Option<Basis>,
+    pub(super) list: PassList,
+    made_of: Option<SearchKey>,
     running: Option<Running>,
-    halted: Option<Basis>,
+    halted: Option<SearchKey>,
     broke_off: bool,
 }
 
 struct Running {
-    basis: Basis,
+    key: SearchKey,
     at: Timestamp,
     progress: Arc<Progress>,
     job: Option<Job<Found>>,
-}
-
-/// How far a search has come. Written by its threads.
-#[derive(Default)]
-pub(super) struct Progress {
-    pub(super) done: AtomicUsize,
-    pub(super) of: AtomicUsize,
 }
 
 /// What is being done for the next list.
@@ -93,7 +83,7 @@ pub enum Work {
 
 impl Search {
     /// The list and what is being done for the next one.
-    pub(super) fn shown(&self) -> Listing {
+    pub(super) fn shown(&self) -> PassList {
         let work = match (&self.running, &self.halted) {
             (Some(Running { progress, .. }), _) => Work::UnderWay {
                 done: progress.done.load(Ordering::Relaxed),
@@ -102,7 +92,7 @@ impl Search {
             (None, Some(_)) => Work::Cancelled,
             (None, None) => Work::Nothing,
         };
-        Listing { work, ..self.list.clone() }
+        PassList { work, ..self.list.clone() }
     }
 
     /// The last search broke off. The list before stays.
@@ -113,7 +103,7 @@ impl Search {
     /// Ends the search under way. The next begins when the operator wants it
     /// or something else is asked for.
     pub(in crate::engine) fn cancel(&mut self) {
-        self.halted = self.running.take().map(|search| search.basis);
+        self.halted = self.running.take().map(|search| search.key);
     }
 
     /// Begins the cancelled search again, with the next refresh.
@@ -122,49 +112,49 @@ impl Search {
     }
 
     /// Takes a finished list, and begins a new search when the list was made from
-    /// something else than `basis` or has grown old.
-    pub(super) fn refresh(&mut self, basis: &Basis, now: Timestamp, wake: &Wake) {
+    /// something else than `key` or has grown old.
+    pub(super) fn refresh(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
         self.take_finished();
         let is_young = |at: Timestamp| seconds_between(at, now).abs() < STALE_S;
-        let fresh = self.made_of.as_ref() == Some(basis) && self.list.made_at.is_some_and(is_young);
-        if fresh || self.halted.as_ref().is_some_and(|halted| halted != basis) {
+        let fresh = self.made_of.as_ref() == Some(key) && self.list.made_at.is_some_and(is_young);
+        if fresh || self.halted.as_ref().is_some_and(|halted| halted != key) {
             self.halted = None;
         }
-        let coming = self.running.as_ref().is_some_and(|search| search.basis == *basis);
+        let coming = self.running.as_ref().is_some_and(|search| search.key == *key);
         if fresh {
             self.running = None;
         } else if !coming && self.halted.is_none() {
-            self.begin(basis, now, wake);
+            self.begin(key, now, wake);
         }
     }
 
-    /// Forgets the list when it was made from another place than `basis`.
-    pub(super) fn keep_only_from(&mut self, basis: &Basis) {
+    /// Forgets the list when it was made from another place than `key`.
+    pub(super) fn keep_only_from(&mut self, key: &SearchKey) {
         self.running = None;
-        if self.made_of.as_ref().is_some_and(|made_of| made_of.vantage != basis.vantage) {
-            let list = Listing { edition: self.list.edition + 1, ..Listing::default() };
+        if self.made_of.as_ref().is_some_and(|made_of| made_of.observer != key.observer) {
+            let list = PassList { edition: self.list.edition + 1, ..PassList::default() };
             *self = Self { list, ..Self::default() };
         }
     }
 
-    fn begin(&mut self, basis: &Basis, now: Timestamp, wake: &Wake) {
+    fn begin(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
         // Preparing a whole catalogue takes as long as many searches.
-        let is_prepared = |made_of: &&Basis| made_of.has_satellites_of(basis);
+        let is_prepared = |made_of: &&SearchKey| made_of.has_satellites_of(key);
         let prepared = self.made_of.as_ref().filter(is_prepared);
         let prepared = prepared.map(|_| Arc::clone(&self.list.satellites));
         let progress = Arc::new(Progress::default());
-        let (wanted, told, shown) = (basis.clone(), Arc::clone(&progress), Arc::clone(wake));
+        let (wanted, told, shown) = (key.clone(), Arc::clone(&progress), Arc::clone(wake));
         let job = Job::start("azel-passes", Arc::clone(wake), move |cancelled| {
             search(&wanted, prepared, now, &told, &shown, cancelled)
         });
         match job {
             Ok(job) => {
                 let job = Some(job);
-                self.running = Some(Running { basis: basis.clone(), at: now, progress, job });
+                self.running = Some(Running { key: key.clone(), at: now, progress, job });
             }
             Err(error) => {
                 tracing::error!(%error, "no thread for the passes");
-                self.halted = Some(basis.clone());
+                self.halted = Some(key.clone());
             }
         }
     }
@@ -180,9 +170,9 @@ impl Search {
             return;
         };
         self.broke_off = false;
-        let Some(Running { basis, at, .. }) = self.running.take() else { return };
-        self.made_of = Some(basis);
-        self.list = Listing {
+        let Some(Running { key, at, .. }) = self.running.take() else { return };
+        self.made_of = Some(key);
+        self.list = PassList {
             satellites: found.satellites,
             passes: Arc::new(found.passes),
             edition: self.list.edition + 1,
@@ -192,66 +182,66 @@ impl Search {
     }
 }
 
-impl Listing {
+impl PassList {
     /// The passes that are not over at `now`.
-    pub fn listed(&self, now: Timestamp) -> Listed<'_> {
-        Listed::of(self, &self.passes, now)
+    pub fn upcoming(&self, now: Timestamp) -> UpcomingPasses<'_> {
+        UpcomingPasses::of(self, &self.passes, now)
     }
 
     /// Those of them that begin in the next `span_h` hours, in a list by AOS.
-    pub fn within(&self, now: Timestamp, span_h: u32) -> Listed<'_> {
+    pub fn within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
-        let count = self.passes.partition_point(|forecast| forecast.pass.aos.time < end);
-        Listed::of(self, self.passes.get(..count).unwrap_or_default(), now)
+        let count = self.passes.partition_point(|predicted| predicted.pass.aos.time < end);
+        UpcomingPasses::of(self, self.passes.get(..count).unwrap_or_default(), now)
     }
 
     /// The place of the pass of `key` in the list. After a new list its AOS may
     /// differ by a little.
     fn place(&self, (number, aos): PassKey) -> Option<usize> {
         let (dated, always_up) = self.parts();
-        let is_its = |forecast: &Forecast| forecast.number() == number;
+        let is_its = |predicted: &PredictedPass| predicted.number() == number;
         // A list begins with the passes that are cut at its start.
-        let cut = dated.iter().take_while(|forecast| forecast.pass.starts_before).enumerate();
+        let cut = dated.iter().take_while(|predicted| predicted.pass.starts_before).enumerate();
         let standing = (dated.len()..).zip(always_up);
         let mut early = cut.chain(standing);
         if let Some((place, _)) =
-            early.find(|(_, forecast)| is_its(forecast) && aos < forecast.pass.los.time)
+            early.find(|(_, predicted)| is_its(predicted) && aos < predicted.pass.los.time)
         {
             return Some(place);
         }
         let (from, to) = (add_seconds(aos, -SAME_AOS_S), add_seconds(aos, SAME_AOS_S));
-        let first = dated.partition_point(|forecast| forecast.pass.aos.time <= from);
+        let first = dated.partition_point(|predicted| predicted.pass.aos.time <= from);
         let near = dated.iter().enumerate().skip(first);
-        near.take_while(|(_, forecast)| forecast.pass.aos.time < to)
-            .find_map(|(place, forecast)| is_its(forecast).then_some(place))
+        near.take_while(|(_, predicted)| predicted.pass.aos.time < to)
+            .find_map(|(place, predicted)| is_its(predicted).then_some(place))
     }
 
     /// The passes by AOS, and those behind them that are always up.
-    fn parts(&self) -> (&[Forecast], &[Forecast]) {
-        let behind = self.passes.iter().rev().take_while(|forecast| forecast.is_always_up());
+    fn parts(&self) -> (&[PredictedPass], &[PredictedPass]) {
+        let behind = self.passes.iter().rev().take_while(|predicted| predicted.is_always_up());
         self.passes.split_at(self.passes.len() - behind.count())
     }
 
     /// The pass of `key`.
-    pub fn find(&self, key: PassKey) -> Option<&Forecast> {
+    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
         self.passes.get(self.place(key)?)
     }
 }
 
 /// The passes of a list that are not over.
 #[derive(Debug, Clone)]
-pub struct Listed<'a> {
-    list: &'a Listing,
-    passes: &'a [Forecast],
+pub struct UpcomingPasses<'a> {
+    list: &'a PassList,
+    passes: &'a [PredictedPass],
     /// The places of those that are over, in order.
     over: Vec<usize>,
 }
 
-impl<'a> Listed<'a> {
-    fn of(list: &'a Listing, passes: &'a [Forecast], now: Timestamp) -> Self {
-        let behind = passes.iter().rev().take_while(|forecast| forecast.is_always_up()).count();
+impl<'a> UpcomingPasses<'a> {
+    fn of(list: &'a PassList, passes: &'a [PredictedPass], now: Timestamp) -> Self {
+        let behind = passes.iter().rev().take_while(|predicted| predicted.is_always_up()).count();
         let dated = passes.len() - behind;
-        let is_over = |forecast: &Forecast| forecast.pass.los.time <= now;
+        let is_over = |predicted: &PredictedPass| predicted.pass.los.time <= now;
         // What is over has begun: the rest of a long list need not be looked at.
         let begun = passes.iter().take(dated).take_while(|of| of.pass.aos.time <= now).count();
         let candidates = (0..begun).chain(dated..passes.len());
@@ -275,7 +265,7 @@ impl<'a> Listed<'a> {
     }
 
     /// The pass in this row.
-    pub fn get(&self, row: usize) -> Option<&'a Forecast> {
+    pub fn get(&self, row: usize) -> Option<&'a PredictedPass> {
         let mut place = row;
         for over in &self.over {
             if *over > place {
@@ -287,10 +277,10 @@ impl<'a> Listed<'a> {
     }
 
     /// In the order of the rows.
-    pub fn iter(&self) -> impl Iterator<Item = &'a Forecast> {
+    pub fn iter(&self) -> impl Iterator<Item = &'a PredictedPass> {
         let mut over = self.over.iter().peekable();
-        self.passes.iter().enumerate().filter_map(move |(place, forecast)| {
-            over.next_if_eq(&&place).is_none().then_some(forecast)
+        self.passes.iter().enumerate().filter_map(move |(place, predicted)| {
+            over.next_if_eq(&&place).is_none().then_some(predicted)
         })
     }
 

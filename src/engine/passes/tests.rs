@@ -20,7 +20,7 @@ fn now() -> Timestamp {
 /// Lists of a station that follows one of the satellites of a small catalog.
 struct Desk {
     searches: Searches,
-    forecasts: Forecasts,
+    pass_lists: PassLists,
     catalog: Arc<Catalog>,
     station: Station,
     choice: ListChoice,
@@ -40,7 +40,7 @@ impl Desk {
         catalog.merge(read_element_bytes(&text), "test");
         Self {
             searches: Searches::default(),
-            forecasts: Forecasts::default(),
+            pass_lists: PassLists::default(),
             catalog: Arc::new(catalog),
             station: Station {
                 favourites: vec![NOAA_20],
@@ -58,7 +58,7 @@ impl Desk {
     fn refresh(&mut self) {
         let (catalog, station) = (&self.catalog, &self.station);
         self.searches.refresh(catalog, station, self.choice, self.now, &self.wake);
-        self.forecasts = self.searches.shown();
+        self.pass_lists = self.searches.shown();
     }
 
     /// Until nothing is under way any more.
@@ -66,15 +66,15 @@ impl Desk {
         self.refresh();
         while [Scope::Favourites, Scope::All]
             .iter()
-            .any(|scope| matches!(self.forecasts.of(*scope).work, Work::UnderWay { .. }))
+            .any(|scope| matches!(self.pass_lists.of(*scope).work, Work::UnderWay { .. }))
         {
             self.woken.recv_timeout(Duration::from_mins(1)).expect("a sign of life");
             self.refresh();
         }
     }
 
-    fn all(&self) -> &Listing {
-        &self.forecasts.all
+    fn all(&self) -> &PassList {
+        &self.pass_lists.all
     }
 }
 
@@ -82,19 +82,19 @@ impl Desk {
 fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
     let mut desk = Desk::new();
     desk.finish();
-    let followed = &desk.forecasts.favourites.passes;
+    let followed = &desk.pass_lists.favourites.passes;
     assert!(!followed.is_empty() && followed.iter().all(|pass| pass.number() == NOAA_20));
     let iss: Vec<_> = desk.all().passes.iter().filter(|pass| pass.number() == ISS).collect();
     assert!(!iss.is_empty());
     let key = iss[0].key();
-    assert_eq!(desk.forecasts.find(key).map(Forecast::key), Some(key));
+    assert_eq!(desk.pass_lists.find(key).map(PredictedPass::key), Some(key));
     let shifted = (key.0, add_seconds(key.1, 2.0));
-    assert_eq!(desk.forecasts.find(shifted).map(Forecast::key), Some(key));
-    assert!(desk.forecasts.find((key.0, add_seconds(key.1, 600.0))).is_none());
+    assert_eq!(desk.pass_lists.find(shifted).map(PredictedPass::key), Some(key));
+    assert!(desk.pass_lists.find((key.0, add_seconds(key.1, 600.0))).is_none());
     // One that never sets is found whenever its pass began in an older list.
     let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
-    assert!(desk.forecasts.find(always).is_some());
-    assert!(desk.forecasts.satellite(ISS).is_some() && desk.forecasts.satellite(7).is_none());
+    assert!(desk.pass_lists.find(always).is_some());
+    assert!(desk.pass_lists.satellite(ISS).is_some() && desk.pass_lists.satellite(7).is_none());
 }
 
 #[test]
@@ -181,11 +181,11 @@ fn what_is_over_leaves_the_list_and_an_old_list_is_made_anew() {
     let mut desk = Desk::new();
     desk.choice.scope = Scope::Favourites;
     desk.finish();
-    let first = desk.forecasts.favourites.passes[0].clone();
+    let first = desk.pass_lists.favourites.passes[0].clone();
     desk.now = first.pass.los.time.max(add_seconds(now(), 601.0));
     desk.refresh();
-    let favourites = &desk.forecasts.favourites;
-    assert!(favourites.listed(desk.now).iter().all(|pass| pass.key() != first.key()));
+    let favourites = &desk.pass_lists.favourites;
+    assert!(favourites.upcoming(desk.now).iter().all(|pass| pass.key() != first.key()));
     assert!(matches!(favourites.work, Work::UnderWay { .. }), "it is old");
 }
 
@@ -205,7 +205,7 @@ fn the_list_of_another_place_is_not_kept_behind_the_favourites() {
 fn a_shorter_span_shows_the_beginning_of_the_list() {
     let mut desk = Desk::new();
     desk.finish();
-    let favourites = &desk.forecasts.favourites;
+    let favourites = &desk.pass_lists.favourites;
     let (short, long) = (favourites.within(now(), 6), favourites.within(now(), 48));
     assert!(short.len() < long.len() && long.len() == favourites.passes.len());
     let end = add_seconds(now(), 6.0 * 3600.0);

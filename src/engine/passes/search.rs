@@ -1,15 +1,15 @@
 //! The search for the passes of a list. Runs on a thread of its own and shares
 //! the work with the pool.
 
-use std::sync::{Arc, atomic::Ordering};
+use std::sync::{
+    Arc,
+    atomic::{AtomicUsize, Ordering},
+};
 
 use jiff::Timestamp;
 use rayon::prelude::*;
 
-use super::{
-    listing::Progress,
-    outlook::{Followed, Forecast, Vantage},
-};
+use super::predicted_pass::{Followed, Observer, PredictedPass};
 use crate::{
     astro::{Angle, time::add_seconds},
     job::Wake,
@@ -22,47 +22,47 @@ const LOOK_BACK_S: f64 = 3600.0;
 /// The station is told of the progress in so many steps.
 const STEPS: usize = 100;
 
-/// Whose passes a list holds.
+/// The satellites whose passes are searched for.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Whose {
+pub(super) enum SearchScope {
     /// These, in this order.
     Favourites(Vec<u32>),
     /// All of the catalog.
     All,
 }
 
-/// What a list of passes is made from.
+/// All that the passes of a list depend on, but the time.
 #[derive(Clone)]
-pub(super) struct Basis {
+pub(super) struct SearchKey {
     pub(super) catalog: Arc<Catalog>,
-    pub(super) whose: Whose,
-    pub(super) vantage: Arc<Vantage>,
+    pub(super) scope: SearchScope,
+    pub(super) observer: Arc<Observer>,
     pub(super) floor: Angle,
     pub(super) span_h: u32,
 }
 
-impl PartialEq for Basis {
+impl PartialEq for SearchKey {
     fn eq(&self, other: &Self) -> bool {
         self.has_satellites_of(other)
-            && self.vantage == other.vantage
+            && self.observer == other.observer
             && self.floor == other.floor
             && self.span_h == other.span_h
     }
 }
 
-impl Basis {
+impl SearchKey {
     /// Whether the satellites are the same, with the same elements.
     pub(super) fn has_satellites_of(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.catalog, &other.catalog) && self.whose == other.whose
+        Arc::ptr_eq(&self.catalog, &other.catalog) && self.scope == other.scope
     }
 
     fn satellites(&self) -> Vec<Arc<Followed>> {
-        match &self.whose {
-            Whose::Favourites(numbers) => {
+        match &self.scope {
+            SearchScope::Favourites(numbers) => {
                 let known = numbers.iter().filter_map(|number| self.catalog.get(*number));
                 known.filter_map(prepared).collect()
             }
-            Whose::All => {
+            SearchScope::All => {
                 let all: Vec<&Elements> = self.catalog.iter().collect();
                 all.into_par_iter().filter_map(prepared).collect()
             }
@@ -80,31 +80,38 @@ fn prepared(elements: &Elements) -> Option<Arc<Followed>> {
     }
 }
 
+/// How far a search has come. Written by its threads.
+#[derive(Default)]
+pub(super) struct Progress {
+    pub(super) done: AtomicUsize,
+    pub(super) of: AtomicUsize,
+}
+
 /// What a search has found.
 pub(super) struct Found {
     pub(super) satellites: Arc<Vec<Arc<Followed>>>,
-    pub(super) passes: Vec<Forecast>,
+    pub(super) passes: Vec<PredictedPass>,
 }
 
-/// Searches from `now` on. `satellites`: those of `basis`, when they are
+/// Searches from `now` on. `satellites`: those of `key`, when they are
 /// prepared already.
 pub(super) fn search(
-    basis: &Basis,
+    key: &SearchKey,
     satellites: Option<Arc<Vec<Arc<Followed>>>>,
     now: Timestamp,
     progress: &Progress,
     wake: &Wake,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Found {
-    let satellites = satellites.unwrap_or_else(|| Arc::new(basis.satellites()));
+    let satellites = satellites.unwrap_or_else(|| Arc::new(key.satellites()));
     progress.of.store(satellites.len(), Ordering::Relaxed);
-    let vantage = &basis.vantage;
-    let span_s = f64::from(basis.span_h) * 3600.0;
+    let observer = &key.observer;
+    let span_s = f64::from(key.span_h) * 3600.0;
     let (from, to) = (add_seconds(now, -LOOK_BACK_S), add_seconds(now, span_s));
     let window = PassSearch {
-        aos_elevation: vantage.horizon,
-        floor: basis.floor,
-        ..PassSearch::new(vantage.site, from, to)
+        aos_elevation: observer.horizon,
+        floor: key.floor,
+        ..PassSearch::new(observer.site, from, to)
     };
     let step = (satellites.len() / STEPS).max(1);
     let tell = |done: usize| {
@@ -115,22 +122,23 @@ pub(super) fn search(
     };
     let propagators: Vec<&Propagator> =
         satellites.iter().map(|satellite| &satellite.propagator).collect();
-    let mut passes: Vec<Forecast> = passes_of_all(&propagators, &window, &tell, cancelled)
+    let mut passes: Vec<PredictedPass> = passes_of_all(&propagators, &window, &tell, cancelled)
         .filter(|(_, pass)| pass.los.time > now)
         .filter_map(|(index, pass)| {
             let satellite = Arc::clone(satellites.get(index)?);
-            Some(Forecast::new(satellite, pass, Arc::clone(vantage)))
+            Some(PredictedPass::new(satellite, pass, Arc::clone(observer)))
         })
         .collect();
-    let is_all = basis.whose == Whose::All;
+    let is_all = key.scope == SearchScope::All;
     // Hundreds that never set would hide the first pass of a whole catalogue.
-    let is_late = |forecast: &Forecast| is_all && forecast.is_always_up();
-    passes
-        .par_sort_by_key(|forecast| (is_late(forecast), forecast.pass.aos.time, forecast.number()));
+    let is_late = |predicted: &PredictedPass| is_all && predicted.is_always_up();
+    passes.par_sort_by_key(|predicted| {
+        (is_late(predicted), predicted.pass.aos.time, predicted.number())
+    });
     if !is_all {
         // All of them stand in the strip from the first frame on.
-        passes.par_iter().for_each(|forecast| {
-            forecast.path();
+        passes.par_iter().for_each(|predicted| {
+            predicted.path();
         });
     }
     Found { satellites, passes }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How far ahead the list may look, hours.
 pub const SPANS_H: [u32; 4] = [6, 12, 24, 48];
 
-/// Whose passes are listed.
+/// The satellites whose passes are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
@@ -20,7 +20,6 @@ pub enum Scope {
 /// catalogue is a hundred thousand passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ListChoice {
-    /// Whose passes.
     pub scope: Scope,
     /// How far ahead for the favourites, hours; one of [`SPANS_H`].
     pub favourites_h: u32,

@@ -1,8 +1,8 @@
 //! The passes to come, computed in the background.
 
 mod choice;
-mod listing;
-mod outlook;
+mod list;
+mod predicted_pass;
 mod search;
 
 #[cfg(test)]
@@ -14,12 +14,12 @@ use jiff::Timestamp;
 
 pub use self::{
     choice::{ListChoice, SPANS_H, Scope},
-    listing::{Listed, Listing, Work},
-    outlook::{Followed, Forecast, Vantage},
+    list::{PassList, UpcomingPasses, Work},
+    predicted_pass::{Followed, Observer, PredictedPass},
 };
 use self::{
-    listing::Search,
-    search::{Basis, Whose},
+    list::Search,
+    search::{SearchKey, SearchScope},
 };
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
@@ -37,11 +37,11 @@ pub type PassKey = (u32, Timestamp);
 
 /// The passes to come.
 #[derive(Debug, Clone, Default)]
-pub struct Forecasts {
+pub struct PassLists {
     /// Those of the followed satellites.
-    pub favourites: Listing,
+    pub favourites: PassList,
     /// Those of all satellites, searched for when the operator wants the list.
-    pub all: Listing,
+    pub all: PassList,
 }
 
 /// The searches for them.
@@ -61,24 +61,24 @@ impl Searches {
         now: Timestamp,
         wake: &Wake,
     ) {
-        let basis = Basis {
+        let key = SearchKey {
             catalog: Arc::clone(catalog),
-            whose: Whose::Favourites(station.favourites.clone()),
-            vantage: Arc::new(Vantage::of(station)),
+            scope: SearchScope::Favourites(station.favourites.clone()),
+            observer: Arc::new(Observer::of(station)),
             floor: station.elevation_floor(),
             span_h: FAVOURITES_H,
         };
-        self.favourites.refresh(&basis, now, wake);
-        let basis = Basis { whose: Whose::All, span_h: choice.all_h, ..basis };
+        self.favourites.refresh(&key, now, wake);
+        let key = SearchKey { scope: SearchScope::All, span_h: choice.all_h, ..key };
         match choice.scope {
-            Scope::All => self.all.refresh(&basis, now, wake),
-            Scope::Favourites => self.all.keep_only_from(&basis),
+            Scope::All => self.all.refresh(&key, now, wake),
+            Scope::Favourites => self.all.keep_only_from(&key),
         }
     }
 
     /// The lists.
-    pub(in crate::engine) fn shown(&self) -> Forecasts {
-        Forecasts { favourites: self.favourites.shown(), all: self.all.shown() }
+    pub(in crate::engine) fn shown(&self) -> PassLists {
+        PassLists { favourites: self.favourites.shown(), all: self.all.shown() }
     }
 
     /// The search for the list of `scope`.
@@ -95,9 +95,9 @@ impl Searches {
     }
 }
 
-impl Forecasts {
+impl PassLists {
     /// The list of `scope`.
-    pub fn of(&self, scope: Scope) -> &Listing {
+    pub fn of(&self, scope: Scope) -> &PassList {
         match scope {
             Scope::Favourites => &self.favourites,
             Scope::All => &self.all,
@@ -105,14 +105,14 @@ impl Forecasts {
     }
 
     /// The pass of `key`, of a followed satellite or any other.
-    pub fn find(&self, key: PassKey) -> Option<&Forecast> {
+    pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
         self.favourites.find(key).or_else(|| self.all.find(key))
     }
 
     /// The pass of a followed satellite that is under way or comes next.
-    pub fn next(&self, now: Timestamp) -> Option<&Forecast> {
-        let moving = |forecast: &&Forecast| !forecast.satellite.elements.is_geosynchronous();
-        let passes = self.favourites.listed(now);
+    pub fn next(&self, now: Timestamp) -> Option<&PredictedPass> {
+        let moving = |predicted: &&PredictedPass| !predicted.satellite.elements.is_geosynchronous();
+        let passes = self.favourites.upcoming(now);
         passes.iter().find(moving).or_else(|| passes.iter().next())
     }
 
