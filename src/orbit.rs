@@ -3,12 +3,12 @@
 mod bundled;
 mod catalog;
 mod elements;
-mod lanes;
 mod look;
 mod passes;
 mod propagator;
 mod reader;
 mod shadow;
+mod simd;
 mod sources;
 mod writer;
 

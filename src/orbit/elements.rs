@@ -237,7 +237,7 @@ impl Elements {
     }
 
     /// Whether the satellite keeps its place in the sky: the period within 2 %
-    /// of a sidereal day and a nearly round orbit, whatever its inclination.
+    /// of a sidereal day and a near-circular orbit, whatever its inclination.
     pub fn is_geosynchronous(&self) -> bool {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }

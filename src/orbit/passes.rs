@@ -1,14 +1,11 @@
 //! When a satellite stands above the horizon of a site.
 
-mod abreast;
-mod arcs;
-mod circular;
-mod fly_bys;
 mod geosynchronous;
 mod local_series;
 mod mask;
+mod near_circular;
 mod sampled;
-mod side_by_side;
+mod sighting;
 mod track;
 mod two_body;
 mod window;
@@ -22,7 +19,7 @@ use jiff::Timestamp;
 use rayon::prelude::*;
 
 pub use self::mask::clear_stretches;
-use self::{circular::Circular, track::Track, window::Window};
+use self::{near_circular::NearCircular, track::Track, window::Window};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
 
@@ -153,12 +150,12 @@ fn passes_in<P: Borrow<Propagator>>(
     }
     let tracks: Vec<Track<'_>> =
         propagators.iter().map(|propagator| Track::new(window, propagator.borrow())).collect();
-    let circular: Vec<Option<Circular<'_>>> =
-        tracks.iter().zip(first..).map(|(track, index)| Circular::new(index, track)).collect();
-    let mut found = side_by_side::passes(window, circular.iter().flatten(), cancelled);
+    let near_circular: Vec<Option<NearCircular<'_>>> =
+        tracks.iter().zip(first..).map(|(track, index)| NearCircular::new(index, track)).collect();
+    let mut found = near_circular::passes(window, near_circular.iter().flatten(), cancelled);
     let mut others = Vec::new();
-    for ((track, circular), index) in tracks.iter().zip(&circular).zip(first..) {
-        if circular.is_none() && !cancelled() && !geosynchronous::never_rises(track) {
+    for ((track, near_circular), index) in tracks.iter().zip(&near_circular).zip(first..) {
+        if near_circular.is_none() && !cancelled() && !geosynchronous::never_rises(track) {
             sampled::passes(track, cancelled, &mut others);
             found.extend(others.drain(..).map(|pass| (index, pass)));
         }

@@ -1,8 +1,8 @@
 //! SGP4 and SDP4: where a satellite is at a time.
 
-mod abreast;
-mod round;
+mod near_circular;
 mod secular;
+mod waves;
 
 use glam::DVec3;
 use jiff::Timestamp;
@@ -169,7 +169,7 @@ mod tests {
             let Some(secular) = propagator.secular() else { continue };
             for hour in [1.0, 37.3, 101.7, 160.1] {
                 let at_s = hour * 3600.0;
-                if !secular.is_round_at(at_s / 60.0) {
+                if !secular.is_near_circular_at(at_s / 60.0) {
                     continue;
                 }
                 let state = |offset_s: f64| {

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::track::Track;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{lanes::Vector, propagator::WGS72_RADIUS_KM},
+    orbit::{propagator::WGS72_RADIUS_KM, simd::Vector},
 };
 
 use super::local_series::GRAVITY_KM3_S2;

@@ -17,8 +17,8 @@ use super::window::Window;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
     orbit::{
-        lanes::{Lanes, Number, Vector, lane_of},
         propagator::WGS72_RADIUS_KM,
+        simd::{Lanes, Number, Vector, lane_of},
     },
 };
 
@@ -85,7 +85,7 @@ impl Bend {
 
 /// Where the satellite is at one instant, seen from the site.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<N = f64> {
+pub(super) struct LocalState<N = f64> {
     pub(super) at_s: N,
     /// East, north, up in km.
     pub(super) enu_km: Vector<N>,
@@ -95,7 +95,7 @@ pub(super) struct Place<N = f64> {
     pub(super) height: Height<N>,
 }
 
-impl<N: Number> Place<N> {
+impl<N: Number> LocalState<N> {
     /// How fast the satellite moves across the sky, in radians per second.
     pub(super) fn angular_rate(&self) -> N {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
@@ -166,7 +166,7 @@ impl<N: Number> LocalSeries<N> {
     }
 
     /// The place `tau` seconds after the series' instant.
-    pub(super) fn place(&self, tau: N) -> Place<N> {
+    pub(super) fn place(&self, tau: N) -> LocalState<N> {
         let half = tau * 0.5;
         let acceleration = self.acceleration + self.jerk * tau;
         let velocity = self.velocity + (self.acceleration + acceleration) * half;
@@ -174,13 +174,13 @@ impl<N: Number> LocalSeries<N> {
         let enu_km = self.position + change * tau;
         let range_km = enu_km.length();
         let height = Height::new(enu_km, range_km, velocity, acceleration);
-        Place { at_s: self.at_s + tau, enu_km, velocity, acceleration, range_km, height }
+        LocalState { at_s: self.at_s + tau, enu_km, velocity, acceleration, range_km, height }
     }
 
     /// Where the height is greatest or least, by Newton's method from the
     /// series' instant. Where that does not settle, the place is not one of
-    /// [`Place::turns`].
-    pub(super) fn turning(&self) -> Place<N> {
+    /// [`LocalState::turns`].
+    pub(super) fn turning(&self) -> LocalState<N> {
         let mut place = self.place(N::of(0.0));
         for _ in 0..MOST_STEPS {
             let step_s = -place.height.rate / place.height.curve;
@@ -193,8 +193,8 @@ impl<N: Number> LocalSeries<N> {
     }
 
     /// Where the height is `sine`, by Halley's method from `tau`. Where that does
-    /// not settle, the place is not one of [`Place::crosses`].
-    pub(super) fn crossing(&self, sine: f64, tau: N) -> Place<N> {
+    /// not settle, the place is not one of [`LocalState::crosses`].
+    pub(super) fn crossing(&self, sine: f64, tau: N) -> LocalState<N> {
         let mut place = self.place(tau);
         for _ in 0..MOST_STEPS {
             let Height { sine: height, rate, curve } = place.height;
@@ -213,7 +213,7 @@ impl<N: Number> LocalSeries<N> {
 impl LocalSeries {
     /// Where the height is greatest or least; `None` when that is more than
     /// `most_s` away or the height bends the other way.
-    pub(super) fn extreme(&self, bend: Bend, most_s: f64) -> Option<Place> {
+    pub(super) fn extreme(&self, bend: Bend, most_s: f64) -> Option<LocalState> {
         let place = self.turning();
         let is_near = (place.at_s - self.at_s).abs() <= most_s;
         (is_near && place.turns(bend)).then_some(place)
@@ -237,12 +237,12 @@ impl LocalSeries<Lanes> {
     }
 }
 
-impl Place<Lanes> {
+impl LocalState<Lanes> {
     /// The place of one lane.
-    pub(super) fn lane(&self, lane: usize) -> Place {
+    pub(super) fn lane(&self, lane: usize) -> LocalState {
         let Height { sine, rate, curve } = &self.height;
         let of = |numbers| lane_of(numbers, lane);
-        Place {
+        LocalState {
             at_s: of(&self.at_s),
             enu_km: self.enu_km.lane(lane),
             velocity: self.velocity.lane(lane),

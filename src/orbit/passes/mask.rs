@@ -8,9 +8,10 @@
 
 use super::{
     Pass, PassSearch,
-    local_series::{Bend, Place},
+    local_series::{Bend, LocalState},
+    sighting::Sighting,
     track::Track,
-    window::{Sighting, Window},
+    window::Window,
 };
 use crate::{
     astro::{Angle, AzEl, HorizonMask, Site},
@@ -60,7 +61,7 @@ pub fn clear_stretches(
 /// One look at the sky.
 #[derive(Clone, Copy)]
 struct Look {
-    place: Place,
+    place: LocalState,
     azimuth: f64,
     elevation: f64,
     clearance: f64,
@@ -230,19 +231,19 @@ struct Stretches<'a> {
 
 /// A stretch whose end is not found yet.
 struct Open {
-    aos: Place,
-    highest: Place,
+    aos: LocalState,
+    highest: LocalState,
     /// The step to the highest look took this long, in seconds.
     around_s: f64,
     starts_before: bool,
 }
 
 impl Stretches<'_> {
-    fn open(&mut self, aos: Place, starts_before: bool) {
+    fn open(&mut self, aos: LocalState, starts_before: bool) {
         self.open = Some(Open { aos, highest: aos, around_s: 0.0, starts_before });
     }
 
-    fn pass_by(&mut self, from: Place, to: Place) {
+    fn pass_by(&mut self, from: LocalState, to: LocalState) {
         if let Some(open) = &mut self.open
             && to.height.sine > open.highest.height.sine
         {
@@ -251,7 +252,7 @@ impl Stretches<'_> {
         }
     }
 
-    fn close(&mut self, los: Place, ends_after: bool) {
+    fn close(&mut self, los: LocalState, ends_after: bool) {
         let Some(open) = self.open.take().filter(|open| los.at_s > open.aos.at_s) else { return };
         let ends = [&open.aos, &los];
         let highest = if los.height.sine > open.highest.height.sine { los } else { open.highest };

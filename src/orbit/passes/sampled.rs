@@ -10,11 +10,11 @@
 
 use super::{
     Pass,
-    local_series::{Bend, GRAVITY_KM3_S2, Height, LocalSeries, Place},
+    local_series::{Bend, GRAVITY_KM3_S2, Height, LocalSeries, LocalState},
+    sighting::Sighting,
     track::Track,
-    window::Sighting,
 };
-use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::lanes::Vector};
+use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::simd::Vector};
 
 /// Step in units of sqrt(r³/mu), the time a circular orbit needs for a radian.
 const STEP: f64 = 1.1;
@@ -68,8 +68,8 @@ struct Extreme {
 
 /// A pass whose end is not found yet.
 struct Open {
-    aos: Place,
-    highest: Place,
+    aos: LocalState,
+    highest: LocalState,
     starts_before: bool,
 }
 
@@ -113,7 +113,7 @@ impl Finder<'_> {
         sine >= self.track.window.sin_horizon
     }
 
-    fn begin(&mut self, first: Place) {
+    fn begin(&mut self, first: LocalState) {
         let is_up = self.is_up(first.height.sine);
         self.last = Some(Extreme { at_s: first.at_s, is_up });
         self.guess_s = None;
@@ -176,7 +176,7 @@ impl Finder<'_> {
     }
 
     /// Keeps the highest point of the pass.
-    fn raise(&mut self, place: Place) {
+    fn raise(&mut self, place: LocalState) {
         let end_s = self.track.window.length_s;
         if let Some(open) = &mut self.open
             && place.height.sine > open.highest.height.sine
@@ -204,7 +204,7 @@ impl Finder<'_> {
         }
     }
 
-    fn end(&mut self, last: Place) {
+    fn end(&mut self, last: LocalState) {
         self.reach(Extreme { at_s: last.at_s, is_up: self.is_up(last.height.sine) });
         self.raise(last);
         if let Some(open) = self.open.take() {
@@ -212,7 +212,7 @@ impl Finder<'_> {
         }
     }
 
-    fn close(&mut self, open: &Open, los: &Place, ends_after: bool) {
+    fn close(&mut self, open: &Open, los: &LocalState, ends_after: bool) {
         let Open { aos, highest, starts_before } = open;
         if highest.height.sine >= self.track.window.sin_floor {
             let sightings = [aos, highest, los].map(Sighting::new);

@@ -6,15 +6,16 @@ use glam::DVec3;
 
 use super::{
     Pass,
-    local_series::{Bend, EarthFixed, LocalSeries, Place},
-    window::{Sighting, Window},
+    local_series::{Bend, EarthFixed, LocalSeries, LocalState},
+    sighting::Sighting,
+    window::Window,
 };
 use crate::{
     astro::time,
     orbit::{
         PropagationError, Propagator, State,
-        lanes::{Number, Vector},
         propagator::Resumable,
+        simd::{Number, Vector},
     },
 };
 
@@ -39,7 +40,7 @@ pub(super) struct Exactness<N = f64> {
 impl<N: Number> Exactness<N> {
     /// Whether an extreme `tau` seconds from the state it follows from is as
     /// exact as is asked for.
-    pub(super) fn is_crest(&self, tau: N, place: &Place<N>) -> N::Answer {
+    pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
         tau.is_less(N::of(LONGEST_STEP_S))
             & (tau * self.drift_km_s).is_less(range_km * CREST_TOLERANCE)
@@ -48,7 +49,7 @@ impl<N: Number> Exactness<N> {
 
     /// Whether a place `tau` seconds from the state it follows from is where the
     /// height passes `sine`, as exactly as is asked for.
-    pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &Place<N>) -> N::Answer {
+    pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();
         let rise_km_s = place.height.rate.abs() * place.range_km;
         tau.is_less(N::of(LONGEST_STEP_S))
@@ -126,7 +127,7 @@ impl<'a> Track<'a> {
     }
 
     /// Where the satellite is at `at_s`.
-    pub(super) fn place(&self, at_s: f64) -> Option<Place> {
+    pub(super) fn place(&self, at_s: f64) -> Option<LocalState> {
         Some(self.series(at_s)?.place(0.0))
     }
 
@@ -139,7 +140,7 @@ impl<'a> Track<'a> {
         guess_s: f64,
         most_s: f64,
         bend: Bend,
-    ) -> Option<(LocalSeries, Place)> {
+    ) -> Option<(LocalSeries, LocalState)> {
         self.extreme_from(self.series(guess_s)?, most_s, bend)
     }
 
@@ -149,7 +150,7 @@ impl<'a> Track<'a> {
         series: LocalSeries,
         most_s: f64,
         bend: Bend,
-    ) -> Option<(LocalSeries, Place)> {
+    ) -> Option<(LocalSeries, LocalState)> {
         let guess_s = series.at_s;
         let mut series = series;
         for _ in 0..8 {
@@ -170,7 +171,7 @@ impl<'a> Track<'a> {
     }
 
     /// The extreme near a series, with the speed that a second state shows.
-    fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, Place)> {
+    fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, LocalState)> {
         let second = self.series(series.at_s + MENDING_STEP_S)?;
         let series = series.mended(&second);
         let place = series.extreme(bend, 2.0 * LONGEST_STEP_S)?;
@@ -180,7 +181,7 @@ impl<'a> Track<'a> {
     /// Where the height passes the horizon between `below_s`, where it is less,
     /// and `above_s`, where it is more; from `guess_s` in between. `None` only
     /// where there are no states.
-    pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<Place> {
+    pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<LocalState> {
         let sine = self.window.sin_horizon;
         let (mut below_s, mut above_s) = (below_s, above_s);
         let mut at_s = guess_s;
@@ -214,7 +215,12 @@ impl<'a> Track<'a> {
 
     /// The part within the window of a pass that rises, culminates and sets at
     /// these places; `None` when that is nothing or stays below the floor.
-    pub(super) fn cut(&self, aos: &Place, crest: &Place, los: &Place) -> Option<Pass> {
+    pub(super) fn cut(
+        &self,
+        aos: &LocalState,
+        crest: &LocalState,
+        los: &LocalState,
+    ) -> Option<Pass> {
         let length_s = self.window.length_s;
         if los.at_s <= 0.0 || aos.at_s >= length_s {
             return None;

@@ -12,10 +12,10 @@
 //! state puts that right.
 
 use super::{
-    local_series::{GRAVITY_KM3_S2, LocalSeries, Place},
+    local_series::{GRAVITY_KM3_S2, LocalSeries, LocalState},
     window::Window,
 };
-use crate::orbit::lanes::Number;
+use crate::orbit::simd::Number;
 
 /// The ellipse of a state near a crest.
 pub(super) struct TwoBody<N> {
@@ -30,7 +30,7 @@ pub(super) struct TwoBody<N> {
 
 impl<N: Number> TwoBody<N> {
     /// From the series whose crest is at `crest`.
-    pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &Place<N>) -> Self {
+    pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &LocalState<N>) -> Self {
         let (r, v) = (series.state.position_km, series.state.velocity_km_s);
         let inverse_r0 = N::of(1.0) / r.length();
         let inverse_a = inverse_r0 * 2.0 - v.length_squared() * (1.0 / GRAVITY_KM3_S2);

@@ -4,15 +4,15 @@
 //! Inside the search a time is a number of seconds from the start of the span:
 //! calendar arithmetic is left to the two ends.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 use jiff::Timestamp;
 
-use super::{PassPoint, PassSearch, local_series::Place};
+use super::PassSearch;
 use crate::{
-    astro::{Angle, AzEl, frames, time},
-    orbit::lanes::{Lanes, Number, Vector, lane_of},
+    astro::{frames, time},
+    orbit::simd::{Number, Vector},
 };
 
 /// A site and a span of time, made ready for computing.
@@ -87,58 +87,5 @@ impl Window {
     /// The vector from the site to an Earth-fixed position, east, north, up.
     pub(super) fn seen_from_site<N: Number>(&self, ecef_km: Vector<N>) -> Vector<N> {
         self.to_enu(ecef_km) - self.site_enu_km.into()
-    }
-
-    /// Time and direction of a place.
-    pub(super) fn point(&self, place: &Place) -> PassPoint {
-        self.point_of(&Sighting::new(place))
-    }
-
-    /// A sighting in the calendar.
-    pub(super) fn point_of(&self, sighting: &Sighting) -> PassPoint {
-        let Sighting { at_s, azimuth, elevation } = *sighting;
-        let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
-        PassPoint {
-            time: time::add_seconds(self.from, at_s),
-            direction: AzEl {
-                azimuth: Angle::from_radians(azimuth),
-                elevation: Angle::from_radians(elevation),
-            },
-        }
-    }
-}
-
-/// When and in which direction a satellite stands.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Sighting<N = f64> {
-    pub(super) at_s: N,
-    /// Radians, -pi to pi.
-    azimuth: N,
-    elevation: N,
-}
-
-impl<N: Number> Sighting<N> {
-    pub(super) fn new(place: &Place<N>) -> Self {
-        let Vector { x, y, z } = place.enu_km;
-        let elevation = z.atan2((x * x + y * y).sqrt());
-        Self { elevation, ..Self::at_elevation(place, 0.0) }
-    }
-
-    /// Of a place at this elevation.
-    pub(super) fn at_elevation(place: &Place<N>, elevation: f64) -> Self {
-        let Vector { x, y, .. } = place.enu_km;
-        Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::of(elevation) }
-    }
-}
-
-impl Sighting<Lanes> {
-    /// The sighting of one lane.
-    pub(super) fn lane(&self, lane: usize) -> Sighting {
-        let of = |numbers| lane_of(numbers, lane);
-        Sighting {
-            at_s: of(&self.at_s),
-            azimuth: of(&self.azimuth),
-            elevation: of(&self.elevation),
-        }
     }
 }

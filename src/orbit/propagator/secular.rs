@@ -13,17 +13,19 @@ use std::f64::consts::TAU;
 
 use sgp4::WGS72;
 
-use super::round::{self, DragWave, MOST_ECCENTRICITY, Motion, Waves};
-use crate::orbit::lanes::{Number, series};
+use super::waves::{DragWave, Waves};
+use crate::orbit::simd::{Lanes, series, set, set_all};
 
 /// Orbits with this period in minutes or a longer one follow other rules.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
+/// The states of orbits with a smaller eccentricity than this are worked eight at a time.
+const MAX_ECCENTRICITY: f64 = 0.05;
 /// Orbits that come lower than this, in Earth radii, are about to decay.
 const LOWEST_PERIGEE: f64 = 1.012;
 /// Stronger waves of the eccentricity are those of an orbit about to decay.
-const MOST_WAVE: f64 = 0.005;
+const MAX_WAVE: f64 = 0.005;
 /// The waves of perigee and anomaly need an orbit that is not rounder than this.
-const LEAST_ECCENTRICITY: f64 = 1e-4;
+const MIN_ECCENTRICITY: f64 = 1e-4;
 /// Perigees below this height, in Earth radii, get the shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
@@ -50,15 +52,6 @@ pub(in crate::orbit) struct Plane<N = f64> {
     /// Argument of perigee, radians.
     pub(in crate::orbit) perigee: [N; 2],
     pub(in crate::orbit) eccentricity: [N; 2],
-}
-
-impl<N: Number> Secular<N> {
-    /// The state so many `minutes` after the epoch, in axes that stand at the
-    /// angle `turn`, in radians, from those of TEME about the pole; for times at
-    /// which the orbit [is round](Secular::is_round_at).
-    pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
-        round::motion(self, minutes, turn)
-    }
 }
 
 impl Secular {
@@ -92,13 +85,13 @@ impl Secular {
     }
 
     /// Whether [`Self::motion`] holds so many minutes after the epoch.
-    pub(in crate::orbit) fn is_round_at(&self, minutes: f64) -> bool {
+    pub(in crate::orbit) fn is_near_circular_at(&self, minutes: f64) -> bool {
         let (axis, eccentricity) = self.size(minutes);
         let wave = self.eccentricity_wave();
         // Written so that NaN falls out as well.
-        eccentricity < MOST_ECCENTRICITY
+        eccentricity < MAX_ECCENTRICITY
             && eccentricity - wave > 0.0
-            && wave < MOST_WAVE
+            && wave < MAX_WAVE
             && axis * (1.0 - eccentricity - wave) > LOWEST_PERIGEE
     }
 
@@ -207,11 +200,34 @@ impl Secular {
             drag_wave: DragWave {
                 anomaly: [orbit.mean_anomaly, precession.anomaly],
                 eta,
-                angle: if low || e <= LEAST_ECCENTRICITY { [0.0; 3] } else { angle_wave },
+                angle: if low || e <= MIN_ECCENTRICITY { [0.0; 3] } else { angle_wave },
                 eccentricity: [if low { 0.0 } else { c5 }, orbit.mean_anomaly.sin()],
             },
             waves: Waves::new(sin_inclination, cos_inclination),
         }
+    }
+}
+
+impl Secular<Lanes> {
+    /// Puts an orbit into a lane.
+    pub(in crate::orbit) fn set(&mut self, lane: usize, orbit: &Secular) {
+        let Self { plane, root_axis, drag_wave, waves } = self;
+        plane.set(lane, &orbit.plane);
+        set_all(root_axis, lane, &orbit.root_axis);
+        drag_wave.set(lane, &orbit.drag_wave);
+        waves.set(lane, &orbit.waves);
+    }
+}
+
+impl Plane<Lanes> {
+    /// Puts the plane of an orbit into a lane.
+    pub(in crate::orbit) fn set(&mut self, lane: usize, plane: &Plane) {
+        set(&mut self.sin_inclination, lane, plane.sin_inclination);
+        set(&mut self.cos_inclination, lane, plane.cos_inclination);
+        set_all(&mut self.node, lane, &plane.node);
+        set_all(&mut self.argument, lane, &plane.argument);
+        set_all(&mut self.perigee, lane, &plane.perigee);
+        set_all(&mut self.eccentricity, lane, &plane.eccentricity);
     }
 }
 

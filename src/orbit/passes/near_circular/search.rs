@@ -1,22 +1,27 @@
-//! The passes of nearly round orbits, several at a time.
+//! The passes of near-circular orbits, eight satellites at a time.
 //!
 //! All go the same way: an exact state near the middle, the crest from its
 //! series, AOS and LOS guessed from the ellipse of that state, an exact state at
 //! each and the crossing from its series. The few that do not settle this way
-//! are taken up one by one by [`Track`](super::track::Track).
+//! are taken up one by one by [`Track`](crate::orbit::passes::track::Track).
 
 use std::iter;
 
 use super::{
-    Pass,
-    abreast::{Abreast, Occasion},
-    circular::Circular,
+    NearCircular,
+    batch::{Batch, SatelliteAt},
     fly_bys,
-    local_series::{Bend, LocalSeries, Place},
-    two_body::TwoBody,
-    window::{Sighting, Window},
 };
-use crate::orbit::lanes::{LANES, Lanes, Number, holds_in, lane_of};
+use crate::orbit::{
+    passes::{
+        Pass,
+        local_series::{Bend, LocalSeries, LocalState},
+        sighting::Sighting,
+        two_body::TwoBody,
+        window::Window,
+    },
+    simd::{LANES, Lanes, Number, holds_in, lane_of},
+};
 
 /// AOS and LOS are looked for within this many half passes of the crest.
 const MOST_OF_HALF: f64 = 1.1;
@@ -28,32 +33,32 @@ struct Edges {
     /// From the states near the crests to where the ellipses have them.
     guess_tau: Lanes,
     /// Where one step from the exact states there led, and whether that is it.
-    places: Place<Lanes>,
+    places: LocalState<Lanes>,
     are_settled: Lanes,
     sightings: Sighting<Lanes>,
 }
 
-/// The passes of nearly round orbits, cut to the window, each with the index of
+/// The passes of near-circular orbits, cut to the window, each with the index of
 /// its satellite: one satellite after the other, each in order.
-pub(super) fn passes<'a>(
+pub(in crate::orbit::passes) fn passes<'a>(
     window: &Window,
-    satellites: impl Iterator<Item = &'a Circular<'a>>,
+    satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,
 ) -> Vec<(usize, Pass)> {
-    let mut abreast = Abreast::default();
-    let mut guesses = fly_bys::guesses(window, satellites, &mut abreast, cancelled);
+    let mut batch = Batch::default();
+    let mut guesses = fly_bys::guesses(window, satellites, &mut batch, cancelled);
     let mut found = Vec::with_capacity(guesses.len());
     let mut last = None;
     for fly_bys in guesses.chunks_mut(LANES) {
         if cancelled() {
             break;
         }
-        let guesses_s = abreast.take(fly_bys);
-        let at_s = abreast.refined(window, guesses_s);
+        let guesses_s = batch.take(fly_bys);
+        let at_s = batch.refined(window, guesses_s);
         for (fly_by, at_s) in fly_bys.iter_mut().zip(at_s.as_array()) {
             fly_by.at_s = *at_s;
         }
-        passes_at(window, &abreast, at_s, fly_bys, last, &mut found);
+        passes_at(window, &batch, at_s, fly_bys, last, &mut found);
         last = fly_bys.last().copied();
     }
     found
@@ -63,20 +68,20 @@ pub(super) fn passes<'a>(
 /// before them.
 fn passes_at(
     window: &Window,
-    abreast: &Abreast,
+    batch: &Batch,
     at_s: Lanes,
-    fly_bys: &[Occasion<'_>],
-    last: Option<Occasion<'_>>,
+    fly_bys: &[SatelliteAt<'_>],
+    last: Option<SatelliteAt<'_>>,
     found: &mut Vec<(usize, Pass)>,
 ) {
-    let series = abreast.series(window, at_s);
+    let series = batch.series(window, at_s);
     let crests = series.turning();
     let ellipse = TwoBody::new(window, &series, &crests);
-    let rising = edges(window, abreast, &series, &ellipse, &crests, -1.0);
-    let setting = edges(window, abreast, &series, &ellipse, &crests, 1.0);
+    let rising = edges(window, batch, &series, &ellipse, &crests, -1.0);
+    let setting = edges(window, batch, &series, &ellipse, &crests, 1.0);
     let tops = Sighting::new(&crests);
     let is_crest =
-        crests.turns(Bend::Crest) & abreast.exactness.is_crest(crests.at_s - series.at_s, &crests);
+        crests.turns(Bend::Crest) & batch.exactness.is_crest(crests.at_s - series.at_s, &crests);
     let is_low = is_crest & crests.height.sine.is_less(Lanes::of(window.sin_floor));
     let is_settled = is_crest
         & rising.are_settled
@@ -111,26 +116,26 @@ fn passes_at(
 
 fn edges(
     window: &Window,
-    abreast: &Abreast,
+    batch: &Batch,
     series: &LocalSeries<Lanes>,
     ellipse: &TwoBody<Lanes>,
-    crests: &Place<Lanes>,
+    crests: &LocalState<Lanes>,
     side: f64,
 ) -> Edges {
     let guess_tau = ellipse.crossing_tau(side);
     let from_s = series.at_s + guess_tau;
     let sine = window.sin_horizon;
-    let places = abreast.series(window, from_s).crossing(sine, Lanes::ZERO);
-    let are_settled = is_beside(abreast.half_pass_s, crests, &places, side)
-        & abreast.exactness.is_crossing(sine, places.at_s - from_s, &places);
+    let places = batch.series(window, from_s).crossing(sine, Lanes::ZERO);
+    let are_settled = is_beside(batch.half_pass_s, crests, &places, side)
+        & batch.exactness.is_crossing(sine, places.at_s - from_s, &places);
     let sightings = Sighting::at_elevation(&places, window.horizon);
     Edges { side, guess_tau, places, are_settled, sightings }
 }
 
 fn is_beside<N: Number>(
     half_pass_s: N,
-    crest: &Place<N>,
-    place: &Place<N>,
+    crest: &LocalState<N>,
+    place: &LocalState<N>,
     side: f64,
 ) -> N::Answer {
     let from_crest_s = (place.at_s - crest.at_s) * side;
@@ -140,13 +145,13 @@ fn is_beside<N: Number>(
 /// The pass of one lane by itself, of which the crest and the edges may have
 /// settled.
 fn alone(
-    satellite: &Circular<'_>,
+    satellite: &NearCircular<'_>,
     series: &LocalSeries<Lanes>,
-    crest: Option<Place>,
+    crest: Option<LocalState>,
     [rising, setting]: [&Edges; 2],
     lane: usize,
 ) -> Option<Pass> {
-    let Circular { track, half_pass_s, .. } = *satellite;
+    let NearCircular { track, half_pass_s, .. } = *satellite;
     let series = series.lane(lane);
     let (series, crest) = match crest {
         Some(crest) => (series, crest),
@@ -167,13 +172,13 @@ fn alone(
 }
 
 fn edge_alone(
-    satellite: &Circular<'_>,
+    satellite: &NearCircular<'_>,
     series: &LocalSeries,
-    crest: &Place,
+    crest: &LocalState,
     edges: &Edges,
     lane: usize,
-) -> Option<Place> {
-    let Circular { track, half_pass_s, .. } = *satellite;
+) -> Option<LocalState> {
+    let NearCircular { track, half_pass_s, .. } = *satellite;
     let Edges { side, guess_tau, places, .. } = edges;
     let near = places.lane(lane);
     let is_near = is_beside(half_pass_s, crest, &near, *side);

@@ -1,4 +1,4 @@
-//! States of nearly round near-earth orbits, several at once.
+//! States of near-circular near-earth orbits, one or several at once.
 //!
 //! The same theory as the library's, written so that one sine and cosine does
 //! for each angle: what the short waves add to an angle is small, and turning a
@@ -12,65 +12,24 @@
 use sgp4::WGS72;
 
 use super::secular::Secular;
-use crate::orbit::lanes::{Number, Vector, series};
+use crate::orbit::simd::{Number, Vector, series};
 
-/// Rounder orbits than this can be worked here.
-pub(super) const MOST_ECCENTRICITY: f64 = 0.05;
 /// The theory does without rounder orbits than this.
-const LEAST_ECCENTRICITY: f64 = 1e-6;
-
-/// What the periodic terms depend on.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Waves<N = f64> {
-    /// 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
-    pub(super) square: N,
-    pub(super) seven: N,
-    pub(super) three: N,
-    /// The odd part of the gravity field: what it adds to the eccentricity
-    /// vector, and to the mean angle.
-    pub(super) odd_vector: N,
-    pub(super) odd_angle: N,
-}
-
-impl Waves {
-    pub(super) fn new(sin_inclination: f64, cos_inclination: f64) -> Self {
-        let square = cos_inclination * cos_inclination;
-        let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
-        // An orbit against the Earth's turn in the equator would divide by nothing.
-        let with_turn =
-            if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
-        Self {
-            square: 1.0 - square,
-            seven: 7.0 * square - 1.0,
-            three: 3.0 * square - 1.0,
-            odd_vector: odd,
-            odd_angle: 0.5 * odd * (3.0 + 5.0 * cos_inclination) / with_turn,
-        }
-    }
-}
-
-/// What the drag does once a revolution.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct DragWave<N = f64> {
-    /// Mean anomaly: at the epoch, and its change per minute without drag.
-    pub(super) anomaly: [N; 2],
-    pub(super) eta: N,
-    /// Perigee against mean anomaly: the factor, its share of the epoch, and
-    /// its growth per minute.
-    pub(super) angle: [N; 3],
-    /// Eccentricity: the factor, and the sine at the epoch.
-    pub(super) eccentricity: [N; 2],
-}
+const MIN_ECCENTRICITY: f64 = 1e-6;
 
 /// Position in km and inertial velocity in km/s.
 pub(in crate::orbit) type Motion<N> = (Vector<N>, Vector<N>);
 
-/// The states so many `minutes` after the epoch, in axes that stand at the angle
-/// `turn`, in radians, from those of TEME about the pole.
-///
-/// Only for orbits that are nearly round and well above the ground at those
-/// times.
-pub(super) fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
+impl<N: Number> Secular<N> {
+    /// The states `minutes` after the epoch, in axes turned about the pole by `turn`
+    /// radians from those of TEME. Valid where the orbit
+    /// [is near-circular](Secular::is_near_circular_at).
+    pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
+        motion(self, minutes, turn)
+    }
+}
+
+fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let Secular { plane, waves, drag_wave, .. } = secular;
 
     let [anomaly, anomaly_rate] = drag_wave.anomaly;
@@ -86,7 +45,7 @@ pub(super) fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Mo
     let [wave, wave_at_epoch] = drag_wave.eccentricity;
     let eccentricity = (series(&plane.eccentricity, minutes)
         - (sin_shifted - wave_at_epoch) * wave)
-        .within(LEAST_ECCENTRICITY, 1.0);
+        .within(MIN_ECCENTRICITY, 1.0);
 
     // The eccentricity vector, toward the node and across, with the long waves.
     let (sin_perigee, cos_perigee) = (series(&plane.perigee, minutes) - shift).sin_cos();
@@ -178,8 +137,8 @@ mod tests {
     use super::*;
     use crate::orbit::{
         Propagator, bundled,
-        lanes::{LANES, Lanes},
         propagator::Resumable,
+        simd::{LANES, Lanes},
     };
 
     #[test]
@@ -193,12 +152,12 @@ mod tests {
             for days in [-3.0, 0.0, 0.5, 4.0, 9.0] {
                 let minutes = [0.0, 11.0, 23.0, 35.0, 47.0, 59.0, 71.0, 83.0];
                 let times = minutes.map(|minute| days * 1440.0 + minute);
-                if times.iter().any(|minutes| !secular.is_round_at(*minutes)) {
+                if times.iter().any(|minutes| !secular.is_near_circular_at(*minutes)) {
                     continue;
                 }
-                let mut abreast = Secular::default();
-                (0..LANES).for_each(|lane| abreast.set(lane, secular));
-                let (positions, velocities) = motion(&abreast, Lanes::from(times), Lanes::of(0.0));
+                let mut lanes = Secular::default();
+                (0..LANES).for_each(|lane| lanes.set(lane, secular));
+                let (positions, velocities) = motion(&lanes, Lanes::from(times), Lanes::of(0.0));
                 for (lane, minutes) in times.iter().enumerate() {
                     let state = propagator.state_after(minutes * 60.0, &mut Resumable::default());
                     let state = state.unwrap();

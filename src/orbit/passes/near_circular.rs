@@ -1,5 +1,5 @@
-//! Passes of nearly round near-earth orbits: the places to look at follow from
-//! geometry, with no search.
+//! Passes of near-circular near-earth orbits: geometry gives the times of the passes,
+//! with no search.
 //!
 //! [`Arcs`] tells when the site is near enough to the orbit plane. Within an arc,
 //! let u be the angle of the satellite in the plane, from the ascending node,
@@ -8,7 +8,14 @@
 //! number of turns, the satellite goes by, and there is at most one pass about
 //! each such instant. The exact state there tells whether there is one.
 
-use super::{arcs::Arcs, track::Track};
+mod arcs;
+mod batch;
+mod fly_bys;
+mod search;
+
+use self::arcs::Arcs;
+pub(super) use self::search::passes;
+use super::track::Track;
 use crate::{
     astro::{frames::EARTH_RATE_RAD_S, time},
     orbit::propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
@@ -25,8 +32,8 @@ const MARGIN: f64 = 0.012;
 /// The waves in the distance that are left out, in km.
 const RADIUS_MARGIN_KM: f64 = 15.0;
 
-/// The track of a satellite that geometry can be trusted with.
-pub(super) struct Circular<'a> {
+/// The track of a satellite on a near-circular orbit.
+pub(super) struct NearCircular<'a> {
     /// Its place among the satellites of the search.
     pub(super) index: usize,
     pub(super) track: &'a Track<'a>,
@@ -36,9 +43,9 @@ pub(super) struct Circular<'a> {
     pub(super) half_pass_s: f64,
 }
 
-impl<'a> Circular<'a> {
-    /// `None` when the orbit, or what it becomes within the window, is not round
-    /// and near, or when the horizon lies too low.
+impl<'a> NearCircular<'a> {
+    /// `None` when the orbit, or what it becomes within the window, is not near-circular
+    /// and near-earth, or when the horizon lies too low.
     pub(super) fn new(index: usize, track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
@@ -50,7 +57,7 @@ impl<'a> Circular<'a> {
             let minutes = minutes(share * window.length_s);
             let (axis, eccentricity) = secular.size(minutes);
             let is_steady = (axis / first_axis - 1.0).abs() < MOST_SHRINKING;
-            if !(is_steady && secular.is_round_at(minutes)) {
+            if !(is_steady && secular.is_near_circular_at(minutes)) {
                 return None;
             }
             highest = highest.max(axis * (1.0 + eccentricity + wave));

@@ -10,15 +10,15 @@
 use std::{f64::consts::TAU, ptr};
 
 use super::{
-    abreast::{Abreast, Occasion},
-    circular::Circular,
-    window::Window,
+    NearCircular,
+    batch::{Batch, SatelliteAt},
 };
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
     orbit::{
-        lanes::{LANES, Lanes, Number, series},
+        passes::window::Window,
         propagator::Plane,
+        simd::{LANES, Lanes, Number, series},
     },
 };
 
@@ -51,10 +51,10 @@ struct InPlane {
 /// each in order. Where pieces touch, one fly-by may be guessed twice.
 pub(super) fn guesses<'a>(
     window: &Window,
-    satellites: impl Iterator<Item = &'a Circular<'a>>,
-    abreast: &mut Abreast,
+    satellites: impl Iterator<Item = &'a NearCircular<'a>>,
+    batch: &mut Batch,
     cancelled: &dyn Fn() -> bool,
-) -> Vec<Occasion<'a>> {
+) -> Vec<SatelliteAt<'a>> {
     let mut ends = Vec::new();
     for satellite in satellites {
         let overlap_s = OVERLAP * TAU / satellite.rate_rad_s();
@@ -62,19 +62,19 @@ pub(super) fn guesses<'a>(
             if cancelled() {
                 return Vec::new();
             }
-            let end = |at_s: f64| Occasion { satellite, at_s };
+            let end = |at_s: f64| SatelliteAt { satellite, at_s };
             ends.extend([end(start_s - overlap_s), end(end_s + overlap_s)]);
         }
     }
     let mut guesses = Vec::with_capacity(2 * ends.len());
     for ends in ends.chunks(LANES) {
-        let at_s = abreast.take_planes(ends);
-        guess(ends, &abreast.in_plane(window, at_s), &mut guesses);
+        let at_s = batch.take_planes(ends);
+        guess(ends, &batch.in_plane(window, at_s), &mut guesses);
     }
     guesses
 }
 
-impl Occasion<'_> {
+impl SatelliteAt<'_> {
     /// Whether this is the fly-by that was found before it.
     pub(super) fn is_same(&self, before: &Self) -> bool {
         ptr::eq(self.satellite, before.satellite)
@@ -83,7 +83,7 @@ impl Occasion<'_> {
 }
 
 /// Guesses from the starts and ends of pieces: x grows steadily from end to end.
-fn guess<'a>(ends: &[Occasion<'a>], in_plane: &InPlane, guesses: &mut Vec<Occasion<'a>>) {
+fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<SatelliteAt<'a>>) {
     let (satellite, site) = (in_plane.satellite.as_array(), in_plane.site.as_array());
     for ((ends, satellite), site) in
         ends.chunks_exact(2).zip(satellite.chunks_exact(2)).zip(site.chunks_exact(2))
@@ -99,12 +99,12 @@ fn guess<'a>(ends: &[Occasion<'a>], in_plane: &InPlane, guesses: &mut Vec<Occasi
         let count = ((first + growth) / TAU).floor() - turn + 1.0;
         guesses.extend((0..(count as u32).min(MOST_IN_PIECE)).map(|index| {
             let share = (TAU * (turn + f64::from(index)) - first) / growth;
-            Occasion { at_s: start.at_s + share * (end.at_s - start.at_s), ..*start }
+            SatelliteAt { at_s: start.at_s + share * (end.at_s - start.at_s), ..*start }
         }));
     }
 }
 
-impl Abreast {
+impl Batch {
     /// The instants of the fly-bys, to some seconds, by Newton's method.
     pub(super) fn refined(&self, window: &Window, guesses_s: Lanes) -> Lanes {
         let mut at_s = guesses_s;

@@ -5,7 +5,7 @@
 //! do while others wait for the result of the step before. What serves both is
 //! written once, for any [`Number`].
 
-mod circle;
+mod trig;
 mod vector;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
@@ -49,7 +49,7 @@ pub(super) trait Number:
     /// Within 1e-13, for angles up to a thousand; beyond, within what is left of the
     /// angle's digits.
     fn sin_cos(self) -> (Self, Self) {
-        circle::sin_cos(self)
+        trig::sin_cos(self)
     }
     /// The angle of the direction (`x`, `self`), -pi to pi, within 5e-11.
     fn atan2(self, x: Self) -> Self;
@@ -98,7 +98,7 @@ impl Number for Lanes {
         self.abs()
     }
     fn atan2(self, x: Self) -> Self {
-        circle::atan2(self, x)
+        trig::atan2(self, x)
     }
     fn within(self, low: f64, high: f64) -> Self {
         self.clamp(Self::splat(low), Self::splat(high))
@@ -127,6 +127,17 @@ where
 pub(super) fn set(numbers: &mut Lanes, lane: usize, number: f64) {
     if let Some(place) = numbers.as_mut_array().get_mut(lane) {
         *place = number;
+    }
+}
+
+/// Puts each number into a lane of its own vector.
+pub(super) fn set_all<const COUNT: usize>(
+    all: &mut [Lanes; COUNT],
+    lane: usize,
+    numbers: &[f64; COUNT],
+) {
+    for (lanes, number) in all.iter_mut().zip(numbers) {
+        set(lanes, lane, *number);
     }
 }
 

@@ -1,55 +1,55 @@
-//! Several satellites at one instant each, one a lane.
+//! A batch of satellites, each at an instant of its own, one a lane.
 
-use super::{
-    circular::Circular,
-    local_series::{EarthFixed, LocalSeries},
-    track::Exactness,
-    window::Window,
-};
+use super::NearCircular;
 use crate::orbit::{
-    lanes::{LANES, Lanes, set},
+    passes::{
+        local_series::{EarthFixed, LocalSeries},
+        track::Exactness,
+        window::Window,
+    },
     propagator::Secular,
+    simd::{LANES, Lanes, set},
 };
 
 /// A satellite at an instant.
 #[derive(Clone, Copy)]
-pub(super) struct Occasion<'a> {
-    pub(super) satellite: &'a Circular<'a>,
+pub(super) struct SatelliteAt<'a> {
+    pub(super) satellite: &'a NearCircular<'a>,
     pub(super) at_s: f64,
 }
 
-/// What is computed with of several satellites.
+/// Up to [`LANES`] satellites, as the computation needs them.
 #[derive(Default)]
-pub(super) struct Abreast {
+pub(super) struct Batch {
     pub(super) secular: Secular<Lanes>,
     start_since_epoch_s: Lanes,
     pub(super) half_pass_s: Lanes,
     pub(super) exactness: Exactness<Lanes>,
 }
 
-impl Abreast {
-    /// Takes the satellites of up to as many occasions as there are lanes, and
-    /// gives the instants; the last one fills the rest.
-    pub(super) fn take(&mut self, occasions: &[Occasion<'_>]) -> Lanes {
-        for (lane, Occasion { satellite, .. }) in in_lanes(occasions) {
+impl Batch {
+    /// Loads up to [`LANES`] satellites and returns their instants; the last one fills the
+    /// rest.
+    pub(super) fn take(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
+        for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.set(lane, satellite.secular);
             set(&mut self.half_pass_s, lane, satellite.half_pass_s);
             set(&mut self.exactness.drift_km_s, lane, satellite.track.exactness.drift_km_s);
         }
-        self.instants(occasions)
+        self.instants(satellites)
     }
 
-    /// The same, but only what tells where they fly in their planes.
-    pub(super) fn take_planes(&mut self, occasions: &[Occasion<'_>]) -> Lanes {
-        for (lane, Occasion { satellite, .. }) in in_lanes(occasions) {
+    /// Loads the orbit planes only.
+    pub(super) fn take_planes(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
+        for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.plane.set(lane, &satellite.secular.plane);
         }
-        self.instants(occasions)
+        self.instants(satellites)
     }
 
-    fn instants(&mut self, occasions: &[Occasion<'_>]) -> Lanes {
+    fn instants(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         let mut instants = Lanes::ZERO;
-        for (lane, Occasion { satellite, at_s }) in in_lanes(occasions) {
+        for (lane, SatelliteAt { satellite, at_s }) in in_lanes(satellites) {
             set(&mut self.start_since_epoch_s, lane, satellite.track.start_since_epoch_s);
             set(&mut instants, lane, *at_s);
         }
@@ -62,7 +62,7 @@ impl Abreast {
     }
 
     /// The series around exact states. Whoever uses them
-    /// [counts](super::track::Track::count) them.
+    /// [counts](crate::orbit::passes::track::Track::count) them.
     pub(super) fn series(&self, window: &Window, at_s: Lanes) -> LocalSeries<Lanes> {
         let turn = window.sidereal_at(at_s);
         let (position_km, velocity_km_s) = self.secular.motion(self.minutes(at_s), turn);
@@ -71,8 +71,8 @@ impl Abreast {
 }
 
 fn in_lanes<'a, 'b>(
-    occasions: &'a [Occasion<'b>],
-) -> impl Iterator<Item = (usize, &'a Occasion<'b>)> {
-    let rest = occasions.last().into_iter().cycle();
-    occasions.iter().chain(rest).take(LANES).enumerate()
+    satellites: &'a [SatelliteAt<'b>],
+) -> impl Iterator<Item = (usize, &'a SatelliteAt<'b>)> {
+    let rest = satellites.last().into_iter().cycle();
+    satellites.iter().chain(rest).take(LANES).enumerate()
 }

@@ -1,0 +1,68 @@
+//! The coefficients of SGP4's periodic terms: those of the gravity field, and those of
+//! the drag once a revolution.
+
+use sgp4::WGS72;
+
+use crate::orbit::simd::{Lanes, set, set_all};
+
+/// Coefficients of the periodic terms of the gravity field.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Waves<N = f64> {
+    /// 1 - cos²i, 7 cos²i - 1 and 3 cos²i - 1.
+    pub(super) square: N,
+    pub(super) seven: N,
+    pub(super) three: N,
+    /// The odd part of the gravity field: what it adds to the eccentricity
+    /// vector, and to the mean angle.
+    pub(super) odd_vector: N,
+    pub(super) odd_angle: N,
+}
+
+impl Waves {
+    pub(super) fn new(sin_inclination: f64, cos_inclination: f64) -> Self {
+        let square = cos_inclination * cos_inclination;
+        let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
+        // An orbit against the Earth's turn in the equator would divide by nothing.
+        let with_turn =
+            if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
+        Self {
+            square: 1.0 - square,
+            seven: 7.0 * square - 1.0,
+            three: 3.0 * square - 1.0,
+            odd_vector: odd,
+            odd_angle: 0.5 * odd * (3.0 + 5.0 * cos_inclination) / with_turn,
+        }
+    }
+}
+
+/// Coefficients of the periodic terms of the drag.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct DragWave<N = f64> {
+    /// Mean anomaly: at the epoch, and its change per minute without drag.
+    pub(super) anomaly: [N; 2],
+    pub(super) eta: N,
+    /// Perigee against mean anomaly: the factor, its share of the epoch, and
+    /// its growth per minute.
+    pub(super) angle: [N; 3],
+    /// Eccentricity: the factor, and the sine at the epoch.
+    pub(super) eccentricity: [N; 2],
+}
+
+impl DragWave<Lanes> {
+    pub(super) fn set(&mut self, lane: usize, drag: &DragWave) {
+        set_all(&mut self.anomaly, lane, &drag.anomaly);
+        set(&mut self.eta, lane, drag.eta);
+        set_all(&mut self.angle, lane, &drag.angle);
+        set_all(&mut self.eccentricity, lane, &drag.eccentricity);
+    }
+}
+
+impl Waves<Lanes> {
+    pub(super) fn set(&mut self, lane: usize, waves: &Waves) {
+        set(&mut self.square, lane, waves.square);
+        set(&mut self.seven, lane, waves.seven);
+        set(&mut self.three, lane, waves.three);
+        set(&mut self.odd_vector, lane, waves.odd_vector);
+        set(&mut self.odd_angle, lane, waves.odd_angle);
+    }
+}
