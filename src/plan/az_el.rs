@@ -48,8 +48,8 @@ pub(super) struct Planned {
     pub(super) way: Way,
     /// Degrees as the mount counts, one for each sample.
     pub(super) axes_deg: [Vec<f64>; 2],
-    /// The samples at which the azimuth axis swings round, because it is at an end.
-    pub(super) swings: Vec<usize>,
+    /// The samples at which the azimuth axis slews round, because it is at an end.
+    pub(super) slews: Vec<usize>,
 }
 
 impl AzElAxes {
@@ -123,7 +123,7 @@ impl AzElAxes {
             let pair = seen.get(index).zip(azimuths.get(index));
             pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
         });
-        Planned { way, axes_deg: [azimuths, elevations], swings: route.swings }
+        Planned { way, axes_deg: [azimuths, elevations], slews: route.slews }
     }
 
     /// The root of the mean square error along `samples` of axes that set out from

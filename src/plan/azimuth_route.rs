@@ -1,6 +1,6 @@
 //! The way of an azimuth axis through a pass: an axis with ends cannot follow
 //! every turn of the sky, so the turn on which it starts decides whether it has
-//! to swing all the way round in the middle.
+//! to slew all the way round in the middle.
 
 /// A full turn, degrees.
 const TURN_DEG: f64 = 360.0;
@@ -47,14 +47,14 @@ impl AzimuthRange {
 pub(super) struct AzimuthRoute {
     /// Degrees as the axis counts, one for each azimuth.
     pub(super) positions_deg: Vec<f64>,
-    /// Which of them the axis reaches by swinging round, because it is at an end.
-    pub(super) swings: Vec<usize>,
+    /// Which of them the axis reaches by slewing round, because it is at an end.
+    pub(super) slews: Vec<usize>,
 }
 
 impl AzimuthRoute {
     /// The route along `azimuths_deg`, which are unwrapped and a few degrees
-    /// apart, with the fewest swings. `axis_now_deg` is where the axis stands: of
-    /// two routes with as many swings the one that begins nearer is taken. Where no
+    /// apart, with the fewest slews. `axis_now_deg` is where the axis stands: of
+    /// two routes with as many slews the one that begins nearer is taken. Where no
     /// position of the axis points to an azimuth it waits at the better end.
     pub(super) fn along(
         azimuths_deg: &[f64],
@@ -96,7 +96,7 @@ impl AzimuthRoute {
     fn go_on(&mut self, axis_deg: f64) {
         let before = self.positions_deg.last();
         if before.is_some_and(|before_deg| (axis_deg - before_deg).abs() > TURN_DEG / 2.0) {
-            self.swings.push(self.positions_deg.len());
+            self.slews.push(self.positions_deg.len());
         }
         self.positions_deg.push(axis_deg);
     }
@@ -124,12 +124,12 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_through_north_swings_once_on_a_plain_axis_and_not_with_an_overlap() {
+    fn a_pass_through_north_slews_once_on_a_plain_axis_and_not_with_an_overlap() {
         for azimuths in [sweep(300, 420), sweep(60, -60)] {
             let plain = route(&azimuths, PLAIN, None);
-            assert_eq!(plain.swings.len(), 1);
+            assert_eq!(plain.slews.len(), 1);
             let overlap = route(&azimuths, OVERLAP, None);
-            assert!(overlap.swings.is_empty(), "{overlap:?}");
+            assert!(overlap.slews.is_empty(), "{overlap:?}");
             let jump = overlap.positions_deg.windows(2).map(|two| (two[1] - two[0]).abs());
             assert!(jump.fold(0.0, f64::max) < 1.01);
         }
@@ -137,10 +137,10 @@ mod tests {
 
     #[test]
     fn the_turn_that_lasts_is_taken_even_when_it_begins_further_away() {
-        // From 80 down through north to 300: begun at 440, it needs no swing.
+        // From 80 down through north to 300: begun at 440, it needs no slew.
         let route = route(&sweep(80, -60), OVERLAP, Some(75.0));
         assert_eq!(start(&route), Some(440.0));
-        assert!(route.swings.is_empty());
+        assert!(route.slews.is_empty());
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         assert!(degrees[20..50].iter().all(|axis| *axis == 300), "{degrees:?}");
         assert!(degrees[51..=80].iter().all(|axis| *axis == 0), "{degrees:?}");
         assert_eq!(degrees[80..], (0..=80).collect::<Vec<_>>());
-        assert_eq!(route.swings.len(), 1);
+        assert_eq!(route.slews.len(), 1);
     }
 
     #[test]

@@ -7,8 +7,8 @@ mod drives;
 mod path;
 mod planner;
 mod round;
+mod slew_rate;
 mod stats;
-mod swing_rate;
 mod target;
 
 use jiff::Timestamp;

@@ -56,7 +56,7 @@ pub enum Loss {
     /// So high that the azimuth axis would have to turn too fast.
     Overhead,
     /// At an end of the azimuth axis, which has to go all the way round.
-    Swing,
+    Slew,
     /// Where no position of the axes points.
     OutOfReach,
 }

@@ -24,10 +24,10 @@ pub(super) fn within_rate(
     if most_deg <= SAME_DEG {
         return way;
     }
-    for swing in bounds.swings() {
-        let mut place = at(&bounds.low, swing.start.saturating_sub(1));
-        let rough = cheapest::between(&bounds, &swing, place, most_deg, &cost);
-        for (index, rough_deg) in swing.zip(rough.places_deg) {
+    for slew in bounds.slews() {
+        let mut place = at(&bounds.low, slew.start.saturating_sub(1));
+        let rough = cheapest::between(&bounds, &slew, place, most_deg, &cost);
+        for (index, rough_deg) in slew.zip(rough.places_deg) {
             // As near as the grid is coarse, the course itself is better.
             let course = at(wanted, index);
             let is_near = (course - rough_deg).abs() <= rough.cell_deg;
@@ -57,7 +57,7 @@ impl Bounds {
     }
 
     /// The stretches in which the axis does not keep up.
-    fn swings(&self) -> Vec<Range<usize>> {
+    fn slews(&self) -> Vec<Range<usize>> {
         let mut found: Vec<Range<usize>> = Vec::new();
         for (index, (low, high)) in self.low.iter().zip(&self.high).enumerate() {
             if high - low <= SAME_DEG {
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn over_the_zenith_the_swing_begins_early_and_costs_far_less_than_going_after() {
+    fn over_the_zenith_the_slew_begins_early_and_costs_far_less_than_going_after() {
         let (wanted, weight) = overhead(2.0);
         assert!(fastest(&wanted) > 10.0);
         for most_deg in [2.0, 6.0] {
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn no_shift_of_the_swing_is_better() {
+    fn no_shift_of_the_slew_is_better() {
         let (wanted, weight) = overhead(3.0);
         let way = weighted(&wanted, &weight, 3.0);
         let best = cost(&way, &wanted, &weight);

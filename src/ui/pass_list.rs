@@ -90,7 +90,7 @@ fn place(loss: Loss) -> Cow<'static, str> {
             format!("at keyhole {towards}").into()
         }
         Loss::Overhead => "overhead".into(),
-        Loss::Swing => "turning round".into(),
+        Loss::Slew => "turning round".into(),
         Loss::OutOfReach => "out of reach".into(),
     }
 }

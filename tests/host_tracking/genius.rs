@@ -104,7 +104,7 @@ async fn through_north_it_goes_round_once() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn close_to_the_zenith_it_swings_in_time() {
+async fn close_to_the_zenith_it_slews_in_time() {
     let (rms, worst) = figures("Genius, 88 degrees", followed(2, &sky::overhead()).await);
     assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
 }
@@ -166,7 +166,7 @@ async fn over_the_zenith_the_sky_shows_where_it_points() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn over_the_zenith_it_hardly_swings() {
+async fn over_the_zenith_it_hardly_slews() {
     let stats = followed_over(180, &sky::overhead()).await;
     let (rms, worst) = figures("Genius, 88 degrees, elevation to 180", stats);
     assert!(rms < 2.0 && worst < 9.0, "{rms} {worst}");

@@ -96,14 +96,14 @@ async fn through_north_an_overlap_saves_the_way_round() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn close_to_the_zenith_it_swings_in_time() {
+async fn close_to_the_zenith_it_slews_in_time() {
     let (rms, worst) =
         figures("RC2000C, 88 degrees", followed(&antenna(360.0), &sky::overhead()).await);
     assert!(rms < 4.0 && worst < 15.0, "{rms} {worst}");
 }
 
 #[tokio::test(start_paused = true)]
-async fn over_the_zenith_it_neither_goes_round_nor_swings() {
+async fn over_the_zenith_it_neither_goes_round_nor_slews() {
     let over = antenna_to(360.0, 180.0);
     let north = followed(&over, &sky::through_north()).await;
     let (rms, worst) = figures("RC2000C, through north, 0 to 360 and 180", north);

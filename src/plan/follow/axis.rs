@@ -1,6 +1,6 @@
 //! What to tell one axis.
 
-use super::{drives::Drives, path::Path, swing_rate::SwingRate};
+use super::{drives::Drives, path::Path, slew_rate::SlewRate};
 use crate::{clock::Instant, station::Following};
 
 /// How often the time of arrival is improved.
@@ -54,7 +54,7 @@ pub(super) struct Axis {
     ignored_deg: f64,
     /// What it made of the shortest way that it sets out for, degrees.
     least_run_deg: Option<f64>,
-    swing_rate: SwingRate,
+    slew_rate: SlewRate,
 }
 
 impl Axis {
@@ -66,14 +66,14 @@ impl Axis {
             told: Told::default(),
             ignored_deg: 0.0,
             least_run_deg: None,
-            swing_rate: SwingRate::default(),
+            slew_rate: SlewRate::default(),
         }
     }
 
     /// Its full rate, degrees a second, when a position that was measured at `at`
-    /// ends a long swing.
+    /// ends a long slew.
     pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
-        self.swing_rate.take(at, position_deg, self.told.to_deg)
+        self.slew_rate.take(at, position_deg, self.told.to_deg)
     }
 
     /// A drive may stop some degrees early and let the axis run out. Then it does
@@ -109,8 +109,8 @@ impl Axis {
             // least for where the target is in the middle of both.
             let middle_s = begins_s + way_s.max(f64::midpoint(period_s, way_s));
             from_s = middle_s - period_s / 2.0;
-            // A swing is made in one go.
-            let wanted_deg = path.swing_end_deg(self.index, from_s).unwrap_or_else(|| {
+            // A slew is made in one go.
+            let wanted_deg = path.slew_end_deg(self.index, from_s).unwrap_or_else(|| {
                 let to_s = from_s + period_s;
                 let (least, most) = path.longest_span_deg(self.index, from_s, to_s, 2.0 * lead_deg);
                 f64::midpoint(least, most)

@@ -92,7 +92,7 @@ impl Drives {
             (upper_deg - 90.0).to_radians().cos().powi(2) * off(&lower, index, at_deg)
         });
         let upper = within_rate(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
-        Planned { way: Way::Plain, axes_deg: [lower, upper], swings: Vec::new() }
+        Planned { way: Way::Plain, axes_deg: [lower, upper], slews: Vec::new() }
     }
 
     fn az_el(&self) -> AzElAxes {

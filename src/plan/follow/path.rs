@@ -18,7 +18,7 @@ const MOST_POINTS: f64 = 2400.0;
 /// A path is as good for an axis that turns faster or slower by less than this
 /// share.
 const SAME_RATE: f64 = 0.02;
-/// An axis that turns faster than this share of its rate is swinging: it comes
+/// An axis that turns faster than this share of its rate is slewing: it comes
 /// from one place to another as fast as it can.
 const FULL_RATE: f64 = 0.999;
 
@@ -117,11 +117,11 @@ impl Path {
         span
     }
 
-    /// Where an axis ends up that is swinging at this time; `None` when it is not.
-    pub(super) fn swing_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
+    /// Where an axis ends up that is slewing at this time; `None` when it is not.
+    pub(super) fn slew_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
         let (first, most_deg) = (self.index(at_s), self.most_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;
-        let swings = |pair: &&[f64]| {
+        let slews = |pair: &&[f64]| {
             let [before, after] = pair else { return false };
             (after - before).abs() >= FULL_RATE * most_deg
         };
@@ -129,8 +129,8 @@ impl Path {
             let [before, after] = pair else { return false };
             after > before
         };
-        let begun = rest.windows(2).next().filter(swings)?;
-        let steps = rest.windows(2).take_while(swings);
+        let begun = rest.windows(2).next().filter(slews)?;
+        let steps = rest.windows(2).take_while(slews);
         let steps = steps.take_while(|pair| grows(pair) == grows(begun)).count();
         rest.get(steps).copied()
     }
@@ -167,7 +167,7 @@ fn widened((least, most): (f64, f64), at: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Rises by a degree a second for ten seconds, then swings down at 5 degrees
+    /// Rises by a degree a second for ten seconds, then slews down at 5 degrees
     /// a second for four.
     fn path() -> Path {
         let up = (0..=20).map(|step| f64::from(step) * 0.5);
@@ -204,12 +204,12 @@ mod tests {
     }
 
     #[test]
-    fn a_swing_is_known_by_its_rate_and_its_end() {
+    fn a_slew_is_known_by_its_rate_and_its_end() {
         let path = path();
-        assert_eq!(path.swing_end_deg(0, 3.0), None);
-        assert_eq!(path.swing_end_deg(0, 10.2), Some(-10.0));
-        assert_eq!(path.swing_end_deg(0, 13.9), Some(-10.0));
-        assert_eq!(path.swing_end_deg(0, 14.1), None);
-        assert_eq!(path.swing_end_deg(0, 99.0), None);
+        assert_eq!(path.slew_end_deg(0, 3.0), None);
+        assert_eq!(path.slew_end_deg(0, 10.2), Some(-10.0));
+        assert_eq!(path.slew_end_deg(0, 13.9), Some(-10.0));
+        assert_eq!(path.slew_end_deg(0, 14.1), None);
+        assert_eq!(path.slew_end_deg(0, 99.0), None);
     }
 }

@@ -119,8 +119,8 @@ impl Planner {
     }
 
     /// Takes where the axes were measured at `at`, degrees as the mount counts: long
-    /// swings teach how fast they turn. The clock is the steady one: UTC may be
-    /// corrected in the middle of a swing.
+    /// slews teach how fast they turn. The clock is the steady one: UTC may be
+    /// corrected in the middle of a slew.
     pub fn watch(&mut self, at: Instant, positions_deg: [Option<f64>; 2]) {
         let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in each {

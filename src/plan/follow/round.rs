@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Along a detour the axes turn at this share of their rate: what is made at the
-/// full one counts as a swing, which is told by its end alone.
+/// full one counts as a slew, which is told by its end alone.
 const SHARE_OF_RATE: f64 = 0.95;
 /// Between two points of a detour at most, degrees.
 const STEP_DEG: f64 = 0.5;

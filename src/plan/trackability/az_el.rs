@@ -10,7 +10,7 @@ use crate::{
 
 /// Above this elevation a loss is told as one overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
-/// A turn, which an axis makes in a swing at most, degrees.
+/// A turn, which an axis makes in a slew at most, degrees.
 const TURN_DEG: f64 = 360.0;
 
 /// See [`super::trackability`].
@@ -53,9 +53,9 @@ fn lost(samples: &[Sample], reach: Reach, axes: AzElAxes, planned: &Planned) -> 
     }
     let Some(first) = first else { return (0.0, Loss::OutOfReach) };
     let near_s = TURN_DEG / reach.maximum_rate_deg_s;
-    let is_near = |swing: &Sample| seconds_between(swing.time, first.time).abs() <= near_s;
-    let at = if planned.swings.iter().filter_map(|index| samples.get(*index)).any(is_near) {
-        Loss::Swing
+    let is_near = |slew: &Sample| seconds_between(slew.time, first.time).abs() <= near_s;
+    let at = if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
+        Loss::Slew
     } else if first.direction.elevation_deg() >= OVERHEAD_FROM_DEG {
         Loss::Overhead
     } else {
@@ -125,11 +125,11 @@ mod tests {
     }
 
     #[test]
-    fn a_pass_through_north_costs_a_swing_where_the_axis_ends_there() {
+    fn a_pass_through_north_costs_a_slew_where_the_axis_ends_there() {
         // From east-north-east through north.
         let through_north = pass(600.0, 275.0);
         let lost = super::trackability(&through_north, reach(360.0, 3.0));
-        let Trackability::Loses { seconds, at: Loss::Swing } = lost else { panic!("{lost:?}") };
+        let Trackability::Loses { seconds, at: Loss::Slew } = lost else { panic!("{lost:?}") };
         assert!((50.0..150.0).contains(&seconds), "{seconds}");
         assert_eq!(super::trackability(&through_north, reach(450.0, 3.0)), Trackability::Whole);
     }

@@ -14,23 +14,23 @@ const TURN_COST: f64 = 1e-9;
 
 /// A way on the grid.
 pub(super) struct Rough {
-    /// One for each interval of the swing, degrees.
+    /// One for each interval of the slew, degrees.
     pub(super) places_deg: Vec<f64>,
     /// Between two places of the grid, degrees.
     pub(super) cell_deg: f64,
 }
 
-/// The cheapest way through `swing` of an axis that stands at `before_deg` one
+/// The cheapest way through `slew` of an axis that stands at `before_deg` one
 /// interval before it and turns by `most_deg` in an interval at most.
 pub(super) fn between(
     bounds: &Bounds,
-    swing: &Range<usize>,
+    slew: &Range<usize>,
     before_deg: f64,
     most_deg: f64,
     cost: &impl Fn(usize, f64) -> f64,
 ) -> Rough {
-    let low = bounds.low.get(swing.clone()).unwrap_or_default().iter();
-    let high = bounds.high.get(swing.clone()).unwrap_or_default().iter();
+    let low = bounds.low.get(slew.clone()).unwrap_or_default().iter();
+    let high = bounds.high.get(slew.clone()).unwrap_or_default().iter();
     let least_deg = low.fold(before_deg, |least, at| least.min(*at));
     let greatest_deg = high.fold(before_deg, |greatest, at| greatest.max(*at));
     let finest_deg = (greatest_deg - least_deg) / MOST_PLACES;
@@ -46,9 +46,9 @@ pub(super) fn between(
     }
     // From which place each one is reached, look by look.
     let mut came: Vec<Vec<usize>> = Vec::new();
-    let looks = swing.len().div_ceil(stride);
+    let looks = slew.len().div_ceil(stride);
     for look in 1..=looks {
-        let index = look.saturating_mul(stride).saturating_add(swing.start).min(swing.end);
+        let index = look.saturating_mul(stride).saturating_add(slew.start).min(slew.end);
         let index = index.saturating_sub(1);
         let lowest_deg = at(&bounds.low, index) - cell_deg;
         let highest_deg = at(&bounds.high, index) + cell_deg;
@@ -84,5 +84,5 @@ pub(super) fn between(
         let before = at(&at_looks, look);
         before + (at_looks.get(look + 1).copied().unwrap_or(before) - before) * share
     };
-    Rough { places_deg: (1..=swing.len()).map(place_at).collect(), cell_deg }
+    Rough { places_deg: (1..=slew.len()).map(place_at).collect(), cell_deg }
 }

@@ -229,7 +229,7 @@ fn a_drive_that_ignores_short_ways_is_found_out() {
 }
 
 #[test]
-fn through_north_an_overlap_needs_no_swing() {
+fn through_north_an_overlap_needs_no_slew() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
@@ -262,7 +262,7 @@ fn over(mut drives: Drives) -> Drives {
 }
 
 #[test]
-fn over_the_zenith_a_pass_through_north_needs_no_swing() {
+fn over_the_zenith_a_pass_through_north_needs_no_slew() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });

@@ -1,4 +1,4 @@
-//! How fast an axis really turns, as its long swings show.
+//! How fast an axis really turns, as its long slews show.
 
 use crate::{clock::Instant, station::ranges};
 
@@ -12,24 +12,24 @@ const LEAST_READINGS: usize = 8;
 /// More positions tell no more; an axis that never arrives gives them for ever.
 const MOST_READINGS: usize = 4096;
 
-/// The swing of an axis that is under way.
+/// The slew of an axis that is under way.
 #[derive(Debug, Clone, Default)]
-pub(super) struct SwingRate {
-    swing: Option<Swing>,
+pub(super) struct SlewRate {
+    slew: Option<Slew>,
 }
 
 #[derive(Debug, Clone)]
-struct Swing {
+struct Slew {
     from_deg: f64,
     to_deg: f64,
     /// When and where it was measured at its full rate.
     readings: Vec<(Instant, f64)>,
 }
 
-impl SwingRate {
+impl SlewRate {
     /// Takes where the axis was measured at `at` after it was told to go to
     /// `to_deg`, degrees as the mount counts. Gives its full rate, degrees a
-    /// second, when a swing that was long enough has just ended.
+    /// second, when a slew that was long enough has just ended.
     pub(super) fn take(
         &mut self,
         at: Instant,
@@ -37,21 +37,19 @@ impl SwingRate {
         to_deg: Option<f64>,
     ) -> Option<f64> {
         let (Some(position_deg), Some(to_deg)) = (position_deg, to_deg) else {
-            return self.swing.take().and_then(|swing| swing.rate_deg_s());
+            return self.slew.take().and_then(|slew| slew.rate_deg_s());
         };
-        match &mut self.swing {
-            Some(swing) if swing.to_deg.to_bits() == to_deg.to_bits() => {
-                swing.take(at, position_deg)
-            }
-            swing => {
-                let next = Swing { from_deg: position_deg, to_deg, readings: Vec::new() };
-                swing.replace(next).and_then(|ended| ended.rate_deg_s())
+        match &mut self.slew {
+            Some(slew) if slew.to_deg.to_bits() == to_deg.to_bits() => slew.take(at, position_deg),
+            slew => {
+                let next = Slew { from_deg: position_deg, to_deg, readings: Vec::new() };
+                slew.replace(next).and_then(|ended| ended.rate_deg_s())
             }
         }
     }
 }
 
-impl Swing {
+impl Slew {
     fn take(&mut self, at: Instant, position_deg: f64) -> Option<f64> {
         let way = (self.to_deg - self.from_deg).signum();
         if (position_deg - self.from_deg) * way < RAMP_DEG {
@@ -105,7 +103,7 @@ mod tests {
         each_s: f64,
         seen: impl Fn(f64, f64) -> f64,
     ) -> Option<f64> {
-        let mut rate = SwingRate::default();
+        let mut rate = SlewRate::default();
         let start = Instant::now();
         let way_deg: f64 = to_deg - 10.0;
         let readings = ((way_deg.abs() / rate_deg_s + 5.0) / each_s) as u32;
@@ -131,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_of_a_long_swing_is_learned_either_way_round() {
+    fn the_rate_of_a_long_slew_is_learned_either_way_round() {
         for rate_deg_s in [0.3, 2.0, 6.0] {
             for to_deg in [70.0, -200.0] {
                 assert_near(learned(to_deg, rate_deg_s, 0.25, |_, at| at), rate_deg_s, 1e-6);
@@ -158,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_swing_and_one_that_is_slowed_down_near_its_end_teach_nothing_wrong() {
+    fn a_short_slew_and_one_that_is_slowed_down_near_its_end_teach_nothing_wrong() {
         assert_eq!(learned(35.0, 4.0, 0.25, |_, at| at), None);
         assert_eq!(learned(100.0, 25.0, 0.5, |_, at| at), None, "too few positions");
         let slow = |second: f64, at: f64| if at > 96.0 { 96.0 + second / 99.0 } else { at };
@@ -166,8 +164,8 @@ mod tests {
     }
 
     #[test]
-    fn a_swing_that_is_called_off_counts_as_far_as_it_went() {
-        let mut rate = SwingRate::default();
+    fn a_slew_that_is_called_off_counts_as_far_as_it_went() {
+        let mut rate = SlewRate::default();
         let start = Instant::now();
         let at = |second: u32| start + Duration::from_secs(second.into());
         for second in 0..20 {
