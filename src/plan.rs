@@ -2,14 +2,14 @@
 //! read. Pure functions over passes.
 
 mod az_el;
-mod azimuth_route;
+mod azimuth_wrap;
 pub mod bounds;
 pub(crate) mod detour;
 pub mod follow;
 pub mod on_board;
 pub mod pass_export;
+mod rate_limited;
 mod trackability;
-mod within_rate;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};

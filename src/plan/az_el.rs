@@ -10,8 +10,8 @@ mod way;
 
 use super::{
     Sample,
-    azimuth_route::{AzimuthRange, AzimuthRoute},
-    within_rate::within_rate,
+    azimuth_wrap::{AzimuthRange, AzimuthWrap},
+    rate_limited::rate_limited,
 };
 use crate::astro::{Angle, AzEl};
 use seen::Seen;
@@ -102,28 +102,28 @@ impl AzElAxes {
         };
         // First as if the axis had no ends, so that a turn of the sky which it does
         // not make in time takes it to none.
-        let free = within_rate(&way::azimuths_deg(samples, &tipped), azimuth_most_deg, cost);
+        let free = rate_limited(&way::azimuths_deg(samples, &tipped), azimuth_most_deg, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
-        let route = AzimuthRange::new(self.azimuth_deg).map_or_else(
-            || AzimuthRoute {
+        let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
+            || AzimuthWrap {
                 positions_deg: vec![self.azimuth_deg.0; samples.len()],
-                ..AzimuthRoute::default()
+                ..AzimuthWrap::default()
             },
-            |range| AzimuthRoute::along(&free, range, azimuth_now_deg),
+            |range| AzimuthWrap::along(&free, range, azimuth_now_deg),
         );
         let (from_deg, to_deg) = self.azimuth_deg;
-        let azimuths: Vec<f64> = within_rate(&route.positions_deg, azimuth_most_deg, cost)
+        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_most_deg, cost)
             .into_iter()
             .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
             .collect();
         let pairs = seen.iter().zip(&azimuths);
         let elevations: Vec<f64> =
             pairs.map(|(seen, azimuth_deg)| seen.elevation_deg(*azimuth_deg)).collect();
-        let elevations = within_rate(&elevations, elevation_most_deg, |index, elevation_deg| {
+        let elevations = rate_limited(&elevations, elevation_most_deg, |index, elevation_deg| {
             let pair = seen.get(index).zip(azimuths.get(index));
             pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
         });
-        Planned { way, axes_deg: [azimuths, elevations], slews: route.slews }
+        Planned { way, axes_deg: [azimuths, elevations], slews: wrap.slews }
     }
 
     /// The root of the mean square error along `samples` of axes that set out from

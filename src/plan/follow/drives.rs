@@ -10,7 +10,7 @@ use crate::{
         Sample,
         az_el::{AzElAxes, Choice, Planned, Start, Way},
         detour::Reach,
-        within_rate::within_rate,
+        rate_limited::rate_limited,
     },
     station::{MotionLimits, Mount},
 };
@@ -87,11 +87,12 @@ impl Drives {
             1.0 - (at_deg - wanted.get(index).copied().unwrap_or(at_deg)).to_radians().cos()
         };
         let [lower_most_deg, upper_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
-        let lower = within_rate(&lower, lower_most_deg, |index, at_deg| {
+        let lower = rate_limited(&lower, lower_most_deg, |index, at_deg| {
             let upper_deg = upper.get(index).copied().unwrap_or(90.0);
             (upper_deg - 90.0).to_radians().cos().powi(2) * off(&lower, index, at_deg)
         });
-        let upper = within_rate(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
+        let upper =
+            rate_limited(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
         Planned { way: Way::Plain, axes_deg: [lower, upper], slews: Vec::new() }
     }
 

@@ -11,7 +11,7 @@ use crate::{
         Bounds, Sample,
         az_el::Start,
         detour::{self, Reach},
-        within_rate::within_rate,
+        rate_limited::rate_limited,
     },
 };
 
@@ -85,7 +85,7 @@ pub(super) fn round(
         let target = samples.get(index).map(|sample| sample.direction);
         target.map_or(0.0, |target| line.off(target, at_s, bounds))
     };
-    let way_s = within_rate(&wanted_s, step_s * SHARE_OF_RATE, cost);
+    let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, cost);
     let places = way_s.into_iter().map(|at_s| line.at(at_s));
     let (first, second) = places.map(|[first, second]| (first, second)).unzip();
     [first, second]

@@ -1,20 +1,19 @@
-//! The way of an axis that turns only so fast along a course that may be faster,
-//! as at the zenith or where the axis has to go round by a turn: it sets out
-//! early and comes in late, so that the error in the sky is least.
+//! Positions of an axis of limited rate along a course that may be faster, as at the
+//! zenith or where the axis has to slew a whole turn. The axis sets out early and
+//! arrives late, so that the pointing error is least.
 
 mod cheapest;
 
 use std::ops::Range;
 
-/// Between the two bounds of an axis that keeps up, and as slow an axis does not
-/// turn at all, degrees.
+/// An axis whose two bounds differ by less keeps up; an axis that turns by less in an
+/// interval does not turn at all. Degrees.
 const SAME_DEG: f64 = 1e-6;
 
-/// A way along `wanted` (positions of an axis at equal intervals, degrees) that
-/// never turns by more than `most_deg` in an interval. Where the course is not
-/// faster it is the course itself; elsewhere the sum of `cost` is least, which is
-/// what it costs that the axis stands there at one of the intervals.
-pub(super) fn within_rate(
+/// Positions along `wanted` (at equal intervals, degrees) that never differ by more than
+/// `most_deg` from one interval to the next. Where the course is slow enough they are the
+/// course itself; elsewhere they minimise the sum of `cost(interval, position)`.
+pub(super) fn rate_limited(
     wanted: &[f64],
     most_deg: f64,
     cost: impl Fn(usize, f64) -> f64,
@@ -104,7 +103,7 @@ mod tests {
     fn weighted(wanted: &[f64], weight: &[f64], most_deg: f64) -> Vec<f64> {
         let cost =
             |at: usize, place: f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
-        within_rate(wanted, most_deg, cost)
+        rate_limited(wanted, most_deg, cost)
     }
 
     fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
@@ -158,7 +157,7 @@ mod tests {
             })
             .collect();
         let cost = |at: usize, place: f64| (place - wanted[at]).to_radians().sin().powi(2);
-        let way = within_rate(&wanted, 4.0, cost);
+        let way = rate_limited(&wanted, 4.0, cost);
         assert!(fastest(&way) <= 4.0 + 1e-9);
         assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");
         assert!((way[20] - wanted[20]).abs() < 0.1 && (way[80] - wanted[80]).abs() < 0.1);

@@ -44,33 +44,33 @@ impl AzimuthRange {
 
 /// The positions of an azimuth axis along a pass.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct AzimuthRoute {
+pub(super) struct AzimuthWrap {
     /// Degrees as the axis counts, one for each azimuth.
     pub(super) positions_deg: Vec<f64>,
-    /// Which of them the axis reaches by slewing round, because it is at an end.
+    /// Indices of the positions that the axis reaches by a whole turn, because it is at an end.
     pub(super) slews: Vec<usize>,
 }
 
-impl AzimuthRoute {
-    /// The route along `azimuths_deg`, which are unwrapped and a few degrees
-    /// apart, with the fewest slews. `axis_now_deg` is where the axis stands: of
-    /// two routes with as many slews the one that begins nearer is taken. Where no
-    /// position of the axis points to an azimuth it waits at the better end.
+impl AzimuthWrap {
+    /// The positions along `azimuths_deg`, which are unwrapped and a few degrees
+    /// apart, with the fewest slews by a whole turn. `axis_now_deg` is where the axis
+    /// stands: of two wraps with as many slews, the one that begins nearer is taken. Where
+    /// no position of the axis points to an azimuth, the axis waits at the nearer end.
     pub(super) fn along(
         azimuths_deg: &[f64],
         range: AzimuthRange,
         axis_now_deg: Option<f64>,
     ) -> Self {
-        let mut route = Self::default();
+        let mut wrap = Self::default();
         let mut start = 0;
         while let Some(first) = azimuths_deg.get(start) {
             let rest = azimuths_deg.get(start..).unwrap_or_default();
             if range.positions(*first).next().is_none() {
-                route.go_on(range.nearest_end(*first));
+                wrap.go_on(range.nearest_end(*first));
                 start += 1;
                 continue;
             }
-            let near = route.positions_deg.last().copied().or(axis_now_deg);
+            let near = wrap.positions_deg.last().copied().or(axis_now_deg);
             let mut best: Option<(usize, f64, f64)> = None;
             for position in range.positions(*first) {
                 let shift = position - first;
@@ -86,11 +86,11 @@ impl AzimuthRoute {
             // Rounding may put a position just outside an end.
             let (lasts, shift, _) = best.unwrap_or((1, 0.0, 0.0));
             for at in rest.iter().take(lasts.max(1)) {
-                route.go_on(at + shift);
+                wrap.go_on(at + shift);
             }
             start += lasts.max(1);
         }
-        route
+        wrap
     }
 
     fn go_on(&mut self, axis_deg: f64) {
@@ -109,8 +109,8 @@ mod tests {
     const PLAIN: (f64, f64) = (0.0, 360.0);
     const OVERLAP: (f64, f64) = (0.0, 450.0);
 
-    fn route(azimuths_deg: &[f64], ends_deg: (f64, f64), now: Option<f64>) -> AzimuthRoute {
-        AzimuthRoute::along(azimuths_deg, AzimuthRange::new(ends_deg).unwrap(), now)
+    fn wrap(azimuths_deg: &[f64], ends_deg: (f64, f64), now: Option<f64>) -> AzimuthWrap {
+        AzimuthWrap::along(azimuths_deg, AzimuthRange::new(ends_deg).unwrap(), now)
     }
 
     /// Degrees from `from` to `to`, both among them.
@@ -119,16 +119,16 @@ mod tests {
         (0..=(to - from).abs()).map(|count| f64::from(from + step * count)).collect()
     }
 
-    fn start(route: &AzimuthRoute) -> Option<f64> {
-        route.positions_deg.first().map(|first| first.round())
+    fn start(wrap: &AzimuthWrap) -> Option<f64> {
+        wrap.positions_deg.first().map(|first| first.round())
     }
 
     #[test]
     fn a_pass_through_north_slews_once_on_a_plain_axis_and_not_with_an_overlap() {
         for azimuths in [sweep(300, 420), sweep(60, -60)] {
-            let plain = route(&azimuths, PLAIN, None);
+            let plain = wrap(&azimuths, PLAIN, None);
             assert_eq!(plain.slews.len(), 1);
-            let overlap = route(&azimuths, OVERLAP, None);
+            let overlap = wrap(&azimuths, OVERLAP, None);
             assert!(overlap.slews.is_empty(), "{overlap:?}");
             let jump = overlap.positions_deg.windows(2).map(|two| (two[1] - two[0]).abs());
             assert!(jump.fold(0.0, f64::max) < 1.01);
@@ -138,15 +138,15 @@ mod tests {
     #[test]
     fn the_turn_that_lasts_is_taken_even_when_it_begins_further_away() {
         // From 80 down through north to 300: begun at 440, it needs no slew.
-        let route = route(&sweep(80, -60), OVERLAP, Some(75.0));
-        assert_eq!(start(&route), Some(440.0));
-        assert!(route.slews.is_empty());
+        let wrap = wrap(&sweep(80, -60), OVERLAP, Some(75.0));
+        assert_eq!(start(&wrap), Some(440.0));
+        assert!(wrap.slews.is_empty());
     }
 
     #[test]
     fn of_two_turns_that_last_the_nearer_is_taken() {
         for (now, first) in [(10.0, 20.0), (400.0, 380.0)] {
-            assert_eq!(start(&route(&sweep(20, 60), OVERLAP, Some(now))), Some(first), "{now}");
+            assert_eq!(start(&wrap(&sweep(20, 60), OVERLAP, Some(now))), Some(first), "{now}");
         }
     }
 
@@ -156,9 +156,9 @@ mod tests {
             for start in (-720..720).step_by(37) {
                 for way in [-500, -123, 7, 200, 500] {
                     let azimuths = sweep(start, start + way);
-                    let route = route(&azimuths, (from, to), None);
-                    assert_eq!(route.positions_deg.len(), azimuths.len());
-                    for (axis, azimuth) in route.positions_deg.iter().zip(&azimuths) {
+                    let wrap = wrap(&azimuths, (from, to), None);
+                    assert_eq!(wrap.positions_deg.len(), azimuths.len());
+                    for (axis, azimuth) in wrap.positions_deg.iter().zip(&azimuths) {
                         assert!((from - 1e-6..=to + 1e-6).contains(axis), "{axis}");
                         let turns = (axis - azimuth) / TURN_DEG;
                         assert!((turns - turns.round()).abs() < 1e-6);
@@ -170,14 +170,13 @@ mod tests {
 
     #[test]
     fn an_axis_of_less_than_a_turn_waits_at_the_better_end() {
-        let route = route(&sweep(280, 440), (0.0, 300.0), None);
-        let degrees: Vec<i32> =
-            route.positions_deg.iter().map(|axis| axis.round() as i32).collect();
+        let wrap = wrap(&sweep(280, 440), (0.0, 300.0), None);
+        let degrees: Vec<i32> = wrap.positions_deg.iter().map(|axis| axis.round() as i32).collect();
         assert_eq!(degrees[..=20], (280..=300).collect::<Vec<_>>());
         assert!(degrees[20..50].iter().all(|axis| *axis == 300), "{degrees:?}");
         assert!(degrees[51..=80].iter().all(|axis| *axis == 0), "{degrees:?}");
         assert_eq!(degrees[80..], (0..=80).collect::<Vec<_>>());
-        assert_eq!(route.slews.len(), 1);
+        assert_eq!(wrap.slews.len(), 1);
     }
 
     #[test]
@@ -185,6 +184,6 @@ mod tests {
         for ends_deg in [(10.0, 10.0), (f64::NAN, 360.0), (0.0, f64::INFINITY)] {
             assert_eq!(AzimuthRange::new(ends_deg), None);
         }
-        assert_eq!(route(&[], PLAIN, None), AzimuthRoute::default());
+        assert_eq!(wrap(&[], PLAIN, None), AzimuthWrap::default());
     }
 }
