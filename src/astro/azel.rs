@@ -29,12 +29,12 @@ impl AzEl {
     /// degrees the elevation axis points over the zenith to the other side.
     pub fn of_axes(azimuth: Angle, elevation: Angle) -> Self {
         let axes = Self { azimuth: azimuth.wrapped_360(), elevation };
-        if elevation > ZENITH { axes.tipped_over() } else { axes }
+        if elevation > ZENITH { axes.flipped() } else { axes }
     }
 
     /// The other position of such axes that points to the same direction.
     #[must_use]
-    pub fn tipped_over(self) -> Self {
+    pub fn flipped(self) -> Self {
         let half_turn = Angle::from_degrees(180.0);
         Self {
             azimuth: (self.azimuth + half_turn).wrapped_360(),
@@ -107,16 +107,16 @@ mod tests {
     }
 
     #[test]
-    fn axes_that_are_tipped_over_point_to_the_same_direction() {
+    fn flipped_axes_point_to_the_same_direction() {
         for az in (0..360).step_by(15) {
             for el in (0..90).step_by(5) {
                 let plain = AzEl::from_degrees(f64::from(az), f64::from(el));
-                let tipped = plain.tipped_over();
-                assert!((90.0..=180.0).contains(&tipped.elevation_deg()));
-                let seen = AzEl::of_axes(tipped.azimuth, tipped.elevation);
+                let flipped = plain.flipped();
+                assert!((90.0..=180.0).contains(&flipped.elevation_deg()));
+                let seen = AzEl::of_axes(flipped.azimuth, flipped.elevation);
                 assert!(plain.separation(seen).degrees() < 1e-9);
                 assert!((seen.elevation_deg() - plain.elevation_deg()).abs() < 1e-9);
-                assert!(plain.separation(tipped).degrees() < 1e-9, "also as they count");
+                assert!(plain.separation(flipped).degrees() < 1e-9, "also as they count");
                 assert_eq!(AzEl::of_axes(plain.azimuth, plain.elevation), plain);
             }
         }

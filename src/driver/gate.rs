@@ -466,23 +466,23 @@ impl Gate {
 
     /// The motion to a direction of the sky, as the axes count: the azimuth axis
     /// goes to the nearest of its positions. Where one angle is to stay, axes that
-    /// are tipped over the zenith stay so. An error beyond it, where there is no sky.
+    /// are flipped stay so. An error beyond it, where there is no sky.
     pub(super) fn nearest(&self, motion: Motion) -> Result<Motion, Refusal> {
         let Motion::Position { azimuth, elevation } = motion else { return Ok(motion) };
         if let Some(asked_deg) = elevation.map(Angle::degrees).filter(|deg| *deg > 90.0 + 1e-9) {
             let lowest_deg = self.limits.minimum_elevation_deg;
             return Err(Refusal::Elevation { asked_deg, lowest_deg });
         }
-        let stays_tipped = self.is_tipped() && (azimuth.is_none() || elevation.is_none());
-        let tipped = |elevation| if stays_tipped { HALF_TURN - elevation } else { elevation };
+        let stays_flipped = self.is_flipped() && (azimuth.is_none() || elevation.is_none());
+        let flipped = |elevation| if stays_flipped { HALF_TURN - elevation } else { elevation };
         Ok(Motion::Position {
-            azimuth: azimuth.map(|azimuth| self.nearest_azimuth(azimuth, stays_tipped)),
-            elevation: elevation.map(tipped),
+            azimuth: azimuth.map(|azimuth| self.nearest_azimuth(azimuth, stays_flipped)),
+            elevation: elevation.map(flipped),
         })
     }
 
     /// An azimuth beyond the sky that the axis has is meant as the axis counts.
-    fn nearest_azimuth(&self, azimuth: Angle, is_tipped: bool) -> Angle {
+    fn nearest_azimuth(&self, azimuth: Angle, is_flipped: bool) -> Angle {
         let [(from_deg, to_deg), _] = self.mount.travel_deg();
         let asked_deg = azimuth.degrees();
         let is_of_sky = (0.0..360.0).contains(&asked_deg);
@@ -490,7 +490,7 @@ impl Gate {
             return azimuth;
         }
         let near_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
-        let side = if is_tipped { (azimuth + HALF_TURN).wrapped_360() } else { azimuth };
+        let side = if is_flipped { (azimuth + HALF_TURN).wrapped_360() } else { azimuth };
         self.mount.axis_azimuth(side, near_deg)
     }
 
@@ -499,7 +499,7 @@ impl Gate {
         let motion = self.controller.as_told(*motion);
         let Motion::Position { azimuth, elevation } = motion else { return None };
         let measured = self.state().measured;
-        if !self.mount.tips_over() {
+        if !self.mount.can_flip() {
             let measured = measured.map(|measured| measured.pointing);
             return Some(aimed(azimuth.map(Angle::wrapped_360), elevation, measured));
         }
@@ -518,8 +518,8 @@ impl Gate {
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 
-    fn is_tipped(&self) -> bool {
-        self.mount.is_tipped(self.elevation_axis_deg())
+    fn is_flipped(&self) -> bool {
+        self.mount.is_flipped(self.elevation_axis_deg())
     }
 }
 

@@ -181,8 +181,8 @@ impl AntennaModel {
                 return None;
             }
             // Over the zenith the angles of the sky jump and the axes do not.
-            if self.config.mount.is_tipped(measured.axes[1].angle_deg)
-                != self.config.mount.is_tipped(before.axes[1].angle_deg)
+            if self.config.mount.is_flipped(measured.axes[1].angle_deg)
+                != self.config.mount.is_flipped(before.axes[1].angle_deg)
             {
                 return None;
             }

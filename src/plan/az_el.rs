@@ -3,10 +3,10 @@
 //! is not right the elevation makes the best of it.
 //!
 //! An elevation axis that travels over the zenith reaches every direction in two
-//! ways. Which one is better for a pass is found out by trying them all.
+//! ways, plain and flipped. All flips of a pass are tried, and the best is taken.
 
+mod flip;
 mod seen;
-mod way;
 
 use super::{
     Sample,
@@ -14,11 +14,11 @@ use super::{
     rate_limited::rate_limited,
 };
 use crate::astro::{Angle, AzEl};
+pub(super) use flip::{Choice, Flip};
 use seen::Seen;
-pub(super) use way::{Choice, Way};
 
-/// Another way than the preferred one has to point better by this, degrees: nobody
-/// tips an antenna over, or sends it back, for less.
+/// A flip other than the preferred one has to point better by this, degrees: it is not
+/// worth moving the elevation over the zenith for less.
 const WORTH_DEG: f64 = 0.1;
 
 /// The two axes.
@@ -45,7 +45,7 @@ pub(super) struct Start {
 /// Where both axes have to stand along a pass.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Planned {
-    pub(super) way: Way,
+    pub(super) flip: Flip,
     /// Degrees as the mount counts, one for each sample.
     pub(super) axes_deg: [Vec<f64>; 2],
     /// The samples at which the azimuth axis slews round, because it is at an end.
@@ -53,23 +53,23 @@ pub(super) struct Planned {
 }
 
 impl AzElAxes {
-    /// The way along `samples`, `step_s` seconds apart, with the least error from
-    /// where the axes stand now; the one to `prefer` when no other is better.
+    /// The positions along `samples`, `step_s` seconds apart, with the flip of the least
+    /// error from where the axes stand now; `prefer` when no other is better.
     pub(super) fn best(
         &self,
         samples: &[Sample],
         step_s: f64,
         start: Start,
-        prefer: Way,
+        prefer: Flip,
     ) -> Planned {
         let mut best = self.along(samples, step_s, start, prefer);
         let mut best_deg = self.error_deg(samples, step_s, start, &best) - WORTH_DEG;
         if best_deg <= 0.0 {
             return best;
         }
-        let ways = std::iter::once(Way::Plain).chain(self.others(samples));
-        for way in ways.filter(|way| *way != prefer) {
-            let planned = self.along(samples, step_s, start, way);
+        let flips = std::iter::once(Flip::None).chain(self.others(samples));
+        for flip in flips.filter(|flip| *flip != prefer) {
+            let planned = self.along(samples, step_s, start, flip);
             let error_deg = self.error_deg(samples, step_s, start, &planned);
             if error_deg < best_deg {
                 (best, best_deg) = (planned, error_deg);
@@ -78,31 +78,39 @@ impl AzElAxes {
         best
     }
 
-    /// The ways other than the plain one that the axes have along `samples`.
-    pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Way> + use<> {
-        let tips_over = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
+    /// The flips, other than none, that the axes can make along `samples`.
+    pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Flip> + use<> {
+        let can_flip = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
         let is_high = samples.iter().any(|sample| seen::is_overhead(sample.direction));
-        let over = [Way::Over, Way::Back].into_iter().filter(move |_| is_high);
-        std::iter::once(Way::Flipped).chain(over).filter(move |_| tips_over)
+        let over = [Flip::FromTop, Flip::UntilTop].into_iter().filter(move |_| is_high);
+        std::iter::once(Flip::Whole).chain(over).filter(move |_| can_flip)
     }
 
-    /// The `way` along `samples`, `step_s` seconds apart. The azimuth axis begins on
-    /// the turn that lasts, of several the one nearest to where it stands. What is
-    /// out of reach is waited for as near as can be.
-    pub(super) fn along(&self, samples: &[Sample], step_s: f64, start: Start, way: Way) -> Planned {
+    /// The positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth
+    /// axis begins on the wrap that lasts longest, of several the nearest. Where a
+    /// direction is out of travel, the axes wait as near to it as they can.
+    pub(super) fn along(
+        &self,
+        samples: &[Sample],
+        step_s: f64,
+        start: Start,
+        flip: Flip,
+    ) -> Planned {
         let [azimuth_most_deg, elevation_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
-        let tipped = way.tipped(samples);
+        let flipped = flip.flipped(samples);
         let seen: Vec<Seen> = samples
             .iter()
-            .zip(&tipped)
-            .map(|(sample, is_tipped)| Seen::new(sample.direction, *is_tipped, self.elevation_deg))
+            .zip(&flipped)
+            .map(|(sample, is_flipped)| {
+                Seen::new(sample.direction, *is_flipped, self.elevation_deg)
+            })
             .collect();
         let cost = |index: usize, azimuth_deg: f64| {
             seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(azimuth_deg))
         };
         // First as if the axis had no ends, so that a turn of the sky which it does
         // not make in time takes it to none.
-        let free = rate_limited(&way::azimuths_deg(samples, &tipped), azimuth_most_deg, cost);
+        let free = rate_limited(&flip::azimuths_deg(samples, &flipped), azimuth_most_deg, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
         let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
             || AzimuthWrap {
@@ -123,7 +131,7 @@ impl AzElAxes {
             let pair = seen.get(index).zip(azimuths.get(index));
             pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
         });
-        Planned { way, axes_deg: [azimuths, elevations], slews: wrap.slews }
+        Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }
     }
 
     /// The root of the mean square error along `samples` of axes that set out from

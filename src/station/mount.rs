@@ -29,7 +29,7 @@ pub enum Mount {
         azimuth_to_deg: f64,
         /// Lower end of the elevation axis, degrees.
         elevation_from_deg: f64,
-        /// Upper end, degrees; beyond 90, up to 180, where the mount tips over the
+        /// Upper end, degrees; beyond 90, up to 180, where the mount flips the
         /// zenith.
         elevation_to_deg: f64,
     },
@@ -56,7 +56,7 @@ impl Mount {
     pub fn reaches(&self, direction: AzEl) -> bool {
         let Self::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = *self else { return true };
         let [_, (lowest_deg, highest_deg)] = self.travel_deg();
-        [direction, direction.tipped_over()].into_iter().any(|axes| {
+        [direction, direction.flipped()].into_iter().any(|axes| {
             let azimuth_deg = self.axis_azimuth(axes.azimuth, None).degrees();
             (azimuth_from_deg..=azimuth_to_deg).contains(&azimuth_deg)
                 && (lowest_deg..=highest_deg).contains(&axes.elevation_deg())
@@ -64,13 +64,13 @@ impl Mount {
     }
 
     /// Whether the elevation axis travels over the zenith to the other side.
-    pub fn tips_over(&self) -> bool {
+    pub fn can_flip(&self) -> bool {
         matches!(self, Self::AzEl { elevation_to_deg, .. } if *elevation_to_deg > 90.0)
     }
 
-    /// Whether an elevation axis that stands there is tipped over the zenith.
-    pub fn is_tipped(&self, elevation_axis_deg: Option<f64>) -> bool {
-        self.tips_over() && elevation_axis_deg.is_some_and(|axis_deg| axis_deg > 90.0)
+    /// Whether an elevation axis that stands there is flipped.
+    pub fn is_flipped(&self, elevation_axis_deg: Option<f64>) -> bool {
+        self.can_flip() && elevation_axis_deg.is_some_and(|axis_deg| axis_deg > 90.0)
     }
 
     /// The mount with the ends of its axes drawn in to those that the device keeps
@@ -172,7 +172,7 @@ mod tests {
         let elevation_to_deg = 150.0;
         let over =
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg };
-        assert!(over.tips_over() && !azel(90.0, 270.0).tips_over());
+        assert!(over.can_flip() && !azel(90.0, 270.0).can_flip());
         assert!(over.reaches(AzEl::from_degrees(20.0, 45.0)));
         assert!(!over.reaches(AzEl::from_degrees(20.0, 25.0)), "beyond 150");
     }

@@ -34,7 +34,7 @@ pub(super) fn antenna(rotators: Rotators) -> Antenna {
     antenna
 }
 
-/// The same on a mount that tips over the zenith.
+/// The same on a mount that flips over the zenith.
 fn over() -> Antenna {
     let mut antenna = antenna(Rotators::Pair);
     if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {
@@ -70,7 +70,7 @@ async fn followed(stop_offset_deg: u8, scene: &Scene) -> FollowStats {
     followed_by(&options(stop_offset_deg), &antenna(Rotators::Pair), scene).await
 }
 
-/// With a device whose elevation goes to `to_deg`, on a mount that tips over.
+/// With a device whose elevation goes to `to_deg`, on a mount that flips.
 async fn followed_over(to_deg: u16, scene: &Scene) -> FollowStats {
     let mut options = options(2);
     options.rotators[1].limit_cw = WholeDegrees::saturating(to_deg);

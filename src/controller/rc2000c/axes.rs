@@ -62,7 +62,7 @@ impl Axes {
     /// over, an elevation a little beyond 90 degrees is the noise of its sensor.
     pub(super) fn pointing(axes: [Axis; 2], mount: &Mount) -> Pointing {
         let [azimuth, elevation] = axes.map(|axis| axis.angle_deg.map(Angle::from_degrees));
-        if mount.tips_over() {
+        if mount.can_flip() {
             Pointing::of_axes(azimuth, elevation)
         } else {
             Pointing { azimuth: azimuth.map(Angle::wrapped_360), elevation }

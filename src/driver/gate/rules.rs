@@ -244,7 +244,7 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     let Motion::Position { azimuth, elevation } = *motion else { return Ok(()) };
     let lowest_deg = situation.limits.minimum_elevation_deg;
     if let Some(asked) = elevation {
-        let is_over = situation.mount.tips_over() && asked.degrees() > 90.0;
+        let is_over = situation.mount.can_flip() && asked.degrees() > 90.0;
         // Over the zenith it is the direction on the other side that counts.
         let asked_deg = if is_over { 180.0 - asked.degrees() } else { asked.degrees() };
         // Angles come from decimal degrees: allow for the rounding.

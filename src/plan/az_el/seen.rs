@@ -6,7 +6,7 @@ use crate::astro::AzEl;
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 
 /// Whether `direction` is so high that the elevation makes up for an azimuth that
-/// does not keep up. Further down it would tip the antenna up and down again while
+/// does not keep up. Further down it would raise and lower the antenna while
 /// the azimuth goes round, and point nowhere near all the same.
 pub(super) fn is_overhead(direction: AzEl) -> bool {
     direction.elevation_deg() >= OVERHEAD_FROM_DEG
@@ -27,11 +27,10 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// `direction` for an elevation axis between `ends_deg` that is tipped over the
-    /// zenith, or is not.
-    pub(super) fn new(direction: AzEl, is_tipped: bool, ends_deg: Option<(f64, f64)>) -> Self {
+    /// `direction` for an elevation axis between `ends_deg` that is flipped or not.
+    pub(super) fn new(direction: AzEl, is_flipped: bool, ends_deg: Option<(f64, f64)>) -> Self {
         let elevation_deg = direction.elevation_deg();
-        let side_deg = if is_tipped { 180.0 - elevation_deg } else { elevation_deg };
+        let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
         let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
         let usual_deg = side_deg.min(to_deg).max(from_deg);
         let helps = ends_deg.filter(|_| is_overhead(direction));

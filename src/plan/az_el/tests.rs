@@ -27,27 +27,27 @@ fn waiting() -> Start {
 }
 
 /// The way that is taken, and its root of the mean square error, degrees.
-fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Way, f64) {
-    let planned = axes.best(samples, 1.0, start, Way::Plain);
-    (planned.way, axes.error_deg(samples, 1.0, start, &planned))
+fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Flip, f64) {
+    let planned = axes.best(samples, 1.0, start, Flip::None);
+    (planned.flip, axes.error_deg(samples, 1.0, start, &planned))
 }
 
 #[test]
 fn a_usual_pass_stays_plain() {
-    let (way, error_deg) = best(&pass(600.0, 120.0), axes(360.0, 180.0, 4.0), waiting());
-    assert_eq!(way, Way::Plain);
+    let (flip, error_deg) = best(&pass(600.0, 120.0), axes(360.0, 180.0, 4.0), waiting());
+    assert_eq!(flip, Flip::None);
     assert!(error_deg < 1e-6, "{error_deg}");
 }
 
 #[test]
 fn through_north_the_axes_are_flipped_where_they_can_be() {
     let samples = pass(600.0, 275.0);
-    let (way, plain_deg) = best(&samples, axes(360.0, 90.0, 4.0), waiting());
-    assert!(way == Way::Plain && plain_deg > 10.0, "{way:?} {plain_deg}");
-    let (way, error_deg) = best(&samples, axes(360.0, 180.0, 4.0), waiting());
-    assert!(way == Way::Flipped && error_deg < 1e-6, "{way:?} {error_deg}");
-    let (way, error_deg) = best(&samples, axes(450.0, 180.0, 4.0), waiting());
-    assert!(way == Way::Plain && error_deg < 1e-6, "{way:?} {error_deg}");
+    let (flip, plain_deg) = best(&samples, axes(360.0, 90.0, 4.0), waiting());
+    assert!(flip == Flip::None && plain_deg > 10.0, "{flip:?} {plain_deg}");
+    let (flip, error_deg) = best(&samples, axes(360.0, 180.0, 4.0), waiting());
+    assert!(flip == Flip::Whole && error_deg < 1e-6, "{flip:?} {error_deg}");
+    let (flip, error_deg) = best(&samples, axes(450.0, 180.0, 4.0), waiting());
+    assert!(flip == Flip::None && error_deg < 1e-6, "{flip:?} {error_deg}");
 }
 
 #[test]
@@ -55,8 +55,8 @@ fn close_to_the_zenith_the_elevation_goes_on_over_it() {
     for (km, towards_deg) in [(20.0, 90.0), (-20.0, 90.0), (20.0, 0.0), (-5.0, 200.0)] {
         let samples = pass(km, towards_deg);
         let (_, plain_deg) = best(&samples, axes(360.0, 90.0, 2.0), waiting());
-        let (way, error_deg) = best(&samples, axes(360.0, 180.0, 2.0), waiting());
-        assert!(matches!(way, Way::Over | Way::Back), "{way:?} {km} {towards_deg}");
+        let (flip, error_deg) = best(&samples, axes(360.0, 180.0, 2.0), waiting());
+        assert!(matches!(flip, Flip::FromTop | Flip::UntilTop), "{flip:?} {km} {towards_deg}");
         assert!(error_deg < plain_deg / 2.0 && error_deg < 0.6, "{error_deg} {plain_deg}");
     }
 }
@@ -67,8 +67,8 @@ fn the_axes_keep_to_their_rates_and_ends() {
         for towards_deg in [0.0, 95.0, 180.0, 275.0] {
             let samples = pass(km, towards_deg);
             for axes in [axes(360.0, 90.0, 3.0), axes(450.0, 180.0, 3.0), axes(200.0, 120.0, 3.0)] {
-                for way in std::iter::once(Way::Plain).chain(axes.others(&samples)) {
-                    let planned = axes.along(&samples, 1.0, waiting(), way);
+                for flip in std::iter::once(Flip::None).chain(axes.others(&samples)) {
+                    let planned = axes.along(&samples, 1.0, waiting(), flip);
                     let ends_deg = [axes.azimuth_deg, axes.elevation_deg.unwrap()];
                     for (axis, (from_deg, to_deg)) in planned.axes_deg.iter().zip(ends_deg) {
                         assert_eq!(axis.len(), samples.len());
@@ -91,21 +91,21 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     let over_there = (azimuth_deg + 180.0).rem_euclid(360.0);
     let start = |axes_deg: [f64; 2]| Start { axes_deg: axes_deg.map(Some), lead_s: 0.0 };
     let usual = pass(600.0, 120.0);
-    let (way, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
-    assert_eq!(way, Way::Flipped);
+    let (flip, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
+    assert_eq!(flip, Flip::Whole);
     // Plain is as good in the end, but it takes a minute to get there.
     let late = &usual[600..];
     let first = late[0].direction;
-    let tipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];
-    assert_eq!(best(late, axes(360.0, 180.0, 2.0), start(tipped)).0, Way::Flipped);
-    assert_eq!(best(late, axes(360.0, 180.0, 2.0), waiting()).0, Way::Plain);
+    let flipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];
+    assert_eq!(best(late, axes(360.0, 180.0, 2.0), start(flipped)).0, Flip::Whole);
+    assert_eq!(best(late, axes(360.0, 180.0, 2.0), waiting()).0, Flip::None);
 }
 
 #[test]
 fn an_azimuth_alone_is_never_flipped() {
     let alone = AzElAxes { elevation_deg: None, ..axes(360.0, 180.0, 4.0) };
     assert_eq!(alone.others(&pass(5.0, 0.0)).count(), 0);
-    assert_eq!(best(&pass(600.0, 275.0), alone, waiting()).0, Way::Plain);
+    assert_eq!(best(&pass(600.0, 275.0), alone, waiting()).0, Flip::None);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::{
     },
     plan::{
         Sample,
-        az_el::{AzElAxes, Choice, Planned, Start, Way},
+        az_el::{AzElAxes, Choice, Flip, Planned, Start},
         detour::Reach,
         rate_limited::rate_limited,
     },
@@ -49,7 +49,7 @@ pub struct SetPoint {
 
 impl Drives {
     /// Where both axes have to stand along `samples`, which are `step_s` seconds
-    /// apart: of the ways that a mount of elevation over azimuth has `way`, or the
+    /// apart: of the flips that a mount of elevation over azimuth has `way`, or the
     /// best one from `start`. What lies out of reach is waited for as near as can
     /// be.
     pub(super) fn along(
@@ -63,11 +63,11 @@ impl Drives {
             (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => {
                 self.along_crossed(samples, step_s, Angle::from_degrees(lower_axis_azimuth_deg))
             }
-            (Mount::AzEl { .. }, Choice::Keep(way)) => {
-                self.az_el().along(samples, step_s, start, way)
+            (Mount::AzEl { .. }, Choice::Keep(flip)) => {
+                self.az_el().along(samples, step_s, start, flip)
             }
-            (Mount::AzEl { .. }, Choice::Prefer(way)) => {
-                self.az_el().best(samples, step_s, start, way)
+            (Mount::AzEl { .. }, Choice::Prefer(flip)) => {
+                self.az_el().best(samples, step_s, start, flip)
             }
         }
     }
@@ -93,7 +93,7 @@ impl Drives {
         });
         let upper =
             rate_limited(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
-        Planned { way: Way::Plain, axes_deg: [lower, upper], slews: Vec::new() }
+        Planned { flip: Flip::None, axes_deg: [lower, upper], slews: Vec::new() }
     }
 
     fn az_el(&self) -> AzElAxes {
@@ -207,7 +207,7 @@ mod tests {
     }
 
     fn positions(drives: &Drives, sample: Sample) -> [f64; 2] {
-        let planned = drives.along(&[sample], 1.0, Start::default(), Choice::Keep(Way::Plain));
+        let planned = drives.along(&[sample], 1.0, Start::default(), Choice::Keep(Flip::None));
         planned.axes_deg.map(|axis| axis[0])
     }
 

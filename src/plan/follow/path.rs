@@ -7,7 +7,7 @@ use crate::{
     astro::time::{add_seconds, seconds_between},
     plan::{
         Bounds, Sample,
-        az_el::{Choice, Planned, Start, Way},
+        az_el::{Choice, Flip, Planned, Start},
     },
 };
 
@@ -32,7 +32,7 @@ pub(super) struct Path {
     /// Degrees each axis turns in a step at its full rate.
     most_deg: [f64; 2],
     axes: [Vec<f64>; 2],
-    way: Way,
+    flip: Flip,
 }
 
 impl Path {
@@ -57,14 +57,14 @@ impl Path {
             })
             .collect();
         let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let Planned { way, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
+        let Planned { flip, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
         let axes = if bounds.has_way_round() && drives.has_elevation {
             round(axes_deg, &samples, step_s, start, drives.reach(), bounds)
         } else {
             axes_deg
         };
         let to = samples.last()?.time;
-        Some(Self { from, to, step_s, most_deg, axes, way })
+        Some(Self { from, to, step_s, most_deg, axes, flip })
     }
 
     /// When it ends.
@@ -81,8 +81,8 @@ impl Path {
     }
 
     /// On which side of the zenith it runs.
-    pub(super) fn way(&self) -> Way {
-        self.way
+    pub(super) fn flip(&self) -> Flip {
+        self.flip
     }
 
     /// Seconds from its beginning.
@@ -180,7 +180,7 @@ mod tests {
             step_s: 0.5,
             most_deg: [2.5; 2],
             axes: [axis.clone(), axis],
-            way: Way::Plain,
+            flip: Flip::None,
         }
     }
 

@@ -18,7 +18,7 @@ use crate::{
     orbit::PropagationError,
     plan::{
         Bounds,
-        az_el::{Choice, Start, Way},
+        az_el::{Choice, Flip, Start},
     },
     station::Following,
 };
@@ -171,9 +171,9 @@ impl Planner {
     /// antenna is to go to and fro.
     fn choice(&self, now: Timestamp) -> Choice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
-            Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.way()),
-            Some((path, _)) => Choice::Prefer(path.way()),
-            None => Choice::Prefer(Way::Plain),
+            Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.flip()),
+            Some((path, _)) => Choice::Prefer(path.flip()),
+            None => Choice::Prefer(Flip::None),
         }
     }
 

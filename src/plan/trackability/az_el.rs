@@ -5,7 +5,7 @@
 use super::{Loss, Reach, Sample, Trackability};
 use crate::{
     astro::time::seconds_between,
-    plan::az_el::{AzElAxes, Planned, Start, Way},
+    plan::az_el::{AzElAxes, Flip, Planned, Start},
 };
 
 /// Above this elevation a loss is told as one overhead, degrees.
@@ -23,11 +23,11 @@ pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
     };
     let step_s = samples.iter().zip(samples.iter().skip(1)).next();
     let step_s = step_s.map_or(1.0, |(first, second)| seconds_between(first.time, second.time));
-    let along = |way| {
-        let planned = axes.along(samples, step_s, Start::default(), way);
+    let along = |flip| {
+        let planned = axes.along(samples, step_s, Start::default(), flip);
         lost(samples, reach, axes, &planned)
     };
-    let plain = along(Way::Plain);
+    let plain = along(Flip::None);
     if plain.0 <= 0.0 {
         return Trackability::Whole;
     }

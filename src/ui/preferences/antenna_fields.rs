@@ -67,7 +67,7 @@ fn mount() -> [Of; 7] {
         })
         .noted(|antenna| {
             let words = "Beyond 90° the antenna may be tipped over the zenith to track.";
-            antenna.mount.tips_over().then(|| words.to_owned())
+            antenna.mount.can_flip().then(|| words.to_owned())
         }),
     ]
 }

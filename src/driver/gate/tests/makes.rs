@@ -114,8 +114,8 @@ fn an_action_that_moves_passes_every_rule() {
 }
 
 /// A Genius whose elevation travels to 180 degrees, and its gate. Its axes are
-/// tipped over: they point to an azimuth of 20 and an elevation of 60 degrees.
-fn tipped(intent: Intent) -> (Case, Gate) {
+/// flipped: they point to an azimuth of 20 and an elevation of 60 degrees.
+fn flipped(intent: Intent) -> (Case, Gate) {
     let mut case = genius(intent);
     if let Mount::AzEl { elevation_to_deg, .. } = &mut case.antenna.mount {
         *elevation_to_deg = 180.0;
@@ -131,7 +131,7 @@ fn tipped(intent: Intent) -> (Case, Gate) {
 
 #[test]
 fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
-    let (case, _) = tipped(Intent::Track);
+    let (case, _) = flipped(Intent::Track);
     for elevation_deg in [5.0, 90.0, 120.0, 175.0] {
         assert_eq!(case.ask(position(45.0, elevation_deg)), Ok(()), "{elevation_deg}");
     }
@@ -152,7 +152,7 @@ fn over_the_zenith_the_antenna_stays_above_the_lowest_elevation_too() {
 
 #[test]
 fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
-    let (_, gate) = tipped(Intent::Position);
+    let (_, gate) = flipped(Intent::Position);
     let near = |motion: Motion, wanted: [Option<f64>; 2]| {
         let Ok(Motion::Position { azimuth, elevation }) = gate.nearest(motion) else { panic!() };
         for (at, wanted) in [azimuth, elevation].into_iter().zip(wanted) {
@@ -170,7 +170,7 @@ fn by_hand_the_axes_go_back_to_where_they_count_plainly() {
 
 #[test]
 fn a_motion_over_the_zenith_ends_on_the_other_side() {
-    let (_, gate) = tipped(Intent::Track);
+    let (_, gate) = flipped(Intent::Track);
     for (motion, azimuth_deg, elevation_deg) in [
         (position(250.0, 100.0), 70.0, 80.0),
         (position(250.0, 80.0), 250.0, 80.0),
