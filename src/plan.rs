@@ -14,4 +14,4 @@ mod trackability;
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
 pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use on_board::{OnBoardPass, Supervision};
-pub use trackability::{Loss, Reach, Sample, Trackability, trackability};
+pub use trackability::{Loss, MountLimits, Sample, Trackability, trackability};

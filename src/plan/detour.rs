@@ -20,9 +20,9 @@ const MOST_PLACES: usize = 20_000;
 /// Of two ways that take equally long the straighter one, microseconds a degree.
 const STRAIGHT: f64 = 1000.0;
 
-/// What two axes can do.
+/// Travel and rates of two axes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Reach {
+pub(crate) struct AxisLimits {
     /// Ends of both axes, degrees as the mount counts.
     pub(crate) travel_deg: [(f64, f64); 2],
     /// How fast each turns, degrees a second.
@@ -31,7 +31,7 @@ pub(crate) struct Reach {
     pub(crate) room_deg: f64,
 }
 
-impl Reach {
+impl AxisLimits {
     /// For axes that come to rest within `rests_within_deg` of a place of the way.
     pub(crate) fn new(
         travel_deg: [(f64, f64); 2],
@@ -64,12 +64,12 @@ const NEIGHBOURS: [Place; 8] =
 /// none, or where one of the ends is not outside.
 pub(crate) fn between(
     bounds: &Bounds,
-    reach: &Reach,
+    limits: &AxisLimits,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
     at: Timestamp,
 ) -> Option<Vec<[f64; 2]>> {
-    let search = Search { bounds, now: bounds.at(at), reach, from_deg, to_deg };
+    let search = Search { bounds, now: bounds.at(at), limits, from_deg, to_deg };
     let way = search.way()?;
     Some(search.pulled_straight(&way))
 }
@@ -93,7 +93,7 @@ pub(crate) fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
 struct Search<'a> {
     bounds: &'a Bounds,
     now: BoundsAt<'a>,
-    reach: &'a Reach,
+    limits: &'a AxisLimits,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
 }
@@ -105,18 +105,18 @@ impl Search<'_> {
     }
 
     fn is_free(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
-        self.reach.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
+        self.limits.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
     }
 
     /// Microseconds, which an order can be made of.
     fn cost(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> u64 {
         let straight_deg = (to_deg[0] - from_deg[0]).hypot(to_deg[1] - from_deg[1]);
-        (self.reach.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
+        (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
     }
 
     /// Place after place.
     fn way(&self) -> Option<Vec<[f64; 2]>> {
-        let room_deg = self.reach.room_deg;
+        let room_deg = self.limits.room_deg;
         // Both ends may touch the edge of the room.
         let ends = [self.from_deg, self.to_deg];
         if !ends.into_iter().all(|end| self.is_free(end, room_deg - CELL_DEG / 2.0)) {
@@ -187,7 +187,7 @@ impl Search<'_> {
 
     fn is_straight(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let places = in_steps(&[from_deg, to_deg], CELL_DEG / 2.0);
-        let room_deg = self.reach.room_deg - CELL_DEG / 2.0;
+        let room_deg = self.limits.room_deg - CELL_DEG / 2.0;
         places.into_iter().all(|place| self.is_free(place, room_deg))
     }
 }
@@ -221,8 +221,8 @@ mod tests {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
 
-    fn reach() -> Reach {
-        Reach::new([(0.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0)
+    fn limits() -> AxisLimits {
+        AxisLimits::new([(0.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0)
     }
 
     fn mast(to_elevation_deg: f64) -> KeepOut {
@@ -249,12 +249,12 @@ mod tests {
     #[test]
     fn it_leads_over_a_mast_and_stays_outside_of_its_margin() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds, &reach(), [80.0, 20.0], [140.0, 20.0], noon()).unwrap();
+        let way = between(&bounds, &limits(), [80.0, 20.0], [140.0, 20.0], noon()).unwrap();
         assert_eq!((way.first(), way.last()), (Some(&[80.0, 20.0]), Some(&[140.0, 20.0])));
         assert_outside(&bounds, &way);
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
         assert!((40.0..55.0).contains(&highest_deg), "{way:?}");
-        let seconds: f64 = way.windows(2).map(|pair| reach().seconds(pair[0], pair[1])).sum();
+        let seconds: f64 = way.windows(2).map(|pair| limits().seconds(pair[0], pair[1])).sum();
         // The azimuth alone takes 15 s, and the elevation has time to go up meanwhile.
         assert!((15.0..22.0).contains(&seconds), "{seconds} {way:?}");
     }
@@ -262,17 +262,17 @@ mod tests {
     #[test]
     fn where_nothing_is_in_the_way_it_is_straight() {
         let bounds = bounds(vec![mast(40.0)], None);
-        let way = between(&bounds, &reach(), [200.0, 20.0], [240.2, 61.7], noon());
+        let way = between(&bounds, &limits(), [200.0, 20.0], [240.2, 61.7], noon());
         assert_eq!(way, Some(vec![[200.0, 20.0], [240.2, 61.7]]));
     }
 
     #[test]
     fn a_wall_up_to_the_zenith_is_gone_round_the_other_way_or_not_at_all() {
         let wall = bounds(vec![mast(89.0)], None);
-        let way = between(&wall, &reach(), [80.0, 20.0], [140.0, 20.0], noon());
+        let way = between(&wall, &limits(), [80.0, 20.0], [140.0, 20.0], noon());
         // The axis ends in the north.
         assert_eq!(way, None);
-        let over = Reach::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
+        let over = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
         let way = between(&wall, &over, [80.0, 20.0], [140.0 - 360.0, 20.0], noon()).unwrap();
         assert_outside(&wall, &way);
     }
@@ -280,8 +280,8 @@ mod tests {
     #[test]
     fn no_way_begins_or_ends_inside() {
         let bounds = bounds(vec![mast(40.0)], None);
-        assert_eq!(between(&bounds, &reach(), [110.0, 20.0], [140.0, 20.0], noon()), None);
-        assert_eq!(between(&bounds, &reach(), [80.0, 20.0], [110.0, 20.0], noon()), None);
+        assert_eq!(between(&bounds, &limits(), [110.0, 20.0], [140.0, 20.0], noon()), None);
+        assert_eq!(between(&bounds, &limits(), [80.0, 20.0], [110.0, 20.0], noon()), None);
     }
 
     #[test]
@@ -292,7 +292,7 @@ mod tests {
         let [azimuth, elevation] = [sun.azimuth_deg(), sun.elevation_deg()];
         assert!(elevation > 20.0 && (30.0..330.0).contains(&azimuth), "{sun:?}");
         let ends = [azimuth - 25.0, azimuth + 25.0].map(|azimuth| [azimuth, elevation]);
-        let way = between(&bounds, &reach(), ends[0], ends[1], noon()).unwrap();
+        let way = between(&bounds, &limits(), ends[0], ends[1], noon()).unwrap();
         assert_outside(&bounds, &way);
         assert!(way.len() > 2, "{way:?}");
         assert!(bounds.direction(ends[0]).separation(sun) > Angle::from_degrees(8.0));

@@ -19,9 +19,9 @@ pub struct Sample {
     pub direction: AzEl,
 }
 
-/// What an antenna can reach, and how fast.
+/// Travel and rate of a mount, and the beam it has to keep on a satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub struct MountLimits {
     /// How its axes are arranged.
     pub mount: Mount,
     /// Fastest rate of an axis, degrees a second.
@@ -63,10 +63,10 @@ pub enum Loss {
 
 /// How much of the pass along `samples` an antenna follows. Samples are a few
 /// seconds apart, oldest first; the antenna waits at the first of them.
-pub fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
-    match reach.mount {
-        Mount::Xy { .. } => xy::trackability(samples, reach),
-        Mount::AzEl { .. } => az_el::trackability(samples, reach),
+pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
+    match limits.mount {
+        Mount::Xy { .. } => xy::trackability(samples, limits),
+        Mount::AzEl { .. } => az_el::trackability(samples, limits),
     }
 }
 

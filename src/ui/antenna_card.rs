@@ -42,7 +42,7 @@ use crate::{
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
-pub use header::{HeaderModel, Reach};
+pub use header::{HeaderModel, LinkStatus};
 pub use holds::WayOutModel;
 pub use lock_out::LockOutModel;
 pub use more::MoreModel;
@@ -277,7 +277,7 @@ fn fill(
         lock_out::band(ui, at.take(button::HEIGHT), lock_out, actions);
         at.skip(6.0);
     }
-    if model.header.reach == Reach::NotConnected {
+    if model.header.status == LinkStatus::NotConnected {
         released::show(ui, &mut at, &model.header, actions);
     }
 

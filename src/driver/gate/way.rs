@@ -9,7 +9,7 @@ use crate::{
     },
     plan::{
         Barrier, BoundsAt,
-        detour::{self, Reach},
+        detour::{self, AxisLimits},
     },
 };
 
@@ -283,21 +283,21 @@ impl Gate {
             return Err(refusal);
         }
         // Positions that follow each other may make any way.
-        let detour = detour::between(bounds, &self.reach(), from_deg, to_deg, now.utc);
+        let detour = detour::between(bounds, &self.axis_limits(), from_deg, to_deg, now.utc);
         let places_deg = detour::in_steps(&detour.unwrap_or_default(), DETOUR_STEP_DEG);
         let farthest = places_deg.into_iter().rev().map(|place| self.to_axes(place));
         let first = farthest.into_iter().find(|first| self.check(*first, intent, now).is_ok());
         first.map(|first| Route { first, then: Some(motion) }).ok_or(refusal)
     }
 
-    fn reach(&self) -> Reach {
+    fn axis_limits(&self) -> AxisLimits {
         let mut travel_deg = self.mount.travel_deg();
         if let Mount::AzEl { .. } = self.mount {
             travel_deg[1].0 = travel_deg[1].0.max(self.limits.minimum_elevation_deg);
         }
         let can = self.make.capabilities;
         let rests_within_deg = can.position_step_deg + can.arrives_within_deg;
-        Reach::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
+        AxisLimits::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
 
     /// Where axes will stand that would turn by `ahead_deg`: an axis on its way to a

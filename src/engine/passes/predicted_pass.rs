@@ -9,7 +9,7 @@ use super::PassKey;
 use crate::{
     astro::{Angle, Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, passes},
-    plan::{Follow, Reach, Sample, Target, Trackability, trackability},
+    plan::{Follow, MountLimits, Sample, Target, Trackability, trackability},
     station::{Antenna, Station},
 };
 
@@ -45,8 +45,8 @@ pub struct Observer {
     pub site: Site,
     /// Elevation of AOS and LOS.
     pub horizon: Angle,
-    /// What each antenna can reach, in their order.
-    pub antennas: Vec<Reach>,
+    /// Limits of the mount of each antenna, in their order.
+    pub antennas: Vec<MountLimits>,
 }
 
 impl Observer {
@@ -58,7 +58,7 @@ impl Observer {
             horizon: Angle::from_degrees(
                 antenna.map_or(0.0, |antenna| antenna.limits.minimum_elevation_deg),
             ),
-            antennas: station.antennas.iter().map(reach).collect(),
+            antennas: station.antennas.iter().map(mount_limits).collect(),
         }
     }
 }
@@ -158,7 +158,7 @@ impl PredictedPass {
             let track = self.sampled();
             let antennas = self.observer.antennas.iter();
             Box::new(Outline {
-                trackability: antennas.map(|reach| trackability(&track, *reach)).collect(),
+                trackability: antennas.map(|limits| trackability(&track, *limits)).collect(),
                 path: thinned(&track),
                 track: OnceLock::new(),
             })
@@ -179,8 +179,8 @@ impl PredictedPass {
     }
 }
 
-fn reach(antenna: &Antenna) -> Reach {
-    Reach {
+fn mount_limits(antenna: &Antenna) -> MountLimits {
+    MountLimits {
         mount: antenna.mount,
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
@@ -225,8 +225,8 @@ mod tests {
             assert_eq!((path.first(), path.last()), (track.first(), track.last()));
             assert!(path.len() > 10 && path.len() < 70, "{}", path.len());
             assert!(track.len() as f64 >= pass.duration_s() / 2.0);
-            for (index, reach) in observer.antennas.iter().enumerate() {
-                assert_eq!(predicted.trackability(index), Some(trackability(track, *reach)));
+            for (index, limits) in observer.antennas.iter().enumerate() {
+                assert_eq!(predicted.trackability(index), Some(trackability(track, *limits)));
             }
         }
     }

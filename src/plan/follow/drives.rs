@@ -9,7 +9,7 @@ use crate::{
     plan::{
         Sample,
         az_el::{AzElAxes, Choice, Flip, Planned, Start},
-        detour::Reach,
+        detour::AxisLimits,
         rate_limited::rate_limited,
     },
     station::{MotionLimits, Mount},
@@ -148,11 +148,11 @@ impl Drives {
     }
 
     /// Where the axes may go on a detour.
-    pub(super) fn reach(&self) -> Reach {
+    pub(super) fn axis_limits(&self) -> AxisLimits {
         let [first, second] = self.mount.travel_deg();
         let second =
             if matches!(self.mount, Mount::AzEl { .. }) { self.elevations_deg() } else { second };
-        Reach::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
+        AxisLimits::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
     }
 
     /// Whether each axis can be told without the other.

@@ -59,7 +59,7 @@ impl Path {
         let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
         let Planned { flip, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
         let axes = if bounds.has_way_round() && drives.has_elevation {
-            round(axes_deg, &samples, step_s, start, drives.reach(), bounds)
+            round(axes_deg, &samples, step_s, start, drives.axis_limits(), bounds)
         } else {
             axes_deg
         };

@@ -10,7 +10,7 @@ use crate::{
     plan::{
         Bounds, Sample,
         az_el::Start,
-        detour::{self, Reach},
+        detour::{self, AxisLimits},
         rate_limited::rate_limited,
     },
 };
@@ -29,17 +29,17 @@ pub(super) fn round(
     samples: &[Sample],
     step_s: f64,
     start: Start,
-    reach: Reach,
+    limits: AxisLimits,
     bounds: &Bounds,
 ) -> [Vec<f64>; 2] {
     let places_deg = || axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
     let is_behind: Vec<bool> = places_deg()
-        .map(|axes_deg| bounds.is_gone_round(bounds.direction(axes_deg), reach.room_deg))
+        .map(|axes_deg| bounds.is_gone_round(bounds.direction(axes_deg), limits.room_deg))
         .collect();
     if !is_behind.contains(&true) {
         return axes_deg;
     }
-    let mut line = Line { points: Vec::new(), reach, most_s: step_s * SHARE_OF_RATE };
+    let mut line = Line { points: Vec::new(), limits, most_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
         // In the middle of a detour already; before a pass it waits where it comes out.
@@ -65,7 +65,7 @@ pub(super) fn round(
         let detour = match (line.end_deg(), comes_out) {
             (Some(from), Some(to)) => {
                 let at = targets.get(behind / 2).map(|sample| sample.time);
-                at.and_then(|at| detour::between(bounds, &reach, from, to, at))
+                at.and_then(|at| detour::between(bounds, &limits, from, to, at))
             }
             // It rises or sets behind it.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),
@@ -95,7 +95,7 @@ pub(super) fn round(
 struct Line {
     /// Seconds from the beginning, and degrees as the mount counts.
     points: Vec<(f64, [f64; 2])>,
-    reach: Reach,
+    limits: AxisLimits,
     /// How much of it is made from one sample to the next at most, seconds.
     most_s: f64,
 }
@@ -117,7 +117,7 @@ impl Line {
         let Some((before_s, before_deg)) = self.points.last().copied() else {
             return self.begin(to_deg);
         };
-        let way_s = self.reach.seconds(before_deg, to_deg).min(most_s);
+        let way_s = self.limits.seconds(before_deg, to_deg).min(most_s);
         self.points.push((before_s + way_s, to_deg));
     }
 

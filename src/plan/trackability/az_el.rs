@@ -2,7 +2,7 @@
 //! overhead and to go round at its ends, unless the elevation axis travels over
 //! the zenith.
 
-use super::{Loss, Reach, Sample, Trackability};
+use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
     astro::time::seconds_between,
     plan::az_el::{AzElAxes, Flip, Planned, Start},
@@ -14,18 +14,18 @@ const OVERHEAD_FROM_DEG: f64 = 60.0;
 const TURN_DEG: f64 = 360.0;
 
 /// See [`super::trackability`].
-pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
-    let [azimuth_deg, elevation_deg] = reach.mount.travel_deg();
+pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
+    let [azimuth_deg, elevation_deg] = limits.mount.travel_deg();
     let axes = AzElAxes {
         azimuth_deg,
-        elevation_deg: reach.has_elevation.then_some(elevation_deg),
-        rates_deg_s: [reach.maximum_rate_deg_s; 2],
+        elevation_deg: limits.has_elevation.then_some(elevation_deg),
+        rates_deg_s: [limits.maximum_rate_deg_s; 2],
     };
     let step_s = samples.iter().zip(samples.iter().skip(1)).next();
     let step_s = step_s.map_or(1.0, |(first, second)| seconds_between(first.time, second.time));
     let along = |flip| {
         let planned = axes.along(samples, step_s, Start::default(), flip);
-        lost(samples, reach, axes, &planned)
+        lost(samples, limits, axes, &planned)
     };
     let plain = along(Flip::None);
     if plain.0 <= 0.0 {
@@ -39,20 +39,20 @@ pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
 }
 
 /// For how many seconds the beam misses the satellite, and where that begins.
-fn lost(samples: &[Sample], reach: Reach, axes: AzElAxes, planned: &Planned) -> (f64, Loss) {
+fn lost(samples: &[Sample], limits: MountLimits, axes: AzElAxes, planned: &Planned) -> (f64, Loss) {
     let [azimuths, elevations] = &planned.axes_deg;
     let (mut lost_s, mut first) = (0.0, None);
     let each = samples.iter().zip(samples.iter().skip(1));
     for ((before, sample), axes_deg) in
         each.zip(azimuths.iter().zip(elevations).skip(1).map(|(azimuth, at)| [*azimuth, *at]))
     {
-        if axes.off(sample.direction, axes_deg) > reach.half_beam {
+        if axes.off(sample.direction, axes_deg) > limits.half_beam {
             lost_s += seconds_between(before.time, sample.time);
             first = first.or(Some(sample));
         }
     }
     let Some(first) = first else { return (0.0, Loss::OutOfReach) };
-    let near_s = TURN_DEG / reach.maximum_rate_deg_s;
+    let near_s = TURN_DEG / limits.maximum_rate_deg_s;
     let is_near = |slew: &Sample| seconds_between(slew.time, first.time).abs() <= near_s;
     let at = if planned.slews.iter().filter_map(|index| samples.get(*index)).any(is_near) {
         Loss::Slew
@@ -90,8 +90,8 @@ mod tests {
             .collect()
     }
 
-    fn reach(to_deg: f64, maximum_rate_deg_s: f64) -> Reach {
-        Reach {
+    fn limits(to_deg: f64, maximum_rate_deg_s: f64) -> MountLimits {
+        MountLimits {
             mount: Mount::AzEl {
                 azimuth_from_deg: 0.0,
                 azimuth_to_deg: to_deg,
@@ -107,18 +107,18 @@ mod tests {
     #[test]
     fn a_usual_pass_is_followed_whole() {
         assert_eq!(
-            super::trackability(&pass(600.0, 120.0), reach(360.0, 3.0)),
+            super::trackability(&pass(600.0, 120.0), limits(360.0, 3.0)),
             Trackability::Whole
         );
     }
 
     #[test]
     fn a_pass_overhead_costs_a_slow_axis_some_seconds() {
-        let lost = super::trackability(&pass(20.0, 90.0), reach(450.0, 3.0));
+        let lost = super::trackability(&pass(20.0, 90.0), limits(450.0, 3.0));
         let Trackability::Loses { seconds, at: Loss::Overhead } = lost else { panic!("{lost:?}") };
         assert!((10.0..80.0).contains(&seconds), "{seconds}");
         assert_eq!(
-            super::trackability(&pass(20.0, 90.0), reach(450.0, 30.0)),
+            super::trackability(&pass(20.0, 90.0), limits(450.0, 30.0)),
             Trackability::Whole,
             "a fast one keeps up"
         );
@@ -128,42 +128,42 @@ mod tests {
     fn a_pass_through_north_costs_a_slew_where_the_axis_ends_there() {
         // From east-north-east through north.
         let through_north = pass(600.0, 275.0);
-        let lost = super::trackability(&through_north, reach(360.0, 3.0));
+        let lost = super::trackability(&through_north, limits(360.0, 3.0));
         let Trackability::Loses { seconds, at: Loss::Slew } = lost else { panic!("{lost:?}") };
         assert!((50.0..150.0).contains(&seconds), "{seconds}");
-        assert_eq!(super::trackability(&through_north, reach(450.0, 3.0)), Trackability::Whole);
+        assert_eq!(super::trackability(&through_north, limits(450.0, 3.0)), Trackability::Whole);
     }
 
     #[test]
     fn a_sector_follows_what_lies_in_it() {
         let east = pass(600.0, 0.0);
-        assert_eq!(super::trackability(&east, reach(200.0, 3.0)), Trackability::Whole);
+        assert_eq!(super::trackability(&east, limits(200.0, 3.0)), Trackability::Whole);
         let west = pass(600.0, 180.0);
-        let lost = super::trackability(&west, reach(200.0, 3.0));
+        let lost = super::trackability(&west, limits(200.0, 3.0));
         assert!(matches!(lost, Trackability::Nothing | Trackability::Loses { .. }), "{lost:?}");
         assert_ne!(lost, Trackability::Whole);
     }
 
     #[test]
     fn over_the_zenith_neither_costs_anything() {
-        let over = |mut reach: Reach| {
-            if let Mount::AzEl { elevation_to_deg, .. } = &mut reach.mount {
+        let over = |mut limits: MountLimits| {
+            if let Mount::AzEl { elevation_to_deg, .. } = &mut limits.mount {
                 *elevation_to_deg = 180.0;
             }
-            reach
+            limits
         };
         let through_north = pass(600.0, 275.0);
-        let whole = super::trackability(&through_north, over(reach(360.0, 3.0)));
+        let whole = super::trackability(&through_north, over(limits(360.0, 3.0)));
         assert_eq!(whole, Trackability::Whole);
-        let whole = super::trackability(&pass(8.0, 90.0), over(reach(450.0, 3.0)));
+        let whole = super::trackability(&pass(8.0, 90.0), over(limits(450.0, 3.0)));
         assert_eq!(whole, Trackability::Whole);
-        let lost = super::trackability(&pass(8.0, 90.0), reach(450.0, 3.0));
+        let lost = super::trackability(&pass(8.0, 90.0), limits(450.0, 3.0));
         assert!(matches!(lost, Trackability::Loses { at: Loss::Overhead, .. }), "{lost:?}");
     }
 
     #[test]
     fn without_an_elevation_axis_only_the_azimuth_counts() {
-        let alone = Reach { has_elevation: false, ..reach(360.0, 3.0) };
+        let alone = MountLimits { has_elevation: false, ..limits(360.0, 3.0) };
         assert_eq!(super::trackability(&pass(600.0, 120.0), alone), Trackability::Whole);
         assert_eq!(super::trackability(&[], alone), Trackability::Whole);
     }

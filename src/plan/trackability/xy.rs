@@ -1,14 +1,14 @@
 //! Two crossed axes: all of the sky but two keyholes at the ends of the lower one.
 
-use super::{Loss, Reach, Sample, Trackability};
+use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
     astro::{Angle, time::seconds_between, xy_mount},
     station::Mount,
 };
 
 /// See [`super::trackability`].
-pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
-    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = reach.mount else {
+pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
+    let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = limits.mount else {
         return Trackability::Nothing;
     };
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
@@ -32,7 +32,7 @@ pub(super) fn trackability(samples: &[Sample], reach: Reach) -> Trackability {
         let keeps_up = axes(from)
             .iter()
             .zip(axes(to))
-            .all(|(before, after)| (after - before).abs() <= reach.maximum_rate_deg_s * span_s);
+            .all(|(before, after)| (after - before).abs() <= limits.maximum_rate_deg_s * span_s);
         if !reachable || !keeps_up {
             lost_s += span_s;
             lost_towards = to.direction.azimuth;
@@ -53,9 +53,9 @@ mod tests {
     const MOUNT: Mount =
         Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
 
-    fn reach(maximum_rate_deg_s: f64) -> Reach {
+    fn limits(maximum_rate_deg_s: f64) -> MountLimits {
         let half_beam = Angle::from_degrees(0.5);
-        Reach { mount: MOUNT, maximum_rate_deg_s, half_beam, has_elevation: true }
+        MountLimits { mount: MOUNT, maximum_rate_deg_s, half_beam, has_elevation: true }
     }
 
     /// A pass in a straight line over the ground, `km` beside the site, from
@@ -77,16 +77,16 @@ mod tests {
 
     #[test]
     fn a_pass_over_the_zenith_costs_an_xy_mount_nothing() {
-        assert_eq!(trackability(&pass(1.0, 0.0), reach(3.0)), Trackability::Whole);
+        assert_eq!(trackability(&pass(1.0, 0.0), limits(3.0)), Trackability::Whole);
     }
 
     #[test]
     fn a_slow_mount_loses_the_part_near_the_keyhole() {
         let low: Vec<Sample> = pass(600.0, 0.0);
         let Trackability::Loses { seconds, at: Loss::Keyhole(keyhole_azimuth) } =
-            trackability(&low, reach(0.4))
+            trackability(&low, limits(0.4))
         else {
-            panic!("{:?}", trackability(&low, reach(0.4)));
+            panic!("{:?}", trackability(&low, limits(0.4)));
         };
         assert!(seconds > 1.0 && seconds < 400.0, "{seconds}");
         assert!(keyhole_azimuth.degrees() < 1.0 || keyhole_azimuth.degrees() > 179.0);
@@ -101,7 +101,7 @@ mod tests {
                 direction: AzEl::from_degrees(0.0, 2.0),
             })
             .collect();
-        assert_eq!(trackability(&still, reach(3.0)), Trackability::Nothing);
-        assert_eq!(trackability(&[], reach(3.0)), Trackability::Whole);
+        assert_eq!(trackability(&still, limits(3.0)), Trackability::Nothing);
+        assert_eq!(trackability(&[], limits(3.0)), Trackability::Whole);
     }
 }

@@ -13,9 +13,9 @@ use crate::ui::{
 /// Side of the key that opens the menu of the link.
 const MENU: f32 = 24.0;
 
-/// Whether the unit can be reached.
+/// The link of the antenna, in the words of the card.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reach {
+pub enum LinkStatus {
     /// Its link is up.
     Connected,
     /// It is locked out for maintenance.
@@ -39,8 +39,7 @@ pub struct HeaderModel<'a> {
     pub second_line: &'a str,
     /// How its link stands.
     pub link: LinkGlyph,
-    /// Whether it can be reached.
-    pub reach: Reach,
+    pub status: LinkStatus,
     /// A connection takes the panel from whoever stands in front of the unit.
     pub takes_panel: bool,
     /// It is locked out for maintenance.
@@ -64,13 +63,13 @@ pub(super) fn show(
     icons::paint(ui.painter(), glyph, icon, colour);
 
     let mut end = row;
-    let has_menu = model.reach != Reach::NotConnected || !model.in_maintenance;
-    if has_menu && model.reach != Reach::Elsewhere {
+    let has_menu = model.status != LinkStatus::NotConnected || !model.in_maintenance;
+    if has_menu && model.status != LinkStatus::Elsewhere {
         let key = paint::square(pos2(row.right() - MENU / 2.0 + 4.0, y), MENU);
         link_menu(ui, key, model, actions);
         end = row.with_max_x(key.left() - 2.0);
     }
-    let tag_left = reach_tag(ui, end, model.reach);
+    let tag_left = status_tag(ui, end, model.status);
     let name_room = row.with_min_x(row.left() + 24.0).with_max_x(tag_left - 6.0);
     if short {
         paint::text_in(ui, name_room, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
@@ -97,7 +96,7 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     paint::focus_ring(ui, &response, 4);
     Popup::menu(&response).accessible_name(name).show(|ui| {
         let about = "Closes the link, so that another program may have the unit.";
-        if model.reach != Reach::NotConnected
+        if model.status != LinkStatus::NotConnected
             && ui.button("Disconnect").on_hover_text(about).clicked()
         {
             actions.push(CardAction::Disconnect);
@@ -110,15 +109,15 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
 }
 
 /// Paints whether it can be reached and returns the left end of it.
-fn reach_tag(ui: &Ui, row: Rect, reach: Reach) -> f32 {
+fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
     let t = theme::tokens(ui);
-    let (words, colour) = match reach {
-        Reach::Connected => ("Connected", t.ok),
-        Reach::InMaintenance => ("In maintenance", t.warn),
-        Reach::Connecting => ("Connecting", t.t3),
-        Reach::NoAnswer => ("No answer", t.warn),
-        Reach::NotConnected => ("Not connected", t.t3),
-        Reach::Elsewhere => ("Driven elsewhere", t.warn),
+    let (words, colour) = match status {
+        LinkStatus::Connected => ("Connected", t.ok),
+        LinkStatus::InMaintenance => ("In maintenance", t.warn),
+        LinkStatus::Connecting => ("Connecting", t.t3),
+        LinkStatus::NoAnswer => ("No answer", t.warn),
+        LinkStatus::NotConnected => ("Not connected", t.t3),
+        LinkStatus::Elsewhere => ("Driven elsewhere", t.warn),
     };
     let font = text::sized(11.0, Weight::SemiBold);
     let width = (paint::text_width(ui, words, font.clone()) + 12.0).min(0.5 * row.width());

@@ -48,7 +48,7 @@ fn model() -> CardModel<'static> {
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",
             link: LinkGlyph::Live,
-            reach: Reach::Connected,
+            status: LinkStatus::Connected,
         },
         sentence: Sentence { kind: SentenceKind::Tracking, spans: &SPANS },
         wanted: WantedColumn::Command,

@@ -9,7 +9,7 @@ use egui::{Align2, Rect, Ui};
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    LockOutModel, MoreModel, OtherAntenna, Reach, TrackModel, WayOutModel,
+    LinkStatus, LockOutModel, MoreModel, OtherAntenna, TrackModel, WayOutModel,
 };
 use crate::{
     astro::Angle,
@@ -84,7 +84,7 @@ pub(super) fn show(
                 name: &antenna.config.name,
                 second_line: &second_line,
                 link: bar::glyph(antenna),
-                reach: reach(antenna),
+                status: link_status(antenna),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
             },
@@ -175,15 +175,15 @@ fn second_line(antenna: &AntennaModel) -> String {
     }
 }
 
-fn reach(antenna: &AntennaModel) -> Reach {
+fn link_status(antenna: &AntennaModel) -> LinkStatus {
     let snapshot = &antenna.snapshot;
     match snapshot.link {
-        _ if antenna.held_by.is_some() => Reach::Elsewhere,
-        LinkState::Off => Reach::NotConnected,
-        _ if snapshot.lock_out.is_some() => Reach::InMaintenance,
-        LinkState::Up { .. } => Reach::Connected,
-        LinkState::Connecting { .. } => Reach::Connecting,
-        LinkState::Stale { .. } | LinkState::Lost { .. } => Reach::NoAnswer,
+        _ if antenna.held_by.is_some() => LinkStatus::Elsewhere,
+        LinkState::Off => LinkStatus::NotConnected,
+        _ if snapshot.lock_out.is_some() => LinkStatus::InMaintenance,
+        LinkState::Up { .. } => LinkStatus::Connected,
+        LinkState::Connecting { .. } => LinkStatus::Connecting,
+        LinkState::Stale { .. } | LinkState::Lost { .. } => LinkStatus::NoAnswer,
     }
 }
 
