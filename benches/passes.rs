@@ -229,7 +229,7 @@ fn grid(satellites: &[Satellite], days: f64) -> (f64, usize) {
 }
 
 /// Resident memory at its most, MB.
-fn most_memory_mb() -> Option<f64> {
+fn max_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()? / 1024.0)
@@ -237,12 +237,12 @@ fn most_memory_mb() -> Option<f64> {
 
 /// The whole task once, before anything of the others is in memory.
 fn measure_memory() {
-    let before_mb = most_memory_mb();
+    let before_mb = max_memory_mb();
     let catalog = bundled().unwrap();
     let propagators: Vec<Propagator> =
         catalog.iter().filter_map(|elements| Propagator::new(elements).ok()).collect();
     let found = passes_of_all(&propagators, &search(1.0), &|_| (), &|| false);
-    let after_mb = most_memory_mb();
+    let after_mb = max_memory_mb();
     let passes = found.count();
     if let (Some(before_mb), Some(after_mb)) = (before_mb, after_mb) {
         println!(

@@ -13,7 +13,7 @@ mod zone;
 pub use angle::Angle;
 pub use azel::AzEl;
 pub use horizon_mask::{
-    HorizonMask, MOST_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
+    HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
 };
 pub use site::{Site, SiteError};
-pub use zone::{FEWEST_CORNERS, MOST_CORNERS, Zone, ZoneError};
+pub use zone::{MAX_CORNERS, MIN_CORNERS, Zone, ZoneError};

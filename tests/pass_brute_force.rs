@@ -16,8 +16,8 @@ use rayon::prelude::*;
 const DEFAULT_DRAW: usize = 36;
 const DEFAULT_HOURS: f64 = 5.0;
 const GRID_S: f64 = 1.0;
-const MOST_OFF_S: f64 = 0.01;
-const MOST_OFF_DEG: f64 = 1e-4;
+const MAX_OFF_S: f64 = 0.01;
+const MAX_OFF_DEG: f64 = 1e-4;
 /// Where the elevation changes more slowly, in degrees per second, it is
 /// compared itself and not its time.
 const SLOW_DEG_S: f64 = 0.002;
@@ -162,13 +162,13 @@ fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
             let off_s = (seconds(point.time) - at_s).abs();
             let off_deg =
                 (point.direction.elevation_deg() - sky.elevation_deg(at_s).unwrap()).abs();
-            let is_slow = sky.rate_deg_s(at_s).abs() < SLOW_DEG_S && off_deg < MOST_OFF_DEG;
-            if off_s > MOST_OFF_S && !is_slow {
+            let is_slow = sky.rate_deg_s(at_s).abs() < SLOW_DEG_S && off_deg < MAX_OFF_DEG;
+            if off_s > MAX_OFF_S && !is_slow {
                 faults.push(format!("{name} {at_s} is off by {off_s} s, {off_deg} deg"));
             }
         }
         let off_deg = (pass.max_elevation().degrees() - stay.highest_deg).abs();
-        if off_deg > MOST_OFF_DEG {
+        if off_deg > MAX_OFF_DEG {
             faults.push(format!("top at {} is off by {off_deg} deg", stay.highest_s));
         }
     }
@@ -178,7 +178,7 @@ fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
 
 /// Grazing the floor, or up for less than the grid shows: either is right.
 fn is_settled(stay: &Stay, floor_deg: f64) -> bool {
-    (stay.highest_deg - floor_deg).abs() > MOST_OFF_DEG
+    (stay.highest_deg - floor_deg).abs() > MAX_OFF_DEG
 }
 
 #[test]
@@ -211,7 +211,7 @@ fn no_pass_is_missed_and_none_invented() {
                     .retain(|stay| stay.highest_deg >= floor_deg && is_settled(stay, floor_deg));
                 found.retain(|pass| {
                     let top_deg = pass.max_elevation().degrees();
-                    (top_deg - floor_deg).abs() > MOST_OFF_DEG
+                    (top_deg - floor_deg).abs() > MAX_OFF_DEG
                 });
                 count += expected.len();
                 let name = format!("{} {}", elements.catalog_number(), elements.name());

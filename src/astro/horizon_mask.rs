@@ -12,7 +12,7 @@ pub use import::{MaskForm, MaskImportError};
 use super::Angle;
 
 /// Points of one mask, at most: one every twentieth of a degree.
-pub const MOST_MASK_POINTS: usize = 7200;
+pub const MAX_MASK_POINTS: usize = 7200;
 
 const TURN_DEG: f64 = 360.0;
 
@@ -31,8 +31,8 @@ pub enum MaskError {
     /// No point at all.
     #[error("the mask has no points")]
     Empty,
-    /// More than [`MOST_MASK_POINTS`].
-    #[error("the mask has more than {MOST_MASK_POINTS} points")]
+    /// More than [`MAX_MASK_POINTS`].
+    #[error("the mask has more than {MAX_MASK_POINTS} points")]
     TooManyPoints,
     /// Not on the compass.
     #[error("azimuth {0} is not between 0 and 360 degrees")]
@@ -164,7 +164,7 @@ impl Builder {
         if !(-90.0..=90.0).contains(&elevation_deg) {
             return Err((line, MaskError::Elevation(elevation_deg)));
         }
-        if self.points.len() == MOST_MASK_POINTS {
+        if self.points.len() == MAX_MASK_POINTS {
             return Err((line, MaskError::TooManyPoints));
         }
         self.points.push((line, azimuth_deg, elevation_deg));

@@ -9,9 +9,9 @@ use self::edge::Edge;
 use super::{Angle, AzEl};
 
 /// Corners of one zone, at least.
-pub const FEWEST_CORNERS: usize = 3;
+pub const MIN_CORNERS: usize = 3;
 /// Corners of one zone, at most.
-pub const MOST_CORNERS: usize = 100;
+pub const MAX_CORNERS: usize = 100;
 
 /// Two directions closer than this are one, radians.
 const SAME: f64 = 1e-9;
@@ -35,11 +35,11 @@ pub struct Zone {
 /// from corner 1 to corner 2, the last edge back to corner 1.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ZoneError {
-    /// Fewer than [`FEWEST_CORNERS`].
-    #[error("a zone needs at least {FEWEST_CORNERS} corners")]
+    /// Fewer than [`MIN_CORNERS`].
+    #[error("a zone needs at least {MIN_CORNERS} corners")]
     TooFewCorners,
-    /// More than [`MOST_CORNERS`].
-    #[error("a zone has at most {MOST_CORNERS} corners")]
+    /// More than [`MAX_CORNERS`].
+    #[error("a zone has at most {MAX_CORNERS} corners")]
     TooManyCorners,
     /// Infinite or not a number.
     #[error("the azimuth of corner {corner} is not a number")]
@@ -94,10 +94,10 @@ impl Zone {
     /// A zone of 3 to 100 corners, elevation -90 to 90 degrees, in the order of its
     /// edges. The edge from the last corner to the first closes it.
     pub fn new(corners: Vec<AzEl>) -> Result<Self, ZoneError> {
-        if corners.len() < FEWEST_CORNERS {
+        if corners.len() < MIN_CORNERS {
             return Err(ZoneError::TooFewCorners);
         }
-        if corners.len() > MOST_CORNERS {
+        if corners.len() > MAX_CORNERS {
             return Err(ZoneError::TooManyCorners);
         }
         for (corner, at) in (1..).zip(&corners) {

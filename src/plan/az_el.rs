@@ -96,7 +96,7 @@ impl AzElAxes {
         start: Start,
         flip: Flip,
     ) -> Planned {
-        let [azimuth_most_deg, elevation_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
+        let [azimuth_max_deg, elevation_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let flipped = flip.flipped(samples);
         let seen: Vec<Seen> = samples
             .iter()
@@ -110,7 +110,7 @@ impl AzElAxes {
         };
         // First as if the axis had no ends, so that a turn of the sky which it does
         // not make in time takes it to none.
-        let free = rate_limited(&flip::azimuths_deg(samples, &flipped), azimuth_most_deg, cost);
+        let free = rate_limited(&flip::azimuths_deg(samples, &flipped), azimuth_max_deg, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
         let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
             || AzimuthWrap {
@@ -120,14 +120,14 @@ impl AzElAxes {
             |range| AzimuthWrap::along(&free, range, azimuth_now_deg),
         );
         let (from_deg, to_deg) = self.azimuth_deg;
-        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_most_deg, cost)
+        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_max_deg, cost)
             .into_iter()
             .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
             .collect();
         let pairs = seen.iter().zip(&azimuths);
         let elevations: Vec<f64> =
             pairs.map(|(seen, azimuth_deg)| seen.elevation_deg(*azimuth_deg)).collect();
-        let elevations = rate_limited(&elevations, elevation_most_deg, |index, elevation_deg| {
+        let elevations = rate_limited(&elevations, elevation_max_deg, |index, elevation_deg| {
             let pair = seen.get(index).zip(azimuths.get(index));
             pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
         });
@@ -145,8 +145,8 @@ impl AzElAxes {
             for ((axis, goal_deg), rate) in axes_deg.iter_mut().zip(goals_deg).zip(self.rates_deg_s)
             {
                 let at_deg = axis.unwrap_or(goal_deg);
-                let most_deg = rate * span_s;
-                *axis = Some(at_deg + (goal_deg - at_deg).min(most_deg).max(-most_deg));
+                let max_deg = rate * span_s;
+                *axis = Some(at_deg + (goal_deg - at_deg).min(max_deg).max(-max_deg));
             }
             span_s = step_s;
             let lowest_deg = self.elevation_deg.map_or(f64::MIN, |(lowest_deg, _)| lowest_deg);

@@ -16,7 +16,7 @@ const CELL_DEG: f64 = 1.0;
 const ROOM_DEG: f64 = 0.75;
 /// A search that has looked at so many places is given up: some hundredths of a second
 /// over zones of many corners.
-const MOST_PLACES: usize = 20_000;
+const MAX_PLACES: usize = 20_000;
 /// Of two ways that take equally long the straighter one, microseconds a degree.
 const STRAIGHT: f64 = 1000.0;
 
@@ -137,7 +137,7 @@ impl Search<'_> {
             if is_there {
                 return Some(self.traced(&known, place));
             }
-            if known.len() > MOST_PLACES {
+            if known.len() > MAX_PLACES {
                 return None;
             }
             let Some(Some((spent, _))) = known.get(&place).copied() else { continue };

@@ -11,27 +11,27 @@ use std::ops::Range;
 const SAME_DEG: f64 = 1e-6;
 
 /// Positions along `wanted` (at equal intervals, degrees) that never differ by more than
-/// `most_deg` from one interval to the next. Where the course is slow enough they are the
+/// `max_deg` from one interval to the next. Where the course is slow enough they are the
 /// course itself; elsewhere they minimise the sum of `cost(interval, position)`.
 pub(super) fn rate_limited(
     wanted: &[f64],
-    most_deg: f64,
+    max_deg: f64,
     cost: impl Fn(usize, f64) -> f64,
 ) -> Vec<f64> {
-    let bounds = Bounds::around(wanted, most_deg);
+    let bounds = Bounds::around(wanted, max_deg);
     let mut way = bounds.low.clone();
-    if most_deg <= SAME_DEG {
+    if max_deg <= SAME_DEG {
         return way;
     }
     for slew in bounds.slews() {
         let mut place = at(&bounds.low, slew.start.saturating_sub(1));
-        let rough = cheapest::between(&bounds, &slew, place, most_deg, &cost);
+        let rough = cheapest::between(&bounds, &slew, place, max_deg, &cost);
         for (index, rough_deg) in slew.zip(rough.places_deg) {
             // As near as the grid is coarse, the course itself is better.
             let course = at(wanted, index);
             let is_near = (course - rough_deg).abs() <= rough.cell_deg;
             let way_deg = if is_near { course - place } else { rough_deg - place };
-            place += way_deg.min(most_deg).max(-most_deg);
+            place += way_deg.min(max_deg).max(-max_deg);
             place = place.max(at(&bounds.low, index)).min(at(&bounds.high, index));
             if let Some(way) = way.get_mut(index) {
                 *way = place;
@@ -49,10 +49,10 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn around(wanted: &[f64], most_deg: f64) -> Self {
+    fn around(wanted: &[f64], max_deg: f64) -> Self {
         let negated: Vec<f64> = wanted.iter().map(|place| -place).collect();
-        let high = lowest(&negated, most_deg).into_iter().map(|place| -place).collect();
-        Self { low: lowest(wanted, most_deg), high }
+        let high = lowest(&negated, max_deg).into_iter().map(|place| -place).collect();
+        Self { low: lowest(wanted, max_deg), high }
     }
 
     /// The stretches in which the axis does not keep up.
@@ -72,16 +72,16 @@ impl Bounds {
 }
 
 /// The highest way that is nowhere above the course.
-fn lowest(wanted: &[f64], most_deg: f64) -> Vec<f64> {
+fn lowest(wanted: &[f64], max_deg: f64) -> Vec<f64> {
     let mut way = wanted.to_vec();
     let mut before = f64::INFINITY;
     for place in &mut way {
-        *place = place.min(before + most_deg);
+        *place = place.min(before + max_deg);
         before = *place;
     }
     let mut after = f64::INFINITY;
     for place in way.iter_mut().rev() {
-        *place = place.min(after + most_deg);
+        *place = place.min(after + max_deg);
         after = *place;
     }
     way
@@ -100,10 +100,10 @@ mod tests {
     }
 
     /// Along `wanted`, where an error counts as much as `weight` says.
-    fn weighted(wanted: &[f64], weight: &[f64], most_deg: f64) -> Vec<f64> {
+    fn weighted(wanted: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
         let cost =
             |at: usize, place: f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
-        rate_limited(wanted, most_deg, cost)
+        rate_limited(wanted, max_deg, cost)
     }
 
     fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
@@ -112,10 +112,10 @@ mod tests {
     }
 
     /// Where an axis would be that goes after the course as fast as it can.
-    fn chased(wanted: &[f64], most_deg: f64) -> Vec<f64> {
+    fn chased(wanted: &[f64], max_deg: f64) -> Vec<f64> {
         let mut place = wanted[0];
         let step = |wanted: &f64| {
-            place += (wanted - place).clamp(-most_deg, most_deg);
+            place += (wanted - place).clamp(-max_deg, max_deg);
             place
         };
         wanted.iter().map(step).collect()
@@ -140,9 +140,9 @@ mod tests {
     #[test]
     fn an_axis_that_hardly_turns_stays_where_it_is() {
         let wanted: Vec<f64> = (0..100).map(f64::from).collect();
-        for most_deg in [0.0, 1e-12, 1e-5] {
-            let way = weighted(&wanted, &[1.0; 100], most_deg);
-            assert!(fastest(&way) <= most_deg + 1e-9, "{most_deg}");
+        for max_deg in [0.0, 1e-12, 1e-5] {
+            let way = weighted(&wanted, &[1.0; 100], max_deg);
+            assert!(fastest(&way) <= max_deg + 1e-9, "{max_deg}");
         }
     }
 
@@ -167,13 +167,13 @@ mod tests {
     fn over_the_zenith_the_slew_begins_early_and_costs_far_less_than_going_after() {
         let (wanted, weight) = overhead(2.0);
         assert!(fastest(&wanted) > 10.0);
-        for most_deg in [2.0, 6.0] {
-            let way = weighted(&wanted, &weight, most_deg);
-            assert!(fastest(&way) <= most_deg + 1e-9);
+        for max_deg in [2.0, 6.0] {
+            let way = weighted(&wanted, &weight, max_deg);
+            assert!(fastest(&way) <= max_deg + 1e-9);
             // Half of it is done at the zenith.
-            assert!(way[300].abs() < most_deg, "{}", way[300]);
+            assert!(way[300].abs() < max_deg, "{}", way[300]);
             let (best, after) =
-                (cost(&way, &wanted, &weight), cost(&chased(&wanted, most_deg), &wanted, &weight));
+                (cost(&way, &wanted, &weight), cost(&chased(&wanted, max_deg), &wanted, &weight));
             assert!(best < after / 3.0, "{best} {after}");
             assert!((way[0] - wanted[0]).abs() < 1e-9 && (way[600] - wanted[600]).abs() < 1e-9);
         }

@@ -28,7 +28,7 @@ const WORD_GAP: f32 = 7.0;
 /// one, for each point of difference in size.
 const DOWN_PER_SIZE: f32 = 0.22;
 /// In less room than this a text is left out.
-const LEAST_TEXT: f32 = 24.0;
+const MIN_TEXT: f32 = 24.0;
 /// With less room than this for the texts, the countdown to the maximum is
 /// left out.
 const TCA_FROM: f32 = 180.0;
@@ -107,14 +107,14 @@ fn names(ui: &Ui, rect: Rect, name: &str, detail: &str, font: FontId) -> f32 {
     let down = DOWN_PER_SIZE * (font.size - text::body().size);
     let name = paint::text_in(ui, rect, Align2::LEFT_CENTER, name, font, t.t1);
     let rest = rect.with_min_x(name.right() + WORD_GAP).translate(vec2(0.0, down));
-    if detail.is_empty() || rest.width() < LEAST_TEXT {
+    if detail.is_empty() || rest.width() < MIN_TEXT {
         return name.right();
     }
     paint::text_in(ui, rest, Align2::LEFT_CENTER, detail, text::body(), t.t2).right()
 }
 
 fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
-    if rect.width() >= LEAST_TEXT {
+    if rect.width() >= MIN_TEXT {
         let t = theme::tokens(ui);
         let colour = if model.second_line_warns { t.warn } else { t.t2 };
         paint::text_in(ui, rect, Align2::LEFT_CENTER, model.second_line, text::small(), colour);

@@ -29,7 +29,7 @@ const PLOT_GAP: f32 = 10.0;
 /// Below the plots, for the times.
 const TIMES: f32 = 25.0;
 /// Less room than this for the upper plot shows nothing.
-const LEAST_PLOT: f32 = 24.0;
+const MIN_PLOT: f32 = 24.0;
 
 /// The selected pass. Samples are oldest first.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +82,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
         return;
     };
-    if curves_rect.width() >= LEAST_PLOT && curves_rect.height() >= LEAST_PLOT {
+    if curves_rect.width() >= MIN_PLOT && curves_rect.height() >= MIN_PLOT {
         curves::show(ui, curves_rect, &axis, model);
         error_plot::show(ui, error_rect, &axis, model);
         now_line(ui, curves_rect.union(error_rect), &axis, model.now);

@@ -233,8 +233,8 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
 /// A jog, by the name of its speed where it has one: the figure is not known.
 fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
     let speeds = antenna.variant().capabilities.jog;
-    let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
-    let Some(speed) = speeds.nearest(rate_deg_s, most_deg_s) else {
+    let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
+    let Some(speed) = speeds.nearest(rate_deg_s, max_deg_s) else {
         let rate = format::signed(rate_deg_s, 2);
         return format!("Jogging {axis} at {rate} °/s while the key is held.");
     };

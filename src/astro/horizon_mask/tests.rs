@@ -74,7 +74,7 @@ fn what_is_no_mask_is_refused_with_its_line() {
         HorizonMask::parse("nan 1"),
         Err(MaskTextError::Point { line: 1, reason: MaskError::Azimuth(_) })
     ));
-    let long = (0..=MOST_MASK_POINTS).map(|index| (index as f64 * 0.01, 0.0));
+    let long = (0..=MAX_MASK_POINTS).map(|index| (index as f64 * 0.01, 0.0));
     assert_eq!(HorizonMask::from_degrees(long), Err(MaskError::TooManyPoints));
 }
 

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// A track is drawn from at most this many samples.
-const MOST_SAMPLES: f64 = 600.0;
+const MAX_SAMPLES: f64 = 600.0;
 /// For so long ahead the passes of a satellite that is tracked from here are known.
 const LATER_S: f64 = 7.0 * 86_400.0;
 
@@ -167,7 +167,7 @@ impl PredictedPass {
 
     fn sampled(&self) -> Vec<Sample> {
         let duration_s = self.pass.duration_s();
-        let step_s = (duration_s / MOST_SAMPLES).max(2.0);
+        let step_s = (duration_s / MAX_SAMPLES).max(2.0);
         let count = (duration_s / step_s).ceil() as usize;
         (0..=count)
             .map(|index| add_seconds(self.pass.aos.time, (index as f64 * step_s).min(duration_s)))

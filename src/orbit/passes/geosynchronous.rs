@@ -12,8 +12,8 @@ use crate::{
 use super::local_series::GRAVITY_KM3_S2;
 
 /// How much faster or slower than the Earth the satellite may turn, as a share.
-const MOST_DRIFT: f64 = 0.05;
-const MOST_ECCENTRICITY: f64 = 0.2;
+const MAX_DRIFT: f64 = 0.05;
+const MAX_ECCENTRICITY: f64 = 0.2;
 /// Longer windows are searched: the pull of Sun, Moon and the equator's bulge
 /// changes the orbit too much.
 const LONGEST_WINDOW_S: f64 = 14.0 * 86_400.0;
@@ -40,7 +40,7 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
         (v.cross(momentum) * (1.0 / GRAVITY_KM3_S2) - r * (1.0 / radius_km)).length();
     let drift = (GRAVITY_KM3_S2 / axis_km.powi(3)).sqrt() - EARTH_RATE_RAD_S;
     // Written so that NaN falls out as well.
-    if !(drift.abs() < MOST_DRIFT * EARTH_RATE_RAD_S && eccentricity < MOST_ECCENTRICITY) {
+    if !(drift.abs() < MAX_DRIFT * EARTH_RATE_RAD_S && eccentricity < MAX_ECCENTRICITY) {
         return false;
     }
     let inclination = momentum.x.hypot(momentum.y).atan2(momentum.z);

@@ -34,7 +34,7 @@ const LAST_STEP_S: f64 = 0.1;
 /// changes: after a share this small less than a tenth of a millisecond is left.
 const LAST_SHARE: f64 = 8e-3;
 /// More steps than this are needed where there is nothing to be found.
-const MOST_STEPS: usize = 8;
+const MAX_STEPS: usize = 8;
 
 /// Vectors east, north, up from the site, in km and seconds.
 #[derive(Debug, Clone, Copy)]
@@ -182,7 +182,7 @@ impl<N: Number> LocalSeries<N> {
     /// [`LocalState::turns`].
     pub(super) fn turning(&self) -> LocalState<N> {
         let mut place = self.place(N::of(0.0));
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let step_s = -place.height.rate / place.height.curve;
             if !step_s.abs().any_reaches(LAST_STEP_S) {
                 return place.moved(step_s);
@@ -196,7 +196,7 @@ impl<N: Number> LocalSeries<N> {
     /// not settle, the place is not one of [`LocalState::crosses`].
     pub(super) fn crossing(&self, sine: f64, tau: N) -> LocalState<N> {
         let mut place = self.place(tau);
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let Height { sine: height, rate, curve } = place.height;
             let newton_s = (-height + sine) / rate;
             let share = newton_s * curve / rate;
@@ -212,10 +212,10 @@ impl<N: Number> LocalSeries<N> {
 
 impl LocalSeries {
     /// Where the height is greatest or least; `None` when that is more than
-    /// `most_s` away or the height bends the other way.
-    pub(super) fn extreme(&self, bend: Bend, most_s: f64) -> Option<LocalState> {
+    /// `max_s` away or the height bends the other way.
+    pub(super) fn extreme(&self, bend: Bend, max_s: f64) -> Option<LocalState> {
         let place = self.turning();
-        let is_near = (place.at_s - self.at_s).abs() <= most_s;
+        let is_near = (place.at_s - self.at_s).abs() <= max_s;
         (is_near && place.turns(bend)).then_some(place)
     }
 }

@@ -22,7 +22,7 @@ use crate::{
 const FINE_STEP: f64 = 0.002_5;
 const COARSE_STEP: f64 = 0.09;
 /// Azimuth between two looks, in radians: few enough for its sense to be clear.
-const MOST_TURN: f64 = 0.09;
+const MAX_TURN: f64 = 0.09;
 /// No step is longer than this, in seconds.
 const LONGEST_STEP_S: f64 = 300.0;
 /// Crossings, and the times at which the azimuth passes a point, are found as
@@ -134,7 +134,7 @@ impl Follower<'_> {
         }
         let turn = from.turn_to(to.azimuth);
         let span_s = to.place.at_s - from.place.at_s;
-        if turn.abs() > MOST_TURN && span_s > TOLERANCE_S {
+        if turn.abs() > MAX_TURN && span_s > TOLERANCE_S {
             if let Some(middle) = self.look(from.place.at_s + 0.5 * span_s) {
                 self.step(from, middle, stretches);
                 self.step(middle, to, stretches);

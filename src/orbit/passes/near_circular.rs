@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// The mean distance may change by this share within a window; more is a decay.
-const MOST_SHRINKING: f64 = 0.05;
+const MAX_SHRINKING: f64 = 0.05;
 /// Sites further than this from below the satellite, in radians, see it for so
 /// long that the counting of passes by turns ends.
 const FARTHEST_REACH: f64 = 1.3;
@@ -56,7 +56,7 @@ impl<'a> NearCircular<'a> {
         for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
             let minutes = minutes(share * window.length_s);
             let (axis, eccentricity) = secular.size(minutes);
-            let is_steady = (axis / first_axis - 1.0).abs() < MOST_SHRINKING;
+            let is_steady = (axis / first_axis - 1.0).abs() < MAX_SHRINKING;
             if !(is_steady && secular.is_near_circular_at(minutes)) {
                 return None;
             }

@@ -20,7 +20,7 @@ use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::simd::Vector};
 const STEP: f64 = 1.1;
 /// No orbit above the ground needs a shorter step, in seconds: without a least one
 /// a state near the centre of the Earth would be followed for ever.
-const LEAST_STEP_S: f64 = 60.0;
+const MIN_STEP_S: f64 = 60.0;
 /// Looks per step.
 const LOOKS: u32 = 6;
 /// Heights of the polynomial are nearer to the truth than this.
@@ -226,7 +226,7 @@ fn step_s(series: &LocalSeries) -> f64 {
     let (r, v) = (series.state.position_km, series.state.velocity_km_s);
     let radius_km = r.length();
     let at_radius =
-        |radius_km: f64| (STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt()).max(LEAST_STEP_S);
+        |radius_km: f64| (STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt()).max(MIN_STEP_S);
     let level = at_radius(radius_km);
     // On the way down the orbit gets faster within the step: its time is that
     // of the lower place half a step on.

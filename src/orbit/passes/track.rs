@@ -133,29 +133,29 @@ impl<'a> Track<'a> {
 
     /// The greatest or least height near `guess_s`, and the series it was taken
     /// from. Newton's method goes as far as it has to, with a new state where
-    /// the last one is too far; `None` when it does not settle within `most_s`
+    /// the last one is too far; `None` when it does not settle within `max_s`
     /// of the guess.
     pub(super) fn extreme(
         &self,
         guess_s: f64,
-        most_s: f64,
+        max_s: f64,
         bend: Bend,
     ) -> Option<(LocalSeries, LocalState)> {
-        self.extreme_from(self.series(guess_s)?, most_s, bend)
+        self.extreme_from(self.series(guess_s)?, max_s, bend)
     }
 
     /// The same from a series that is there already.
     pub(super) fn extreme_from(
         &self,
         series: LocalSeries,
-        most_s: f64,
+        max_s: f64,
         bend: Bend,
     ) -> Option<(LocalSeries, LocalState)> {
         let guess_s = series.at_s;
         let mut series = series;
         for _ in 0..8 {
-            let place = series.extreme(bend, most_s)?;
-            if (place.at_s - guess_s).abs() > most_s {
+            let place = series.extreme(bend, max_s)?;
+            if (place.at_s - guess_s).abs() > max_s {
                 return None;
             }
             let tau = place.at_s - series.at_s;

@@ -9,7 +9,7 @@ use crate::astro::sun_moon;
 /// degree.
 const SUN_STEP_S: f64 = 24.0;
 /// For any time ahead it is looked at so many times at most.
-const MOST_SUNS: f64 = 40.0;
+const MAX_SUNS: f64 = 40.0;
 /// How fast it moves at most, degrees a second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
 /// A refuge from the Sun is looked for in rings around the antenna, so far apart,
@@ -80,7 +80,7 @@ fn seconds(seconds: f64) -> SignedDuration {
 }
 
 fn sun_step_s(sun: SunAvoidance) -> f64 {
-    SUN_STEP_S.max(sun.ahead_min * 60.0 / MOST_SUNS)
+    SUN_STEP_S.max(sun.ahead_min * 60.0 / MAX_SUNS)
 }
 
 /// The radius around each place of the Sun that is looked at, degrees: wide enough that

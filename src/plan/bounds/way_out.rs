@@ -45,9 +45,9 @@ impl BoundsAt<'_> {
                 continue;
             }
             let turn = self.turn(axes_deg, axis, way);
-            let most_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
+            let max_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
             let place = |turn_deg| self.place(&turn, turn_deg, &left);
-            if let Some(turn_deg) = turn.out_deg(most_deg, place) {
+            if let Some(turn_deg) = turn.out_deg(max_deg, place) {
                 let way_deg = turn_deg * turn.speed;
                 shortest_deg = Some(shortest_deg.map_or(way_deg, |deg| deg.min(way_deg)));
             }
@@ -142,10 +142,10 @@ impl Turn {
         if axis == 0 { [first + by_deg, second] } else { [first, second + by_deg] }
     }
 
-    /// By how much the axis turns until `place` is free, degrees; by `most_deg` at
+    /// By how much the axis turns until `place` is free, degrees; by `max_deg` at
     /// most.
-    fn out_deg(&self, most_deg: f64, mut place: impl FnMut(f64) -> Place) -> Option<f64> {
-        let last_deg = self.end_deg.min(most_deg);
+    fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Place) -> Option<f64> {
+        let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
             match place(turn_deg) {

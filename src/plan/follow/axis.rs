@@ -8,7 +8,7 @@ const ROUNDS: usize = 4;
 /// Angles come from decimal degrees: allow for the rounding.
 const ROUNDING_DEG: f64 = 1e-9;
 /// No drive stops further before its goal than this, degrees.
-const MOST_IGNORED_DEG: f64 = 10.0;
+const MAX_IGNORED_DEG: f64 = 10.0;
 
 /// An axis as it was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,7 @@ pub(super) struct Axis {
     /// The longest way that it was seen not to set out for, degrees.
     ignored_deg: f64,
     /// What it made of the shortest way that it sets out for, degrees.
-    least_run_deg: Option<f64>,
+    min_run_deg: Option<f64>,
     slew_rate: SlewRate,
 }
 
@@ -65,7 +65,7 @@ impl Axis {
             following,
             told: Told::default(),
             ignored_deg: 0.0,
-            least_run_deg: None,
+            min_run_deg: None,
             slew_rate: SlewRate::default(),
         }
     }
@@ -86,13 +86,13 @@ impl Axis {
         let way_deg = (to_deg - from_deg).abs();
         let run_deg = (at_deg - from_deg).abs();
         if run_deg >= self.half_step_deg() {
-            if way_deg <= self.least_way_deg() {
-                self.least_run_deg = Some(run_deg);
+            if way_deg <= self.min_way_deg() {
+                self.min_run_deg = Some(run_deg);
             }
-        } else if way_deg <= MOST_IGNORED_DEG {
+        } else if way_deg <= MAX_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
             self.told.to_deg = Some(from_deg);
-            self.least_run_deg = None;
+            self.min_run_deg = None;
         }
     }
 
@@ -160,12 +160,12 @@ impl Axis {
     /// How far off it may be before it is told a new position. It is sent as far
     /// ahead of the target, so that it is as far off on either side.
     fn band_deg(&self) -> f64 {
-        let run_deg = self.least_run_deg.unwrap_or_else(|| self.least_way_deg());
+        let run_deg = self.min_run_deg.unwrap_or_else(|| self.min_way_deg());
         self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
     }
 
     /// The shortest way that it may set out for.
-    fn least_way_deg(&self) -> f64 {
+    fn min_way_deg(&self) -> f64 {
         self.ignored_deg + self.drives.step_deg
     }
 
@@ -185,7 +185,7 @@ impl Axis {
         if self.ignored_deg <= 0.0 || (near_deg - at_deg).abs() > self.ignored_deg {
             return near_deg;
         }
-        let way_deg = self.least_way_deg().copysign(wanted_deg - at_deg);
+        let way_deg = self.min_way_deg().copysign(wanted_deg - at_deg);
         self.drives.tellable_deg(self.index, at_deg + way_deg)
     }
 }

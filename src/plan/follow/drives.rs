@@ -86,13 +86,12 @@ impl Drives {
         let off = |wanted: &[f64], index: usize, at_deg: f64| {
             1.0 - (at_deg - wanted.get(index).copied().unwrap_or(at_deg)).to_radians().cos()
         };
-        let [lower_most_deg, upper_most_deg] = self.rates_deg_s.map(|rate| rate * step_s);
-        let lower = rate_limited(&lower, lower_most_deg, |index, at_deg| {
+        let [lower_max_deg, upper_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
+        let lower = rate_limited(&lower, lower_max_deg, |index, at_deg| {
             let upper_deg = upper.get(index).copied().unwrap_or(90.0);
             (upper_deg - 90.0).to_radians().cos().powi(2) * off(&lower, index, at_deg)
         });
-        let upper =
-            rate_limited(&upper, upper_most_deg, |index, at_deg| off(&upper, index, at_deg));
+        let upper = rate_limited(&upper, upper_max_deg, |index, at_deg| off(&upper, index, at_deg));
         Planned { flip: Flip::None, axes_deg: [lower, upper], slews: Vec::new() }
     }
 

@@ -12,9 +12,9 @@ use crate::{
 };
 
 /// Between two points of a path at least, seconds.
-const LEAST_STEP_S: f64 = 0.5;
+const MIN_STEP_S: f64 = 0.5;
 /// A path has so many points at most.
-const MOST_POINTS: f64 = 2400.0;
+const MAX_POINTS: f64 = 2400.0;
 /// A path is as good for an axis that turns faster or slower by less than this
 /// share.
 const SAME_RATE: f64 = 0.02;
@@ -30,7 +30,7 @@ pub(super) struct Path {
     to: Timestamp,
     step_s: f64,
     /// Degrees each axis turns in a step at its full rate.
-    most_deg: [f64; 2],
+    max_deg: [f64; 2],
     axes: [Vec<f64>; 2],
     flip: Flip,
 }
@@ -48,7 +48,7 @@ impl Path {
         choice: Choice,
     ) -> Option<Self> {
         let span_s = seconds_between(from, to).max(0.0);
-        let step_s = (span_s / MOST_POINTS).max(LEAST_STEP_S);
+        let step_s = (span_s / MAX_POINTS).max(MIN_STEP_S);
         let steps = (span_s / step_s).ceil() as u32;
         let samples: Vec<Sample> = (0..=steps)
             .map_while(|step| {
@@ -56,7 +56,7 @@ impl Path {
                 course.direction(time).map(|direction| Sample { time, direction })
             })
             .collect();
-        let most_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
+        let max_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
         let Planned { flip, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
         let axes = if bounds.has_way_round() && drives.has_elevation {
             round(axes_deg, &samples, step_s, start, drives.axis_limits(), bounds)
@@ -64,7 +64,7 @@ impl Path {
             axes_deg
         };
         let to = samples.last()?.time;
-        Some(Self { from, to, step_s, most_deg, axes, flip })
+        Some(Self { from, to, step_s, max_deg, axes, flip })
     }
 
     /// When it ends.
@@ -74,9 +74,9 @@ impl Path {
 
     /// Whether it was worked out for axes that turn as fast.
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
-        let mut both = self.most_deg.into_iter().zip(rates_deg_s);
-        both.all(|(most_deg, rate_deg_s)| {
-            (rate_deg_s * self.step_s / most_deg - 1.0).abs() < SAME_RATE
+        let mut both = self.max_deg.into_iter().zip(rates_deg_s);
+        both.all(|(max_deg, rate_deg_s)| {
+            (rate_deg_s * self.step_s / max_deg - 1.0).abs() < SAME_RATE
         })
     }
 
@@ -119,11 +119,11 @@ impl Path {
 
     /// Where an axis ends up that is slewing at this time; `None` when it is not.
     pub(super) fn slew_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
-        let (first, most_deg) = (self.index(at_s), self.most_deg.get(axis)?);
+        let (first, max_deg) = (self.index(at_s), self.max_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;
         let slews = |pair: &&[f64]| {
             let [before, after] = pair else { return false };
-            (after - before).abs() >= FULL_RATE * most_deg
+            (after - before).abs() >= FULL_RATE * max_deg
         };
         let grows = |pair: &[f64]| {
             let [before, after] = pair else { return false };
@@ -178,7 +178,7 @@ mod tests {
             from,
             to: add_seconds(from, 16.0),
             step_s: 0.5,
-            most_deg: [2.5; 2],
+            max_deg: [2.5; 2],
             axes: [axis.clone(), axis],
             flip: Flip::None,
         }

@@ -39,7 +39,7 @@ pub(super) fn round(
     if !is_behind.contains(&true) {
         return axes_deg;
     }
-    let mut line = Line { points: Vec::new(), limits, most_s: step_s * SHARE_OF_RATE };
+    let mut line = Line { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
         // In the middle of a detour already; before a pass it waits where it comes out.
@@ -97,7 +97,7 @@ struct Line {
     points: Vec<(f64, [f64; 2])>,
     limits: AxisLimits,
     /// How much of it is made from one sample to the next at most, seconds.
-    most_s: f64,
+    max_s: f64,
 }
 
 impl Line {
@@ -113,17 +113,17 @@ impl Line {
         self.points.last().map(|(_, at_deg)| *at_deg)
     }
 
-    fn add(&mut self, to_deg: [f64; 2], most_s: f64) {
+    fn add(&mut self, to_deg: [f64; 2], max_s: f64) {
         let Some((before_s, before_deg)) = self.points.last().copied() else {
             return self.begin(to_deg);
         };
-        let way_s = self.limits.seconds(before_deg, to_deg).min(most_s);
+        let way_s = self.limits.seconds(before_deg, to_deg).min(max_s);
         self.points.push((before_s + way_s, to_deg));
     }
 
     /// On to the next place of a way that the axes can make as it is.
     fn go_to(&mut self, to_deg: [f64; 2]) {
-        self.add(to_deg, self.most_s);
+        self.add(to_deg, self.max_s);
     }
 
     /// On along a detour. For each of `targets` where on the line it is nearest, never

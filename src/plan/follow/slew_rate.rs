@@ -6,11 +6,11 @@ use crate::{clock::Instant, station::ranges};
 const RAMP_DEG: f64 = 5.0;
 /// A rate is taken over so much at least that the rounding of a sensor to whole
 /// degrees counts for little, degrees.
-const LEAST_WAY_DEG: f64 = 20.0;
+const MIN_WAY_DEG: f64 = 20.0;
 /// And from so many positions.
-const LEAST_READINGS: usize = 8;
+const MIN_READINGS: usize = 8;
 /// More positions tell no more; an axis that never arrives gives them for ever.
-const MOST_READINGS: usize = 4096;
+const MAX_READINGS: usize = 4096;
 
 /// The slew of an axis that is under way.
 #[derive(Debug, Clone, Default)]
@@ -56,7 +56,7 @@ impl Slew {
             return None;
         }
         if (self.to_deg - position_deg) * way >= RAMP_DEG {
-            if self.readings.len() < MOST_READINGS {
+            if self.readings.len() < MAX_READINGS {
                 self.readings.push((at, position_deg));
             }
             return None;
@@ -72,8 +72,8 @@ impl Slew {
     fn rate_deg_s(&self) -> Option<f64> {
         let (_, first_deg) = self.readings.first()?;
         let (_, last_deg) = self.readings.last()?;
-        let is_long = (last_deg - first_deg).abs() >= LEAST_WAY_DEG;
-        if !is_long || self.readings.len() < LEAST_READINGS {
+        let is_long = (last_deg - first_deg).abs() >= MIN_WAY_DEG;
+        if !is_long || self.readings.len() < MIN_READINGS {
             return None;
         }
         let after = self.readings.iter().skip(self.readings.len() / 4);

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::{Bounds, at};
 
 /// The axis is looked for at so many places at most.
-const MOST_PLACES: f64 = 240.0;
+const MAX_PLACES: f64 = 240.0;
 /// At its full rate it turns by so many places from one look to the next.
 const FULL: usize = 2;
 /// So little does it cost to turn by a place, lest it is done for nothing.
@@ -21,22 +21,22 @@ pub(super) struct Rough {
 }
 
 /// The cheapest way through `slew` of an axis that stands at `before_deg` one
-/// interval before it and turns by `most_deg` in an interval at most.
+/// interval before it and turns by `max_deg` in an interval at most.
 pub(super) fn between(
     bounds: &Bounds,
     slew: &Range<usize>,
     before_deg: f64,
-    most_deg: f64,
+    max_deg: f64,
     cost: &impl Fn(usize, f64) -> f64,
 ) -> Rough {
     let low = bounds.low.get(slew.clone()).unwrap_or_default().iter();
     let high = bounds.high.get(slew.clone()).unwrap_or_default().iter();
-    let least_deg = low.fold(before_deg, |least, at| least.min(*at));
+    let min_deg = low.fold(before_deg, |least, at| least.min(*at));
     let greatest_deg = high.fold(before_deg, |greatest, at| greatest.max(*at));
-    let finest_deg = (greatest_deg - least_deg) / MOST_PLACES;
-    let stride = (finest_deg * FULL as f64 / most_deg).ceil().max(1.0) as usize;
-    let cell_deg = most_deg * stride as f64 / FULL as f64;
-    let below = ((before_deg - least_deg) / cell_deg).ceil() as usize;
+    let finest_deg = (greatest_deg - min_deg) / MAX_PLACES;
+    let stride = (finest_deg * FULL as f64 / max_deg).ceil().max(1.0) as usize;
+    let cell_deg = max_deg * stride as f64 / FULL as f64;
+    let below = ((before_deg - min_deg) / cell_deg).ceil() as usize;
     let places = below + ((greatest_deg - before_deg) / cell_deg).ceil() as usize + 1;
     let place_deg = |place: usize| before_deg + (place as f64 - below as f64) * cell_deg;
 

@@ -44,9 +44,9 @@ pub struct DriveModel<'a> {
     /// How fast it jogs.
     pub speeds: JogSpeeds,
     /// The most that the unit does, in degrees per second.
-    pub most_deg_s: f64,
+    pub max_deg_s: f64,
     /// The largest step of an axis, in degrees; none for a unit without steps.
-    pub most_step_deg: Option<f64>,
+    pub max_step_deg: Option<f64>,
     /// Why going to a direction is refused now.
     pub go_to_locked: Option<&'a str>,
     /// Azimuths that are taken, in degrees.
@@ -75,8 +75,8 @@ pub struct DriveState {
 
 impl DriveState {
     /// Takes the next rate up (`by` positive) or down.
-    pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, most_deg_s: f64) {
-        self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, most_deg_s);
+    pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, max_deg_s: f64) {
+        self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, max_deg_s);
     }
 
     /// Puts the keyboard on the jog pad as soon as it is free.
@@ -140,8 +140,8 @@ pub(super) fn show(
         GoToAction::Send(target) => CardAction::GoTo(target),
     }));
     at.skip(6.0);
-    if let Some(most_deg) = model.most_step_deg.filter(|_| model.jog_locked.is_none()) {
-        steps::show(ui, at, model, most_deg, &mut state.steps, state.jog, actions);
+    if let Some(max_deg) = model.max_step_deg.filter(|_| model.jog_locked.is_none()) {
+        steps::show(ui, at, model, max_deg, &mut state.steps, state.jog, actions);
         at.skip(STEPS_GAP);
     }
 }
@@ -153,12 +153,12 @@ fn jog(
     state: &mut DriveState,
     actions: &mut Vec<CardAction>,
 ) {
-    let rate_deg_s = speed::rate_deg_s(state.rate_deg_s, model.speeds, model.most_deg_s);
+    let rate_deg_s = speed::rate_deg_s(state.rate_deg_s, model.speeds, model.max_deg_s);
     let jog_model = JogModel {
         keys: model.keys,
         locked: model.jog_locked.is_some(),
         blocked: model.blocked,
-        asked: &speed::in_words(rate_deg_s, model.speeds, model.most_deg_s),
+        asked: &speed::in_words(rate_deg_s, model.speeds, model.max_deg_s),
         real_deg_s: model.real_deg_s,
     };
     let held = jog_pad::show(ui, pad, &jog_model, &mut state.jog);
@@ -177,7 +177,7 @@ pub(super) fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: 
     // So that little moves when a sentence comes.
     let end = at.y + MESSAGE;
     let refusal = state.go_to.refusal();
-    let step = model.most_step_deg.and_then(|most_deg| state.steps.size_deg(most_deg).err());
+    let step = model.max_step_deg.and_then(|max_deg| state.steps.size_deg(max_deg).err());
     let step = step.as_deref().filter(|_| model.jog_locked.is_none());
     let lock = model.jog_locked;
     let other_lock = model.go_to_locked.filter(|reason| Some(*reason) != lock);

@@ -17,17 +17,17 @@ use crate::{
 
 /// The rate that is sent for the one that was chosen, degrees a second. Where
 /// the speeds have names it is the one that stands for the nearest of them.
-pub(super) fn rate_deg_s(chosen_deg_s: f64, speeds: JogSpeeds, most_deg_s: f64) -> f64 {
-    let named = speeds.nearest(chosen_deg_s, most_deg_s);
-    named.map_or(chosen_deg_s.min(most_deg_s), |speed| speed.share * most_deg_s)
+pub(super) fn rate_deg_s(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
+    let named = speeds.nearest(chosen_deg_s, max_deg_s);
+    named.map_or(chosen_deg_s.min(max_deg_s), |speed| speed.share * max_deg_s)
 }
 
 /// The rate, or the name of the speed; nothing where there is no choice.
-pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, most_deg_s: f64) -> String {
+pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> String {
     match speeds {
         JogSpeeds::AnyRate => format::number(chosen_deg_s, 2),
         JogSpeeds::Named([_, _, ..]) => {
-            let speed = speeds.nearest(chosen_deg_s, most_deg_s);
+            let speed = speeds.nearest(chosen_deg_s, max_deg_s);
             speed.map_or_else(String::new, |speed| speed.name.to_owned())
         }
         JogSpeeds::Named(_) => String::new(),
@@ -35,26 +35,26 @@ pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, most_deg_s: f64) ->
 }
 
 /// The rate `by` steps up, degrees a second.
-pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, most_deg_s: f64) -> f64 {
+pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let JogSpeeds::Named(named) = speeds else {
-        return rate_slider::stepped(chosen_deg_s, by, most_deg_s);
+        return rate_slider::stepped(chosen_deg_s, by, max_deg_s);
     };
-    let now = speeds.nearest(chosen_deg_s, most_deg_s);
+    let now = speeds.nearest(chosen_deg_s, max_deg_s);
     let place = named.iter().position(|speed| Some(*speed) == now).unwrap_or_default();
     let last = named.len().saturating_sub(1);
     let wanted = place.saturating_add_signed(by as isize).min(last);
-    named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * most_deg_s)
+    named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
 }
 
 /// Shows what there is to choose in `rect`; changes `chosen_deg_s`.
 pub(super) fn show(ui: &Ui, rect: Rect, model: &DriveModel<'_>, chosen_deg_s: &mut f64) {
-    let most_deg_s = model.most_deg_s;
+    let max_deg_s = model.max_deg_s;
     match model.speeds {
         JogSpeeds::AnyRate => {
-            rate_slider::show(ui, rect, most_deg_s, model.jog_locked.is_some(), chosen_deg_s);
+            rate_slider::show(ui, rect, max_deg_s, model.jog_locked.is_some(), chosen_deg_s);
         }
         JogSpeeds::Named(named @ [_, _, ..]) => {
-            let now = model.speeds.nearest(*chosen_deg_s, most_deg_s);
+            let now = model.speeds.nearest(*chosen_deg_s, max_deg_s);
             let segment = |speed: &JogSpeed| {
                 let is_chosen = Some(*speed) == now;
                 (speed.name, if is_chosen { Segment::Chosen } else { Segment::Free })
@@ -62,7 +62,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &DriveModel<'_>, chosen_deg_s: &m
             let segments: Vec<_> = named.iter().map(segment).collect();
             let clicked = segmented::show(ui, "speed", rect, "Jog speed", &segments);
             if let Some(speed) = clicked.and_then(|index| named.get(index)) {
-                *chosen_deg_s = speed.share * most_deg_s;
+                *chosen_deg_s = speed.share * max_deg_s;
             }
         }
         JogSpeeds::Named(_) => {}

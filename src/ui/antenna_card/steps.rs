@@ -17,7 +17,7 @@ use crate::ui::{
 /// Size of the first step, in degrees.
 const FIRST_DEG: f64 = 0.5;
 /// The unit reports hundredths: a smaller step would not show.
-const LEAST_DEG: f64 = 0.01;
+const MIN_DEG: f64 = 0.01;
 const LABEL: f32 = 36.0;
 const FIELD: f32 = 64.0;
 const KEY: f32 = 36.0;
@@ -39,8 +39,8 @@ impl Default for StepState {
 
 impl StepState {
     /// The size in degrees, or why what was typed is none.
-    pub(super) fn size_deg(&self, most_deg: f64) -> Result<f64, String> {
-        parse::angle(&self.typed, "Step", (LEAST_DEG, most_deg))
+    pub(super) fn size_deg(&self, max_deg: f64) -> Result<f64, String> {
+        parse::angle(&self.typed, "Step", (MIN_DEG, max_deg))
     }
 }
 
@@ -49,7 +49,7 @@ pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
     model: &DriveModel<'_>,
-    most_deg: f64,
+    max_deg: f64,
     state: &mut StepState,
     jog: JogState,
     actions: &mut Vec<CardAction>,
@@ -57,7 +57,7 @@ pub(super) fn show(
     let row = at.take(SMALL_HEIGHT);
     let t = theme::tokens(ui);
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
-    let size = state.size_deg(most_deg);
+    let size = state.size_deg(max_deg);
     let field = row.with_min_x(row.left() + LABEL).with_max_x(row.left() + LABEL + FIELD);
     let id = ui.make_persistent_id("step size");
     AngleField { refused: size.is_err(), hint: "", name: "Step size, degrees" }.show(

@@ -75,8 +75,8 @@ impl Act {
                 let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
                 if let Some(antenna) = model.antenna().filter(manual) {
                     let speeds = antenna.variant().capabilities.jog;
-                    let most_deg_s = antenna.config.limits.maximum_rate_deg_s;
-                    desk.operate.card.drive.change_rate(by, speeds, most_deg_s);
+                    let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
+                    desk.operate.card.drive.change_rate(by, speeds, max_deg_s);
                 }
             }
             Self::Zoom(closer) => desk.operate.zoom.change(closer),

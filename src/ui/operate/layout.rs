@@ -9,13 +9,13 @@ const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
 /// The operator draws the list no wider than this, and only as long as the sky
 /// plot keeps its least width.
-const MOST_LIST: f32 = 480.0;
-const LEAST_SKY: f32 = 480.0;
+const MAX_LIST: f32 = 480.0;
+const MIN_SKY: f32 = 480.0;
 const STRIP: f32 = 208.0;
 const SMALL_STRIP: f32 = 80.0;
 const PROFILE: f32 = 392.0;
 /// The disc never grows beyond this; the strip below gets the rest.
-const MOST_SKY: f32 = 2.0 * (420.0 + 36.0);
+const MAX_SKY: f32 = 2.0 * (420.0 + 36.0);
 
 /// Below this width of the window the list becomes a drawer.
 const DRAWER_BELOW: f32 = 1200.0;
@@ -60,14 +60,14 @@ impl Areas {
         let left = banner.map_or(left, |banner| left.with_min_y(banner.bottom()));
 
         let usual = if window.width() >= THUMBNAILS_FROM { LIST } else { NARROW_LIST };
-        let most = (left.width() - LEAST_SKY).clamp(NARROW_LIST, MOST_LIST);
+        let most = (left.width() - MIN_SKY).clamp(NARROW_LIST, MAX_LIST);
         let list_widths = Rangef::new(NARROW_LIST, most);
         let list_width = list_widths.clamp(list_width.unwrap_or(usual));
         let thumbnails = list_width >= LIST;
         let header_height = if small { 44.0 } else { pass_header::HEIGHT };
         let wanted = if tall { STRIP } else { SMALL_STRIP };
         let room = left.height() - header_height;
-        let strip_height = wanted.max(room - MOST_SKY);
+        let strip_height = wanted.max(room - MAX_SKY);
         let strip = left.with_min_y(left.bottom() - strip_height);
         let above = left.with_max_y(strip.top());
 
@@ -163,7 +163,7 @@ mod tests {
             let areas = with_list(window, 900.0, Some(drawn));
             let list = areas.list.unwrap();
             assert!((list.width() - wanted).abs() < 1e-3, "{drawn}: {list}");
-            assert!(areas.sky.width() >= LEAST_SKY && areas.sky.left() >= list.right());
+            assert!(areas.sky.width() >= MIN_SKY && areas.sky.left() >= list.right());
             assert_eq!(areas.thumbnails, wanted >= LIST);
         }
     }
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn a_tall_window_gives_the_rest_to_the_strip() {
         let areas = areas(2560.0, 1440.0);
-        assert!((areas.sky.height() - MOST_SKY).abs() < 1.0);
+        assert!((areas.sky.height() - MAX_SKY).abs() < 1.0);
         assert!(areas.timeline.is_some_and(|strip| strip.height() > STRIP));
     }
 }

@@ -10,9 +10,9 @@ pub(super) const ELEVATION_TOP_DEG: f64 = 90.0;
 /// Top of the azimuth scale, in degrees.
 pub(super) const AZIMUTH_TOP_DEG: f64 = 360.0;
 /// The error plot reaches at least this many half beams.
-const ERROR_LEAST_HALF_BEAMS: f64 = 1.4;
+const MIN_ERROR_HALF_BEAMS: f64 = 1.4;
 /// Beyond this many half beams an error lies at the top edge.
-const ERROR_MOST_HALF_BEAMS: f64 = 3.0;
+const MAX_ERROR_HALF_BEAMS: f64 = 3.0;
 
 /// The time axis that both plots share.
 #[derive(Debug, Clone, Copy)]
@@ -65,7 +65,7 @@ pub(super) fn y(rect: Rect, value: f64, top: f64) -> f32 {
 pub(super) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f64) -> f64 {
     let largest = errors.filter(|error| error.is_finite()).fold(0.0, f64::max);
     if has_beam(half_beam_deg) {
-        largest.clamp(ERROR_LEAST_HALF_BEAMS * half_beam_deg, ERROR_MOST_HALF_BEAMS * half_beam_deg)
+        largest.clamp(MIN_ERROR_HALF_BEAMS * half_beam_deg, MAX_ERROR_HALF_BEAMS * half_beam_deg)
     } else if largest > 0.0 {
         largest
     } else {

@@ -5,7 +5,7 @@ use egui::{Popup, Rect, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 use super::button::Button;
 
 /// Higher lists scroll.
-const MOST_HEIGHT: f32 = 400.0;
+const MAX_HEIGHT: f32 = 400.0;
 
 /// What shows the choice that was made, and offers the others.
 #[derive(Debug, Clone, Copy)]
@@ -31,7 +31,7 @@ impl DropDown<'_> {
         response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
         Popup::menu(&response).width(rect.width()).accessible_name(self.name).show(|ui| {
             ui.set_min_width(ui.available_width());
-            ScrollArea::vertical().max_height(MOST_HEIGHT).show(ui, |ui| {
+            ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
                 // A choice may be longer than the button is wide.
                 ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
                 choices(ui);

@@ -12,27 +12,27 @@ const KNOB: f32 = 6.0;
 
 /// Rates that can be chosen, in degrees per second: 1, 2, 5, 10 and so on from
 /// 0.01 up, and the most that the unit does.
-pub fn steps(most_deg_s: f64) -> Vec<f64> {
+pub fn steps(max_deg_s: f64) -> Vec<f64> {
     let mut rates = Vec::new();
     for decade in [0.01, 0.1, 1.0, 10.0] {
         for digit in [1.0, 2.0, 5.0] {
             let rate = decade * digit;
-            if rate < most_deg_s - 1e-9 {
+            if rate < max_deg_s - 1e-9 {
                 rates.push(rate);
             }
         }
     }
-    rates.push(most_deg_s);
+    rates.push(max_deg_s);
     rates
 }
 
 /// The rate `by` steps away, at most the last or first one.
-pub fn stepped(rate_deg_s: f64, by: i32, most_deg_s: f64) -> f64 {
-    let rates = steps(most_deg_s);
+pub fn stepped(rate_deg_s: f64, by: i32, max_deg_s: f64) -> f64 {
+    let rates = steps(max_deg_s);
     let now = nearest(&rates, rate_deg_s);
     let by_places = by.unsigned_abs() as usize;
     let wanted = if by < 0 { now.saturating_sub(by_places) } else { now + by_places };
-    rates.get(wanted).copied().unwrap_or(most_deg_s)
+    rates.get(wanted).copied().unwrap_or(max_deg_s)
 }
 
 fn nearest(rates: &[f64], rate: f64) -> usize {
@@ -48,10 +48,10 @@ fn nearest(rates: &[f64], rate: f64) -> usize {
 
 /// Shows name, slider and value in `rect`; changes `rate_deg_s`, which is kept
 /// within what the unit does.
-pub fn show(ui: &Ui, rect: Rect, most_deg_s: f64, locked: bool, rate_deg_s: &mut f64) {
+pub fn show(ui: &Ui, rect: Rect, max_deg_s: f64, locked: bool, rate_deg_s: &mut f64) {
     let t = theme::tokens(ui);
-    *rate_deg_s = rate_deg_s.min(most_deg_s);
-    let rates = steps(most_deg_s);
+    *rate_deg_s = rate_deg_s.min(max_deg_s);
+    let rates = steps(max_deg_s);
     let y = rect.center().y;
     paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, "Rate", text::small(), t.t2);
     let track = rect.with_min_x(rect.left() + 40.0).with_max_x(rect.right() - 68.0);
@@ -65,7 +65,7 @@ pub fn show(ui: &Ui, rect: Rect, most_deg_s: f64, locked: bool, rate_deg_s: &mut
     response.widget_info(|| WidgetInfo::slider(!locked, value, "Jog rate, degrees per second"));
     ui.ctx().accesskit_node_builder(id, |node| {
         node.set_min_numeric_value(rates.first().copied().unwrap_or_default());
-        node.set_max_numeric_value(most_deg_s);
+        node.set_max_numeric_value(max_deg_s);
         node.add_action(Action::Increment);
         node.add_action(Action::Decrement);
     });

@@ -25,16 +25,16 @@ use crate::{
 /// Newton's method squares its error: after a step this small, in radians, what
 /// is left is some seconds of the satellite's way.
 const LAST_STEP_RAD: f64 = 0.15;
-const MOST_STEPS: usize = 4;
+const MAX_STEPS: usize = 4;
 /// Touching pieces both look this share of a revolution beyond, and what both
 /// find is taken once.
 const OVERLAP: f64 = 0.02;
 /// More revolutions than in the longest piece, a quarter of a day, of the lowest
 /// orbit: what counts more is no orbit, and must not decide how much memory is
 /// taken.
-const MOST_IN_PIECE: u32 = 8;
+const MAX_IN_PIECE: u32 = 8;
 /// Satellites come again after more than this share of a revolution.
-const LEAST_GAP: f64 = 0.3;
+const MIN_GAP: f64 = 0.3;
 
 /// Satellite and site in the plane of the orbit, in radians from the ascending
 /// node.
@@ -78,7 +78,7 @@ impl SatelliteAt<'_> {
     /// Whether this is the fly-by that was found before it.
     pub(super) fn is_same(&self, before: &Self) -> bool {
         ptr::eq(self.satellite, before.satellite)
-            && (self.at_s - before.at_s) * self.satellite.rate_rad_s() < LEAST_GAP * TAU
+            && (self.at_s - before.at_s) * self.satellite.rate_rad_s() < MIN_GAP * TAU
     }
 }
 
@@ -97,7 +97,7 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
         let first = from - site_from;
         let turn = (first / TAU).ceil();
         let count = ((first + growth) / TAU).floor() - turn + 1.0;
-        guesses.extend((0..(count as u32).min(MOST_IN_PIECE)).map(|index| {
+        guesses.extend((0..(count as u32).min(MAX_IN_PIECE)).map(|index| {
             let share = (TAU * (turn + f64::from(index)) - first) / growth;
             SatelliteAt { at_s: start.at_s + share * (end.at_s - start.at_s), ..*start }
         }));
@@ -108,7 +108,7 @@ impl Batch {
     /// The instants of the fly-bys, to some seconds, by Newton's method.
     pub(super) fn refined(&self, window: &Window, guesses_s: Lanes) -> Lanes {
         let mut at_s = guesses_s;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let InPlane { satellite, site, rate } = self.in_plane(window, at_s);
             let ahead = wrapped(satellite - site);
             at_s -= ahead / rate;

@@ -24,7 +24,7 @@ use crate::orbit::{
 };
 
 /// AOS and LOS are looked for within this many half passes of the crest.
-const MOST_OF_HALF: f64 = 1.1;
+const MAX_HALF_PASSES: f64 = 1.1;
 
 /// The AOS of every lane, or the LOS.
 struct Edges {
@@ -139,7 +139,7 @@ fn is_beside<N: Number>(
     side: f64,
 ) -> N::Answer {
     let from_crest_s = (place.at_s - crest.at_s) * side;
-    N::of(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MOST_OF_HALF)
+    N::of(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MAX_HALF_PASSES)
 }
 
 /// The pass of one lane by itself, of which the crest and the edges may have
@@ -184,6 +184,6 @@ fn edge_alone(
     let is_near = is_beside(half_pass_s, crest, &near, *side);
     track.count(usize::from(is_near));
     let guess_s = if is_near { near.at_s } else { series.at_s + lane_of(guess_tau, lane) };
-    let outside_s = crest.at_s + side * MOST_OF_HALF * half_pass_s;
+    let outside_s = crest.at_s + side * MAX_HALF_PASSES * half_pass_s;
     track.crossing(outside_s, guess_s, crest.at_s)
 }

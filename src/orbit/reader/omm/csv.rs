@@ -9,10 +9,10 @@ use crate::orbit::reader::{ReadReport, RefusalReason};
 
 /// Fields of a row that are looked at; real ones have some forty. A line without
 /// an end must not take many times its length of memory.
-const MOST_FIELDS: usize = 1000;
+const MAX_FIELDS: usize = 1000;
 /// Names of fields that a header holds at least: more than the name of an object
 /// has room for, and than the texts of a row are.
-const FEWEST_NAMES: usize = 4;
+const MIN_NAMES: usize = 4;
 
 /// Whether `line` is such a header.
 pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
@@ -68,7 +68,7 @@ struct Row {
 impl Row {
     fn new() -> Self {
         // Not `Reader::default()`, which has no tables and reads nothing.
-        Self { reader: Reader::new(), text: Vec::new(), ends: vec![0; MOST_FIELDS], len: 0 }
+        Self { reader: Reader::new(), text: Vec::new(), ends: vec![0; MAX_FIELDS], len: 0 }
     }
 
     fn split(&mut self, line: &str) {
@@ -100,7 +100,7 @@ impl Row {
     fn is_header(&self) -> bool {
         let mut names = self.fields().map(str::trim);
         names.any(|name| name.eq_ignore_ascii_case("NORAD_CAT_ID"))
-            && self.fields().filter_map(|name| Field::named(name.trim())).count() >= FEWEST_NAMES
+            && self.fields().filter_map(|name| Field::named(name.trim())).count() >= MIN_NAMES
     }
 
     fn fields(&self) -> impl Iterator<Item = &str> {
@@ -176,7 +176,7 @@ mod tests {
     fn a_row_without_an_end_is_refused_and_costs_no_other() {
         let report = read(&format!("{HEADER}\n{}\n{ROW}\n", ",".repeat(100_000)));
         assert_eq!(numbers(&report), [25_544]);
-        let reason = RefusalReason::FieldCount { found: MOST_FIELDS, expected: 17 };
+        let reason = RefusalReason::FieldCount { found: MAX_FIELDS, expected: 17 };
         assert_eq!(report.refused[0].reason, reason);
     }
 

@@ -41,8 +41,8 @@ impl Metal {
             }
         }
         for (axis, goal) in self.axes_deg.iter_mut().zip(self.goals_deg) {
-            let most_deg = self.rate_deg_s * TICK_S;
-            *axis += (goal - *axis).clamp(-most_deg, most_deg);
+            let max_deg = self.rate_deg_s * TICK_S;
+            *axis += (goal - *axis).clamp(-max_deg, max_deg);
         }
     }
 

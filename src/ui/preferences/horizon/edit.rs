@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// A corner needs two others.
-pub(super) const FEWEST: usize = crate::astro::FEWEST_CORNERS;
+pub(super) const FEWEST: usize = crate::astro::MIN_CORNERS;
 
 /// The direction under a point of the plot in degrees, the azimuth as it is
 /// counted nearest to `near_deg`. Outside the rim is the horizon.
@@ -55,7 +55,7 @@ impl ZoneDraft {
     /// A new corner in the middle of the edge that leaves from `corner`. Returns its
     /// place.
     pub(super) fn split(&mut self, corner: usize) -> Option<usize> {
-        if self.corners.len() >= crate::astro::MOST_CORNERS {
+        if self.corners.len() >= crate::astro::MAX_CORNERS {
             return None;
         }
         let at = self.middle(corner)?;
