@@ -50,7 +50,7 @@ pub enum View {
     /// Watch and drive.
     #[default]
     Operate,
-    /// The catalogue and where it comes from.
+    /// The catalog and where it comes from.
     Elements,
     /// The settings of the units.
     Antennas,

@@ -46,7 +46,7 @@ pub struct Station {
     pub horizon_mask: Option<HorizonMask>,
     /// The elevation floor of the pass list, degrees 0 to 89.
     pub elevation_floor_deg: f64,
-    /// Catalogue numbers of the satellites in the pass list.
+    /// Catalog numbers of the satellites in the pass list.
     pub favourites: Vec<u32>,
     /// What becomes of the antennas when the program ends; `None` where the
     /// operator is asked.

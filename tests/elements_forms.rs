@@ -34,7 +34,7 @@ fn tle(elements: &[Elements]) -> String {
 }
 
 #[test]
-fn the_whole_catalogue_is_written_byte_for_byte_as_it_was_read() {
+fn the_whole_catalog_is_written_byte_for_byte_as_it_was_read() {
     let text = bundled_text();
     let report = read_elements(&text);
     assert_eq!((report.elements.len(), report.refused.len()), (16_089, 0));
@@ -51,7 +51,7 @@ fn the_whole_catalogue_is_written_byte_for_byte_as_it_was_read() {
 }
 
 #[test]
-fn every_form_of_the_whole_catalogue_is_the_same_set() {
+fn every_form_of_the_whole_catalog_is_the_same_set() {
     let elements = read_elements(&bundled_text()).elements;
     for text in [omm_json(&elements), omm_csv(&elements), tle(&elements)] {
         let report = read_elements(&text);

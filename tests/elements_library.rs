@@ -227,7 +227,7 @@ fn whatever_goes_wrong_leaves_what_was_held() {
 }
 
 #[test]
-fn the_whole_catalogue_comes_over_the_wire() {
+fn the_whole_catalog_comes_over_the_wire() {
     let folder = tempfile::tempdir().unwrap();
     let packed = Reply::Whole(200, "Content-Encoding: gzip\r\n".to_owned(), BUNDLED.to_vec());
     let server = Server::new(vec![packed]);

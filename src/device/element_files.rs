@@ -23,14 +23,14 @@ pub struct ElementFiles {
     /// The values of that group for a file and the name of a satellite in it; the present
     /// track ends.
     pub choose: fn(&str, &str) -> Values,
-    /// The value of that group that holds the catalogue number of what it found.
+    /// The value of that group that holds the catalog number of what it found.
     pub number: Key<i64>,
     /// Names of the checks that are bad where it does not find the satellite.
     pub checks: &'static [&'static str],
 }
 
 impl ElementFiles {
-    /// The catalogue number of what it found in its file.
+    /// The catalog number of what it found in its file.
     pub fn found(&self, values: &Values) -> Option<i64> {
         self.number.of(values)
     }

@@ -27,7 +27,7 @@ const RATE_SPAN_S: f64 = 0.9;
 /// Where a target stood when the antenna was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Its catalogue number, for a satellite.
+    /// Its catalog number, for a satellite.
     pub catalog_number: Option<u32>,
     /// When.
     pub at: Timestamp,

@@ -44,7 +44,7 @@ pub enum Command {
     ResumeSearch(Scope),
     /// Mark this satellite as a favourite, or no longer.
     SetFavourite {
-        /// Catalogue number.
+        /// Catalog number.
         number: u32,
         /// Whether it is to be one.
         is_favourite: bool,

@@ -21,7 +21,7 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// A minute and 64 MB: the whole catalogue as XML has 30.
+    /// A minute and 64 MB: the whole catalog as XML has 30.
     fn default() -> Self {
         Self { timeout: Duration::from_mins(1), bytes: 64 << 20 }
     }

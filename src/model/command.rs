@@ -71,7 +71,7 @@ pub enum UiCommand {
     ResumeSearch,
     /// Follow this satellite, or follow it no longer.
     Follow {
-        /// Catalogue number.
+        /// Catalog number.
         number: u32,
         /// Whether it is to be followed.
         is_followed: bool,

@@ -50,7 +50,7 @@ pub struct Question {
 /// The way of a satellite through one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Way {
-    /// Catalogue number.
+    /// Catalog number.
     pub number: u32,
     /// In the order of time.
     pub samples: Vec<Sample>,

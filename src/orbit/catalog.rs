@@ -25,7 +25,7 @@ struct Entry {
 #[derive(Debug, Clone)]
 struct Group {
     name: String,
-    /// Catalogue numbers, sorted.
+    /// Catalog numbers, sorted.
     members: Vec<u32>,
 }
 
@@ -124,7 +124,7 @@ impl Catalog {
             .map(|group| group.name.as_str())
     }
 
-    /// The elements of all objects that the source `group` holds, by catalogue
+    /// The elements of all objects that the source `group` holds, by catalog
     /// number.
     pub fn in_group(&self, group: &str) -> impl Iterator<Item = &Elements> {
         self.groups
@@ -145,7 +145,7 @@ impl Catalog {
         search(self.in_group(group), text, limit)
     }
 
-    /// All elements by catalogue number.
+    /// All elements by catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
         self.entries.iter().map(|entry| &entry.elements)
     }

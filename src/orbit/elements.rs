@@ -123,7 +123,7 @@ impl Classification {
     }
 }
 
-/// The catalogue number that a source wrote, if it has nine digits at most.
+/// The catalog number that a source wrote, if it has nine digits at most.
 pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
     u32::try_from(number)
         .ok()
@@ -191,12 +191,12 @@ impl Elements {
         &self.name
     }
 
-    /// The name, or the catalogue number where there is none.
+    /// The name, or the catalog number where there is none.
     pub fn label(&self) -> String {
         if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }
     }
 
-    /// The catalogue number, up to nine digits.
+    /// The catalog number, up to nine digits.
     pub fn catalog_number(&self) -> u32 {
         self.catalog_number
     }
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn catalogue_numbers_have_nine_digits_at_most() {
+    fn catalog_numbers_have_nine_digits_at_most() {
         let text = message(1_000_000_000, [15.0, 0.001, 51.6, 0.0, 0.0, 0.0, 0.0]);
         let report = read_elements(&text);
         let reason = RefusalReason::Orbit(ElementsError::CatalogNumber(1_000_000_000));

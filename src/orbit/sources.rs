@@ -37,7 +37,7 @@ pub enum Place {
 
 impl Source {
     /// A group of `CelesTrak`, such as `active` or `weather`, as OMM: a TLE
-    /// carries no object that was catalogued after July 2026.
+    /// carries no object that was cataloged after July 2026.
     pub fn celestrak(group: &str) -> Self {
         let url = format!("https://celestrak.org/NORAD/elements/gp.php?GROUP={group}&FORMAT=json");
         Self { name: group.to_owned(), place: Place::Web(url) }

@@ -13,7 +13,7 @@ use crate::{
 pub struct FileObject {
     /// Its name in the file: what the unit is told to look for.
     pub name: String,
-    /// Its catalogue number.
+    /// Its catalog number.
     pub catalog_number: u32,
     /// The epoch of its elements, as the columns of a TLE carry it.
     pub epoch: Timestamp,

@@ -1,5 +1,5 @@
 //! The Elements view: where elements come from and how old they are, and the
-//! catalogue to search and to follow satellites from.
+//! catalog to search and to follow satellites from.
 
 mod add;
 mod search;
@@ -17,10 +17,10 @@ use crate::{
     model::{Model, UiCommand},
 };
 
-/// Width of the catalogue.
-const CATALOGUE: f32 = 416.0;
-/// Width of the catalogue in a small window.
-const NARROW_CATALOGUE: f32 = 360.0;
+/// Width of the catalog.
+const CATALOG_WIDTH: f32 = 416.0;
+/// Width of the catalog in a small window.
+const NARROW_CATALOG_WIDTH: f32 = 360.0;
 /// Below this width of the view the window is small.
 const SMALL_BELOW: f32 = 1100.0;
 const PADDING: f32 = 16.0;
@@ -42,7 +42,7 @@ impl ElementsState {
 
 /// Draws the view. `settings_are_edited`: the station's settings are typed and
 /// not saved, so that they must not change. Returns the place of what is sent to
-/// the selected unit, when that is open in place of the catalogue.
+/// the selected unit, when that is open in place of the catalog.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -55,8 +55,8 @@ pub fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let wide = rect.width() >= SMALL_BELOW;
-    let catalogue = if wide { CATALOGUE } else { NARROW_CATALOGUE };
-    let (left, right) = rect.split_left_right_at_x(rect.right() - catalogue);
+    let catalog_width = if wide { CATALOG_WIDTH } else { NARROW_CATALOG_WIDTH };
+    let (left, right) = rect.split_left_right_at_x(rect.right() - catalog_width);
     ui.painter().rect_filled(right, 0.0, t.bg1);
     let builder = UiBuilder::new().id_salt("sources").max_rect(left.shrink2(vec2(PADDING, 0.0)));
     ui.scope_builder(builder, |ui| {

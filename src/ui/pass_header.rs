@@ -41,7 +41,7 @@ const USUAL_COUNTDOWN: &str = "T−00:00";
 pub struct PassHeaderModel<'a> {
     /// Name of the satellite.
     pub name: &'a str,
-    /// Second name and catalogue number.
+    /// Second name and catalog number.
     pub detail: &'a str,
     /// The elements and where they are.
     pub second_line: &'a str,

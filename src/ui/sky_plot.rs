@@ -76,7 +76,7 @@ impl Default for Layers {
     }
 }
 
-/// Shows the plot in `rect`. Returns the catalogue number of a satellite that
+/// Shows the plot in `rect`. Returns the catalog number of a satellite that
 /// was clicked, or chosen with Enter.
 pub fn show(
     ui: &mut Ui,

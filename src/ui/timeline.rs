@@ -23,7 +23,7 @@ pub use zoom::Zoom;
 /// One pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar<'a> {
-    /// What names the pass: catalogue number and a time that stays.
+    /// What names the pass: catalog number and a time that stays.
     pub key: (u32, Timestamp),
     /// Name of the satellite.
     pub name: &'a str,

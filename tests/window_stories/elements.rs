@@ -1,4 +1,4 @@
-//! Where the elements come from, and the catalogue.
+//! Where the elements come from, and the catalog.
 
 use std::sync::Arc;
 
@@ -241,7 +241,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
 }
 
 #[test]
-fn the_catalogue_is_searched_by_name_number_and_group() {
+fn the_catalog_is_searched_by_name_number_and_group() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
@@ -264,7 +264,7 @@ fn the_catalogue_is_searched_by_name_number_and_group() {
 }
 
 #[test]
-fn satellites_are_followed_and_unfollowed_from_the_catalogue() {
+fn satellites_are_followed_and_unfollowed_from_the_catalog() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");

@@ -260,7 +260,7 @@ fn nothing_is_wider_than_its_place() {
 }
 
 #[test]
-fn the_elements_view_opens_the_part_in_place_of_the_catalogue() {
+fn the_elements_view_opens_the_part_in_place_of_the_catalog() {
     for size in rig::SIZES {
         let mut model = rig::model(states::holding());
         model.view = View::Elements;

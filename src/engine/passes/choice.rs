@@ -17,7 +17,7 @@ pub enum Scope {
 }
 
 /// Which passes the list shows. Each scope has its own span: a day of the whole
-/// catalogue is a hundred thousand passes.
+/// catalog is a hundred thousand passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ListChoice {
     pub scope: Scope,

@@ -23,9 +23,9 @@ const SAME_AOS_S: f64 = 60.0;
 /// Passes of some satellites. A copy shares them.
 #[derive(Debug, Clone)]
 pub struct PassList {
-    /// The satellites, in the order of the station or by catalogue number.
+    /// The satellites, in the order of the station or by catalog number.
     pub satellites: Arc<Vec<Arc<Followed>>>,
-    /// Passes by AOS, then by catalogue number. In a list of all satellites those that
+    /// Passes by AOS, then by catalog number. In a list of all satellites those that
     /// are always up come last. Some of them may be over.
     pub passes: Arc<Vec<PredictedPass>>,
     /// Another number whenever the passes are others.
@@ -138,7 +138,7 @@ impl Search {
     }
 
     fn begin(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
-        // Preparing a whole catalogue takes as long as many searches.
+        // Preparing a whole catalog takes as long as many searches.
         let is_prepared = |made_of: &&SearchKey| made_of.has_satellites_of(key);
         let prepared = self.made_of.as_ref().filter(is_prepared);
         let prepared = prepared.map(|_| Arc::clone(&self.list.satellites));

@@ -122,7 +122,7 @@ impl PredictedPass {
         Follow { target, site: self.observer.site, passes: spans }
     }
 
-    /// Catalogue number of its satellite.
+    /// Catalog number of its satellite.
     pub fn number(&self) -> u32 {
         self.satellite.elements.catalog_number()
     }

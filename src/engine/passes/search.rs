@@ -130,7 +130,7 @@ pub(super) fn search(
         })
         .collect();
     let is_all = key.scope == SearchScope::All;
-    // Hundreds that never set would hide the first pass of a whole catalogue.
+    // Hundreds that never set would hide the first pass of a whole catalog.
     let is_late = |predicted: &PredictedPass| is_all && predicted.is_always_up();
     passes.par_sort_by_key(|predicted| {
         (is_late(predicted), predicted.pass.aos.time, predicted.number())

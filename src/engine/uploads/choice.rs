@@ -20,9 +20,9 @@ pub struct Chosen {
 /// One chosen satellite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenObject {
-    /// Its catalogue number.
+    /// Its catalog number.
     pub catalog_number: u32,
-    /// Its name in the catalogue; empty for none.
+    /// Its name in the catalog; empty for none.
     pub name: String,
     /// The epoch of its elements; `None` when there are none.
     pub epoch: Option<Timestamp>,
@@ -31,7 +31,7 @@ pub struct ChosenObject {
 }
 
 impl Chosen {
-    /// The objects with these catalogue numbers out of `catalog`, for a unit that
+    /// The objects with these catalog numbers out of `catalog`, for a unit that
     /// takes such files. One without elements is listed and is not in the file.
     pub fn of(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
         let objects = numbers.iter().map(|number| match catalog.get(*number) {

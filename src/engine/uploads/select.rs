@@ -50,7 +50,7 @@ pub(in crate::engine) struct UnitNow {
     pub(super) locked_out: Option<String>,
     /// Why the driver would not tell it to use a file now.
     pub(super) hindrance: Option<Hindrance>,
-    /// The catalogue number of the satellite that it holds.
+    /// The catalog number of the satellite that it holds.
     pub(super) held: Option<u32>,
     /// The last selection that is over.
     pub(super) answer: Option<Answer>,

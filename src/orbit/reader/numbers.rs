@@ -1,6 +1,6 @@
 //! Numbers that more than one form writes.
 
-/// The catalogue number that `text` writes: digits, or Alpha-5, where a letter
+/// The catalog number that `text` writes: digits, or Alpha-5, where a letter
 /// stands for the first two digits of six: `A0001` is 100001, `Z9999` 339999.
 /// The letters I and O are left out, because they look like digits.
 ///

@@ -28,7 +28,7 @@ pub struct ReadReport {
 pub struct Refusal {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
-    /// Its name or catalogue number, as far as they could be read.
+    /// Its name or catalog number, as far as they could be read.
     pub object: Option<String>,
     /// Why it was refused.
     pub reason: RefusalReason,
@@ -39,7 +39,7 @@ pub struct Refusal {
 pub struct Note {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
-    /// Its name or catalogue number.
+    /// Its name or catalog number.
     pub object: Option<String>,
     /// What is odd.
     pub kind: NoteKind,
@@ -104,7 +104,7 @@ pub enum RefusalReason {
         /// The column, from 1.
         column: usize,
     },
-    /// The two lines of a TLE carry different catalogue numbers.
+    /// The two lines of a TLE carry different catalog numbers.
     #[error("the two lines are of different objects")]
     TwoObjects,
     /// A field is missing; the name is the one of the OMM.

@@ -1,4 +1,4 @@
-//! The catalogue: search by number, name and group, and follow satellites.
+//! The catalog: search by number, name and group, and follow satellites.
 
 use std::sync::Arc;
 

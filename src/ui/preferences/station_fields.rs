@@ -107,7 +107,7 @@ fn about_closing(on_close: Option<OnClose>) -> &'static str {
     }
 }
 
-/// Catalogue numbers, with commas between.
+/// Catalog numbers, with commas between.
 fn favourites(ground: &Ground) -> String {
     let numbers: Vec<String> = ground.favourites.iter().map(u32::to_string).collect();
     numbers.join(", ")

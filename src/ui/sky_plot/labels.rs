@@ -35,7 +35,7 @@ pub(super) enum Key {
     Moon,
     /// The antenna of which only the azimuth is known.
     Bearing,
-    /// Name of a satellite that is not selected, by its catalogue number.
+    /// Name of a satellite that is not selected, by its catalog number.
     Other(u32),
 }
 

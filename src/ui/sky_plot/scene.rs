@@ -88,7 +88,7 @@ impl Keyholes {
 /// The selected pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track<'a> {
-    /// Catalogue number of the satellite.
+    /// Catalog number of the satellite.
     pub catalog_number: u32,
     /// Name of the satellite.
     pub name: &'a str,
@@ -111,7 +111,7 @@ pub struct Track<'a> {
 /// A satellite above the horizon that is not selected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherSatellite<'a> {
-    /// Catalogue number.
+    /// Catalog number.
     pub catalog_number: u32,
     /// Name.
     pub name: &'a str,

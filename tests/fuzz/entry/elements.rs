@@ -14,7 +14,7 @@ use jiff::{SignedDuration, Timestamp};
 const MOST_OBJECTS: usize = 4;
 /// Passes come once or twice a revolution, and a revolution takes over an hour.
 const MOST_PASSES: usize = 40;
-/// States that a day of one object may take; the worst of the catalogue takes
+/// States that a day of one object may take; the worst of the catalog takes
 /// some hundreds.
 const MOST_EFFORT: u64 = 50_000;
 
