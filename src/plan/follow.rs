@@ -1,6 +1,5 @@
-//! Following a target with an antenna that takes positions: what to command so
-//! that the error is least and the drives are spared. Pure functions; where the
-//! antenna stands and what time it is come in.
+//! Program track: the positions to command so that the pointing error is least and the drives
+//! are spared. Pure functions; positions and time come in.
 
 mod axis;
 mod drives;
@@ -21,33 +20,29 @@ pub use target::{Course, Target};
 
 use crate::astro::Site;
 
-/// What an antenna is to follow, from where, and when.
+/// A target, its site and its passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Follow {
-    /// What.
     pub target: Target,
-    /// From where.
     pub site: Site,
-    /// AOS and LOS of its passes, in order; empty for always.
+    /// AOS and LOS of its passes, in order; empty for a target that is always up.
     pub passes: Vec<(Timestamp, Timestamp)>,
 }
 
-/// Where a target that is followed is in its passes.
+/// The phase of a target in its passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FollowPhase {
-    /// It rises then; the antenna goes there and waits.
+    /// Before a pass: the antenna goes to its start and waits.
     Waiting {
-        /// When.
         aos: Timestamp,
     },
-    /// It is up.
+    /// During a pass.
     Following,
-    /// Its last pass is over.
+    /// After the last pass.
     Over,
 }
 
 impl Follow {
-    /// Where the target is in its passes at `now`.
     pub fn phase(&self, now: Timestamp) -> FollowPhase {
         if self.passes.is_empty() {
             return FollowPhase::Following;
@@ -64,7 +59,7 @@ impl Follow {
         self.passes.iter().copied().find(|(_, los)| now < *los)
     }
 
-    /// Without the passes after the one at `now` or the next.
+    /// Drops all passes after the one at `now`, or after the next.
     #[must_use]
     pub fn one_pass(mut self, now: Timestamp) -> Self {
         let over = self.passes.iter().filter(|(_, los)| *los <= now).count();

@@ -1,21 +1,21 @@
-//! What to tell one axis.
+//! The commands for one axis.
 
 use super::{drives::Drives, path::Path, slew_rate::SlewRate};
 use crate::{clock::Instant, station::Following};
 
-/// How often the time of arrival is improved.
+/// Iterations on the time of arrival.
 const ROUNDS: usize = 4;
-/// Angles come from decimal degrees: allow for the rounding.
+/// Tolerance for angles that were decimal degrees.
 const ROUNDING_DEG: f64 = 1e-9;
-/// No drive stops further before its goal than this, degrees.
+/// The farthest that any drive stops short of its goal, degrees.
 const MAX_IGNORED_DEG: f64 = 10.0;
 
-/// An axis as it was measured.
+/// A measured axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisNow {
     /// As the mount counts, degrees; `None` when it is not known.
     pub position_deg: Option<f64>,
-    /// It has come to rest since the last command.
+    /// At rest since the last command.
     pub stands: bool,
 }
 
@@ -25,34 +25,34 @@ impl AxisNow {
     }
 }
 
-/// What an axis was told last.
+/// The last command of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Told {
     /// Degrees; `None` when it is not known.
     to_deg: Option<f64>,
-    /// Where it stood until then, degrees.
+    /// Where the axis stood before the command, degrees.
     from_deg: Option<f64>,
 }
 
-/// What an axis should do.
+/// Where an axis should go.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wish {
     position_deg: f64,
-    /// It would be off by too much otherwise.
+    /// Without a command, the error would exceed the allowed one.
     pub(super) is_due: bool,
 }
 
-/// One axis of an antenna that follows.
+/// One axis of an antenna that tracks.
 #[derive(Debug)]
 pub(super) struct Axis {
-    /// The first or the second, 0 or 1.
+    /// 0 or 1.
     index: usize,
     pub(super) drives: Drives,
     following: Following,
     pub(super) told: Told,
-    /// The longest way that it was seen not to set out for, degrees.
+    /// The longest way for which the axis did not set out, degrees.
     ignored_deg: f64,
-    /// What it made of the shortest way that it sets out for, degrees.
+    /// How far the axis went for the shortest way that it sets out for, degrees.
     min_run_deg: Option<f64>,
     slew_rate: SlewRate,
 }
@@ -70,14 +70,14 @@ impl Axis {
         }
     }
 
-    /// Its full rate, degrees a second, when a position that was measured at `at`
-    /// ends a long slew.
+    /// Takes a measured position. Returns the full rate of the axis, degrees a second, when the
+    /// position ends a long slew.
     pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
         self.slew_rate.take(at, position_deg, self.told.to_deg)
     }
 
-    /// A drive may stop some degrees early and let the axis run out. Then it does
-    /// not set out at all for a way that is as short.
+    /// Learns the shortest way for which the axis sets out: a drive that stops some degrees
+    /// early and lets the axis coast does not start at all for such a way.
     pub(super) fn learn(&mut self, now: AxisNow) {
         let Some(at_deg) = now.rest_deg() else { return };
         let Some((from_deg, to_deg)) = self.told.from_deg.take().zip(self.told.to_deg) else {
@@ -96,7 +96,7 @@ impl Axis {
         }
     }
 
-    /// Where it should go, and whether it is time to say so.
+    /// Where the axis should go, and whether it needs a command now.
     pub(super) fn wish(&self, path: &Path, now_s: f64, now: AxisNow) -> Wish {
         let period_s = self.following.period().as_secs_f64();
         let begins_s = now_s + self.following.latency_s;
@@ -105,11 +105,11 @@ impl Axis {
         let mut position_deg = 0.0;
         let mut from_s = begins_s;
         for _ in 0..ROUNDS {
-            // It turns first and then stands: its mean error over the period is
-            // least for where the target is in the middle of both.
+            // The axis turns first and then stands: its mean error over the period is least for
+            // the position of the target in the middle of both.
             let middle_s = begins_s + way_s.max(f64::midpoint(period_s, way_s));
             from_s = middle_s - period_s / 2.0;
-            // A slew is made in one go.
+            // A slew is one command.
             let wanted_deg = path.slew_end_deg(self.index, from_s).unwrap_or_else(|| {
                 let to_s = from_s + period_s;
                 let (least, most) = path.longest_span_deg(self.index, from_s, to_s, 2.0 * lead_deg);
@@ -120,7 +120,7 @@ impl Axis {
             way_s = way_deg / self.rate_deg_s();
         }
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
-        // A rest near to what it was told is the rounding of its sensor.
+        // A rest near the commanded position is within the rounding of the sensor.
         let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
         let rounding_deg = (self.following.dead_band_deg / 2.0).max(self.half_step_deg());
         let elsewhere = |at_deg: &f64| {
@@ -129,7 +129,7 @@ impl Axis {
         let stays_deg = rest_deg.filter(elsewhere).or(told_deg);
         let is_off =
             stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
-        // One that comes to rest elsewhere is not told the same again.
+        // The same command is not repeated to an axis that rests elsewhere.
         let is_new = told_deg.is_none_or(|told_deg| {
             let change_deg = (position_deg - told_deg).abs();
             change_deg > ROUNDING_DEG && change_deg > lead_deg - ROUNDING_DEG
@@ -141,30 +141,30 @@ impl Axis {
         (a_deg - b_deg).abs() > self.band_deg() + ROUNDING_DEG
     }
 
-    /// What to tell it while at least one axis has to be told something; `None`
-    /// when it is left alone.
+    /// The command for this axis when at least one axis needs one; `None` leaves the axis
+    /// alone.
     pub(super) fn command(&self, wish: Wish, now: AxisNow) -> Option<f64> {
         if wish.is_due || !self.drives.takes_single_axes() {
             return Some(wish.position_deg);
         }
-        // An axis that stands well is spared; one under way goes on.
+        // An axis at its position is spared; one that is under way goes on.
         if now.stands { None } else { self.told.to_deg.or(Some(wish.position_deg)) }
     }
 
-    /// What is known of it once it was told `position_deg`.
+    /// The state of the axis once it is commanded to `position_deg`.
     pub(super) fn told(&self, position_deg: Option<f64>, now: AxisNow) -> Told {
         let told = |to_deg| Told { to_deg: Some(to_deg), from_deg: now.rest_deg() };
         position_deg.map_or(self.told, told)
     }
 
-    /// How far off it may be before it is told a new position. It is sent as far
-    /// ahead of the target, so that it is as far off on either side.
+    /// The error at which the axis is commanded again, degrees. The command leads the target by
+    /// as much, so that the error is the same on either side.
     fn band_deg(&self) -> f64 {
         let run_deg = self.min_run_deg.unwrap_or_else(|| self.min_way_deg());
         self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
     }
 
-    /// The shortest way that it may set out for.
+    /// The shortest way that a command may ask for.
     fn min_way_deg(&self) -> f64 {
         self.ignored_deg + self.drives.step_deg
     }
@@ -178,7 +178,8 @@ impl Axis {
         self.drives.step_deg / 2.0
     }
 
-    /// The nearest position that can be told, and for which it will set out.
+    /// The nearest position to `wanted_deg` that can be commanded and for which the axis sets
+    /// out.
     fn far_enough_deg(&self, wanted_deg: f64, now: AxisNow) -> f64 {
         let near_deg = self.drives.tellable_deg(self.index, wanted_deg);
         let Some(at_deg) = now.rest_deg() else { return near_deg };

@@ -1,5 +1,5 @@
-//! The two drives of an antenna: where they have to stand to point somewhere,
-//! and how they are told.
+//! The two drives of an antenna: the positions that point to a direction, and how they are
+//! commanded.
 
 use crate::{
     astro::{
@@ -18,40 +18,36 @@ use crate::{
 /// Highest elevation of the sky, degrees.
 const ZENITH_DEG: f64 = 90.0;
 
-/// What the drives of an antenna can do, as far as positions go.
+/// The abilities of the drives for position commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drives {
-    /// How the axes are arranged.
     pub mount: Mount,
-    /// What the operator allows.
     pub limits: MotionLimits,
-    /// How fast each axis turns, degrees a second: as allowed, until it is
-    /// measured.
+    /// Rate of each axis, degrees a second: the allowed one, until it is measured.
     pub rates_deg_s: [f64; 2],
-    /// Positions are whole numbers of this many degrees; 0 for any.
+    /// Step of the positions, degrees; 0 for any.
     pub step_deg: f64,
-    /// An axis comes to rest this near to where it was told, degrees.
+    /// Largest difference between the commanded position and the rest, degrees.
     pub arrives_within_deg: f64,
-    /// There is an elevation to command.
+    /// `false` for a rotator of azimuth alone.
     pub has_elevation: bool,
 }
 
 /// A position to command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetPoint {
-    /// On an azimuth axis its position, which may lie beyond a turn; `None`
-    /// leaves it where it stands.
+    /// Position of an azimuth axis, which may lie beyond a turn; `None` leaves the axis where
+    /// it stands.
     pub azimuth: Option<Angle>,
-    /// On an elevation axis its position, beyond 90 degrees over the zenith; `None`
-    /// leaves it as it is.
+    /// Position of an elevation axis, beyond 90 degrees when flipped; `None` leaves the axis
+    /// where it stands.
     pub elevation: Option<Angle>,
 }
 
 impl Drives {
-    /// Where both axes have to stand along `samples`, which are `step_s` seconds
-    /// apart: of the flips that a mount of elevation over azimuth has `way`, or the
-    /// best one from `start`. What lies out of reach is waited for as near as can
-    /// be.
+    /// The positions of both axes along `samples`, which are `step_s` seconds apart, with the
+    /// flip of `choice` where the mount has elevation over azimuth. Where a direction is out of
+    /// travel, the axes wait as near to it as they can.
     pub(super) fn along(
         &self,
         samples: &[Sample],
@@ -72,7 +68,7 @@ impl Drives {
         }
     }
 
-    /// With two crossed axes.
+    /// The positions of an X/Y mount.
     fn along_crossed(&self, samples: &[Sample], step_s: f64, lower_axis: Angle) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
@@ -104,7 +100,7 @@ impl Drives {
         }
     }
 
-    /// The nearest position that can be told to an axis, 0 or 1.
+    /// The nearest position that can be commanded to an axis, 0 or 1.
     pub(super) fn tellable_deg(&self, axis: usize, position_deg: f64) -> f64 {
         let (from_deg, to_deg) =
             self.mount.travel_deg().get(axis).copied().unwrap_or((f64::MIN, f64::MAX));
@@ -112,7 +108,7 @@ impl Drives {
             (Mount::AzEl { .. }, 1) => self.elevations_deg(),
             _ => (from_deg, to_deg),
         };
-        // An X/Y mount is told a direction, in which no axis has a step.
+        // An X/Y mount takes a direction, in which no axis has a step.
         if self.step_deg <= 0.0 || matches!(self.mount, Mount::Xy { .. }) {
             return position_deg.clamp(from_deg, to_deg);
         }
@@ -123,8 +119,8 @@ impl Drives {
         (position_deg / self.step_deg).round().clamp(first, last) * self.step_deg
     }
 
-    /// The command that brings the axes to these positions; an axis of an az/el
-    /// mount with `None` is left where it is.
+    /// The command that brings the axes to these positions. `None` leaves an axis of an az/el
+    /// mount where it stands.
     pub(super) fn set_point(&self, [first, second]: [Option<f64>; 2]) -> SetPoint {
         match self.mount {
             Mount::Xy { lower_axis_azimuth_deg, .. } => {
@@ -146,7 +142,7 @@ impl Drives {
         }
     }
 
-    /// Where the axes may go on a detour.
+    /// The limits of the axes for a detour.
     pub(super) fn axis_limits(&self) -> AxisLimits {
         let [first, second] = self.mount.travel_deg();
         let second =
@@ -154,18 +150,18 @@ impl Drives {
         AxisLimits::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
     }
 
-    /// Whether each axis can be told without the other.
+    /// Whether one axis can be commanded without the other.
     pub(super) fn takes_single_axes(&self) -> bool {
         matches!(self.mount, Mount::AzEl { .. })
     }
 
-    /// Whether the antenna may point as low as `direction`.
+    /// Whether `direction` is not below the minimum elevation.
     pub fn may_reach(&self, direction: AzEl) -> bool {
         !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
     }
 
-    /// Ends of the elevation between which the antenna points high enough, on an
-    /// axis that travels over the zenith also on the other side of it.
+    /// Ends of the elevation axis above the minimum elevation, on both sides of the zenith
+    /// where the mount can flip.
     fn elevations_deg(&self) -> (f64, f64) {
         let floor_deg = self.limits.minimum_elevation_deg;
         let (lowest_deg, highest_deg) = match self.mount {

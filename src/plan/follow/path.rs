@@ -1,4 +1,4 @@
-//! Where both axes have to stand along a pass, worked out before it begins.
+//! The positions of both axes along a pass, planned before it begins.
 
 use jiff::Timestamp;
 
@@ -11,34 +11,32 @@ use crate::{
     },
 };
 
-/// Between two points of a path at least, seconds.
+/// Shortest interval between two points of a path, seconds.
 const MIN_STEP_S: f64 = 0.5;
-/// A path has so many points at most.
+/// Most points of a path.
 const MAX_POINTS: f64 = 2400.0;
-/// A path is as good for an axis that turns faster or slower by less than this
-/// share.
+/// A path still holds when the rate of an axis differs by less than this share.
 const SAME_RATE: f64 = 0.02;
-/// An axis that turns faster than this share of its rate is slewing: it comes
-/// from one place to another as fast as it can.
+/// An axis that turns faster than this share of its rate is slewing.
 const FULL_RATE: f64 = 0.999;
 
-/// Where both axes have to stand, at equal intervals, never faster than they
-/// turn. Before its beginning and after its end they stand.
+/// Positions of both axes at equal intervals, never faster than the axes turn. Before the
+/// beginning and after the end the axes stand.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
     from: Timestamp,
     to: Timestamp,
     step_s: f64,
-    /// Degrees each axis turns in a step at its full rate.
+    /// Turn of each axis in a step at full rate, degrees.
     max_deg: [f64; 2],
     axes: [Vec<f64>; 2],
     flip: Flip,
 }
 
 impl Path {
-    /// Along `course` from `from` to `to` as [`Drives::along`] does it, but round what
-    /// `bounds` have to be gone round. Ends early where the target decays; `None` where
-    /// it has done so already.
+    /// The path along `course` from `from` to `to` of [`Drives::along`], with detours round the
+    /// keep-outs of `bounds`. Ends early where the target decays; `None` if it has decayed
+    /// already.
     pub(super) fn along(
         course: &Course,
         drives: &Drives,
@@ -67,12 +65,11 @@ impl Path {
         Some(Self { from, to, step_s, max_deg, axes, flip })
     }
 
-    /// When it ends.
     pub(super) fn to(&self) -> Timestamp {
         self.to
     }
 
-    /// Whether it was worked out for axes that turn as fast.
+    /// Whether the path was planned for these rates.
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
         let mut both = self.max_deg.into_iter().zip(rates_deg_s);
         both.all(|(max_deg, rate_deg_s)| {
@@ -80,25 +77,24 @@ impl Path {
         })
     }
 
-    /// On which side of the zenith it runs.
     pub(super) fn flip(&self) -> Flip {
         self.flip
     }
 
-    /// Seconds from its beginning.
+    /// Seconds from the beginning of the path.
     pub(super) fn seconds(&self, at: Timestamp) -> f64 {
         seconds_between(self.from, at)
     }
 
-    /// The lowest and the highest position of an axis between two times, both in
-    /// seconds from the beginning, the earlier first.
+    /// The lowest and highest position of an axis between two times, in seconds from the
+    /// beginning, the earlier first.
     pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
         let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
         let between = self.between(axis, from_s, to_s);
         between.fold((start.min(end), start.max(end)), widened)
     }
 
-    /// The same, and for as much longer as the span stays within `within_deg`.
+    /// The same, continued for as long as the span stays within `within_deg`.
     pub(super) fn longest_span_deg(
         &self,
         axis: usize,
@@ -117,7 +113,7 @@ impl Path {
         span
     }
 
-    /// Where an axis ends up that is slewing at this time; `None` when it is not.
+    /// The end of the slew that an axis is making; `None` when it is not slewing.
     pub(super) fn slew_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
         let (first, max_deg) = (self.index(at_s), self.max_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;

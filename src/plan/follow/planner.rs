@@ -1,4 +1,4 @@
-//! What to command next.
+//! The planner of position commands.
 
 use jiff::Timestamp;
 
@@ -23,21 +23,19 @@ use crate::{
     station::Following,
 };
 
-/// A path is worked out for this long at most, seconds.
+/// Longest time that a path covers, seconds.
 const PATH_S: f64 = 3.0 * 3600.0;
-/// A path is continued this long before it ends, beyond what a command looks
-/// ahead, seconds.
+/// A path is extended this long before its end, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
-/// What to command now.
+/// The next command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Next {
-    /// The command.
     pub set_point: SetPoint,
     told: [Told; 2],
 }
 
-/// Plans the commands for one target. Time and positions come in.
+/// Plans the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
     follow: Follow,
@@ -45,16 +43,15 @@ pub struct Planner {
     drives: Drives,
     following: Following,
     bounds: Bounds,
-    /// With the end of the pass that it belongs to.
+    /// The path, and the end of its pass.
     path: Option<(Path, Timestamp)>,
-    /// The path is one within other bounds; its side of the zenith still holds.
+    /// The path was planned within other bounds; its flip still holds.
     is_stale: bool,
     axes: [Axis; 2],
 }
 
 impl Planner {
-    /// For `follow`; an error where its elements describe no orbit. The way leads round
-    /// those keep-outs of `bounds` that are gone round.
+    /// Fails where the elements describe no orbit. Paths lead round the keep-outs of `bounds`.
     pub fn new(
         follow: Follow,
         drives: Drives,
@@ -66,7 +63,7 @@ impl Planner {
         Ok(Self { follow, course, drives, following, bounds, path: None, is_stale: false, axes })
     }
 
-    /// Other keep-outs hold from now on.
+    /// Replaces the bounds.
     pub fn keep_within(&mut self, bounds: Bounds) {
         if bounds != self.bounds {
             self.bounds = bounds;
@@ -74,20 +71,19 @@ impl Planner {
         }
     }
 
-    /// What is followed.
     pub fn follow(&self) -> &Follow {
         &self.follow
     }
 
-    /// Where the target stands at `at`, if the antenna may point as low as that;
-    /// `None` once it has decayed.
+    /// Direction of the target at `at`, unless it is below the minimum elevation or has
+    /// decayed.
     pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
         self.course.direction(at).filter(|direction| self.drives.may_reach(*direction))
     }
 
-    /// What to command at `now` so that the antenna is right when the next look
-    /// comes; `None` while what it was told, or where it stands, is good enough.
-    /// An error once the target is nowhere any more.
+    /// The command at `now` that makes the antenna right at the next look; `None` while the
+    /// last command, or the present position, is good enough. Fails once the target has
+    /// decayed.
     pub fn look(
         &mut self,
         now: Timestamp,
@@ -118,9 +114,9 @@ impl Planner {
         }))
     }
 
-    /// Takes where the axes were measured at `at`, degrees as the mount counts: long
-    /// slews teach how fast they turn. The clock is the steady one: UTC may be
-    /// corrected in the middle of a slew.
+    /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes
+    /// from long slews. The clock is the steady one, since UTC may be corrected in the middle
+    /// of a slew.
     pub fn watch(&mut self, at: Instant, positions_deg: [Option<f64>; 2]) {
         let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in each {
@@ -134,19 +130,19 @@ impl Planner {
         }
     }
 
-    /// How fast each axis turns, degrees a second, as far as is known.
+    /// Rates of the axes as far as known, degrees a second.
     pub fn rates_deg_s(&self) -> [f64; 2] {
         self.drives.rates_deg_s
     }
 
-    /// `next` was sent.
+    /// Notes that `next` was sent.
     pub fn sent(&mut self, next: Next) {
         for (axis, told) in self.axes.iter_mut().zip(next.told) {
             axis.told = told;
         }
     }
 
-    /// It is not known any more what the antenna was told.
+    /// Forgets the last command, of which nobody knows whether it holds.
     pub fn forget_sent(&mut self) {
         for axis in &mut self.axes {
             axis.told = Told::default();
@@ -166,9 +162,9 @@ impl Planner {
         now < *ends && !is_short
     }
 
-    /// Where a path is worked out anew for other rates, its way is kept once the
-    /// pass has begun, and left before only for one that is clearly better: no
-    /// antenna is to go to and fro.
+    /// A path that is planned anew for other rates keeps its flip once the pass has begun.
+    /// Before, another flip is taken only when it is clearly better, so that the antenna does
+    /// not go to and fro.
     fn choice(&self, now: Timestamp) -> Choice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
             Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.flip()),

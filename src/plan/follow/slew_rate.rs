@@ -1,18 +1,18 @@
-//! How fast an axis really turns, as its long slews show.
+//! The real rate of an axis, measured in long slews.
 
 use crate::{clock::Instant, station::ranges};
 
-/// As it sets out, and before it arrives, an axis may be slower, degrees.
+/// An axis may be slower this near to the start and the end of a slew, degrees.
 const RAMP_DEG: f64 = 5.0;
-/// A rate is taken over so much at least that the rounding of a sensor to whole
-/// degrees counts for little, degrees.
+/// Shortest way for a rate, so that the rounding of a sensor to whole degrees counts for
+/// little, degrees.
 const MIN_WAY_DEG: f64 = 20.0;
-/// And from so many positions.
+/// Fewest positions for a rate.
 const MIN_READINGS: usize = 8;
-/// More positions tell no more; an axis that never arrives gives them for ever.
+/// Most positions that are kept, for an axis that never arrives.
 const MAX_READINGS: usize = 4096;
 
-/// The slew of an axis that is under way.
+/// Measures the slew that is under way.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SlewRate {
     slew: Option<Slew>,
@@ -22,14 +22,13 @@ pub(super) struct SlewRate {
 struct Slew {
     from_deg: f64,
     to_deg: f64,
-    /// When and where it was measured at its full rate.
+    /// Times and positions at full rate.
     readings: Vec<(Instant, f64)>,
 }
 
 impl SlewRate {
-    /// Takes where the axis was measured at `at` after it was told to go to
-    /// `to_deg`, degrees as the mount counts. Gives its full rate, degrees a
-    /// second, when a slew that was long enough has just ended.
+    /// Takes the position of the axis at `at` on its way to `to_deg`, degrees as the mount
+    /// counts. Returns the full rate, degrees a second, when a long slew has just ended.
     pub(super) fn take(
         &mut self,
         at: Instant,
@@ -66,9 +65,8 @@ impl Slew {
         rate_deg_s
     }
 
-    /// The mean over the middle half of the rates over a quarter of the way each:
-    /// a position that came late, or a moment in which the axis stood, is not
-    /// among them.
+    /// The mean over the middle half of the rates over a quarter of the way each, which leaves
+    /// out late positions and moments of standstill.
     fn rate_deg_s(&self) -> Option<f64> {
         let (_, first_deg) = self.readings.first()?;
         let (_, last_deg) = self.readings.last()?;

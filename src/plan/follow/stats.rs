@@ -1,8 +1,8 @@
-//! How well a target is followed.
+//! Statistics of the pointing error.
 
 use crate::astro::Angle;
 
-/// How well a target is followed, and what it takes.
+/// Pointing error while tracking, and the number of commands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FollowStats {
     /// Positions that were sent.
@@ -13,8 +13,7 @@ pub struct FollowStats {
 }
 
 impl FollowStats {
-    /// Takes the angle between the target and where the antenna was measured to
-    /// point.
+    /// Takes the angle between target and measured direction.
     pub fn take(&mut self, off: Angle) {
         let off_deg = off.degrees().abs();
         self.samples += 1;

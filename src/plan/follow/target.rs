@@ -1,4 +1,4 @@
-//! What an antenna can be pointed at, and where that stands.
+//! Targets and where they stand.
 
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use crate::{
     orbit::{Elements, PropagationError, Propagator},
 };
 
-/// What an antenna is to follow.
+/// A target to track.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Target {
     /// A satellite, by its elements.
@@ -24,7 +24,6 @@ pub enum Target {
 }
 
 impl Target {
-    /// As the operator knows it.
     pub fn name(&self) -> Cow<'static, str> {
         match self {
             Self::Satellite(elements) => elements.label().into(),
@@ -34,7 +33,7 @@ impl Target {
         }
     }
 
-    /// Of a satellite, up to nine digits.
+    /// Up to nine digits; `None` for what is no satellite.
     pub fn catalog_number(&self) -> Option<u32> {
         match self {
             Self::Satellite(elements) => Some(elements.catalog_number()),
@@ -43,7 +42,7 @@ impl Target {
     }
 }
 
-/// A target over a site, ready to be looked at often.
+/// A target seen from a site, prepared for many looks.
 #[derive(Debug, Clone)]
 pub struct Course {
     site: Site,
@@ -59,7 +58,7 @@ enum Body {
 }
 
 impl Course {
-    /// Of `target` over `site`; an error where its elements describe no orbit.
+    /// Fails where the elements of `target` describe no orbit.
     pub fn new(target: &Target, site: Site) -> Result<Self, PropagationError> {
         let body = match target {
             Target::Satellite(elements) => Body::Satellite(Box::new(Propagator::new(elements)?)),
@@ -70,7 +69,7 @@ impl Course {
         Ok(Self { site, body })
     }
 
-    /// Where the target stands at `at`, geometric; `None` once it has decayed.
+    /// Geometric direction at `at`; `None` once the target has decayed.
     pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
         match &self.body {
             Body::Satellite(propagator) => {

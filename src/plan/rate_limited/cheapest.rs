@@ -1,22 +1,22 @@
-//! The cheapest way of an axis between two bounds, on a grid of places and times:
-//! from each place, the best that can come of it is known one look further on.
+//! The cheapest way of an axis between two bounds, by dynamic programming on a grid of
+//! positions and times.
 
 use std::ops::Range;
 
 use super::{Bounds, at};
 
-/// The axis is looked for at so many places at most.
+/// Most positions of the grid.
 const MAX_PLACES: f64 = 240.0;
-/// At its full rate it turns by so many places from one look to the next.
+/// Grid positions that the axis turns by from one time to the next at full rate.
 const FULL: usize = 2;
-/// So little does it cost to turn by a place, lest it is done for nothing.
+/// Cost of turning by a grid position, so that the axis does not turn for nothing.
 const TURN_COST: f64 = 1e-9;
 
 /// A way on the grid.
 pub(super) struct Rough {
-    /// One for each interval of the slew, degrees.
+    /// Positions, one for each interval of the slew, degrees.
     pub(super) places_deg: Vec<f64>,
-    /// Between two places of the grid, degrees.
+    /// Grid spacing, degrees.
     pub(super) cell_deg: f64,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn between(
     if let Some(start) = sums.get_mut(below) {
         *start = 0.0;
     }
-    // From which place each one is reached, look by look.
+    // The best predecessor of each position, time by time.
     let mut came: Vec<Vec<usize>> = Vec::new();
     let looks = slew.len().div_ceil(stride);
     for look in 1..=looks {
