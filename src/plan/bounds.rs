@@ -1,10 +1,9 @@
-//! What an antenna must keep within: its minimum elevation, the keep-outs that hold
-//! for it, and the Sun.
+//! The bounds of an antenna: minimum elevation, keep-outs and the Sun.
 //!
-//! Each barrier tells the *clearance* of a direction: how far it is outside, or how
-//! deep inside as a negative angle. A clearance changes by no more than the
-//! direction does, so one look at the middle of a range of axis angles judges all
-//! of it, or says which halves to look at.
+//! Each barrier has a *clearance* from a direction: the angle to its edge, negative
+//! inside. The clearance changes by no more than the direction does, so one look at the
+//! middle of a range of axis angles judges all of the range, or says which halves to
+//! look at.
 
 mod sun;
 mod way_out;
@@ -18,8 +17,8 @@ use crate::{
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 
-/// A way may touch an edge and go beyond it by this much, degrees; the margins of
-/// keep-outs and of the Sun are wider by as much.
+/// How far a way may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
+/// wider by as much.
 const FINEST_DEG: f64 = 0.05;
 
 /// What an antenna must not point into.
@@ -36,11 +35,11 @@ pub enum Barrier {
 /// A barrier and the clearance of a direction from it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// What is nearest.
+    /// The nearest barrier.
     pub barrier: Barrier,
     /// Negative inside.
     pub angle: Angle,
-    /// An antenna that comes in is told about and neither refused nor stopped.
+    /// The operator is warned; motion is neither refused nor stopped.
     pub warns_only: bool,
 }
 
@@ -50,7 +49,7 @@ pub struct Clearance {
 pub struct Sweep(pub [(f64, f64); 2]);
 
 impl Sweep {
-    /// All that two axes can sweep on the way between two places.
+    /// The ranges that two axes sweep on the way between two places.
     pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
         let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
         Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
@@ -60,7 +59,7 @@ impl Sweep {
         self.0.map(|(from, to)| f64::midpoint(from, to))
     }
 
-    /// No direction of it is further from that of the middle, degrees.
+    /// Largest distance of a direction of the sweep from that of its middle, degrees.
     fn radius_deg(self) -> f64 {
         self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
     }
@@ -78,7 +77,7 @@ impl Sweep {
     }
 }
 
-/// What one antenna must keep within.
+/// The bounds of one antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     site: Site,
@@ -86,7 +85,7 @@ pub struct Bounds {
     has_elevation: bool,
     /// `None` where it has no elevation axis.
     minimum_elevation: Option<Angle>,
-    /// The keep-outs that hold for it, with the whole margin of each.
+    /// The keep-outs of the antenna, with the whole margin of each.
     keep_outs: Vec<(KeepOut, Angle)>,
     sun: Option<SunAvoidance>,
 }
@@ -111,18 +110,16 @@ impl Bounds {
         }
     }
 
-    /// The bounds of an antenna that knows of no station: its minimum elevation
-    /// alone.
+    /// The bounds of an antenna without a station: its minimum elevation alone.
     pub fn of_antenna(antenna: &Antenna) -> Self {
         Self::of(&Station::default(), antenna)
     }
 
-    /// The mount whose axes are judged.
     pub fn mount(&self) -> Mount {
         self.mount
     }
 
-    /// Where the axes point that stand at `axes_deg`, as the mount counts.
+    /// The direction of axes at `axes_deg`, as the mount counts.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
         let [first, second] = axes_deg.map(Angle::from_degrees);
         match self.mount {
@@ -135,24 +132,24 @@ impl Bounds {
         }
     }
 
-    /// The barriers as they stand at a time.
+    /// The bounds at a time.
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
         let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
         BoundsAt { bounds: self, minimum_elevation: self.minimum_elevation, suns }
     }
 
-    /// Whether there is any keep-out or the Sun that is refused.
+    /// Whether any keep-out or the Sun is refused.
     pub fn forbid_anything(&self) -> bool {
         self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
     }
 
-    /// Whether any keep-out is one that ways lead round.
+    /// Whether ways lead round any keep-out.
     pub(super) fn has_way_round(&self) -> bool {
         self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
     }
 
-    /// Whether `direction` is in a keep-out that ways lead round, or less than
-    /// `room_deg` beside its margin.
+    /// Whether `direction` is in a keep-out that ways lead round, or less than `room_deg`
+    /// outside its margin.
     pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
         let room = Angle::from_degrees(room_deg);
         let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
@@ -160,12 +157,12 @@ impl Bounds {
     }
 }
 
-/// [`Bounds`] at one time: the Sun is worked out once for many looks.
+/// [`Bounds`] at one time, with the Sun worked out for many looks.
 #[derive(Debug, Clone)]
 pub struct BoundsAt<'a> {
     bounds: &'a Bounds,
     minimum_elevation: Option<Angle>,
-    /// Unit vectors, from the time itself to the end of the time ahead.
+    /// Unit vectors to the Sun, from the time itself to the end of the time ahead.
     suns: Vec<DVec3>,
 }
 
@@ -181,7 +178,7 @@ impl BoundsAt<'_> {
         .collect()
     }
 
-    /// The least clearance from what is refused; `None` without any barrier.
+    /// The nearest barrier that refuses; `None` without any.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
         let (barrier, angle) = self.nearest_of(direction)?;
         Some(Clearance { barrier: barrier.clone_of(), angle, warns_only: false })
@@ -209,7 +206,7 @@ impl BoundsAt<'_> {
         Self { minimum_elevation: None, ..self }
     }
 
-    /// The bounds without the barriers that `axes_deg` are inside of.
+    /// The bounds without the barriers that the axes are inside of.
     pub fn without_entered(&self, axes_deg: [f64; 2]) -> Bounds {
         let clearances = self.clearances(self.bounds.direction(axes_deg));
         let is_outside = |barrier: &Barrier| {
@@ -224,9 +221,8 @@ impl BoundsAt<'_> {
         rest
     }
 
-    /// The first barrier that the axes may come into within `sweep`, and a
-    /// direction in it. From axes that stand below the minimum elevation nothing
-    /// may lead lower than they do.
+    /// The first barrier that the axes may enter within `sweep`, and a direction in it. From
+    /// below the minimum elevation nothing may lead lower.
     pub fn blocks(&self, sweep: Sweep, start_deg: [f64; 2]) -> Option<(Barrier, AzEl)> {
         let start = self.bounds.direction(start_deg);
         if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
@@ -255,8 +251,8 @@ impl BoundsAt<'_> {
         None
     }
 
-    /// Whether `direction` is `room_deg` beside everything that refuses; along the
-    /// minimum elevation an antenna may go without any.
+    /// Whether `direction` is `room_deg` outside everything that refuses. No room is needed
+    /// above the minimum elevation.
     pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
         self.each(direction).all(|(barrier, angle, warns_only)| {
             let room_deg = match barrier {
@@ -290,7 +286,7 @@ impl BoundsAt<'_> {
     }
 }
 
-/// A barrier that was not given a name of its own yet.
+/// A barrier with a borrowed name.
 #[derive(Debug, Clone, Copy)]
 enum Named<'a> {
     MinimumElevation,

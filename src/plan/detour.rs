@@ -1,4 +1,4 @@
-//! A way of both axes round what an antenna must not point into.
+//! Detours: ways of both axes round the barriers of an antenna.
 
 use std::{
     cmp::Reverse,
@@ -9,15 +9,15 @@ use jiff::Timestamp;
 
 use super::bounds::{Bounds, BoundsAt};
 
-/// Between two neighbours of the grid on which a way is looked for, degrees.
+/// Grid spacing of the search, degrees.
 const CELL_DEG: f64 = 1.0;
-/// A way stays this far outside all margins, degrees: more than half of the way to
-/// the neighbour across a corner, so that it is outside between them too.
+/// Distance of a way from all margins, degrees: more than half of the way to the neighbour
+/// across a corner, so that the way is outside between them too.
 const ROOM_DEG: f64 = 0.75;
-/// A search that has looked at so many places is given up: some hundredths of a second
-/// over zones of many corners.
+/// Most places that a search looks at: some hundredths of a second over zones of many corners.
 const MAX_PLACES: usize = 20_000;
-/// Of two ways that take equally long the straighter one, microseconds a degree.
+/// Cost of a degree of turn, microseconds: of two ways that take equally long, the straighter
+/// one is taken.
 const STRAIGHT: f64 = 1000.0;
 
 /// Travel and rates of two axes.
@@ -25,14 +25,14 @@ const STRAIGHT: f64 = 1000.0;
 pub(crate) struct AxisLimits {
     /// Ends of both axes, degrees as the mount counts.
     pub(crate) travel_deg: [(f64, f64); 2],
-    /// How fast each turns, degrees a second.
+    /// Degrees a second.
     pub(crate) rates_deg_s: [f64; 2],
-    /// How far outside of all margins the way stays, degrees.
+    /// Distance of the way from all margins, degrees.
     pub(crate) room_deg: f64,
 }
 
 impl AxisLimits {
-    /// For axes that come to rest within `rests_within_deg` of a place of the way.
+    /// The limits of axes that come to rest within `rests_within_deg` of a commanded position.
     pub(crate) fn new(
         travel_deg: [(f64, f64); 2],
         rates_deg_s: [f64; 2],
@@ -46,22 +46,21 @@ impl AxisLimits {
         both.all(|((from, to), at)| (from..=to).contains(&at))
     }
 
-    /// How long both axes take together, seconds.
+    /// Time that both axes take together, seconds.
     pub(crate) fn seconds(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
         let each = from_deg.into_iter().zip(to_deg).zip(self.rates_deg_s);
         each.map(|((from, to), rate)| (to - from).abs() / rate).fold(0.0, f64::max)
     }
 }
 
-/// A place of the grid, counted from where the way begins.
+/// A place of the grid, relative to the start.
 type Place = (i32, i32);
 
 const NEIGHBOURS: [Place; 8] =
     [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// The quickest way of the axes from one place to another that stays outside of
-/// everything that refuses at `at`, with both its ends. `None` where there is
-/// none, or where one of the ends is not outside.
+/// The quickest way of the axes between two places that stays outside all barriers at `at`,
+/// ends included. `None` without any, or where an end is not outside.
 pub(crate) fn between(
     bounds: &Bounds,
     limits: &AxisLimits,
@@ -74,8 +73,8 @@ pub(crate) fn between(
     Some(search.pulled_straight(&way))
 }
 
-/// The way through `turns_deg`, no two places of which are further apart than
-/// `step_deg` on either axis; without its beginning.
+/// The way through `turns_deg` in steps of at most `step_deg` on either axis; without its
+/// start.
 pub(crate) fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::new();
     for pair in turns_deg.windows(2) {
@@ -108,13 +107,12 @@ impl Search<'_> {
         self.limits.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
     }
 
-    /// Microseconds, which an order can be made of.
+    /// Microseconds: integers have an order.
     fn cost(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> u64 {
         let straight_deg = (to_deg[0] - from_deg[0]).hypot(to_deg[1] - from_deg[1]);
         (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
     }
 
-    /// Place after place.
     fn way(&self) -> Option<Vec<[f64; 2]>> {
         let room_deg = self.limits.room_deg;
         // Both ends may touch the edge of the room.
@@ -123,8 +121,7 @@ impl Search<'_> {
             return None;
         }
         let mut open = BinaryHeap::new();
-        // For each place what it costs to come there, and where from; `None` for one
-        // that is not free.
+        // Cost and predecessor of each place; `None` for a place that is not free.
         let mut known: HashMap<Place, Option<(u64, Place)>> = HashMap::new();
         known.insert((0, 0), Some((0, (0, 0))));
         open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0)));
@@ -169,7 +166,7 @@ impl Search<'_> {
         way
     }
 
-    /// Only where it has to turn.
+    /// Keeps the places where the way turns.
     fn pulled_straight(&self, way: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (way.first(), way.last()) else { return Vec::new() };
         let mut turns = vec![*first];

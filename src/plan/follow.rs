@@ -33,9 +33,7 @@ pub struct Follow {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FollowPhase {
     /// Before a pass: the antenna goes to its start and waits.
-    Waiting {
-        aos: Timestamp,
-    },
+    Waiting { aos: Timestamp },
     /// During a pass.
     Following,
     /// After the last pass.

@@ -1,6 +1,5 @@
-//! Judges how a device that tracks by itself will follow a pass: where it will
-//! point by what it tells of itself, how far that is from the satellite, and why.
-//! Pure functions; what the device tells comes in.
+//! Judges the on-board track of a pass: where the antenna will point by what the unit reports
+//! of itself, how far that is from the satellite, and why. Pure functions; the reports come in.
 
 mod cause;
 mod clear;
@@ -20,31 +19,28 @@ use crate::{
 };
 use path::{Unit, spread};
 
-/// A pass that a device is to track by itself.
+/// A pass for a unit to track by itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnBoardPass {
-    /// What the device is told.
+    /// The target that is sent to the unit.
     pub target: TrackTarget,
-    /// Where the satellite is, as well as we know.
+    /// The best known orbit.
     pub elements: Elements,
-    /// Where the antenna stands.
     pub site: Site,
     /// The operator has agreed that the antenna may miss the satellite.
     pub is_agreed: bool,
 }
 
-/// An orbit as well as we know it, and from where it is seen.
+/// The best known orbit, and the site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KnownOrbit {
-    /// Where the satellite is.
     pub elements: Elements,
-    /// Where the antenna stands.
     pub site: Site,
 }
 
 impl KnownOrbit {
-    /// What a device does by itself that tells `told`, in its own window; `None` where
-    /// it holds another satellite, or tells no window.
+    /// The track of a unit that reports `told`, in its own window; `None` where the unit holds
+    /// another satellite, or reports no window.
     pub fn pass_of(&self, told: &OnBoard) -> Option<OnBoardPass> {
         let held = told.satellite.as_ref()?;
         let (from, until) = told.window?;
@@ -63,21 +59,20 @@ impl KnownOrbit {
     }
 }
 
-/// What an antenna that is to track by itself must keep to.
+/// The abilities and limits of an antenna that tracks by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ability {
-    /// How its axes are arranged and how far they travel.
+    /// Arrangement and travel of the axes.
     pub mount: Mount,
-    /// It must not point lower.
+    /// Minimum elevation.
     pub minimum_elevation: Angle,
-    /// A direction that is off by less is within the beam.
+    /// Half the beam width.
     pub half_beam: Angle,
-    /// Its axes turn no faster, degrees a second.
+    /// Maximum rate of the axes, degrees a second.
     pub maximum_rate_deg_s: f64,
 }
 
 impl Ability {
-    /// Those of `antenna`.
     pub fn of(antenna: &Antenna) -> Self {
         Self {
             mount: antenna.mount,
@@ -88,43 +83,41 @@ impl Ability {
     }
 }
 
-/// How a device will follow a pass by what it tells of itself.
+/// The judgement of an on-board track.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supervision {
-    /// How far it will be off at worst.
+    /// The largest error.
     pub worst: Error,
-    /// Within the beam at worst.
+    /// The largest error is within the beam.
     pub is_within_beam: bool,
-    /// Why, the likeliest first.
+    /// Causes, the likeliest first.
     pub causes: Vec<Ranked>,
-    /// What the device does not tell, or was not asked yet.
+    /// Values that the unit does not report, or was not asked for yet.
     pub unknown: Vec<Unknown>,
-    /// The lowest elevation of the device, where it is below that of the station.
+    /// The minimum elevation of the unit, where it is below that of the station.
     pub lower_minimum_deg: Option<f64>,
 }
 
-/// How far the beam axis will be off, and when.
+/// A pointing error and its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Error {
-    /// Between beam axis and satellite.
+    /// Angle between beam axis and satellite.
     pub off: Angle,
-    /// When.
     pub at: Timestamp,
 }
 
-/// A pass, ready to be compared with a device again and again.
+/// A pass, prepared for many comparisons with a unit.
 #[derive(Debug, Clone)]
 pub struct Judge {
     pass: OnBoardPass,
     propagator: Propagator,
     ability: Ability,
-    /// Where the satellite stands along the window.
+    /// Directions of the satellite along the window.
     truth: Vec<Sample>,
 }
 
 impl Judge {
-    /// Of `pass` with an antenna of these `ability`; an error where the elements
-    /// describe no orbit.
+    /// Fails where the elements describe no orbit.
     pub fn new(pass: OnBoardPass, ability: Ability) -> Result<Self, PropagationError> {
         let propagator = Propagator::new(&pass.elements)?;
         let truth = spread(pass.target.from, pass.target.until)
@@ -136,18 +129,17 @@ impl Judge {
         Ok(Self { pass, propagator, ability, truth })
     }
 
-    /// The pass.
     pub fn pass(&self) -> &OnBoardPass {
         &self.pass
     }
 
-    /// Where the satellite stands at `at`.
+    /// Direction of the satellite at `at`.
     pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
         Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)
     }
 
-    /// How a device that tells `unit` will follow the pass. `holds_target` says
-    /// that the target was put on it: what it holds before tells nothing.
+    /// Judges a unit that reports `unit`. `holds_target` says that the target was put on it:
+    /// what it held before says nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
         let all = Unit::of(unit, self);
         let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
@@ -165,21 +157,20 @@ impl Judge {
         }
     }
 
-    /// Whether the device will keep to the ability of its antenna, wherever it will
-    /// really point; where it goes wrong first if not.
+    /// Checks the real track against the limits of the antenna; the error is the first place
+    /// where it goes wrong.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), Trespass> {
         let unit = Unit::of(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
-    /// Where the device will wait for the window.
+    /// Where the unit will wait for the window.
     pub fn start(&self, unit: &OnBoard) -> Option<AzEl> {
         self.path(Unit::of(unit, self)).next().map(|first| first.direction)
     }
 
-    /// Where the antenna will really point by what the device tells: at most a
-    /// second or half a degree from one sample to the next, from where it waits for
-    /// the window to where it ends.
+    /// The real track by what the unit reports: at most a second or half a degree between
+    /// samples, from where the unit waits to where it ends.
     fn path<'a>(&'a self, unit: Unit<'a>) -> impl Iterator<Item = Sample> + 'a {
         path::samples(unit, (self.pass.target.from, self.pass.target.until))
     }
@@ -192,13 +183,13 @@ impl Judge {
         errors.reduce(worse).unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from })
     }
 
-    /// The greatest elevation that the device will compute for the window.
+    /// The maximum elevation that the unit will compute for the window.
     fn highest(&self, unit: &Unit<'_>) -> Option<Angle> {
         let elevations = self.truth.iter().filter_map(|at| unit.computed(at.time));
         elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })
     }
 
-    /// The window is long enough for more than one look.
+    /// Whether the window is long enough for more than one look.
     fn span_s(&self) -> f64 {
         seconds_between(self.pass.target.from, self.pass.target.until)
     }

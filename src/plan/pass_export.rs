@@ -1,5 +1,4 @@
-//! Lists of passes in the forms that people, spreadsheets, programs and
-//! calendars read.
+//! Lists of passes as table, CSV, JSON and iCalendar.
 
 mod calendar;
 mod csv;
@@ -12,12 +11,10 @@ use jiff::Timestamp;
 
 use crate::orbit::{Elements, Pass};
 
-/// One pass and whose it is.
+/// A pass and its satellite.
 #[derive(Debug, Clone, Copy)]
 pub struct PassRow<'a> {
-    /// The elements of the satellite.
     pub elements: &'a Elements,
-    /// Its pass.
     pub pass: &'a Pass,
 }
 

@@ -1,4 +1,4 @@
-//! How much of a pass an antenna can follow.
+//! How much of a pass an antenna can track.
 
 mod az_el;
 mod xy;
@@ -13,35 +13,32 @@ use crate::{
 /// A direction at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// When.
     pub time: Timestamp,
-    /// Where.
     pub direction: AzEl,
 }
 
 /// Travel and rate of a mount, and the beam it has to keep on a satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MountLimits {
-    /// How its axes are arranged.
     pub mount: Mount,
     /// Fastest rate of an axis, degrees a second.
     pub maximum_rate_deg_s: f64,
-    /// A direction that is off by less is within the beam.
+    /// Half the beam width.
     pub half_beam: Angle,
-    /// It turns both angles; else only the azimuth counts.
+    /// `false` for a rotator of azimuth alone.
     pub has_elevation: bool,
 }
 
-/// How much of a pass an antenna can follow.
+/// How much of a pass an antenna can track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trackability {
     /// All of it.
     Whole,
     /// All but some seconds.
     Loses {
-        /// For how long the satellite is not in the beam, seconds.
+        /// Time outside the beam, seconds.
         seconds: f64,
-        /// Where that begins.
+        /// Where the loss begins.
         at: Loss,
     },
     /// None of it.
@@ -55,14 +52,14 @@ pub enum Loss {
     Keyhole(Angle),
     /// So high that the azimuth axis would have to turn too fast.
     Overhead,
-    /// At an end of the azimuth axis, which has to go all the way round.
+    /// At an end of the azimuth axis, which has to slew a whole turn.
     Slew,
-    /// Where no position of the axes points.
+    /// Out of travel.
     OutOfReach,
 }
 
-/// How much of the pass along `samples` an antenna follows. Samples are a few
-/// seconds apart, oldest first; the antenna waits at the first of them.
+/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first. The
+/// antenna waits at the first of them.
 pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
     match limits.mount {
         Mount::Xy { .. } => xy::trackability(samples, limits),
@@ -71,7 +68,7 @@ pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
 }
 
 impl Trackability {
-    /// What a loss of `lost_s` seconds of `whole_s` comes to.
+    /// The trackability of a pass of `whole_s` seconds that loses `lost_s`.
     fn of(lost_s: f64, whole_s: f64, at: Loss) -> Self {
         if lost_s <= 0.0 {
             Self::Whole

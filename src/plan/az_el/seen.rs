@@ -1,27 +1,25 @@
-//! A direction as the two axes see it, made ready to be looked at often.
+//! A direction as seen by the two axes, prepared for many looks.
 
 use crate::astro::AzEl;
 
-/// From here on up the azimuth may have to turn faster than it can, degrees.
+/// Elevation from which the azimuth may have to turn faster than it can, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 
-/// Whether `direction` is so high that the elevation makes up for an azimuth that
-/// does not keep up. Further down it would raise and lower the antenna while
-/// the azimuth goes round, and point nowhere near all the same.
+/// Whether the elevation makes up for an azimuth that does not keep up. Further down the
+/// antenna would rise and fall while the azimuth goes round, and still point nowhere near.
 pub(super) fn is_overhead(direction: AzEl) -> bool {
     direction.elevation_deg() >= OVERHEAD_FROM_DEG
 }
 
-/// A direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     azimuth_rad: f64,
     /// Sine and cosine of its elevation.
     height: (f64, f64),
-    /// Where the elevation axis points to it, degrees.
+    /// Position of the elevation axis, degrees.
     usual_deg: f64,
     usual: (f64, f64),
-    /// Ends of the elevation axis where it makes up for the azimuth, degrees.
+    /// Ends of the elevation axis, where it makes up for the azimuth, degrees.
     ends_deg: Option<[f64; 2]>,
     ends: Option<[(f64, f64); 2]>,
 }
@@ -46,16 +44,16 @@ impl Seen {
         }
     }
 
-    /// Where the elevation axis points best while the azimuth axis stands there,
-    /// both in degrees.
+    /// The best position of the elevation axis for a position of the azimuth axis, both in
+    /// degrees.
     pub(super) fn elevation_deg(&self, azimuth_deg: f64) -> f64 {
         let Some([from_deg, to_deg]) = self.ends_deg else { return self.usual_deg };
         let (up, along) = self.in_plane(azimuth_deg);
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }
 
-    /// What it costs that the axes stand there: grows with the square of a small
-    /// error, to 2 for the opposite direction.
+    /// Cost of a position of both axes: grows with the square of a small error, to 2 for the
+    /// opposite direction.
     pub(super) fn cost(&self, azimuth_deg: f64, elevation_deg: f64) -> f64 {
         let (sin, cos) = elevation_deg.to_radians().sin_cos();
         let (up, along) = self.in_plane(azimuth_deg);
@@ -67,7 +65,7 @@ impl Seen {
         let (up, along) = self.in_plane(azimuth_deg);
         let towards = |(sin, cos): (f64, f64)| up * sin + along * cos;
         let Some([from, to]) = self.ends else { return 1.0 - towards(self.usual) };
-        // The sign of a cross product tells on which side of an end it is.
+        // The sign of the cross product says on which side of an end it is.
         let is_beyond = |(sin, cos): (f64, f64)| up * cos - along * sin > 0.0;
         if is_beyond(to) {
             1.0 - towards(to)
@@ -78,8 +76,8 @@ impl Seen {
         }
     }
 
-    /// Its part in the plane in which the elevation axis turns: up, and along the
-    /// azimuth axis.
+    /// The direction in the plane in which the elevation axis turns: up, and along the azimuth
+    /// axis.
     fn in_plane(&self, azimuth_deg: f64) -> (f64, f64) {
         let (up, out) = self.height;
         (up, out * (azimuth_deg.to_radians() - self.azimuth_rad).cos())

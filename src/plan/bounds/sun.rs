@@ -1,34 +1,32 @@
-//! The surroundings of the Sun, where it stands and where it will.
+//! The surroundings of the Sun, now and in the time ahead.
 
 use jiff::{SignedDuration, Timestamp};
 
 use super::{AzEl, Bounds, BoundsAt, FINEST_DEG, SunAvoidance};
 use crate::astro::sun_moon;
 
-/// The Sun is looked at again after this long at least, seconds: it moves a tenth of a
-/// degree.
+/// Shortest interval between two places of the Sun, seconds: the Sun moves a tenth of a degree.
 const SUN_STEP_S: f64 = 24.0;
-/// For any time ahead it is looked at so many times at most.
+/// Most places of the Sun for any time ahead.
 const MAX_SUNS: f64 = 40.0;
-/// How fast it moves at most, degrees a second.
+/// Fastest motion of the Sun, degrees a second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
-/// A refuge from the Sun is looked for in rings around the antenna, so far apart,
-/// degrees.
+/// Distance between the rings on which a refuge from the Sun is searched, degrees.
 const RING_DEG: f64 = 0.5;
-/// In so many directions of each ring.
+/// Directions of each ring.
 const BEARINGS: u32 = 24;
-/// And as far as the Sun may have moved, degrees.
+/// Radius of the largest ring, beyond the motion of the Sun, degrees.
 const BEYOND_DEG: f64 = 30.0;
 
 impl Bounds {
-    /// The same without the Sun, for who means to point at it.
+    /// The bounds without the Sun, for an antenna that is meant to point at it.
     #[must_use]
     pub fn without_the_sun(&self) -> Self {
         Self { sun: None, ..self.clone() }
     }
 
-    /// For a way out of the surroundings of the Sun, which leads no nearer to it than
-    /// `start` is; `None` where `start` is outside.
+    /// The bounds for a way out of the surroundings of the Sun, no nearer to the Sun than
+    /// `start`; `None` where `start` is outside.
     pub fn away_from_the_sun(&self, start: AzEl, at: Timestamp) -> Option<Self> {
         let sun = self.sun?;
         let separations = self.suns(at).into_iter().map(|sun| start.separation(sun).degrees());
@@ -38,8 +36,7 @@ impl Bounds {
         is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
     }
 
-    /// Whether nothing is in the way in `direction`, and the Sun is not for its time
-    /// ahead either.
+    /// Whether `direction` is clear of all barriers, and of the Sun for its time ahead.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
         self.now_and_later(at).iter().all(|bounds| bounds.has_room(direction, 0.0))
     }
@@ -50,8 +47,7 @@ impl Bounds {
         std::iter::once(at).chain(later).map(|at| self.at(at)).collect()
     }
 
-    /// Directions that stay clear, the nearest to `from` first, as far as they are
-    /// looked for.
+    /// Directions that stay clear, the nearest to `from` first.
     pub fn refuges(&self, from: AzEl, at: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
         let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
@@ -63,7 +59,7 @@ impl Bounds {
         around.filter(move |direction| all.iter().all(|bounds| bounds.has_room(*direction, 0.0)))
     }
 
-    /// Where the Sun stands from `at` until the end of the time ahead.
+    /// Directions of the Sun from `at` until the end of the time ahead.
     pub(super) fn suns(&self, at: Timestamp) -> Vec<AzEl> {
         let Some(sun) = self.sun else { return Vec::new() };
         let step_s = sun_step_s(sun);
@@ -83,8 +79,8 @@ fn sun_step_s(sun: SunAvoidance) -> f64 {
     SUN_STEP_S.max(sun.ahead_min * 60.0 / MAX_SUNS)
 }
 
-/// The radius around each place of the Sun that is looked at, degrees: wide enough that
-/// nothing is missed between two of them.
+/// Radius around each place of the Sun, degrees: wide enough to miss nothing between two of
+/// them.
 pub(super) fn around_each_deg(sun: SunAvoidance) -> f64 {
     let half_deg = sun_step_s(sun) * SUN_DEG_S / 2.0;
     sun.radius_deg.hypot(half_deg) + FINEST_DEG

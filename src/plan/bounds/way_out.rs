@@ -7,32 +7,30 @@
 use super::{AzEl, Bounds, BoundsAt, Named};
 use crate::station::Mount;
 
-/// The finest step of a look along a way, degrees.
+/// Finest step along a way, degrees.
 const STEP_DEG: f64 = 0.1;
-/// An edge is found to this, degrees.
+/// Accuracy of an edge, degrees.
 const EDGE_DEG: f64 = 1e-9;
-/// A gap that is narrower than this, degrees of the axis, is no way out: what is judged
-/// ahead never gets into it.
+/// Widest gap that is no way out, degrees of the axis: what is judged ahead never gets into it.
 const GAP_DEG: f64 = 1.0;
-/// The stretch over which the speed of an axis in the sky is taken, degrees.
+/// Stretch over which the speed of an axis in the sky is measured, degrees.
 const STRETCH_DEG: f64 = 0.01;
-/// No axis turns further to get out, degrees.
+/// Largest turn of an axis to get out, degrees.
 const FURTHEST_DEG: f64 = 360.0;
 
-/// What a place on the way is.
+/// A place on the way.
 enum Place {
-    /// No barrier holds.
+    /// Outside all barriers.
     Free,
-    /// Still inside; neither an edge nor another barrier is within this, degrees.
+    /// Inside; no edge or other barrier is within this, degrees.
     Inside(f64),
-    /// Inside another barrier than those that it is to leave.
+    /// Inside a barrier that the axes were not in at the start.
     Barred,
 }
 
 impl BoundsAt<'_> {
-    /// How far it is to where the antenna may point, by the shortest turn of one axis
-    /// that leads there within its travel and through no other barrier; degrees of the
-    /// sky, zero outside all barriers. `None` where no such turn does.
+    /// The shortest turn of one axis that leads out, within its travel and through no other
+    /// barrier; degrees of the sky, zero outside all barriers. `None` without any.
     pub fn way_out_deg(&self, axes_deg: [f64; 2]) -> Option<f64> {
         let left = self.entered(self.bounds.direction(axes_deg));
         if !left.contains(&true) {
@@ -55,8 +53,8 @@ impl BoundsAt<'_> {
         shortest_deg
     }
 
-    /// How deep the axes stand below the minimum elevation, and inside of each other
-    /// barrier by its nearest edge; degrees, zero outside.
+    /// Depth below the minimum elevation, and inside each other barrier to its nearest edge;
+    /// degrees, zero outside.
     pub fn depths_deg(&self, axes_deg: [f64; 2]) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
         let each = self.each(self.bounds.direction(axes_deg));
@@ -71,7 +69,7 @@ impl BoundsAt<'_> {
         (below_deg, inside_deg)
     }
 
-    /// The barriers that hold at a direction, in their order.
+    /// The barriers that a direction is in, in their order.
     fn entered(&self, direction: AzEl) -> Vec<bool> {
         let each = self.each(direction);
         each.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
@@ -107,7 +105,7 @@ impl BoundsAt<'_> {
                 continue;
             }
             if *is_left {
-                // The edge of what it does not leave is never reached.
+                // The edge of a barrier that the way does not leave is never reached.
                 let deep_deg = if is_level { f64::INFINITY } else { -clear_deg };
                 deepest_deg = f64::max(deepest_deg, deep_deg);
             } else if clear_deg < 0.0 {
@@ -120,18 +118,16 @@ impl BoundsAt<'_> {
     }
 }
 
-/// One axis turns one way.
+/// A turn of one axis, one way.
 struct Turn {
-    /// Where it begins.
+    /// Start of the turn.
     axes_deg: [f64; 2],
     axis: usize,
     /// 1 or -1.
     way: f64,
-    /// How far it can turn within its travel; an axis beyond its other end may come
-    /// back.
+    /// Largest turn within the travel; an axis beyond its other end may come back.
     end_deg: f64,
-    /// How far the direction goes in the sky for each degree of the axis: the same all
-    /// the way round.
+    /// Degrees of the sky for each degree of the axis, the same all the way round.
     speed: f64,
     keeps_elevation: bool,
 }
@@ -142,8 +138,7 @@ impl Turn {
         if axis == 0 { [first + by_deg, second] } else { [first, second + by_deg] }
     }
 
-    /// By how much the axis turns until `place` is free, degrees; by `max_deg` at
-    /// most.
+    /// Turn after which `place` is free, degrees; `max_deg` at most.
     fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Place) -> Option<f64> {
         let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);

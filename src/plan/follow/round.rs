@@ -1,9 +1,9 @@
-//! The way of the axes along a pass, led round the keep-outs that are gone round.
+//! Paths with detours round the keep-outs that are gone round.
 //!
-//! The way is taken as one line. Where the target is behind an edge of a keep-out,
-//! the line leads along the margin; how far along it the antenna is at which time
-//! is chosen so that it points beside the target by the least, and never faster
-//! than the axes turn. A long way round is set out for early and comes in late.
+//! The path is one line. Where the target is behind an edge of a keep-out, the line
+//! follows the margin. The position of the antenna on the line at each time minimises
+//! the pointing error, and never moves faster than the axes turn. The axes set out
+//! early on a long detour, and come in late.
 
 use crate::{
     astro::AzEl,
@@ -15,15 +15,14 @@ use crate::{
     },
 };
 
-/// Along a detour the axes turn at this share of their rate: what is made at the
-/// full one counts as a slew, which is told by its end alone.
+/// Share of their rate at which the axes turn along a detour: faster than that counts as a
+/// slew, which is one command.
 const SHARE_OF_RATE: f64 = 0.95;
-/// Between two points of a detour at most, degrees.
+/// Longest distance between two points of a detour, degrees.
 const STEP_DEG: f64 = 0.5;
 
-/// Where both axes have to stand along `samples`, `step_s` seconds apart, when
-/// they are not to enter what is gone round; `axes_deg` as it would be without. A
-/// stretch with no way round stays as it is.
+/// The positions of both axes along `samples`, `step_s` seconds apart, with detours round the
+/// keep-outs; `axes_deg` are the positions without. A stretch with no detour stays as it is.
 pub(super) fn round(
     axes_deg: [Vec<f64>; 2],
     samples: &[Sample],
@@ -42,7 +41,7 @@ pub(super) fn round(
     let mut line = Line { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
-        // In the middle of a detour already; before a pass it waits where it comes out.
+        // In the middle of a detour already; before a pass the axes wait at its end.
         let stands = [first, second];
         let is_outside = !bounds.is_gone_round(bounds.direction(stands), 0.0);
         if start.lead_s <= 0.0 && is_outside {
@@ -67,7 +66,7 @@ pub(super) fn round(
                 let at = targets.get(behind / 2).map(|sample| sample.time);
                 at.and_then(|at| detour::between(bounds, &limits, from, to, at))
             }
-            // It rises or sets behind it.
+            // The target rises or sets behind the keep-out.
             (Some(one), None) | (None, Some(one)) => Some(vec![one]),
             (None, None) => None,
         };
@@ -91,12 +90,12 @@ pub(super) fn round(
     [first, second]
 }
 
-/// The way of the axes, measured in the seconds that it takes at their full rate.
+/// The path as a line, measured in seconds at full rate.
 struct Line {
-    /// Seconds from the beginning, and degrees as the mount counts.
+    /// Seconds from the start, and degrees as the mount counts.
     points: Vec<(f64, [f64; 2])>,
     limits: AxisLimits,
-    /// How much of it is made from one sample to the next at most, seconds.
+    /// Longest stretch between two samples, seconds.
     max_s: f64,
 }
 
@@ -121,13 +120,13 @@ impl Line {
         self.points.push((before_s + way_s, to_deg));
     }
 
-    /// On to the next place of a way that the axes can make as it is.
+    /// Extends the line to a place that the axes can reach in time.
     fn go_to(&mut self, to_deg: [f64; 2]) {
         self.add(to_deg, self.max_s);
     }
 
-    /// On along a detour. For each of `targets` where on the line it is nearest, never
-    /// going back.
+    /// Extends the line along a detour. Returns, for each of `targets`, the nearest point of
+    /// the line, never going back.
     fn detour(&mut self, turns_deg: &[[f64; 2]], targets: &[Sample], bounds: &Bounds) -> Vec<f64> {
         let mut first = self.points.len().saturating_sub(1);
         let from_deg = self.end_deg().or(turns_deg.first().copied());
@@ -162,7 +161,7 @@ impl Line {
         [start_deg[0] + a * share, start_deg[1] + b * share]
     }
 
-    /// What it costs to be there on the line.
+    /// Cost of a position on the line.
     fn off(&self, target: AzEl, at_s: f64, bounds: &Bounds) -> f64 {
         1.0 - bounds.direction(self.at(at_s)).separation(target).radians().cos()
     }

@@ -1,4 +1,4 @@
-//! Why a device that tracks by itself will miss.
+//! Causes of the error of an on-board track.
 
 use super::{
     Judge,
@@ -9,57 +9,55 @@ use crate::{
     device::{Offsets, OnBoard, Place, UnitClock},
 };
 
-/// An error below this is none worth naming, degrees.
+/// Smallest error worth naming, degrees.
 const WORTH_NAMING_DEG: f64 = 0.02;
-/// The unit tells the highest elevation of a pass roughly, and the window is not
-/// the whole pass: a difference up to this says nothing, degrees.
+/// Largest difference of the maximum elevation that says nothing, degrees: the unit reports it
+/// roughly, and the window is not the whole pass.
 const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
-/// Why a device will miss the satellite.
+/// A cause of the error.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cause {
-    /// It takes itself to stand elsewhere.
+    /// The unit believes to be at another place.
     Place {
-        /// Where.
         place: Place,
         /// How far from the station.
         away_km: f64,
     },
-    /// Its clock is ahead of ours.
+    /// The clock of the unit is ahead of UTC.
     Clock {
-        /// By so much, seconds.
+        /// Seconds.
         ahead_s: f64,
     },
-    /// It shifts the track in time.
+    /// The unit shifts the track in time.
     TimeOffset {
-        /// By so much, seconds.
+        /// Seconds.
         offset_s: f64,
     },
-    /// It adds this to the azimuth, degrees.
+    /// Offset of the azimuth, degrees.
     AzimuthOffset(f64),
-    /// It adds this to the elevation, degrees.
+    /// Offset of the elevation, degrees.
     ElevationOffset(f64),
-    /// Its north is not that of the station.
+    /// The north of the unit is not that of the station.
     NorthOffset {
-        /// As the device tells it, degrees.
+        /// As the unit reports it, degrees.
         offset_deg: f64,
-        /// How far that is from the station's, degrees.
+        /// Difference from that of the station, degrees.
         off_deg: f64,
     },
-    /// It does not point as low as the pass goes.
+    /// The minimum elevation of the unit is above that of the pass.
     MinimumElevation(f64),
-    /// It holds another satellite.
+    /// The unit holds another satellite.
     OtherSatellite {
-        /// Its number; 0 for none.
+        /// Catalog number; 0 for none.
         catalog_number: u32,
-        /// Its name.
         name: String,
     },
-    /// It predicts another height of the pass: their elements differ.
+    /// The unit predicts another maximum elevation: the elements differ.
     Elements {
-        /// The highest elevation as it tells it, degrees.
+        /// Maximum elevation as the unit reports it, degrees.
         told_deg: f64,
-        /// As its place and our elements give it.
+        /// Maximum elevation by its place and the best known elements, degrees.
         expected_deg: f64,
     },
 }
@@ -67,26 +65,25 @@ pub enum Cause {
 /// A cause with the error that it alone makes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
-    /// What.
     pub cause: Cause,
-    /// How far it alone puts the beam off at worst; `None` where that is not known.
+    /// The largest error by this cause alone; `None` where unknown.
     pub off: Option<Angle>,
 }
 
-/// What is not known of a device.
+/// A value that a unit does not report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
-    /// Where it takes itself to stand.
+    /// Its place.
     Place,
-    /// What time it takes it to be.
+    /// Its clock.
     Clock,
-    /// What it adds to its path.
+    /// Its offsets.
     Offsets,
-    /// How old its elements are: no device tells.
+    /// The age of its elements, which no unit reports.
     Elements,
 }
 
-/// What `told` leaves open.
+/// The values that are missing in `told`.
 pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
     let open = [
         (told.place.is_none(), Unknown::Place),
@@ -97,8 +94,7 @@ pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
     open.into_iter().filter_map(|(is_open, what)| is_open.then_some(what)).collect()
 }
 
-/// All causes, the one with the greatest error first; before them those whose error
-/// is not known.
+/// All causes: first those of unknown error, then by error, the largest first.
 pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<Ranked> {
     let right = Unit::right(judge);
     let alone = |unit: Unit<'_>| {

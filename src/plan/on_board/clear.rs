@@ -1,4 +1,4 @@
-//! Whether a path keeps to what an antenna may do.
+//! Checks a path against the limits of an antenna.
 
 use jiff::Timestamp;
 
@@ -9,37 +9,33 @@ use crate::{
     station::Mount,
 };
 
-/// A unit's clock, place and whole seconds move its path by about this much,
-/// degrees: what goes less far beyond a bound runs along it.
+/// Clock, place and whole seconds of a unit move its path by about this much, degrees: a path
+/// that goes less far beyond a bound runs along it.
 const ALONG_DEG: f64 = 0.5;
 
-/// A path leads where the antenna must not point.
+/// The first place where a path leaves the limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trespass {
-    /// When first.
     pub at: Timestamp,
-    /// Where.
     pub direction: AzEl,
-    /// Which bound.
     pub limit: OffLimits,
 }
 
-/// A bound of an antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OffLimits {
-    /// Below its lowest elevation, degrees.
+    /// Below the minimum elevation, degrees.
     Elevation {
-        /// The lowest.
+        /// The minimum.
         lowest_deg: f64,
     },
     /// Beyond the travel of its axes.
     Travel,
-    /// Inside what is forbidden at the site.
+    /// Inside a keep-out or the surroundings of the Sun.
     Forbidden(Barrier),
 }
 
-/// Whether every sample of `path` is where the antenna may point: above its lowest
-/// elevation, within the travel of its axes and outside what is forbidden.
+/// Checks that every sample of `path` is above the minimum elevation, within travel and outside
+/// keep-outs.
 pub fn path_is_clear(
     mut path: impl Iterator<Item = Sample>,
     ability: &Ability,

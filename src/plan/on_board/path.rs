@@ -1,4 +1,4 @@
-//! Where an antenna will really point whose device tracks by itself.
+//! The real path of an antenna whose unit tracks by itself.
 
 use jiff::Timestamp;
 
@@ -14,13 +14,13 @@ use crate::{
     station::Mount,
 };
 
-/// The error of a pass is taken at so many times.
+/// Samples of the error of a pass.
 const LOOKS: f64 = 240.0;
-/// Two samples of a path are at most so far apart in time,
+/// Longest time between two samples of a path, seconds,
 const STEP_S: f64 = 1.0;
-/// or else so far in the sky.
+/// or the largest angle between them, degrees.
 const STEP_DEG: f64 = 0.5;
-/// The longest step, seconds: of what hardly moves.
+/// Longest step for a target that hardly moves, seconds.
 const LONGEST_STEP_S: f64 = 60.0;
 
 /// Equal steps from `from` to `to`, both included.
@@ -31,7 +31,7 @@ pub(super) fn spread(from: Timestamp, to: Timestamp) -> impl Iterator<Item = Tim
     (0..=count).map(move |index| add_seconds(from, (f64::from(index) * step_s).min(span_s)))
 }
 
-/// What a device goes by while it tracks.
+/// The data by which a unit tracks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Unit<'a> {
     pub(super) propagator: &'a Propagator,
@@ -39,12 +39,12 @@ pub(super) struct Unit<'a> {
     pub(super) site: Site,
     pub(super) ahead_s: f64,
     pub(super) offsets: Offsets,
-    /// By how much the azimuth of the mount is really smaller than told.
+    /// The azimuth that the unit reports less the real one.
     pub(super) turned: Angle,
 }
 
 impl<'a> Unit<'a> {
-    /// A device that goes by the same as we do.
+    /// A unit that computes exactly as Azel does.
     pub(super) fn right(judge: &'a Judge) -> Self {
         let target = &judge.pass.target;
         Self {
@@ -57,7 +57,7 @@ impl<'a> Unit<'a> {
         }
     }
 
-    /// A device that tells `told`; what it does not tell is right.
+    /// A unit that reports `told`; a value that it does not report is right.
     pub(super) fn of(told: &OnBoard, judge: &'a Judge) -> Self {
         let right = Self::right(judge);
         let offsets = told.offsets.unwrap_or(right.offsets);
@@ -70,15 +70,15 @@ impl<'a> Unit<'a> {
         }
     }
 
-    /// With its time offset ahead and behind: which it is is not known.
+    /// Both signs of the time offset, since it is not known which way the unit applies it.
     pub(super) fn either_way(self) -> impl Iterator<Item = Self> {
         let behind = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
         let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: behind, ..self });
         std::iter::once(self).chain(other)
     }
 
-    /// Where it computes the satellite to be at `at` by our clock: at the ends of
-    /// its window before and after it.
+    /// Direction of the satellite as the unit computes it at `at` by our clock; before and
+    /// after its window, that of the ends.
     pub(super) fn computed(&self, at: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
         let own = add_seconds(at, self.ahead_s).clamp(start, stop.max(start));
@@ -86,7 +86,7 @@ impl<'a> Unit<'a> {
         Some(self.propagator.look_from(self.site, shifted).ok()?.direction)
     }
 
-    /// Where the antenna really points at `at` by our clock.
+    /// Real direction of the antenna at `at` by our clock.
     pub(super) fn direction(&self, at: Timestamp) -> Option<AzEl> {
         let AzEl { azimuth, elevation } = self.computed(at)?;
         let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);
@@ -100,8 +100,8 @@ impl<'a> Unit<'a> {
     }
 }
 
-/// The place that a device tells, as high as ours. One that is ours as finely as it
-/// is told is ours.
+/// The place that a unit reports, at our altitude. A place that equals ours to its resolution
+/// is ours.
 pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
     let place = told.place?;
     let away_deg = [
@@ -114,8 +114,8 @@ pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
     Site::new(place.latitude_deg, place.longitude_deg, ours.altitude_m()).ok()
 }
 
-/// By how much a north offset turns the azimuth away from that of the station: its
-/// zero is the mount's, which the station may know as the azimuth of the lower axis.
+/// Turn of the azimuth by a north offset against the station: its zero is that of the mount,
+/// which the station may know as the azimuth of the lower axis.
 pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
     let told = Angle::from_degrees(north_deg).wrapped_180();
     let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return told };

@@ -1,5 +1,4 @@
-//! Passes as columns to read. A `<` or `>` marks a pass that is cut by the
-//! window at that end.
+//! Passes as a table. A `<` or `>` marks a pass that the window cuts at that end.
 
 use std::io::{self, Write};
 

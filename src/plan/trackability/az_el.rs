@@ -1,6 +1,5 @@
-//! Elevation over azimuth: all of the sky, but the azimuth axis has to hurry
-//! overhead and to go round at its ends, unless the elevation axis travels over
-//! the zenith.
+//! Trackability by elevation over azimuth: all of the sky, but the azimuth axis has to hurry
+//! overhead and to slew a whole turn at its ends, unless the mount can flip.
 
 use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
@@ -8,12 +7,11 @@ use crate::{
     plan::az_el::{AzElAxes, Flip, Planned, Start},
 };
 
-/// Above this elevation a loss is told as one overhead, degrees.
+/// Elevation from which a loss counts as one overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
-/// A turn, which an axis makes in a slew at most, degrees.
+/// The longest slew of an axis, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// See [`super::trackability`].
 pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
     let [azimuth_deg, elevation_deg] = limits.mount.travel_deg();
     let axes = AzElAxes {
@@ -38,7 +36,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
     Trackability::of(lost_s, whole_s, at)
 }
 
-/// For how many seconds the beam misses the satellite, and where that begins.
+/// Time outside the beam, seconds, and where it begins.
 fn lost(samples: &[Sample], limits: MountLimits, axes: AzElAxes, planned: &Planned) -> (f64, Loss) {
     let [azimuths, elevations] = &planned.axes_deg;
     let (mut lost_s, mut first) = (0.0, None);

@@ -1,4 +1,4 @@
-//! Two crossed axes: all of the sky but two keyholes at the ends of the lower one.
+//! Trackability by an X/Y mount: all of the sky but two keyholes at the ends of the lower axis.
 
 use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
@@ -6,7 +6,6 @@ use crate::{
     station::Mount,
 };
 
-/// See [`super::trackability`].
 pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
     let Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } = limits.mount else {
         return Trackability::Nothing;
@@ -14,7 +13,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
     let axes = |sample: &Sample| {
         let axes = xy_mount::axes_from_azel(sample.direction, lower_axis);
-        // The travel is counted as the controller counts: 90 at the zenith.
+        // The travel counts as the controller does: 90 at the zenith.
         [axes.lower.degrees() + 90.0, axes.upper.degrees() + 90.0]
     };
     let mut lost_s = 0.0;
