@@ -1,5 +1,5 @@
-//! What the views show, and what they ask for. The window's shell alone changes it; a
-//! view reads it and queues commands.
+//! The model: what the views show and ask for. Only the shell of the window changes it; a view
+//! reads it and queues commands.
 
 pub mod clearance;
 pub mod command;

@@ -1,4 +1,4 @@
-//! When the selected pass is clear of the horizon mask.
+//! The stretches of the selected pass above the horizon mask.
 
 use crate::{
     astro::{HorizonMask, Site},
@@ -6,7 +6,7 @@ use crate::{
     orbit::{Pass, clear_stretches},
 };
 
-/// How the horizon mask cuts a pass. Made anew only for another pass or mask.
+/// The cut of a pass by the horizon mask, recomputed only for another pass or mask.
 #[derive(Debug, Default)]
 pub struct Clearance {
     cut: Option<Vec<Pass>>,
@@ -14,8 +14,8 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The stretches above the mask, in order: none at all where the mask hides
-    /// the whole pass, `None` where it cuts nothing off.
+    /// The stretches above the mask, in order: empty where the mask hides the whole pass,
+    /// `None` where it cuts nothing off.
     pub fn cut(&self) -> Option<&[Pass]> {
         self.cut.as_deref()
     }

@@ -4,20 +4,18 @@ use jiff::Timestamp;
 
 use crate::astro::{Site, sun_moon, time::add_seconds};
 
-/// The Sun's upper edge shows when its centre is this far below the horizon:
-/// its radius and the refraction together.
+/// Depth of the centre of the Sun below the horizon at sunrise and sunset: its radius and the
+/// refraction together.
 const RISE_DEG: f64 = -0.833;
-/// How far back and ahead.
 const SPAN_MIN: (i32, i32) = (-60, 25 * 60);
 
 /// A stretch of day or of night.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunSpan {
-    /// When it begins; sunrise or sunset, but for the first.
+    /// Sunrise or sunset, but for the first.
     pub from: Timestamp,
-    /// When it ends.
     pub to: Timestamp,
-    /// Day.
+    /// `false` for night.
     pub up: bool,
 }
 

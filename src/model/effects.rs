@@ -1,5 +1,5 @@
-//! What the horizon mask and the keep-outs do to the passes of the favourites in
-//! the next 48 hours, as saved and as edited. Worked out on a thread.
+//! Effects of the horizon mask and the keep-outs, as saved and as edited, on the passes of the
+//! favourites in the next 48 hours. Worked out on a thread.
 
 use std::{ops::Range, sync::Arc, time::Duration};
 
@@ -14,25 +14,25 @@ use crate::{
     station::{Entered, KeepOut, SunAvoidance},
 };
 
-/// So long nothing may change before the work begins.
+/// Time without a change before the work begins.
 pub const DEBOUNCE: Duration = Duration::from_millis(300);
-/// Of the samples of a track, each so many is looked at: every 6 s.
+/// Every how many samples of a track one is checked: every 6 s.
 const EVERY: usize = 3;
-/// The Sun is looked at each so many seconds: it moves a tenth of a degree.
+/// Interval between two places of the Sun, seconds: the Sun moves a tenth of a degree.
 const SUN_STEP_S: f64 = 24.0;
 
-/// What stands in the way of an antenna.
+/// The obstacles of an antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacles {
-    /// What blocks the sky.
+    /// The horizon mask.
     pub mask: Option<HorizonMask>,
-    /// Where antennas must not point.
+    /// The keep-outs.
     pub keep_outs: Vec<KeepOut>,
-    /// How far antennas stay away from the Sun.
+    /// Sun avoidance.
     pub sun: Option<SunAvoidance>,
 }
 
-/// What is to be compared.
+/// A question: the obstacles to compare.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
     /// As saved.
@@ -43,11 +43,11 @@ pub struct Question {
     pub antenna: Option<String>,
     /// Half of the width of its beam.
     pub half_beam: Angle,
-    /// From where the Sun is seen.
+    /// The site.
     pub site: Site,
 }
 
-/// The way of a satellite through one pass.
+/// The track of a satellite through one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Way {
     /// Catalog number.
@@ -56,38 +56,37 @@ pub struct Way {
     pub samples: Vec<Sample>,
 }
 
-/// What a keep-out does to the passes.
+/// Effect of a keep-out on the passes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Toll {
-    /// How many passes it touches.
+    /// Number of passes that it touches.
     pub passes: usize,
     /// Time of all these passes in it, seconds.
     pub time_s: f64,
-    /// Which samples of which ways lie in it.
+    /// The samples of each way that lie in it.
     pub blocked: Vec<(usize, Range<usize>)>,
 }
 
-/// What all obstacles together do to the passes.
+/// Effect of all obstacles on the passes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tally {
     /// Passes that a keep-out or the Sun touches.
     pub touched: usize,
     /// Time lost to the Sun, and in keep-outs that do more than warn, seconds.
     pub lost_s: f64,
-    /// Passes of which these leave nothing.
+    /// Passes of which nothing is left.
     pub impossible: usize,
     /// Passes that the mask cuts.
     pub masked: usize,
-    /// Of each keep-out, in their order.
+    /// Effect of each keep-out, in their order.
     pub of_each: Vec<Toll>,
-    /// Of the Sun; `None` where it is not kept away from.
+    /// Effect of the Sun; `None` without Sun avoidance.
     pub of_sun: Option<Toll>,
 }
 
 /// The answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effect {
-    /// To what.
     pub question: Question,
     /// The passes of the next 48 hours.
     pub ways: Arc<[Way]>,
@@ -95,28 +94,27 @@ pub struct Effect {
     pub before: Tally,
     /// As edited.
     pub after: Tally,
-    /// The number of the list of passes that it is about.
+    /// Edition of the list of passes.
     pub edition: u64,
 }
 
-/// What was asked, and the last answer.
+/// The last question and its answer.
 #[derive(Default)]
 pub struct Effects {
-    /// Stays until the next one, so that the view does not flicker.
+    /// Kept until the next one, so that the view does not flicker.
     pub effect: Option<Effect>,
-    /// What is asked, and since when.
+    /// The question, and the time it was asked first.
     pub asked: Option<(Question, Instant)>,
 }
 
 impl Effects {
-    /// Asks anew. The work begins once nothing was asked for a while.
+    /// Asks a question. The work begins once no other was asked for a while.
     pub fn ask(&mut self, question: Question, now: Instant) {
         if self.wanted() != Some(&question) {
             self.asked = Some((question, now));
         }
     }
 
-    /// The last question.
     pub fn wanted(&self) -> Option<&Question> {
         self.asked.as_ref().map(|(question, _)| question)
     }
@@ -132,7 +130,6 @@ pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[Way]
     wanted.take_while(|_| !cancelled()).map(way).collect()
 }
 
-/// Works out the answer.
 pub fn answer(question: Question, ways: &Arc<[Way]>, edition: u64) -> Effect {
     let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
     let (before, after) = (tally(&question.before), tally(&question.after));
@@ -208,7 +205,7 @@ impl Toll {
     }
 }
 
-/// Which of the samples that are `seen` lie too near to the Sun, now or in its time
+/// Whether each of the samples that are `seen` lies too near to the Sun, now or in its time
 /// ahead.
 fn near_sun(sun: SunAvoidance, site: Site, way: &Way, seen: &[bool]) -> Vec<bool> {
     let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
@@ -229,7 +226,7 @@ fn near_sun(sun: SunAvoidance, site: Site, way: &Way, seen: &[bool]) -> Vec<bool
     way.samples.iter().zip(seen).map(is_near).collect()
 }
 
-/// Where `inside` holds without a break.
+/// The unbroken runs of `inside`.
 fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for (index, _) in inside.iter().enumerate().filter(|(_, inside)| **inside) {
@@ -241,7 +238,7 @@ fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
     found
 }
 
-/// How long a stretch takes: half a step more at each end, where the way goes on.
+/// Duration of a stretch: half a step more at each end where the way goes on.
 fn time_s(way: &Way, stretch: &Range<usize>) -> f64 {
     let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
     let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {

@@ -1,4 +1,4 @@
-//! One line of the log: what went over the link, and what it says.
+//! One line of the log: bytes of a link and their meaning.
 
 use std::{fmt::Write as _, sync::Arc};
 
@@ -12,15 +12,11 @@ use crate::{
 /// One line of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
-    /// Its place among all lines of all antennas.
+    /// Number among the lines of all antennas.
     pub position: u64,
-    /// Name of the antenna.
     pub antenna: Arc<str>,
-    /// What went over the link.
     pub recorded: Arc<Recorded>,
-    /// Its bytes as text.
     pub raw: String,
-    /// What it says.
     pub meaning: Meaning,
 }
 
@@ -37,19 +33,18 @@ impl Line {
         Self { position, antenna, recorded, raw, meaning }
     }
 
-    /// What went over the link.
     pub fn wire(&self) -> &WireLine {
         &self.recorded.line
     }
 
-    /// The usual question or answer, with nothing odd about it.
+    /// Whether this is a routine question or answer, with nothing odd about it.
     pub fn is_usual_poll(&self) -> bool {
         let is_calm = matches!(self.meaning.tone, Tone::Plain | Tone::Good);
         self.wire().is_poll && self.wire().finding.is_good() && is_calm
     }
 
-    /// Whether `needle`, in lower case, stands in its bytes, its meaning or the
-    /// name of its antenna.
+    /// Whether `needle`, in lower case, is in the bytes, the meaning or the name of the
+    /// antenna.
     pub fn has(&self, needle: &str) -> bool {
         let texts = [self.raw.as_str(), &self.meaning.text, &self.antenna];
         texts.into_iter().any(|text| text.to_lowercase().contains(needle))
@@ -60,7 +55,7 @@ impl Line {
         self.wire().at.to_zoned(TimeZone::UTC).strftime("%H:%M:%S.%3f").to_string()
     }
 
-    /// How long the reply took, such as "34 ms".
+    /// Round trip, such as "34 ms".
     pub fn round_trip(&self) -> Option<String> {
         let after = self.wire().reply_after?;
         Some(format!("{:.0} ms", after.as_secs_f64() * 1000.0))
@@ -112,7 +107,7 @@ pub fn pieces(bytes: &[u8]) -> Vec<Piece> {
     pieces
 }
 
-/// What its make has no words for stands in its bytes.
+/// The bytes stand for a meaning that the make has no words for.
 fn unnamed(direction: Direction, length: usize) -> Meaning {
     let kind = if direction == Direction::Sent { "Request" } else { "Reply" };
     let plural = if length == 1 { "" } else { "s" };

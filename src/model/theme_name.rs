@@ -1,6 +1,5 @@
 //! The themes by name.
 
-/// Which of the three themes is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeName {

@@ -1,4 +1,4 @@
-//! All elements the operator has, the newest of every object.
+//! The catalog: all elements that the operator has, the newest of every object.
 
 use std::cmp::Ordering;
 
@@ -6,10 +6,9 @@ use jiff::Timestamp;
 
 use super::{Elements, Note, ReadReport, Refusal, RefusalReason};
 
-/// The newest elements of every object, and the sources each came from.
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
-    /// In the order of their numbers: a sorted list takes half the memory of a map.
+    /// By number: a sorted list takes half the memory of a map.
     entries: Vec<Entry>,
     groups: Vec<Group>,
 }
@@ -17,11 +16,11 @@ pub struct Catalog {
 #[derive(Debug, Clone)]
 struct Entry {
     elements: Elements,
-    /// The line of the source where they start, from 1.
+    /// Line of the source, from 1.
     line: u32,
 }
 
-/// What one source holds.
+/// The objects of one source.
 #[derive(Debug, Clone)]
 struct Group {
     name: String,
@@ -29,27 +28,26 @@ struct Group {
     members: Vec<u32>,
 }
 
-/// What a merge changed.
+/// The changes of a merge.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MergeSummary {
     /// Objects the catalog did not have.
     pub added: usize,
     /// Objects that got a newer epoch.
     pub updated: usize,
-    /// Sets of the same epoch as the one that was held.
+    /// Sets of the same epoch as the known one.
     pub known: usize,
-    /// Objects that could not be read, and sets older than what was held.
+    /// Objects that could not be read, and sets older than the known one.
     pub refused: Vec<Refusal>,
-    /// How many more were refused.
+    /// Refused beyond those listed.
     pub refused_unlisted: usize,
-    /// What was taken although it is not as it should be.
+    /// Oddities of sets that were accepted.
     pub notes: Vec<Note>,
 }
 
 impl Catalog {
-    /// Takes over what was read from `source`. The newest epoch of an object
-    /// wins, whatever the order of merging. A set without a name leaves the
-    /// name that is known.
+    /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
+    /// merging. A set without a name leaves the known name.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
         let mut summary = MergeSummary {
             refused: report.refused,
@@ -91,7 +89,7 @@ impl Catalog {
         summary
     }
 
-    /// The place of the group called `name`, which is made when it is new.
+    /// Index of the group called `name`, which is added when it is new.
     fn group(&mut self, name: &str) -> u32 {
         let place = self.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
             self.groups.push(Group { name: name.to_owned(), members: Vec::new() });
@@ -105,7 +103,6 @@ impl Catalog {
         self.entries.get(place)
     }
 
-    /// The elements of an object.
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
         self.entry(catalog_number).map(|entry| &entry.elements)
     }
@@ -150,17 +147,14 @@ impl Catalog {
         self.entries.iter().map(|entry| &entry.elements)
     }
 
-    /// How many objects there are.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
 
-    /// Whether there is no object.
     pub fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
-    /// The newest epoch of all.
     pub fn newest_epoch(&self) -> Option<Timestamp> {
         self.iter().map(Elements::epoch).max()
     }
@@ -171,7 +165,7 @@ impl Entry {
         self.elements.catalog_number()
     }
 
-    /// Keeps the newer of two sets of one object here and leaves the other.
+    /// Keeps the newer of two sets of one object and drops the other.
     fn settle(&mut self, other: &mut Self, summary: &mut MergeSummary) {
         let held = self.elements.epoch();
         match other.elements.epoch().cmp(&held) {

@@ -48,7 +48,7 @@ pub struct Elements {
     pub(super) classification: Classification,
 }
 
-/// Who may see a set.
+/// Classification of a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Classification {
     #[default]
@@ -86,13 +86,10 @@ pub enum ElementsError {
     /// is soon rounding noise, and so are the passes.
     #[error("{name} {value:?} is not from {least} to {most}")]
     OutOfRange {
-        /// Of the number.
         name: &'static str,
         /// Degrees, or B* per Earth radius.
         value: f64,
-        /// Its least value.
         least: f64,
-        /// Its greatest value.
         most: f64,
     },
     /// Outside [`EPOCH_YEARS`].
@@ -104,7 +101,7 @@ pub enum ElementsError {
 }
 
 impl Classification {
-    /// What the letter of a source means; other letters and none are unclassified.
+    /// Classification by the letter of a source; other letters and none are unclassified.
     pub(super) fn from_letter(letter: &str) -> Self {
         match letter {
             "C" => Self::Classified,
@@ -113,7 +110,7 @@ impl Classification {
         }
     }
 
-    /// The letter in every form.
+    /// The letter that all forms use.
     pub(super) fn letter(self) -> char {
         match self {
             Self::Unclassified => 'U',
@@ -132,7 +129,7 @@ pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
 }
 
 impl Elements {
-    /// Takes what a reader found, once it is sure to be an orbit.
+    /// Checks what a reader found.
     pub(super) fn checked(mut self) -> Result<Self, ElementsError> {
         // 2 and 3 are old marks for SGP4 and SDP4; all sources now write 0.
         if !matches!(self.ephemeris_type, 0 | 2 | 3) {
@@ -186,7 +183,7 @@ impl Elements {
         Ok(self)
     }
 
-    /// The name, empty when the source gave none.
+    /// Empty when the source gave none.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -196,7 +193,7 @@ impl Elements {
         if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }
     }
 
-    /// The catalog number, up to nine digits.
+    /// Up to nine digits.
     pub fn catalog_number(&self) -> u32 {
         self.catalog_number
     }
@@ -206,7 +203,7 @@ impl Elements {
         Some(self.international_designator.as_str()).filter(|text| !text.is_empty())
     }
 
-    /// The instant the elements describe best.
+    /// The instant that the elements describe best.
     pub fn epoch(&self) -> Timestamp {
         self.epoch
     }
@@ -216,12 +213,11 @@ impl Elements {
         self.mean_motion_rev_day
     }
 
-    /// Inclination to the equator.
     pub fn inclination(&self) -> Angle {
         Angle::from_degrees(self.inclination_deg)
     }
 
-    /// Eccentricity, from 0 to below 1.
+    /// From 0 to below 1.
     pub fn eccentricity(&self) -> f64 {
         self.eccentricity
     }
@@ -242,7 +238,7 @@ impl Elements {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }
 
-    /// Takes over name and designator where this set has none.
+    /// Takes name and designator from `other` where this set has none.
     pub(super) fn take_name(&mut self, other: &Self) {
         for (own, other) in [
             (&mut self.name, &other.name),
@@ -254,7 +250,7 @@ impl Elements {
         }
     }
 
-    /// What the propagator computes with; name and designator stay behind.
+    /// The elements as the SGP4 library takes them, without name and designator.
     pub(super) fn sgp4(&self) -> sgp4::Elements {
         sgp4::Elements {
             object_name: None,

@@ -23,17 +23,15 @@ const LIGHT_KM_S: f64 = 299_792.458;
 /// Direction, distance and speed of a satellite as seen from a site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LookAngles {
-    /// Where to look.
     pub direction: AzEl,
-    /// Distance in km.
     pub range_km: f64,
-    /// Change of the distance in km/s, negative when approaching.
+    /// Negative when approaching.
     pub range_rate_km_s: f64,
 }
 
 impl LookAngles {
-    /// The shift, in Hz, of a carrier of `carrier_hz` sent by the satellite:
-    /// positive when approaching. First order in v/c.
+    /// Doppler shift of a carrier of `carrier_hz` that the satellite sends, Hz: positive when
+    /// approaching. First order in v/c.
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
         -self.range_rate_km_s / LIGHT_KM_S * carrier_hz
     }

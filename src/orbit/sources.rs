@@ -1,4 +1,4 @@
-//! Where elements come from, what came of it, and how often a server is asked.
+//! Sources of elements, the state of each, and how often a server may be asked.
 
 use std::path::PathBuf;
 
@@ -13,17 +13,15 @@ use crate::astro::time;
 /// shuts out who asks for them more often.
 pub const FETCH_PAUSE: SignedDuration = SignedDuration::from_hours(2);
 
-/// Something that holds elements; also the group its objects are in.
+/// A source of elements; also the group of its objects.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
-    /// What the operator calls it.
     pub name: String,
-    /// Where it is.
     #[serde(flatten)]
     pub place: Place,
 }
 
-/// Where a source is.
+/// The place of a source.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
@@ -81,10 +79,9 @@ pub enum FetchProblem {
     Disk(String),
 }
 
-/// What is held of one source.
+/// The state of one source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SourceReport {
-    /// Its name.
     pub source: String,
     /// Its files: one, or all of a folder; none when nothing was fetched yet.
     pub files: Vec<FileReport>,
@@ -101,26 +98,22 @@ pub struct SourceReport {
     pub is_set_aside: bool,
 }
 
-/// What was read from one file.
+/// The state of one file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileReport {
-    /// Where it is.
     pub path: PathBuf,
-    /// How many objects it holds.
     pub objects: usize,
-    /// What they changed in the catalog, and what was refused.
+    /// Changes in the catalog, and refusals.
     pub merge: MergeSummary,
     /// Why it could not be read at all, in the words of the operating system.
     pub problem: Option<String>,
 }
 
 impl SourceReport {
-    /// How many objects were read.
     pub fn objects(&self) -> usize {
         self.files.iter().map(|file| file.objects).sum()
     }
 
-    /// How many objects were refused.
     pub fn refused(&self) -> usize {
         let merges = self.files.iter().map(|file| &file.merge);
         merges.map(|merge| merge.refused.len() + merge.refused_unlisted).sum()

@@ -62,7 +62,7 @@ impl Field {
     }
 }
 
-/// What a field holds.
+/// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 enum Value<'a> {
     /// Text, which may write a number.
@@ -92,17 +92,15 @@ impl<'a> Message<'a> {
         }
     }
 
-    /// Whether a field has a value.
     fn has(&self, field: Field) -> bool {
         self.values.get(field.0).is_some_and(Option::is_some)
     }
 
-    /// Whether no field has a value.
     fn is_empty(&self) -> bool {
         self.values.iter().all(Option::is_none)
     }
 
-    /// Adds what the message tells to `report`; nothing when it tells nothing.
+    /// Adds the elements of the message to `report`; nothing for an empty message.
     fn finish(&self, line: usize, report: &mut ReadReport) {
         if self.is_empty() {
             return;
@@ -123,7 +121,6 @@ impl<'a> Message<'a> {
         field("OBJECT_NAME").or_else(|| field("NORAD_CAT_ID"))
     }
 
-    /// The elements the message tells.
     fn elements(&self) -> Result<Elements, RefusalReason> {
         self.is_sgp4()?;
         let number = self
@@ -172,7 +169,7 @@ impl<'a> Message<'a> {
         self.values.get(Field::named(name)?.0)?.as_ref()
     }
 
-    /// A text that says something.
+    /// Text that is not empty.
     fn text(&self, name: &'static str) -> Option<&str> {
         match self.value(name)? {
             Value::Text(text) => Some(text.trim()),
@@ -197,7 +194,7 @@ impl<'a> Message<'a> {
         whole.map(Some).ok_or(RefusalReason::Field(name))
     }
 
-    /// A whole number that is 0 when nothing is said.
+    /// A whole number, 0 when absent.
     fn count<T: TryFrom<u64>>(&self, name: &'static str) -> Result<T, RefusalReason> {
         let count = self.read(name, numbers::digits)?.unwrap_or(0);
         T::try_from(count).map_err(|_| RefusalReason::Field(name))

@@ -1,51 +1,49 @@
-//! What a text held: elements, refusals, notes.
+//! The result of reading a text: elements, refusals, notes.
 
 use crate::orbit::{Elements, elements::ElementsError};
 
-/// How many refusals and notes are listed one by one. A text that is all wrong
-/// says the same thing over and over, and must not fill the memory with it.
+/// Most refusals and notes that are listed one by one. A text that is all wrong says the same
+/// thing over and over, and must not fill the memory with it.
 const MAX_LISTED: usize = 100_000;
 /// Characters of a name that are kept to name a refused object.
 const MAX_OBJECT_CHARS: usize = 60;
 
-/// What a text held.
+/// The result of reading a text.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadReport {
     /// The objects that were read, in the order of the text.
     pub elements: Vec<Elements>,
-    /// The objects that were not, in the order of the text, the first 100,000.
+    /// Refused objects in the order of the text, the first 100,000.
     pub refused: Vec<Refusal>,
-    /// How many more were refused.
+    /// Refused beyond those listed.
     pub refused_unlisted: usize,
-    /// What was accepted although it is not as it should be, the first 100,000.
+    /// Oddities of accepted objects, the first 100,000.
     pub notes: Vec<Note>,
     /// The line of each of `elements`, from 1.
     pub(in crate::orbit) lines: Vec<u32>,
 }
 
-/// One object that was not taken.
+/// A refused object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refusal {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
     /// Its name or catalog number, as far as they could be read.
     pub object: Option<String>,
-    /// Why it was refused.
     pub reason: RefusalReason,
 }
 
-/// Something odd about an object that was taken.
+/// An oddity of an accepted object.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
     /// Its name or catalog number.
     pub object: Option<String>,
-    /// What is odd.
     pub kind: NoteKind,
 }
 
-/// What can be odd about an object that is still taken.
+/// Oddities of objects that are still accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoteKind {
     /// Nothing guards the line of a TLE against wrong characters.
@@ -56,7 +54,6 @@ pub enum NoteKind {
     },
 }
 
-/// Why an object was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RefusalReason {
     /// A TLE line 1 without its line 2, or the other way about.
@@ -124,31 +121,23 @@ pub enum RefusalReason {
     Xml,
     /// A row of a CSV has not as many fields as its header.
     #[error("the row has {found} of {expected} fields")]
-    FieldCount {
-        /// How many fields it has.
-        found: usize,
-        /// How many the header has.
-        expected: usize,
-    },
+    FieldCount { found: usize, expected: usize },
     /// The numbers are no orbit.
     #[error(transparent)]
     Orbit(#[from] ElementsError),
     /// The catalog holds a newer set of this object.
     #[error("older than the set that is held, of {held}")]
-    OlderThanHeld {
-        /// Its epoch.
-        held: jiff::Timestamp,
-    },
+    OlderThanHeld { held: jiff::Timestamp },
 }
 
 impl ReadReport {
-    /// Adds an object that starts at `line`.
+    /// Accepts an object that starts at `line`.
     pub(super) fn accept(&mut self, line: usize, elements: Elements) {
         self.elements.push(elements);
         self.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
     }
 
-    /// Adds an object that cannot be taken.
+    /// Refuses an object.
     pub(super) fn refuse(&mut self, line: usize, object: Option<&str>, reason: RefusalReason) {
         if self.refused.len() < MAX_LISTED {
             self.refused.push(Refusal { line, object: object.map(shortened), reason });
@@ -157,7 +146,7 @@ impl ReadReport {
         }
     }
 
-    /// Says what is odd about an object that is taken.
+    /// Notes an oddity of an accepted object.
     pub(super) fn note(&mut self, line: usize, object: Option<&str>, kind: NoteKind) {
         if self.notes.len() < MAX_LISTED {
             self.notes.push(Note { line, object: object.map(shortened), kind });
