@@ -3,13 +3,12 @@
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::{
-    bodies::around,
     geometry::{Dome, sharp},
     labels::Labels,
     marks,
     scene::SkyScene,
 };
-use crate::ui::{text, tokens::Tokens};
+use crate::ui::{text, tokens::Tokens, widgets::paint};
 
 /// The smallest ring that can be seen around a satellite, points.
 const SMALLEST_RING: f32 = 22.0;
@@ -37,7 +36,7 @@ fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)
 /// Keeps labels away from the cross-hair and the rings.
 pub(super) fn reserve(dome: Dome, scene: &SkyScene<'_>, labels: &mut Labels<'_>) {
     for (at, radius) in circles(dome, scene) {
-        labels.reserve(around(at, 2.0 * radius));
+        labels.reserve(paint::square(at, 2.0 * radius));
     }
     if let Some(measured) = scene.measured.filter(|measured| measured.lost.is_some())
         && let Some(at) = dome.point(measured.direction)

@@ -1,6 +1,6 @@
 //! The Sun, the Moon and the satellites that are not selected.
 
-use egui::{Painter, Pos2, Rect, Stroke, Vec2};
+use egui::{Painter, Stroke};
 
 use super::{
     antenna,
@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::AzEl,
-    ui::{format, text, tokens::Tokens},
+    ui::{format, text, tokens::Tokens, widgets::paint},
 };
 
 /// Names of other satellites below this elevation are left out, degrees.
@@ -31,11 +31,11 @@ pub(super) fn sun_and_moon(
     let at = |body: Option<AzEl>| body.and_then(|direction| dome.visible(direction));
     if let Some(at) = at(scene.sun) {
         marks::sun(painter, at, t);
-        labels.reserve(around(at, 22.0));
+        labels.reserve(paint::square(at, 22.0));
     }
     if let Some(at) = at(scene.moon) {
         marks::moon(painter, at, t);
-        labels.reserve(around(at, 16.0));
+        labels.reserve(paint::square(at, 16.0));
     }
 }
 
@@ -84,7 +84,7 @@ pub(super) fn others(
         labels.reserve_path(&path, 3.0);
         painter.extend(dashed(&path, 1.5, 4.0, Stroke::new(1.25, t.other)));
         marks::other(painter, at, satellite.geostationary, t);
-        labels.reserve(around(at, 8.0));
+        labels.reserve(paint::square(at, 8.0));
     }
 }
 
@@ -104,9 +104,4 @@ pub(super) fn label_others(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene
             tolerance: 0.4,
         });
     }
-}
-
-/// A square around a mark.
-pub(super) fn around(at: Pos2, side: f32) -> Rect {
-    Rect::from_center_size(at, Vec2::splat(side))
 }
