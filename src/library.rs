@@ -29,8 +29,8 @@ use self::{
 };
 use crate::{
     orbit::{
-        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Place, Source,
-        SourceReport, may_fetch, read_element_bytes,
+        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Source,
+        SourcePlace, SourceReport, may_fetch, read_element_bytes,
     },
     whole_file,
 };
@@ -98,15 +98,15 @@ impl Library {
     fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
         let mut report = no_report(source);
         let paths = match &source.place {
-            Place::File(path) => vec![path.clone()],
-            Place::Folder(path) => match disk::files(path, &ENDINGS) {
+            SourcePlace::File(path) => vec![path.clone()],
+            SourcePlace::Folder(path) => match disk::files(path, &ENDINGS) {
                 Ok(paths) => paths,
                 Err(error) => {
                     report.files.push(unread(path, &error));
                     return report;
                 }
             },
-            Place::Web(url) => {
+            SourcePlace::Web(url) => {
                 let Some(record) = self.index.get(url) else { return report };
                 report.fetch_problem.clone_from(&record.problem);
                 report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
@@ -122,7 +122,7 @@ impl Library {
                     drop(file.bytes);
                     let newest = read.elements.iter().map(Elements::epoch).max();
                     report.newest_epoch = report.newest_epoch.max(newest);
-                    if !matches!(source.place, Place::Web(_)) {
+                    if !matches!(source.place, SourcePlace::Web(_)) {
                         report.as_of = report.as_of.max(file.modified);
                     }
                     let objects = read.elements.len();
@@ -152,7 +152,7 @@ impl Library {
         let mut renewed = 0;
         let mut silent_hosts: Vec<String> = Vec::new();
         for source in sources {
-            let Place::Web(url) = &source.place else { continue };
+            let SourcePlace::Web(url) = &source.place else { continue };
             let last = self.index.get(url).map(|record| record.attempted_at);
             if cancelled() {
                 break;

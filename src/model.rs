@@ -1,11 +1,11 @@
 //! The model: what the views show and ask for. Only the shell of the window changes it; a view
 //! reads it and queues commands.
 
-pub mod clearance;
 pub mod command;
 pub mod daylight;
 pub mod effects;
 mod line;
+pub mod mask_cut;
 mod theme_name;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -14,12 +14,12 @@ use jiff::Timestamp;
 
 #[cfg(test)]
 pub(crate) use self::line::testing;
-use self::{clearance::Clearance, daylight::SunSpan, effects::Effects};
 pub use self::{
     command::UiCommand,
     line::{Line, Piece, pieces},
     theme_name::ThemeName,
 };
+use self::{daylight::SunSpan, effects::Effects, mask_cut::MaskCut};
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
     clock::Instant,
@@ -124,7 +124,7 @@ pub struct Sky {
     /// The satellite of the selected pass, up or not.
     pub selected: Option<Selected>,
     /// What the horizon mask leaves of the selected pass.
-    pub clearance: Clearance,
+    pub mask_cut: MaskCut,
     /// The Sun.
     pub sun: Option<AzEl>,
     /// The Moon.
@@ -237,7 +237,7 @@ impl Model {
     pub fn refresh_sky(&mut self) {
         let (site, now) = (self.station.site, self.now);
         let pass = self.selected.and_then(|key| self.pass_lists.find(key));
-        self.sky.clearance.refresh(pass, site, self.station.horizon_mask.as_ref());
+        self.sky.mask_cut.refresh(pass, site, self.station.horizon_mask.as_ref());
         let selected = self.selected_pass().map(|predicted| Arc::clone(&predicted.satellite));
         self.sky.refresh(&self.pass_lists.favourites.satellites, selected.as_deref(), site, now);
     }

@@ -24,7 +24,9 @@ pub use reader::{
     Note, NoteKind, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,
 };
 pub use shadow::is_sunlit;
-pub use sources::{FETCH_PAUSE, FetchProblem, FileReport, Place, Source, SourceReport, may_fetch};
+pub use sources::{
+    FETCH_PAUSE, FetchProblem, FileReport, Source, SourcePlace, SourceReport, may_fetch,
+};
 pub use writer::{
     TleRefusal, TleRefusalReason, tle_lines, write_omm_csv, write_omm_json, write_tle,
 };

@@ -12,7 +12,7 @@ use std::{
 
 use azel::{
     library::{Library, Limits},
-    orbit::{FetchProblem, Place, Source, SourceReport},
+    orbit::{FetchProblem, Source, SourcePlace, SourceReport},
 };
 use jiff::{SignedDuration, Timestamp};
 
@@ -84,7 +84,7 @@ impl Server {
     fn source(&self, name: &str) -> Source {
         Source {
             name: name.to_owned(),
-            place: Place::Web(format!("http://{}/{name}", self.address)),
+            place: SourcePlace::Web(format!("http://{}/{name}", self.address)),
         }
     }
 
@@ -221,7 +221,7 @@ fn whatever_goes_wrong_leaves_what_was_held() {
     }
     // Nobody listens there any more.
     let gone = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
-    let source = Source { name: "gone".into(), place: Place::Web(format!("http://{gone}/")) };
+    let source = Source { name: "gone".into(), place: SourcePlace::Web(format!("http://{gone}/")) };
     let (_, report) = refresh(folder.path(), &source, start(), false, LIMITS);
     assert!(matches!(report.fetch_problem, Some(FetchProblem::Unreachable(_))));
 }
@@ -248,10 +248,10 @@ fn files_folders_and_servers_make_one_catalog() {
     fs::create_dir(path("sets/c.tle")).unwrap();
     let source = |name: &str, place| Source { name: name.to_owned(), place };
     let sources = [
-        source("own", Place::File(path("own.json"))),
-        source("sets", Place::Folder(path("sets"))),
-        source("lost", Place::File(path("lost.tle"))),
-        source("nowhere", Place::Folder(path("nowhere"))),
+        source("own", SourcePlace::File(path("own.json"))),
+        source("sets", SourcePlace::Folder(path("sets"))),
+        source("lost", SourcePlace::File(path("lost.tle"))),
+        source("nowhere", SourcePlace::Folder(path("nowhere"))),
         Source::celestrak("active"),
     ];
     let (catalog, reports) = Library::open(&path("library"), LIMITS).unwrap().load(&sources);

@@ -17,7 +17,7 @@ use self::{input::Input, progress::Progress};
 use crate::{
     astro::{Angle, HorizonMask, Site, time},
     orbit::{Pass, PassSearch, clear_stretches, passes_of_all},
-    plan::pass_export::{PassFormat, PassRow, write_passes},
+    plan::pass_export::{ExportedPass, PassFormat, write_passes},
 };
 
 /// Passes were written, but some object was refused.
@@ -115,7 +115,7 @@ pub(super) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let mut rows: Vec<_> = found
         .iter()
         .filter_map(|(index, pass)| {
-            Some(PassRow { elements: &satellites.get(*index)?.elements, pass })
+            Some(ExportedPass { elements: &satellites.get(*index)?.elements, pass })
         })
         .collect();
     rows.sort_by_key(|row| (row.pass.aos.time, row.elements.catalog_number()));
@@ -152,7 +152,7 @@ fn clear_of(
 }
 
 /// Whoever reads may stop early, as `head` does.
-fn write(format: PassFormat, rows: &[PassRow<'_>], now: Timestamp) -> io::Result<()> {
+fn write(format: PassFormat, rows: &[ExportedPass<'_>], now: Timestamp) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match write_passes(&mut out, format, rows, now).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -157,7 +157,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::orbit::{Place, write_omm_json};
+    use crate::orbit::{SourcePlace, write_omm_json};
 
     const ISS: u32 = 25_544;
 
@@ -197,7 +197,7 @@ mod tests {
             list[0]["EPOCH"] = "2026-08-12T10:00:00.000000".into();
             let path = self.folder.path().join("own.json");
             fs::write(&path, list.to_string()).unwrap();
-            Source { name: "own".to_owned(), place: Place::File(path) }
+            Source { name: "own".to_owned(), place: SourcePlace::File(path) }
         }
     }
 
@@ -229,8 +229,10 @@ mod tests {
     #[test]
     fn a_source_that_is_not_there_says_so_and_costs_only_itself() {
         let desk = Desk::new();
-        let missing =
-            Source { name: "missing".to_owned(), place: Place::File("/no/such/file.tle".into()) };
+        let missing = Source {
+            name: "missing".to_owned(),
+            place: SourcePlace::File("/no/such/file.tle".into()),
+        };
         let list = Some(vec![missing, desk.newer_file()]);
         let outcome = desk.run(&Task { list, ..Task::default() });
         assert!(outcome.sources.reports[0].files[0].problem.is_some());

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fetch;
 use crate::{
-    orbit::{BUNDLED_SOURCE, Place, Source},
+    orbit::{BUNDLED_SOURCE, Source, SourcePlace},
     whole_file,
 };
 
@@ -76,10 +76,10 @@ pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProb
         return Err(SourceProblem::NameTaken);
     }
     match &source.place {
-        Place::File(path) | Place::Folder(path) if path.is_relative() => {
+        SourcePlace::File(path) | SourcePlace::Folder(path) if path.is_relative() => {
             Err(SourceProblem::RelativePath)
         }
-        Place::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
+        SourcePlace::Web(url) if fetch::check(url).is_err() => Err(SourceProblem::Address),
         _ => Ok(()),
     }
 }
@@ -132,7 +132,7 @@ pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError>
 mod tests {
     use super::*;
 
-    fn source(name: &str, place: Place) -> Source {
+    fn source(name: &str, place: SourcePlace) -> Source {
         Source { name: name.to_owned(), place }
     }
 
@@ -143,8 +143,8 @@ mod tests {
         assert_eq!(load_sources(&path).unwrap(), []);
         let sources = [
             Source::celestrak("weather"),
-            source("Şile \"own\"", Place::File("/var/elements/own.tle".into())),
-            source("All", Place::Folder("/var/elements".into())),
+            source("Şile \"own\"", SourcePlace::File("/var/elements/own.tle".into())),
+            source("All", SourcePlace::Folder("/var/elements".into())),
         ];
         save_sources(&sources, &path).unwrap();
         assert_eq!(load_sources(&path).unwrap(), sources);
@@ -173,15 +173,15 @@ mod tests {
     #[test]
     fn only_what_can_be_asked_and_told_apart_is_added() {
         let known = [Source::celestrak("weather")];
-        let web = |url: &str| Place::Web(url.to_owned());
+        let web = |url: &str| SourcePlace::Web(url.to_owned());
         for (name, place, expected) in [
-            ("own", Place::File("/a/b.tle".into()), Ok(())),
+            ("own", SourcePlace::File("/a/b.tle".into()), Ok(())),
             ("noaa", web("https://celestrak.org/x"), Ok(())),
             (" ", web("https://celestrak.org/x"), Err(SourceProblem::NoName)),
-            ("weather", Place::File("/a".into()), Err(SourceProblem::NameTaken)),
-            (BUNDLED_SOURCE, Place::File("/a".into()), Err(SourceProblem::NameTaken)),
-            ("own", Place::Folder("b".into()), Err(SourceProblem::RelativePath)),
-            ("own", Place::File("".into()), Err(SourceProblem::RelativePath)),
+            ("weather", SourcePlace::File("/a".into()), Err(SourceProblem::NameTaken)),
+            (BUNDLED_SOURCE, SourcePlace::File("/a".into()), Err(SourceProblem::NameTaken)),
+            ("own", SourcePlace::Folder("b".into()), Err(SourceProblem::RelativePath)),
+            ("own", SourcePlace::File("".into()), Err(SourceProblem::RelativePath)),
             ("own", web("http://celestrak.org/x"), Err(SourceProblem::Address)),
             ("own", web("https://me:word@celestrak.org/x"), Err(SourceProblem::Address)),
         ] {

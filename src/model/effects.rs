@@ -49,7 +49,7 @@ pub struct Question {
 
 /// The track of a satellite through one pass.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Way {
+pub struct PassTrack {
     /// Catalog number.
     pub number: u32,
     /// In the order of time.
@@ -89,7 +89,7 @@ pub struct Tally {
 pub struct Effect {
     pub question: Question,
     /// The passes of the next 48 hours.
-    pub ways: Arc<[Way]>,
+    pub ways: Arc<[PassTrack]>,
     /// As saved.
     pub before: Tally,
     /// As edited.
@@ -121,22 +121,22 @@ impl Effects {
 }
 
 /// The ways of all passes, or of those that there was time for.
-pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[Way]> {
+pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[PassTrack]> {
     let wanted = passes.iter().filter(|predicted| !predicted.is_always_up());
-    let way = |predicted: &PredictedPass| Way {
+    let way = |predicted: &PredictedPass| PassTrack {
         number: predicted.number(),
         samples: predicted.track().iter().step_by(EVERY).copied().collect(),
     };
     wanted.take_while(|_| !cancelled()).map(way).collect()
 }
 
-pub fn answer(question: Question, ways: &Arc<[Way]>, edition: u64) -> Effect {
+pub fn answer(question: Question, ways: &Arc<[PassTrack]>, edition: u64) -> Effect {
     let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
     let (before, after) = (tally(&question.before), tally(&question.after));
     Effect { ways: Arc::clone(ways), before, after, edition, question }
 }
 
-fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
+fn tally(obstacles: &Obstacles, question: &Question, ways: &[PassTrack]) -> Tally {
     let mut tally = Tally::default();
     tally.of_each.resize(obstacles.keep_outs.len(), Toll::default());
     tally.of_sun = obstacles.sun.map(|_| Toll::default());
@@ -198,7 +198,7 @@ fn tally(obstacles: &Obstacles, question: &Question, ways: &[Way]) -> Tally {
 }
 
 impl Toll {
-    fn add(&mut self, index: usize, way: &Way, stretches: Vec<Range<usize>>) {
+    fn add(&mut self, index: usize, way: &PassTrack, stretches: Vec<Range<usize>>) {
         self.passes += 1;
         self.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
         self.blocked.extend(stretches.into_iter().map(|of| (index, of)));
@@ -207,7 +207,7 @@ impl Toll {
 
 /// Whether each of the samples that are `seen` lies too near to the Sun, now or in its time
 /// ahead.
-fn near_sun(sun: SunAvoidance, site: Site, way: &Way, seen: &[bool]) -> Vec<bool> {
+fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, seen: &[bool]) -> Vec<bool> {
     let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
         return Vec::new();
     };
@@ -239,7 +239,7 @@ fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
 }
 
 /// Duration of a stretch: half a step more at each end where the way goes on.
-fn time_s(way: &Way, stretch: &Range<usize>) -> f64 {
+fn time_s(way: &PassTrack, stretch: &Range<usize>) -> f64 {
     let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
     let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {
         return 0.0;
@@ -257,13 +257,13 @@ mod tests {
 
     use super::*;
     /// At 20 degrees of elevation from north over east to south, a degree each 6 s.
-    fn way() -> Way {
+    fn way() -> PassTrack {
         let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
         let samples = (0..=180).map(|step| Sample {
             time: add_seconds(start, f64::from(step) * 6.0),
             direction: AzEl::from_degrees(f64::from(step), 20.0),
         });
-        Way { number: 1, samples: samples.collect() }
+        PassTrack { number: 1, samples: samples.collect() }
     }
 
     fn keep_out(from_deg: f64, to_deg: f64, entered: Entered) -> KeepOut {
@@ -309,9 +309,9 @@ mod tests {
                     ..place
                 },
             });
-            Way { number: 1, samples: samples.collect() }
+            PassTrack { number: 1, samples: samples.collect() }
         };
-        let tally = |way: &Way, sun| {
+        let tally = |way: &PassTrack, sun| {
             let after = Obstacles { mask: None, keep_outs: Vec::new(), sun };
             answer(question(after), &[way.clone()].into(), 0).after
         };

@@ -18,13 +18,13 @@ pub const FETCH_PAUSE: SignedDuration = SignedDuration::from_hours(2);
 pub struct Source {
     pub name: String,
     #[serde(flatten)]
-    pub place: Place,
+    pub place: SourcePlace,
 }
 
 /// The place of a source.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Place {
+pub enum SourcePlace {
     /// A file of elements in any form.
     File(PathBuf),
     /// All files of elements in a folder, without the folders in it.
@@ -38,7 +38,7 @@ impl Source {
     /// carries no object that was cataloged after July 2026.
     pub fn celestrak(group: &str) -> Self {
         let url = format!("https://celestrak.org/NORAD/elements/gp.php?GROUP={group}&FORMAT=json");
-        Self { name: group.to_owned(), place: Place::Web(url) }
+        Self { name: group.to_owned(), place: SourcePlace::Web(url) }
     }
 }
 
@@ -146,7 +146,7 @@ mod tests {
         struct Settings {
             source: Vec<Source>,
         }
-        let file = Source { name: "Own".to_owned(), place: Place::File("own.tle".into()) };
+        let file = Source { name: "Own".to_owned(), place: SourcePlace::File("own.tle".into()) };
         let settings = Settings { source: vec![Source::celestrak("active"), file] };
         let text = toml::to_string(&settings).unwrap();
         assert!(text.contains("web = \"https://celestrak.org/"), "{text}");

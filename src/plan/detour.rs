@@ -54,9 +54,9 @@ impl AxisLimits {
 }
 
 /// A place of the grid, relative to the start.
-type Place = (i32, i32);
+type Cell = (i32, i32);
 
-const NEIGHBOURS: [Place; 8] =
+const NEIGHBOURS: [Cell; 8] =
     [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
 /// The quickest way of the axes between two places that stays outside all barriers at `at`,
@@ -98,7 +98,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn axes_deg(&self, (first, second): Place) -> [f64; 2] {
+    fn axes_deg(&self, (first, second): Cell) -> [f64; 2] {
         let [a, b] = self.from_deg;
         [a + f64::from(first) * CELL_DEG, b + f64::from(second) * CELL_DEG]
     }
@@ -122,7 +122,7 @@ impl Search<'_> {
         }
         let mut open = BinaryHeap::new();
         // Cost and predecessor of each place; `None` for a place that is not free.
-        let mut known: HashMap<Place, Option<(u64, Place)>> = HashMap::new();
+        let mut known: HashMap<Cell, Option<(u64, Cell)>> = HashMap::new();
         known.insert((0, 0), Some((0, (0, 0))));
         open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0)));
         while let Some((_, place)) = open.pop() {
@@ -154,8 +154,8 @@ impl Search<'_> {
         None
     }
 
-    fn traced(&self, known: &HashMap<Place, Option<(u64, Place)>>, end: Place) -> Vec<[f64; 2]> {
-        let before = |place: &Place| {
+    fn traced(&self, known: &HashMap<Cell, Option<(u64, Cell)>>, end: Cell) -> Vec<[f64; 2]> {
+        let before = |place: &Cell| {
             let (_, before) = known.get(place).copied().flatten()?;
             (*place != (0, 0)).then_some(before)
         };

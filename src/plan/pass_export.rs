@@ -13,7 +13,7 @@ use crate::orbit::{Elements, Pass};
 
 /// A pass and its satellite.
 #[derive(Debug, Clone, Copy)]
-pub struct PassRow<'a> {
+pub struct ExportedPass<'a> {
     pub elements: &'a Elements,
     pub pass: &'a Pass,
 }
@@ -36,7 +36,7 @@ pub enum PassFormat {
 pub fn write_passes(
     out: &mut impl Write,
     format: PassFormat,
-    rows: &[PassRow<'_>],
+    rows: &[ExportedPass<'_>],
     now: Timestamp,
 ) -> io::Result<()> {
     match format {

@@ -18,7 +18,7 @@ pub(super) fn rate_limited(
     max_deg: f64,
     cost: impl Fn(usize, f64) -> f64,
 ) -> Vec<f64> {
-    let bounds = Bounds::around(wanted, max_deg);
+    let bounds = Envelope::around(wanted, max_deg);
     let mut way = bounds.low.clone();
     if max_deg <= SAME_DEG {
         return way;
@@ -43,12 +43,12 @@ pub(super) fn rate_limited(
 
 /// The lowest and the highest way of an axis that keeps to its rate and touches
 /// the course where it can. They are the same where the course is slow enough.
-struct Bounds {
+struct Envelope {
     low: Vec<f64>,
     high: Vec<f64>,
 }
 
-impl Bounds {
+impl Envelope {
     fn around(wanted: &[f64], max_deg: f64) -> Self {
         let negated: Vec<f64> = wanted.iter().map(|place| -place).collect();
         let high = lowest(&negated, max_deg).into_iter().map(|place| -place).collect();

@@ -20,14 +20,14 @@ pub struct Binding {
     /// The keys, each with what it brings about.
     keys: &'static [(Key, Act)],
     /// Where they work.
-    pub place: Place,
+    pub place: KeyScope,
     /// What they do, in a few words.
     pub does: &'static str,
 }
 
 /// Where a key works.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum KeyScope {
     /// Everywhere, also while typing.
     Everywhere,
     /// In every view, but not while typing.
@@ -45,7 +45,7 @@ impl Binding {
     }
 }
 
-const fn row(place: Place, keys: &'static [(Key, Act)], does: &'static str) -> Binding {
+const fn row(place: KeyScope, keys: &'static [(Key, Act)], does: &'static str) -> Binding {
     Binding { modifiers: Modifiers::NONE, keys, place, does }
 }
 
@@ -56,11 +56,11 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 /// All keys, in the order of the list. STOP's key is taken by the app before
 /// anything else.
 pub const ALL: [Binding; 23] = [
-    row(Place::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
+    row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
         row(
-            Place::Everywhere,
+            KeyScope::Everywhere,
             &[
                 (Key::Num1, Act::Show(View::Operate)),
                 (Key::Num3, Act::Show(View::Elements)),
@@ -72,7 +72,7 @@ pub const ALL: [Binding; 23] = [
         ),
     ),
     row(
-        Place::Everywhere,
+        KeyScope::Everywhere,
         &[
             (Key::F1, Act::SelectAntenna(0)),
             (Key::F2, Act::SelectAntenna(1)),
@@ -82,26 +82,26 @@ pub const ALL: [Binding; 23] = [
         "select an antenna",
     ),
     row(
-        Place::Operate,
+        KeyScope::Operate,
         &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
         "the pass before or after, unless the focus is elsewhere",
     ),
-    row(Place::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
-    row(Place::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
-    row(Place::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
-    row(Place::Operate, &[(Key::T, Act::Track)], "track the selected pass (asks)"),
+    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
+    row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
+    row(KeyScope::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
+    row(KeyScope::Operate, &[(Key::T, Act::Track)], "track the selected pass (asks)"),
     row(
-        Place::Operate,
+        KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
         "Position: type a direction, Enter shows it, Enter again goes",
     ),
     row(
-        Place::Operate,
+        KeyScope::Operate,
         &[(Key::M, Act::Manual)],
         "Manual, with the arrows on the jog pad (asks while tracking)",
     ),
     row(
-        Place::Focus,
+        KeyScope::Focus,
         &[
             (Key::ArrowLeft, Act::There),
             (Key::ArrowRight, Act::There),
@@ -113,7 +113,7 @@ pub const ALL: [Binding; 23] = [
     with(
         Modifiers::SHIFT,
         row(
-            Place::Focus,
+            KeyScope::Focus,
             &[
                 (Key::ArrowLeft, Act::There),
                 (Key::ArrowRight, Act::There),
@@ -124,48 +124,56 @@ pub const ALL: [Binding; 23] = [
         ),
     ),
     row(
-        Place::Operate,
+        KeyScope::Operate,
         &[(Key::PageUp, Act::Rate(1)), (Key::PageDown, Act::Rate(-1))],
         "jog rate up, down, in Manual",
     ),
     row(
-        Place::Operate,
+        KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
         "fewer hours, more hours in the strip of passes",
     ),
-    row(Place::Operate, &[(Key::Num0, Act::UsualZoom)], "the usual hours in the strip of passes"),
+    row(
+        KeyScope::Operate,
+        &[(Key::Num0, Act::UsualZoom)],
+        "the usual hours in the strip of passes",
+    ),
     with(
         Modifiers::COMMAND,
         row(
-            Place::Everywhere,
+            KeyScope::Everywhere,
             &[(Key::F, Act::Search)],
             "filter the list of passes or the log; search the catalogue",
         ),
     ),
     with(
         Modifiers::COMMAND,
-        row(Place::Focus, &[(Key::Enter, Act::There)], "apply the settings of a unit, in Antennas"),
+        row(
+            KeyScope::Focus,
+            &[(Key::Enter, Act::There)],
+            "apply the settings of a unit, in Antennas",
+        ),
     ),
     with(
         Modifiers::COMMAND,
         row(
-            Place::Focus,
+            KeyScope::Focus,
             &[(Key::Z, Act::There)],
             "undo; with Shift again, in Horizon and keep-outs",
         ),
     ),
     row(
-        Place::Focus,
+        KeyScope::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
         "add, remove a corner; arrows move it (Shift 5°, Ctrl 0.1°)",
     ),
-    row(Place::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
+    row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(
         Modifiers::COMMAND,
-        row(Place::Everywhere, &[(Key::L, Act::NextTheme)], "next theme: dark, light, night"),
+        row(KeyScope::Everywhere, &[(Key::L, Act::NextTheme)], "next theme: dark, light, night"),
     ),
-    row(Place::Focus, &[(Key::Tab, Act::There)], "the next control; the first is STOP"),
-    row(Place::Views, &[(Key::Questionmark, Act::List)], "this list"),
+    row(KeyScope::Focus, &[(Key::Tab, Act::There)], "the next control; the first is STOP"),
+    row(KeyScope::Views, &[(Key::Questionmark, Act::List)], "this list"),
 ];
 
 /// What the keys change beside the model.
@@ -187,10 +195,10 @@ pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCo
     // A letter that is typed is no command, and a dialog has its own keys.
     let typing = ui.text_edit_focused() || desk.question.is_some() || *desk.list_open;
     let works = |place| match place {
-        Place::Everywhere => true,
-        Place::Views => !typing,
-        Place::Operate => !typing && model.view == View::Operate,
-        Place::Focus => false,
+        KeyScope::Everywhere => true,
+        KeyScope::Views => !typing,
+        KeyScope::Operate => !typing && model.view == View::Operate,
+        KeyScope::Focus => false,
     };
     for binding in ALL.iter().filter(|binding| works(binding.place)) {
         for (key, act) in binding.keys {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use azel::{
     library::{Library, Limits},
-    orbit::{FetchProblem, Place, Source},
+    orbit::{FetchProblem, Source, SourcePlace},
 };
 use jiff::Timestamp;
 use rustls::pki_types::CertificateDer;
@@ -23,7 +23,7 @@ fn objects(
 ) -> Result<usize, FetchProblem> {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("https://localhost:{}/{FILE}", server.port);
-    let sources = [Source { name: "Weather".to_owned(), place: Place::Web(url) }];
+    let sources = [Source { name: "Weather".to_owned(), place: SourcePlace::Web(url) }];
     let mut library = Library::open(folder.path(), LIMITS).unwrap();
     if let Some(authority) = trusted {
         library = library.trusting_only(&[authority]);

@@ -12,7 +12,7 @@ use azel::{
     },
     makes,
     model::{Model, UiCommand, View},
-    orbit::{FetchProblem, FileReport, MergeSummary, Place, Source, SourceReport},
+    orbit::{FetchProblem, FileReport, MergeSummary, Source, SourcePlace, SourceReport},
     station,
 };
 use egui::{Event, Key, Modifiers, Role};
@@ -28,7 +28,7 @@ const HOUR_S: f64 = 3600.0;
 const METEOR_M2_3: u32 = 57_166;
 
 fn file_source() -> Source {
-    Source { name: "own".to_owned(), place: Place::File("/var/elements/own.tle".into()) }
+    Source { name: "own".to_owned(), place: SourcePlace::File("/var/elements/own.tle".into()) }
 }
 
 /// What came of a source that holds so many objects.

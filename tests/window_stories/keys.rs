@@ -3,7 +3,7 @@
 use azel::{
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
-    ui::keys::{ALL, Binding, Place, list::in_words},
+    ui::keys::{ALL, Binding, KeyScope, list::in_words},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -47,7 +47,7 @@ fn line(binding: &Binding) -> String {
 
 #[test]
 fn every_key_of_the_list_does_something() {
-    for binding in ALL.iter().filter(|binding| binding.place != Place::Focus) {
+    for binding in ALL.iter().filter(|binding| binding.place != KeyScope::Focus) {
         for key in binding.keys() {
             let mut window = desk(SMALL);
             let before = all_words(&window);
@@ -62,14 +62,14 @@ fn every_key_of_the_list_does_something() {
 
 #[test]
 fn no_two_lines_of_the_list_take_the_same_key() {
-    let taken: Vec<(Modifiers, Key, Place)> = ALL
+    let taken: Vec<(Modifiers, Key, KeyScope)> = ALL
         .iter()
         .flat_map(|binding| binding.keys().map(|key| (binding.modifiers, key, binding.place)))
         .collect();
     for (index, (modifiers, key, place)) in taken.iter().enumerate() {
         let same = taken[index + 1..].iter().find(|(other_modifiers, other, other_place)| {
             (modifiers, key) == (other_modifiers, other)
-                && (*place == Place::Focus) == (*other_place == Place::Focus)
+                && (*place == KeyScope::Focus) == (*other_place == KeyScope::Focus)
         });
         assert_eq!(same, None);
     }

@@ -19,7 +19,7 @@ const STRETCH_DEG: f64 = 0.01;
 const FURTHEST_DEG: f64 = 360.0;
 
 /// A place on the way.
-enum Place {
+enum Spot {
     /// Outside all barriers.
     Free,
     /// Inside; no edge or other barrier is within this, degrees.
@@ -93,7 +93,7 @@ impl BoundsAt<'_> {
         }
     }
 
-    fn place(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Place {
+    fn place(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
         let axes_deg = Turn::turned(turn.axes_deg, turn.axis, turn.way * turn_deg);
         let mut deepest_deg = 0.0;
         let mut room_deg = f64::INFINITY;
@@ -109,12 +109,12 @@ impl BoundsAt<'_> {
                 let deep_deg = if is_level { f64::INFINITY } else { -clear_deg };
                 deepest_deg = f64::max(deepest_deg, deep_deg);
             } else if clear_deg < 0.0 {
-                return Place::Barred;
+                return Spot::Barred;
             } else if !is_level {
                 room_deg = f64::min(room_deg, clear_deg);
             }
         }
-        if deepest_deg > 0.0 { Place::Inside(deepest_deg.min(room_deg)) } else { Place::Free }
+        if deepest_deg > 0.0 { Spot::Inside(deepest_deg.min(room_deg)) } else { Spot::Free }
     }
 }
 
@@ -139,31 +139,31 @@ impl Turn {
     }
 
     /// Turn after which `place` is free, degrees; `max_deg` at most.
-    fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Place) -> Option<f64> {
+    fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Spot) -> Option<f64> {
         let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
             match place(turn_deg) {
-                Place::Inside(_) if turn_deg >= last_deg => return None,
-                Place::Inside(step_deg) => {
+                Spot::Inside(_) if turn_deg >= last_deg => return None,
+                Spot::Inside(step_deg) => {
                     inside_deg = turn_deg;
                     let step_deg = (step_deg / self.speed).max(STEP_DEG);
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);
                 }
                 // The edge may lie just before another barrier, too.
-                beyond @ (Place::Free | Place::Barred) => {
+                beyond @ (Spot::Free | Spot::Barred) => {
                     let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
                     while beyond_deg - inside_deg > EDGE_DEG {
                         let middle_deg = f64::midpoint(inside_deg, beyond_deg);
                         match place(middle_deg) {
-                            Place::Inside(_) => inside_deg = middle_deg,
+                            Spot::Inside(_) => inside_deg = middle_deg,
                             nearer => (beyond, beyond_deg) = (nearer, middle_deg),
                         }
                     }
                     let far_deg = beyond_deg + GAP_DEG;
-                    let has_room = far_deg <= self.end_deg && matches!(place(far_deg), Place::Free);
-                    return (matches!(beyond, Place::Free) && has_room).then_some(beyond_deg);
+                    let has_room = far_deg <= self.end_deg && matches!(place(far_deg), Spot::Free);
+                    return (matches!(beyond, Spot::Free) && has_room).then_some(beyond_deg);
                 }
             }
         }

@@ -5,9 +5,13 @@ use std::io::{self, Write};
 use icalendar::{Calendar, Component as _, Event};
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::PassRow;
+use super::ExportedPass;
 
-pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>], now: Timestamp) -> io::Result<()> {
+pub(super) fn write(
+    out: &mut impl Write,
+    rows: &[ExportedPass<'_>],
+    now: Timestamp,
+) -> io::Result<()> {
     let mut calendar = Calendar::empty();
     calendar.append_property(("VERSION", "2.0"));
     calendar.append_property(("PRODID", "-//Azel//Passes//EN"));
@@ -18,7 +22,7 @@ pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>], now: Timestamp) 
     write!(out, "{calendar}")
 }
 
-fn event(PassRow { elements, pass }: &PassRow<'_>, now: Timestamp) -> Event {
+fn event(ExportedPass { elements, pass }: &ExportedPass<'_>, now: Timestamp) -> Event {
     let number = elements.catalog_number();
     let maximum_deg = pass.max_elevation().degrees();
     let azimuth = |point: crate::orbit::PassPoint| point.direction.azimuth_deg();

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{PassRow, degrees, rfc3339};
+use super::{ExportedPass, degrees, rfc3339};
 
 const HEADER: [&str; 15] = [
     "catalog_number",
@@ -22,10 +22,10 @@ const HEADER: [&str; 15] = [
     "ends_after",
 ];
 
-pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record(HEADER)?;
-    for PassRow { elements, pass } in rows {
+    for ExportedPass { elements, pass } in rows {
         let mut fields = vec![elements.catalog_number().to_string(), plain(elements.name())];
         for point in [pass.aos, pass.tca, pass.los] {
             fields.push(rfc3339(point.time));

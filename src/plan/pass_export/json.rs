@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{PassRow, degrees, rfc3339};
+use super::{ExportedPass, degrees, rfc3339};
 use crate::orbit::PassPoint;
 
 #[derive(Serialize)]
@@ -37,8 +37,8 @@ impl From<PassPoint> for Point {
     }
 }
 
-impl<'a> From<&PassRow<'a>> for Row<'a> {
-    fn from(PassRow { elements, pass }: &PassRow<'a>) -> Self {
+impl<'a> From<&ExportedPass<'a>> for Row<'a> {
+    fn from(ExportedPass { elements, pass }: &ExportedPass<'a>) -> Self {
         Self {
             catalog_number: elements.catalog_number(),
             name: elements.name(),
@@ -54,7 +54,7 @@ impl<'a> From<&PassRow<'a>> for Row<'a> {
 }
 
 /// One object a line, so that the list can be compared and cut by lines too.
-pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
     write!(out, "[")?;
     for (index, row) in rows.iter().enumerate() {
         writeln!(out, "{}", if index == 0 { "" } else { "," })?;

@@ -4,15 +4,15 @@ use std::io::{self, Write};
 
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::PassRow;
+use super::ExportedPass;
 
-pub(super) fn write(out: &mut impl Write, rows: &[PassRow<'_>]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
     writeln!(
         out,
         "{:<20} {:>5}   {:<8} {:>5} {:>5}   {:<8} {:>5}   {:>8}  {:>9}  name",
         "AOS (UTC)", "az", "TCA", "az", "el", "LOS", "az", "lasts", "number"
     )?;
-    for PassRow { elements, pass } in rows {
+    for ExportedPass { elements, pass } in rows {
         let [aos, tca, los] = [pass.aos, pass.tca, pass.los];
         writeln!(
             out,

@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use super::{PassFormat, PassRow, write_passes};
+use super::{ExportedPass, PassFormat, write_passes};
 use crate::{
     astro::{Angle, AzEl},
     orbit::{Elements, Pass, PassPoint, read_elements},
@@ -35,7 +35,7 @@ pub(super) fn example() -> (Elements, Pass) {
 }
 
 pub(super) fn written(format: PassFormat, elements: &Elements, passes: &[Pass]) -> String {
-    let rows: Vec<_> = passes.iter().map(|pass| PassRow { elements, pass }).collect();
+    let rows: Vec<_> = passes.iter().map(|pass| ExportedPass { elements, pass }).collect();
     let mut out = Vec::new();
     let now: Timestamp = "2026-08-11T00:00:00Z".parse().unwrap();
     write_passes(&mut out, format, &rows, now).unwrap();

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::{Bounds, at};
+use super::{Envelope, at};
 
 /// Most positions of the grid.
 const MAX_PLACES: f64 = 240.0;
@@ -23,7 +23,7 @@ pub(super) struct Rough {
 /// The cheapest way through `slew` of an axis that stands at `before_deg` one
 /// interval before it and turns by `max_deg` in an interval at most.
 pub(super) fn between(
-    bounds: &Bounds,
+    bounds: &Envelope,
     slew: &Range<usize>,
     before_deg: f64,
     max_deg: f64,

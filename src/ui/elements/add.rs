@@ -9,7 +9,7 @@ use crate::{
     engine::sources::Sources,
     library::check_source,
     model::UiCommand,
-    orbit::{Place, Source},
+    orbit::{Source, SourcePlace},
     ui::{text, theme, widgets::card},
 };
 
@@ -43,9 +43,9 @@ impl AddState {
     fn source(&self) -> Source {
         let place = self.place.trim();
         let place = match self.kind {
-            Kind::Web => Place::Web(place.to_owned()),
-            Kind::File => Place::File(PathBuf::from(place)),
-            Kind::Folder => Place::Folder(PathBuf::from(place)),
+            Kind::Web => SourcePlace::Web(place.to_owned()),
+            Kind::File => SourcePlace::File(PathBuf::from(place)),
+            Kind::Folder => SourcePlace::Folder(PathBuf::from(place)),
         };
         Source { name: self.name.trim().to_owned(), place }
     }
@@ -112,7 +112,7 @@ fn suggestions(ui: &mut Ui, sources: &Sources, state: &mut AddState) {
             if named_button(ui, !known, group, &format!("CelesTrak {group}")) {
                 let source = Source::celestrak(group);
                 state.name = source.name;
-                if let Place::Web(url) = source.place {
+                if let SourcePlace::Web(url) = source.place {
                     state.place = url;
                 }
             }

@@ -5,7 +5,7 @@ use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 use super::words;
 use crate::{
     model::{Model, UiCommand},
-    orbit::{Place, Source, SourceReport},
+    orbit::{Source, SourcePlace, SourceReport},
     ui::{
         confirm::Question,
         text, theme,
@@ -49,8 +49,8 @@ fn one(
             });
         }
         let (word, spoken) = match source.place {
-            Place::Web(_) => ("Ask", format!("Ask {name}")),
-            Place::File(_) | Place::Folder(_) => ("Read", format!("Read {name} again")),
+            SourcePlace::Web(_) => ("Ask", format!("Ask {name}")),
+            SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
         };
         if named_button(ui, is_free, word, &spoken) {
             let again = words::ask_again(name, report, model.now);

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
-    orbit::{Catalog, FETCH_PAUSE, Place, Source, SourceReport},
+    orbit::{Catalog, FETCH_PAUSE, Source, SourcePlace, SourceReport},
     ui::{format, widgets::told::Tone, words::sentence},
 };
 
@@ -30,9 +30,9 @@ fn date_and_age(epoch: Timestamp, now: Timestamp) -> String {
 /// Where a source is.
 pub(super) fn place(source: &Source) -> String {
     match &source.place {
-        Place::File(path) => format!("File {}", path.display()),
-        Place::Folder(path) => format!("Folder {}", path.display()),
-        Place::Web(url) => url.clone(),
+        SourcePlace::File(path) => format!("File {}", path.display()),
+        SourcePlace::Folder(path) => format!("Folder {}", path.display()),
+        SourcePlace::Web(url) => url.clone(),
     }
 }
 
@@ -74,8 +74,8 @@ pub(super) fn report(
 fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String) {
     if report.objects() == 0 {
         let words = match source.place {
-            Place::Web(_) => "Holds nothing yet.",
-            Place::File(_) | Place::Folder(_) => "Holds no elements.",
+            SourcePlace::Web(_) => "Holds nothing yet.",
+            SourcePlace::File(_) | SourcePlace::Folder(_) => "Holds no elements.",
         };
         return (Tone::Caution, words.to_owned());
     }
@@ -83,8 +83,8 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
         .newest_epoch
         .map_or_else(String::new, |epoch| format!(", newest epoch {}", date_and_age(epoch, now)));
     let word = match source.place {
-        Place::Web(_) => "Sent or confirmed",
-        Place::File(_) | Place::Folder(_) => "Changed",
+        SourcePlace::Web(_) => "Sent or confirmed",
+        SourcePlace::File(_) | SourcePlace::Folder(_) => "Changed",
     };
     let age = report
         .age_s(now)

@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 
 use azel::{
     library::{Library, Limits, load_sources, save_sources},
-    orbit::{Place, Source},
+    orbit::{Source, SourcePlace},
     station::{Antenna, LOCK_OUTS_FILE, LockOuts},
 };
 use jiff::Timestamp;
@@ -53,8 +53,11 @@ fn library(folder: &Path) {
     let own = folder.join("own.tle");
     fs::write(&own, "").expect("a place on the disk");
     let sources = [
-        Source { name: "own".to_owned(), place: Place::File(own) },
-        Source { name: "web".to_owned(), place: Place::Web("https://a.example/x".to_owned()) },
+        Source { name: "own".to_owned(), place: SourcePlace::File(own) },
+        Source {
+            name: "web".to_owned(),
+            place: SourcePlace::Web("https://a.example/x".to_owned()),
+        },
     ];
     if let Ok(library) = Library::open(folder, Limits::default()) {
         assert_eq!(library.load(&sources).1.len(), sources.len());

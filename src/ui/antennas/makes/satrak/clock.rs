@@ -35,7 +35,8 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
     let predicted = predicted_pass(unit);
     let rate_deg_s = predicted.and_then(|predicted| rate_at_tca(unit.model, predicted));
-    let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s) else {
+    let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s)
+    else {
         return row::plain(ui, LABEL, "not known without clock and pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();

@@ -8,12 +8,12 @@ use crate::{
 
 /// The cut of a pass by the horizon mask, recomputed only for another pass or mask.
 #[derive(Debug, Default)]
-pub struct Clearance {
+pub struct MaskCut {
     cut: Option<Vec<Pass>>,
     made_of: Option<(u32, Pass, Site, HorizonMask)>,
 }
 
-impl Clearance {
+impl MaskCut {
     /// The stretches above the mask, in order: empty where the mask hides the whole pass,
     /// `None` where it cuts nothing off.
     pub fn cut(&self) -> Option<&[Pass]> {
