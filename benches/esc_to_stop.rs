@@ -12,10 +12,11 @@ use std::{
     net::SocketAddr,
     process::{Child, ChildStdin, Command, Stdio},
     thread::sleep,
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use azel::{
+    clock::Instant,
     orbit::bundled,
     protocol::satrak::encode,
     sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
@@ -124,11 +125,15 @@ async fn stalling_way(unit: SocketAddr, stall: Duration) -> SocketAddr {
             tokio::spawn(async move {
                 tokio::io::copy(&mut from_console, &mut to_unit).await.ok();
             });
-            let (send, mut replies) = tokio::sync::mpsc::channel::<(Instant, Vec<u8>)>(10_000);
+            let (send, mut replies) =
+                tokio::sync::mpsc::channel::<(std::time::Instant, Vec<u8>)>(10_000);
             tokio::spawn(async move {
                 let mut buffer = [0; 4096];
                 while let Ok(count @ 1..) = from_unit.read(&mut buffer).await {
-                    if send.send((Instant::now() + stall, buffer[..count].to_vec())).await.is_err()
+                    if send
+                        .send((std::time::Instant::now() + stall, buffer[..count].to_vec()))
+                        .await
+                        .is_err()
                     {
                         break;
                     }
@@ -257,7 +262,11 @@ impl Bench {
             if let Some(arrived) = self.arrived(word).get(before) {
                 return *arrived;
             }
-            assert!(start.elapsed() < Duration::from_secs(5), "no {word} of {}", self.name);
+            assert!(
+                (Instant::now() - start) < Duration::from_secs(5),
+                "no {word} of {}",
+                self.name
+            );
             sleep(Duration::from_micros(200));
         }
     }
@@ -265,10 +274,7 @@ impl Bench {
     /// When each frame came in that begins with `word`.
     fn arrived(&self, word: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
-        received
-            .filter(|(_, payload)| payload.starts_with(word))
-            .map(|(at, _)| at.into_std())
-            .collect()
+        received.filter(|(_, payload)| payload.starts_with(word)).map(|(at, _)| at).collect()
     }
 
     fn report(mut self, what: &str) {

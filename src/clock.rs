@@ -2,6 +2,7 @@
 //! or from a test.
 
 use std::{
+    fmt,
     future::Future,
     num::NonZeroU32,
     ops::{Add, AddAssign, Sub},
@@ -85,6 +86,12 @@ pub struct Clock {
     utc: Arc<dyn Fn() -> Timestamp + Send + Sync>,
     asleep: Arc<dyn Fn() -> Duration + Send + Sync>,
     speed: NonZeroU32,
+}
+
+impl fmt::Debug for Clock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Clock").field("utc", &self.utc()).finish_non_exhaustive()
+    }
 }
 
 impl Clock {

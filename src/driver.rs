@@ -202,13 +202,29 @@ pub async fn told_to_end() -> io::Result<()> {
     tokio::signal::ctrl_c().await
 }
 
+/// What sessions take from outside: their clocks and their links.
+#[derive(Clone)]
+pub struct Outside {
+    /// Of the sessions and of whoever runs them.
+    pub clock: Clock,
+    /// Opens the links of an antenna.
+    pub dial: Arc<dyn Fn(&Antenna) -> Dial + Send + Sync>,
+}
+
+impl From<Clock> for Outside {
+    /// Real links.
+    fn from(clock: Clock) -> Self {
+        Self { clock, dial: Arc::new(dial) }
+    }
+}
+
 /// The thread of the sessions.
 pub struct Driver {
     runtime: tokio::runtime::Handle,
     end: Option<tokio::sync::oneshot::Sender<()>>,
     ended: std::sync::mpsc::Receiver<()>,
     sessions: tokio_util::task::TaskTracker,
-    clock: Clock,
+    outside: Outside,
     wake: Wake,
     orders: Orders,
     dead_man: Option<PathBuf>,
@@ -220,7 +236,7 @@ pub struct Driver {
 
 impl Driver {
     /// Starts the thread. `wake` is called from it after every change.
-    pub fn start(clock: Clock, wake: Wake) -> io::Result<Self> {
+    pub fn start(outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let handle = runtime.handle().clone();
         let sessions = tokio_util::task::TaskTracker::new();
@@ -247,7 +263,7 @@ impl Driver {
             end: Some(end),
             ended,
             sessions,
-            clock,
+            outside: outside.into(),
             wake,
             orders: Orders::default(),
             dead_man: None,
@@ -295,10 +311,15 @@ impl Driver {
         lock_out: Option<LockOut>,
         until_the_end: Box<dyn Send>,
     ) -> AntennaHandle {
-        let (wires, handle) =
-            Wires::new(antenna, self.clock.now().steady, Arc::clone(&self.wake), &self.orders);
+        let (wires, handle) = Wires::new(
+            antenna,
+            self.outside.clock.now().steady,
+            Arc::clone(&self.wake),
+            &self.orders,
+        );
         let wires = wires.hearing(self.before_sleep.hear());
-        let (antenna, clock, debts) = (antenna.clone(), self.clock.clone(), self.debts.clone());
+        let Outside { clock, dial } = self.outside.clone();
+        let (antenna, debts) = (antenna.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
         let open = move || {
             let (controller, dial) = (antenna.controller(), dial(&antenna));

@@ -61,7 +61,7 @@ pub use self::{
 };
 use crate::{
     clock::{Clock, Instant},
-    driver::{self, AntennaHandle, Driver, JOG_LEASE, TimeSync, Unit},
+    driver::{self, AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
     job::{Job, Wake},
     makes::{self, DemoAddresses},
     plan::Bounds,
@@ -200,7 +200,7 @@ impl Engine {
     /// A station as its settings say.
     fn new(
         settings: &Settings,
-        clock: Clock,
+        outside: Outside,
         outbox: Outbox,
         requests: mpsc::WeakSender<Request>,
     ) -> io::Result<(Self, Client)> {
@@ -210,7 +210,8 @@ impl Engine {
             let woken = Arc::clone(&woken);
             Arc::new(move || woken.notify_one())
         };
-        let driver = Driver::start(clock.clone(), Arc::clone(&wake))?
+        let clock = outside.clock.clone();
+        let driver = Driver::start(outside, Arc::clone(&wake))?
             .guarded_by(settings.dead_man.clone())
             .marking_in(settings.marks.clone());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());

@@ -11,7 +11,7 @@ use tokio::sync::{Notify, mpsc, watch};
 use super::{Command, Engine, Settings, Snapshot};
 use crate::{
     clock::{Clock, Instant, Moment},
-    driver::{self, Orders, Stopper, WireLog},
+    driver::{self, Orders, Outside, Stopper, WireLog},
     job::Wake,
     station::AntennaId,
 };
@@ -222,7 +222,8 @@ pub struct Handle {
 impl Handle {
     /// Starts a station on a thread of its own. `wake` is called from it after every
     /// change that is worth showing.
-    pub fn start(settings: Settings, clock: Clock, wake: Wake) -> io::Result<Self> {
+    pub fn start(settings: Settings, outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
+        let outside = outside.into();
         let (requests, inbox) = mpsc::channel(REQUESTS);
         let (tell, events) = mpsc::channel(EVENTS);
         let (begun, begin) = std::sync::mpsc::sync_channel(1);
@@ -231,7 +232,7 @@ impl Handle {
         let weak = requests.downgrade();
         std::thread::Builder::new().name("azel-station".to_owned()).spawn(move || {
             let outbox = super::Outbox { events: tell, wake };
-            match Engine::new(&settings, clock, outbox, weak) {
+            match Engine::new(&settings, outside, outbox, weak) {
                 Ok((engine, client)) => {
                     // Nobody may be waiting any more.
                     drop(begun.send(Ok(client)));

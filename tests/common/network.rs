@@ -9,10 +9,10 @@ use std::{
 };
 
 use azel::{
+    clock::Instant,
     driver::{Dial, Stream},
     sim::{Control, Unit},
 };
-use tokio::time::Instant;
 
 /// A network that can be off; clones are the same one.
 #[derive(Clone, Default)]

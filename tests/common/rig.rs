@@ -3,13 +3,13 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
-    clock::Clock,
+    clock::{Clock, Instant},
     driver::{AntennaHandle, Command, Dial, Event, LinkState, Session, Snapshot, Stream, WireLog},
     sim::{Control, Unit},
     station::Antenna,
 };
 use jiff::Timestamp;
-use tokio::time::{Instant, sleep};
+use tokio::time::sleep;
 
 use super::{
     clock::TestClock,
@@ -184,9 +184,8 @@ impl<U: Unit> Rig<Control<U>> {
     fn report(&self) -> String {
         let received = self.control.received();
         let last = received.iter().skip(received.len().saturating_sub(40));
-        let lines: Vec<String> = last
-            .map(|(at, request)| format!("{:?} {request:?}", at.duration_since(self.started)))
-            .collect();
+        let lines: Vec<String> =
+            last.map(|(at, request)| format!("{:?} {request:?}", *at - self.started)).collect();
         format!("{:#?}\nevents {:?}\n{}", self.shown(), self.events, lines.join("\n"))
     }
 }

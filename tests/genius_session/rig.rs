@@ -2,6 +2,7 @@
 
 use azel::{
     astro::Angle,
+    clock::Instant,
     controller::rotator_genius::{ROTATORS, Rotators},
     driver::{Command, Snapshot, StopState},
     protocol::rotator_genius::WholeDegrees,
@@ -9,7 +10,6 @@ use azel::{
     station::Antenna,
 };
 use jiff::Timestamp;
-use tokio::time::Instant;
 
 use crate::common::rig;
 

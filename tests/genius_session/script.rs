@@ -6,6 +6,7 @@ use std::{
 };
 
 use azel::{
+    clock::Instant,
     controller::rotator_genius::Rotators,
     driver::{AntennaHandle, Dial, Event, Stream},
     protocol::rotator_genius::Request,
@@ -13,7 +14,7 @@ use azel::{
 use jiff::Timestamp;
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
-    time::{Instant, sleep},
+    time::sleep,
 };
 
 use super::rig::antenna;

@@ -147,7 +147,7 @@ async fn after_a_missed_reply_the_jog_is_not_renewed_and_the_unit_ends_it() {
     let mut rig = Rig::in_manual().await;
     rig.hold([FAST, 0.0], 1.0).await;
     rig.control.set_fault(Fault::Silence, true);
-    let since = tokio::time::Instant::now();
+    let since = azel::clock::Instant::now();
     rig.hold([FAST, 0.0], 2.0).await;
     let after: Vec<_> = rig.times("3W").into_iter().filter(|at| *at > since).collect();
     assert!(after.len() <= 1, "{after:?}");
@@ -231,7 +231,7 @@ async fn an_alarm_during_a_held_jog_ends_it() {
     let mut rig = Rig::in_manual().await;
     rig.hold([FAST, 0.0], 1.0).await;
     rig.control.set_fault(Fault::AzimuthOvercurrent, true);
-    let since = tokio::time::Instant::now();
+    let since = azel::clock::Instant::now();
     rig.hold([FAST, 0.0], 3.0).await;
     let later: Vec<_> = rig.times("3W").into_iter().filter(|at| *at > since).collect();
     assert!(later.len() <= 2, "{later:?}");

@@ -4,12 +4,13 @@
 use std::time::Duration;
 
 use azel::{
+    clock::Instant,
     device::{Asked, settings::Value},
     driver::{AntennaHandle, Command, Event, Found, LinkLoss, LinkState, dial_line},
     sim::rc2000c::{Control, Options, Quirk, Simulator},
 };
 use jiff::Timestamp;
-use tokio::time::{Instant, sleep};
+use tokio::time::sleep;
 
 use super::rig::{antenna, reading};
 use crate::common::{clock::TestClock, rig::session};

@@ -1,6 +1,7 @@
 //! A session with a simulated RC2000C.
 
 use azel::{
+    clock::Instant,
     controller::rc2000c::Calibration,
     device::{
         panel::{Act, CheckState},
@@ -12,7 +13,6 @@ use azel::{
     station::{Antenna, CountPoint, Mount},
 };
 use jiff::Timestamp;
-use tokio::time::Instant;
 
 use crate::common::rig;
 

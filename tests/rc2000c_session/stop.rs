@@ -48,7 +48,7 @@ async fn stop_goes_past_a_reply_that_is_waited_for() {
     while rig.times("1").len() == polls {
         rig.seconds(0.01).await;
     }
-    let pressed = tokio::time::Instant::now();
+    let pressed = azel::clock::Instant::now();
     rig.stop();
     rig.seconds(0.02).await;
     let stopped = *rig.times("3X").first().unwrap();

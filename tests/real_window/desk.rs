@@ -1,5 +1,6 @@
 //! A virtual screen with the program on it, and a simulated Satrak beside it.
 
+use azel::clock::Instant;
 use std::{
     fs,
     io::{BufRead as _, BufReader},
@@ -8,7 +9,7 @@ use std::{
     process::{Child, Command, Stdio},
     sync::mpsc,
     thread,
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 /// Nothing here takes longer on a slow machine.
@@ -72,7 +73,7 @@ pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
         if let Some(answer) = ask() {
             return answer;
         }
-        assert!(start.elapsed() < PATIENCE, "waited too long for {what}");
+        assert!(Instant::now() - start < PATIENCE, "waited too long for {what}");
         thread::sleep(Duration::from_millis(20));
     }
 }

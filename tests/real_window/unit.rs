@@ -4,11 +4,12 @@
 use std::{
     net::SocketAddr,
     sync::{Arc, Mutex},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use azel::{
     astro::Site,
+    clock::Instant,
     orbit,
     sim::satrak::{BUNDLED_FILE, Control, Options},
 };
@@ -53,7 +54,7 @@ impl Unit {
     /// What it has received since then, and when.
     pub(super) fn heard_since(&self, since: Instant) -> Vec<(Instant, String)> {
         let heard = self.control.received().into_iter();
-        heard.map(|(at, word)| (at.into_std(), word)).filter(|(at, _)| *at >= since).collect()
+        heard.filter(|(at, _)| *at >= since).collect()
     }
 
     fn hears_since(&self, since: Instant, word: &str) -> Option<Instant> {

@@ -2,8 +2,10 @@
 
 use std::time::Duration;
 
-use azel::driver::{Command, Event, Safety};
-use tokio::time::Instant;
+use azel::{
+    clock::Instant,
+    driver::{Command, Event, Safety},
+};
 
 use super::{
     cases::for_each_case,

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use azel::{
     astro::Angle,
+    clock::Instant,
     driver::{Command, Event, LinkState, Safety},
 };
-use tokio::time::Instant;
 
 use super::{
     cases::for_each_case,

@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use azel::{
     astro::{Angle, AzEl},
+    clock::Instant,
     driver::Command,
     plan::{Follow, Target},
 };
-use tokio::time::Instant;
 
 use super::{
     cases::for_each_case,

@@ -6,11 +6,12 @@ use std::{
 };
 
 use azel::{
+    clock::Instant,
     driver::{AntennaHandle, Command, Dial, Event, Snapshot, Stream},
     plan::Barrier,
     station::KeepOut,
 };
-use tokio::time::{Instant, sleep};
+use tokio::time::sleep;
 
 use super::{
     line::{Line, carry},

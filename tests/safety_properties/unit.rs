@@ -1,15 +1,13 @@
 //! One simulated unit of any make.
 
 use azel::{
+    clock::Instant,
     driver::Stream,
     protocol::satrak::encode,
     sim::{rc2000c, rotator_genius, satrak},
     station::CountLine,
 };
-use tokio::{
-    io::{AsyncReadExt, AsyncWriteExt},
-    time::Instant,
-};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use crate::common::network;
 

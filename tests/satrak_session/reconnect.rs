@@ -26,8 +26,10 @@ async fn a_unit_that_is_off_is_tried_again_less_and_less_often() {
     rig.set_off(true);
     rig.seconds(40.0).await;
     let tries = rig.dials().split_off(before);
-    let waits: Vec<f64> =
-        tries.windows(2).map(|pair| pair[1].duration_since(pair[0]).as_secs_f64()).collect();
+    let waits: Vec<f64> = tries
+        .windows(2)
+        .map(|pair| pair[1].saturating_duration_since(pair[0]).as_secs_f64())
+        .collect();
     for (wait, wanted) in waits.iter().zip([1.0, 2.0, 4.0, 8.0, 8.0, 8.0]) {
         assert!((wait - wanted).abs() < 0.01, "{waits:?}");
     }
@@ -41,9 +43,9 @@ async fn a_unit_that_is_off_is_tried_again_less_and_less_often() {
 async fn the_first_try_comes_after_half_a_second() {
     let mut rig = Rig::usual().await;
     rig.control.drop_clients();
-    let lost = tokio::time::Instant::now();
+    let lost = azel::clock::Instant::now();
     rig.seconds(1.0).await;
-    let wait = rig.dials()[1].duration_since(lost).as_secs_f64();
+    let wait = rig.dials()[1].saturating_duration_since(lost).as_secs_f64();
     assert!((0.49..0.52).contains(&wait), "{wait}");
     let back = rig.until_event(1, |event| matches!(event, Event::Back { .. })).await;
     assert!(matches!(back, Event::Back { found: Found::Still, .. }), "{back:?}");

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use azel::{
+    clock::Instant,
     driver::Stream,
     plan::on_board::KnownOrbit,
     sim::satrak::{Control, Options},
     station::{Antenna, LockOut},
 };
 use jiff::Timestamp;
-use tokio::time::Instant;
 
 pub(super) use super::scene::{antenna, iss, options, track, twin};
 use super::scene::{orbit, session};

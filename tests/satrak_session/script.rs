@@ -6,12 +6,13 @@ use std::{
 };
 
 use azel::{
+    clock::Instant,
     driver::{AntennaHandle, Dial, Event, Stream},
     protocol::satrak::{Decoder, encode},
 };
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt, DuplexStream},
-    time::{Instant, sleep},
+    time::sleep,
 };
 
 use super::scene::{antenna, options, session};

@@ -198,7 +198,7 @@ async fn a_stop_overtakes_settings_and_spoils_none() {
         rig.send(Command::Settle(Change { ticket, ..wish }));
     }
     rig.seconds(0.05).await;
-    let pressed = tokio::time::Instant::now();
+    let pressed = azel::clock::Instant::now();
     rig.stop();
     rig.seconds(10.0).await;
     let first = rig.times("STOP=")[0];

@@ -2,12 +2,10 @@
 
 use std::{collections::VecDeque, io, ops::ControlFlow, time::Duration};
 
-use tokio::{
-    io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt},
-    time::{Instant, sleep, sleep_until, timeout},
-};
+use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 
 use super::{Control, Unit, Wire};
+use crate::clock::{Clock, Instant};
 
 /// A client that takes nothing for this long is given up.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
@@ -36,7 +34,8 @@ where
     U: Unit,
     S: AsyncRead + AsyncWrite + Unpin,
 {
-    let replies = Replies { waiting: VecDeque::new(), merge_time: None };
+    let clock = control.clock().clone();
+    let replies = Replies { waiting: VecDeque::new(), merge_time: None, clock };
     Connection { control, wire, stream, replies, sent: 0 }.run().await
 }
 
@@ -45,13 +44,14 @@ where
 pub struct Replies<R> {
     waiting: VecDeque<(Instant, R)>,
     merge_time: Option<Duration>,
+    clock: Clock,
 }
 
 impl<R> Replies<R> {
     /// `reply` goes out `delay` after the one before it.
     pub(in crate::sim) fn push(&mut self, reply: R, delay: Duration) {
         let last_due = self.waiting.back().map(|(due, _)| *due);
-        let now = Instant::now();
+        let now = self.clock.now().steady;
         let due = match self.merge_time {
             Some(merge_time) => last_due.unwrap_or(now + merge_time),
             None => last_due.unwrap_or(now).max(now) + delay,
@@ -61,7 +61,7 @@ impl<R> Replies<R> {
 
     /// `reply` goes out as soon as those before it.
     pub(in crate::sim) fn push_now(&mut self, reply: R) {
-        self.waiting.push_back((Instant::now(), reply));
+        self.waiting.push_back((self.clock.now().steady, reply));
     }
 }
 
@@ -78,6 +78,7 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
     async fn run(mut self) -> io::Result<()> {
         let mut drops = self.control.drops();
         let mut buffer = [0; 1024];
+        let clock = self.control.clock();
         loop {
             let waiting = &self.replies.waiting;
             let due = waiting.front().map(|(due, _)| *due);
@@ -93,8 +94,8 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
                     let bytes = buffer.get_mut(..count).unwrap_or_default();
                     self.wire.take(bytes, self.control, &switches, &mut self.replies);
                 }
-                () = sleep_until(due.unwrap_or_else(Instant::now)), if due.is_some() => {
-                    if timeout(WRITE_TIMEOUT, self.send_due()).await??.is_break() {
+                () = clock.sleep_until(due.unwrap_or(clock.now().steady)), if due.is_some() => {
+                    if clock.timeout(WRITE_TIMEOUT, self.send_due()).await??.is_break() {
                         return Ok(());
                     }
                 }
@@ -106,7 +107,8 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
     async fn send_due(&mut self) -> io::Result<ControlFlow<()>> {
         let switches = self.control.switches();
         let mut bytes = Vec::new();
-        let is_due = |(due, _): &mut (Instant, _)| *due <= Instant::now();
+        let now = self.control.clock().now().steady;
+        let is_due = |(due, _): &mut (Instant, _)| *due <= now;
         while let Some((_, reply)) = self.replies.waiting.pop_front_if(is_due) {
             self.sent += 1;
             match self.wire.put(reply, self.sent, &switches) {
@@ -131,7 +133,7 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
             self.stream.flush().await?;
             bytes = rest;
             if !bytes.is_empty() {
-                sleep(SPLIT_PAUSE).await;
+                self.control.clock().sleep(SPLIT_PAUSE).await;
             }
         }
         Ok(())

@@ -7,10 +7,13 @@ use std::{
     time::Duration,
 };
 
-use tokio::{sync::watch, time::Instant};
+use tokio::sync::watch;
 
 use super::{Switches, Unit};
-use crate::sim::prng::Prng;
+use crate::{
+    clock::{Clock, Instant},
+    sim::prng::Prng,
+};
 
 /// How many received requests are remembered.
 const REMEMBERED_REQUESTS: usize = 10_000;
@@ -23,6 +26,7 @@ pub struct Control<U: Unit> {
 
 #[derive(Debug)]
 struct Shared<U: Unit> {
+    clock: Clock,
     started: Instant,
     reply_delay: RangeInclusive<Duration>,
     inner: Mutex<Inner<U>>,
@@ -51,11 +55,13 @@ impl<U: Unit> Control<U> {
         switches: Switches<U::Quirk, U::Fault>,
         reply_delay: RangeInclusive<Duration>,
         seed: u64,
+        clock: Clock,
     ) -> Self {
         unit.set_switches(&switches);
         let inner = Inner { unit, switches, prng: Prng::new(seed), received: VecDeque::new() };
         let shared = Shared {
-            started: Instant::now(),
+            started: clock.now().steady,
+            clock,
             reply_delay,
             inner: Mutex::new(inner),
             drops: watch::Sender::new(0),
@@ -110,7 +116,7 @@ impl<U: Unit> Control<U> {
         if inner.received.len() == REMEMBERED_REQUESTS {
             inner.received.pop_front();
         }
-        inner.received.push_back((Instant::now(), request));
+        inner.received.push_back((self.clock().now().steady, request));
         carry_out(&mut inner.unit)
     }
 
@@ -125,10 +131,15 @@ impl<U: Unit> Control<U> {
     }
 
     fn live(&self) -> MutexGuard<'_, Inner<U>> {
-        let elapsed = self.shared.started.elapsed();
+        let elapsed = self.clock().now().steady - self.shared.started;
         let mut inner = self.lock();
         inner.unit.advance(elapsed);
         inner
+    }
+
+    /// The clock of the unit, whose steady side it lives by.
+    pub(in crate::sim) fn clock(&self) -> &Clock {
+        &self.shared.clock
     }
 
     pub(in crate::sim) fn switches(&self) -> Switches<U::Quirk, U::Fault> {

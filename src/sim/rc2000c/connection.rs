@@ -2,10 +2,9 @@
 
 use std::{ops::RangeInclusive, time::Duration};
 
-use tokio::time::Instant;
-
 use super::{Control, Fault, Quirk, unit::Rc2000c};
 use crate::{
+    clock::Instant,
     protocol::{
         Parity,
         rc2000c::{Address, Decoder, Frame, Header, Reply, checksum},
@@ -33,7 +32,7 @@ pub struct Line {
     is_as_spoken: bool,
     heard: Parity,
     decoder: Decoder,
-    last_read: Instant,
+    last_read: Option<Instant>,
     /// How many replies were made, also those that are lost.
     replies: usize,
 }
@@ -46,7 +45,7 @@ impl Line {
             is_as_spoken: false,
             heard: Parity::Port,
             decoder: Decoder::new(address),
-            last_read: Instant::now(),
+            last_read: None,
             replies: 0,
         }
     }
@@ -111,12 +110,10 @@ impl Wire<Rc2000c> for Line {
             replies.push_now(bytes.to_vec());
         }
         let longest_gap = LONGEST_GAP.max(self.character_time * LONGEST_GAP_CHARACTERS);
-        let mut seen = if self.last_read.elapsed() > longest_gap {
-            self.decoder.line_is_quiet()
-        } else {
-            Vec::new()
-        };
-        self.last_read = Instant::now();
+        let now = control.clock().now().steady;
+        let is_quiet = self.last_read.is_some_and(|last| now - last > longest_gap);
+        let mut seen = if is_quiet { self.decoder.line_is_quiet() } else { Vec::new() };
+        self.last_read = Some(now);
         self.decoder.push(bytes);
         seen.extend(self.decoder.by_ref());
         for frame in seen {

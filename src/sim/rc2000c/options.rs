@@ -6,8 +6,8 @@ use std::net::SocketAddr;
 use std::time::Duration;
 
 use super::{Control, Fault, Quirk, Simulator, StoredSatellite, unit::Rc2000c};
-use crate::protocol::rc2000c::Address;
 use crate::sim::harness::Switches;
+use crate::{clock::Clock, protocol::rc2000c::Address};
 
 /// Nothing of it is random.
 const SEED: u64 = 1;
@@ -50,9 +50,14 @@ impl Default for Options {
 impl Control {
     /// A controller that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
+        Self::on_clock(options, Clock::system())
+    }
+
+    /// The same, living by `clock`.
+    pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, latency, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
-        Self::start(Rc2000c::new(options), switches, *latency..=*latency, SEED)
+        Self::start(Rc2000c::new(options), switches, *latency..=*latency, SEED, clock)
     }
 
     /// The local operator presses MODE: the line commands no more, and what it

@@ -7,8 +7,11 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use super::{Control, Fault, Quirk, Simulator, unit::RotatorGenius};
-use crate::protocol::rotator_genius::{RotatorKind, WholeDegrees};
 use crate::sim::harness::Switches;
+use crate::{
+    clock::Clock,
+    protocol::rotator_genius::{RotatorKind, WholeDegrees},
+};
 
 /// How a simulated device is made.
 #[derive(Debug, Clone)]
@@ -98,9 +101,14 @@ impl RotatorOptions {
 impl Control {
     /// A device that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
+        Self::on_clock(options, Clock::system())
+    }
+
+    /// The same, living by `clock`.
+    pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
-        Self::start(RotatorGenius::new(options), switches, reply_delay.clone(), *seed)
+        Self::start(RotatorGenius::new(options), switches, reply_delay.clone(), *seed, clock)
     }
 }
 

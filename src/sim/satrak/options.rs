@@ -10,9 +10,12 @@ use std::time::Duration;
 use jiff::Timestamp;
 
 use super::{Control, Fault, Quirk, Simulator, unit::Satrak};
-use crate::astro::{Angle, Site};
 use crate::orbit::Elements;
 use crate::sim::harness::Switches;
+use crate::{
+    astro::{Angle, Site},
+    clock::Clock,
+};
 
 /// How a simulated unit is made.
 #[derive(Debug, Clone)]
@@ -69,9 +72,14 @@ impl Options {
 impl Control {
     /// A unit that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
+        Self::on_clock(options, Clock::system())
+    }
+
+    /// The same, living by `clock`.
+    pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
-        Self::start(Satrak::new(options), switches, reply_delay.clone(), *seed)
+        Self::start(Satrak::new(options), switches, reply_delay.clone(), *seed, clock)
     }
 }
 
