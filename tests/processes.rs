@@ -20,6 +20,8 @@ mod real_peers;
 #[cfg(target_os = "linux")]
 mod real_window;
 #[cfg(unix)]
+mod rehearsed;
+#[cfg(unix)]
 mod serve;
 #[cfg(unix)]
 mod unread_log;
