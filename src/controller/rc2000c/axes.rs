@@ -58,14 +58,24 @@ impl Axes {
         ]
     }
 
-    /// Where the antenna points with its axes there. On a mount that does not tip
-    /// over, an elevation a little beyond 90 degrees is the noise of its sensor.
+    /// Where the antenna points with its axes there. On a mount that does not flip, an
+    /// elevation a little beyond 90 degrees is the noise of its sensor. An axis at its
+    /// limit tells no angle, but the side on which a flipped antenna points.
     pub(super) fn pointing(axes: [Axis; 2], mount: &Mount) -> Pointing {
         let [azimuth, elevation] = axes.map(|axis| axis.angle_deg.map(Angle::from_degrees));
-        if mount.can_flip() {
-            Pointing::of_axes(azimuth, elevation)
-        } else {
-            Pointing { azimuth: azimuth.map(Angle::wrapped_360), elevation }
+        let azimuth = azimuth.map(Angle::wrapped_360);
+        if !mount.can_flip() {
+            return Pointing { azimuth, elevation };
+        }
+        match (elevation, axes[1]) {
+            (Some(_), _) => Pointing::of_axes(azimuth, elevation),
+            (None, Axis { plus_limit: true, .. }) => {
+                let other_side = Angle::from_degrees(180.0);
+                let azimuth = azimuth.map(|azimuth| (azimuth + other_side).wrapped_360());
+                Pointing { azimuth, elevation: None }
+            }
+            (None, Axis { minus_limit: true, .. }) => Pointing { azimuth, elevation: None },
+            (None, _) => Pointing { azimuth: None, elevation: None },
         }
     }
 

@@ -162,3 +162,20 @@ fn counts_mean_angles_only_where_both_axes_are_calibrated() {
     assert_eq!(half.degrees([30, 30]), None);
     assert_eq!(Axes::new(&Calibration::default()).degrees([30, 30]), None);
 }
+
+#[test]
+fn an_elevation_axis_at_its_limit_tells_the_side_and_otherwise_the_azimuth_is_not_known() {
+    let axes = |plus_limit, minus_limit| {
+        let axis = Axis { angle_deg: None, motion: AxisMotion::Still, plus_limit, minus_limit };
+        [Axis { angle_deg: Some(167.0), plus_limit: false, minus_limit: false, ..axis }, axis]
+    };
+    let azimuth_deg = |axes, elevation_to_deg| {
+        let pointing = Axes::pointing(axes, &mount(elevation_to_deg));
+        assert_eq!(pointing.elevation, None);
+        pointing.azimuth.map(Angle::degrees)
+    };
+    assert_eq!(azimuth_deg(axes(true, false), 180.0), Some(347.0));
+    assert_eq!(azimuth_deg(axes(false, true), 180.0), Some(167.0));
+    assert_eq!(azimuth_deg(axes(false, false), 180.0), None);
+    assert_eq!(azimuth_deg(axes(true, false), 90.0), Some(167.0));
+}
