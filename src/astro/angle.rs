@@ -10,22 +10,18 @@ impl Angle {
     /// No angle.
     pub const ZERO: Self = Self(0.0);
 
-    /// From radians.
     pub const fn from_radians(radians: f64) -> Self {
         Self(radians)
     }
 
-    /// From degrees.
     pub const fn from_degrees(degrees: f64) -> Self {
         Self(degrees.to_radians())
     }
 
-    /// In radians.
     pub const fn radians(self) -> f64 {
         self.0
     }
 
-    /// In degrees.
     pub const fn degrees(self) -> f64 {
         self.0.to_degrees()
     }

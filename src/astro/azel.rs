@@ -17,7 +17,6 @@ pub struct AzEl {
 }
 
 impl AzEl {
-    /// From degrees.
     pub const fn from_degrees(azimuth_deg: f64, elevation_deg: f64) -> Self {
         Self {
             azimuth: Angle::from_degrees(azimuth_deg),

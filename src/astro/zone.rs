@@ -43,40 +43,22 @@ pub enum ZoneError {
     TooManyCorners,
     /// Infinite or not a number.
     #[error("the azimuth of corner {corner} is not a number")]
-    Azimuth {
-        /// Its number.
-        corner: usize,
-    },
+    Azimuth { corner: usize },
     /// Beyond the zenith or the nadir, or not a number.
     #[error("the elevation of corner {corner} is not between -90 and 90 degrees")]
-    Elevation {
-        /// Its number.
-        corner: usize,
-    },
+    Elevation { corner: usize },
     /// Both ends of an edge are one direction.
     #[error("edge {edge} has no length: its two corners are the same direction")]
-    NoLength {
-        /// Its number.
-        edge: usize,
-    },
+    NoLength { edge: usize },
     /// An arc of constant elevation of more than 360 degrees.
     #[error("edge {edge} turns by more than 360 degrees")]
-    MoreThanATurn {
-        /// Its number.
-        edge: usize,
-    },
+    MoreThanATurn { edge: usize },
     /// Many great circles join opposite directions.
     #[error("edge {edge} joins opposite directions: a corner between them is needed")]
-    Opposite {
-        /// Its number.
-        edge: usize,
-    },
+    Opposite { edge: usize },
     /// The side of the zone cannot be told.
     #[error("edge {edge} passes through the nadir")]
-    Nadir {
-        /// Its number.
-        edge: usize,
-    },
+    Nadir { edge: usize },
     /// Two edges have a point in common that is no corner of both.
     #[error("edges {first} and {second} cross or touch each other")]
     Crossing {

@@ -47,18 +47,12 @@ pub(super) struct Record {
 pub enum IndexError {
     /// The operating system refused.
     #[error("the index of the elements cannot be used: {source}: {}", path.display())]
-    Disk {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Disk { source: io::Error, path: PathBuf },
     /// Not the TOML it should be, and neither is the one before it.
     #[error("the index of the elements cannot be read: {source}: {}", path.display())]
     Syntax {
         /// Where in the text.
         source: Box<toml::de::Error>,
-        /// Where.
         path: PathBuf,
     },
     /// It cannot be put into TOML.
@@ -66,12 +60,7 @@ pub enum IndexError {
     Form(#[from] toml::ser::Error),
     /// A later program wrote it.
     #[error("the index of the elements has version {found}, this program knows {VERSION}: {}", path.display())]
-    Newer {
-        /// Its version.
-        found: u32,
-        /// Where.
-        path: PathBuf,
-    },
+    Newer { found: u32, path: PathBuf },
 }
 
 impl Default for Index {

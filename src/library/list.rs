@@ -39,28 +39,17 @@ pub enum SourceProblem {
 pub enum SourcesError {
     /// The operating system refused.
     #[error("the list of element sources cannot be used: {source}: {}", path.display())]
-    Disk {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Disk { source: io::Error, path: PathBuf },
     /// Not the TOML it should be.
     #[error("the list of element sources cannot be read: {source}: {}", path.display())]
     Syntax {
         /// Where in the text.
         source: Box<toml::de::Error>,
-        /// Where.
         path: PathBuf,
     },
     /// A later program wrote it.
     #[error("the list of element sources has version {found}, this program knows {VERSION}: {}", path.display())]
-    Newer {
-        /// Its version.
-        found: u32,
-        /// Where.
-        path: PathBuf,
-    },
+    Newer { found: u32, path: PathBuf },
     /// It cannot be put into TOML.
     #[error("the list of element sources cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),

@@ -16,7 +16,6 @@ const VERSION: i64 = 1;
 /// What was found at the place of the settings.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The station.
     pub station: Station,
     /// What was not taken over as it stands in the file.
     pub notes: Vec<Note>,
@@ -30,18 +29,12 @@ pub enum LoadError {
     Missing,
     /// The operating system refused.
     #[error("the settings cannot be read: {source}: {}", path.display())]
-    Read {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Read { source: io::Error, path: PathBuf },
     /// Not TOML.
     #[error("the settings are not valid TOML: {source}: {}", path.display())]
     Syntax {
         /// Where in the text.
         source: Box<toml::de::Error>,
-        /// Where.
         path: PathBuf,
     },
     /// A later program wrote them.
@@ -49,7 +42,6 @@ pub enum LoadError {
     Newer {
         /// Their version.
         found: i64,
-        /// Where.
         path: PathBuf,
     },
 }
@@ -62,12 +54,7 @@ pub enum SaveError {
     Form(#[from] toml::ser::Error),
     /// The operating system refused.
     #[error("the settings were not saved, the old ones stay: {source}: {}", path.display())]
-    Write {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Write { source: io::Error, path: PathBuf },
 }
 
 /// Where the settings of this user live; `None` on a machine without a home.

@@ -21,9 +21,7 @@ const VERSION: i64 = 1;
 pub struct LockOut {
     /// Who has locked it out.
     pub by: String,
-    /// Why.
     pub reason: String,
-    /// Since when.
     pub since: Timestamp,
 }
 

@@ -9,7 +9,6 @@ use super::{Interruption, KnownHostsError, OfferedKey};
 pub struct Peer {
     /// Its name or IP address.
     pub host: String,
-    /// TCP port.
     pub port: u16,
 }
 
@@ -52,30 +51,16 @@ impl fmt::Display for ConnectStep {
 pub enum ConnectError {
     /// No connection at all.
     #[error("cannot reach it: {source}; check address, port and cable: {peer}")]
-    Unreachable {
-        /// Why.
-        source: io::Error,
-        /// Who.
-        peer: Peer,
-    },
+    Unreachable { source: io::Error, peer: Peer },
     /// Cancelled, or no answer in time.
     #[error("gave up while {step}: {by}; check that the right service listens there: {peer}")]
-    Interrupted {
-        /// Where.
-        step: ConnectStep,
-        /// Why.
-        by: Interruption,
-        /// Who.
-        peer: Peer,
-    },
+    Interrupted { step: ConnectStep, by: Interruption, peer: Peer },
     /// The other side speaks something else, or hung up.
     #[error("failed while {step}: {reason}; check that the right service listens there: {peer}")]
     Failed {
-        /// Where.
         step: ConnectStep,
         /// In the words of the protocol.
         reason: String,
-        /// Who.
         peer: Peer,
     },
     /// Never seen before: the operator has to compare the fingerprint.
@@ -104,12 +89,7 @@ pub enum ConnectError {
     KnownHosts(#[from] KnownHostsError),
     /// The private key cannot be used.
     #[error("the private key cannot be used: {problem}: {}", path.display())]
-    KeyFile {
-        /// Why.
-        problem: KeyFileProblem,
-        /// Where.
-        path: PathBuf,
-    },
+    KeyFile { problem: KeyFileProblem, path: PathBuf },
     /// Wrong password or key, or a user that may not log in.
     #[error("log-in refused for user {user}; check user name and password or key; {hint}: {peer}")]
     LoginRefused {

@@ -26,13 +26,10 @@ pub enum ElementSource {
     },
     /// A file on a server.
     Server {
-        /// The server.
         peer: Peer,
         /// How it is spoken to.
         protocol: FileProtocol,
-        /// The user there.
         user: String,
-        /// The user's password.
         password: SecretString,
         /// The file, with its folder if that is not where the log-in leads.
         file: String,

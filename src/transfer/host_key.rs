@@ -75,18 +75,12 @@ pub enum Verdict {
 pub enum KnownHostsError {
     /// The operating system refused.
     #[error("the known host keys cannot be used: {source}; mend the access to {}", path.display())]
-    Disk {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Disk { source: io::Error, path: PathBuf },
     /// A line that cannot be read may hold the key of any host.
     #[error("line {line} of the known host keys cannot be read; mend or remove it in {}", path.display())]
     Line {
         /// From 1.
         line: usize,
-        /// Where.
         path: PathBuf,
     },
     /// The key has no text form.

@@ -61,18 +61,12 @@ struct List {
 pub enum KeptError {
     /// The operating system refused.
     #[error("{source}; make room or mend the rights on this computer: {}", path.display())]
-    Disk {
-        /// Why.
-        source: io::Error,
-        /// Where.
-        path: PathBuf,
-    },
+    Disk { source: io::Error, path: PathBuf },
     /// The list is no TOML any more.
     #[error("the list of kept files cannot be read: {source}; move it away: {}", path.display())]
     Syntax {
         /// Where in the text.
         source: Box<toml::de::Error>,
-        /// Where.
         path: PathBuf,
     },
     /// The list cannot be put into TOML.
@@ -80,18 +74,10 @@ pub enum KeptError {
     Form(#[from] toml::ser::Error),
     /// A later program wrote the list.
     #[error("the list of kept files has version {found}, this program knows {VERSION}; use the newer program: {}", path.display())]
-    Newer {
-        /// Its version.
-        found: u32,
-        /// Where.
-        path: PathBuf,
-    },
+    Newer { found: u32, path: PathBuf },
     /// The content is not what was kept.
     #[error("the kept file was changed on disk; choose another one: {}", path.display())]
-    Changed {
-        /// Where.
-        path: PathBuf,
-    },
+    Changed { path: PathBuf },
 }
 
 /// The kept files of all units.

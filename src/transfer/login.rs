@@ -19,7 +19,6 @@ pub struct Login {
 /// What proves who logs in.
 #[derive(Debug, Clone)]
 pub enum Proof {
-    /// A password.
     Password(SecretString),
     /// A private key in a file.
     KeyFile {

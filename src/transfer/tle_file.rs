@@ -37,10 +37,7 @@ pub enum TleFileError {
     Refused(Vec<TleRefusal>),
     /// The unit finds an object by its name only.
     #[error("object {catalog_number} has no name, and the unit looks for names; leave it out")]
-    Nameless {
-        /// Which.
-        catalog_number: u32,
-    },
+    Nameless { catalog_number: u32 },
     /// The unit would find the first one only.
     #[error("two objects have the name {name}, and the unit looks for names; leave one out")]
     NameTwice {
@@ -115,7 +112,6 @@ impl TleFile {
         &self.objects
     }
 
-    /// Its hash.
     pub fn hash(&self) -> FileHash {
         FileHash::of(&self.bytes)
     }
@@ -148,7 +144,6 @@ impl FileName {
         Ok(Self(name.to_owned()))
     }
 
-    /// The name.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -27,13 +27,10 @@ pub struct Upload {
 /// Proof that a file is on a unit: it was read back there, in its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Uploaded {
-    /// The unit.
     pub unit: Peer,
     /// The file's name there.
     pub file: FileName,
-    /// Its size.
     pub bytes: u64,
-    /// Its hash.
     pub sha256: FileHash,
     /// When it was read back.
     pub at: Timestamp,

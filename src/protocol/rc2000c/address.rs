@@ -14,7 +14,6 @@ pub struct Address(u8);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("address {number} is not between {LEAST} and {MOST}")]
 pub struct AddressError {
-    /// As given.
     pub number: u8,
 }
 

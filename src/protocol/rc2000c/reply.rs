@@ -16,7 +16,6 @@ pub enum Reply {
     Status {
         /// The command that it answers.
         command: Command,
-        /// The state.
         status: Status,
     },
     /// One entry of the list of satellites.

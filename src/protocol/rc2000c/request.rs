@@ -75,7 +75,6 @@ pub enum Setting {
 
 /// Band of the receiver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names of the bands")]
 pub enum Band {
     C,
     K,

@@ -60,7 +60,6 @@ impl Configuration {
         self.stop_offset_deg
     }
 
-    /// The name.
     pub fn name(&self) -> &RotatorName {
         &self.name
     }

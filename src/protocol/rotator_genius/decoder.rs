@@ -14,7 +14,6 @@ const MAX_PENDING_BYTES: usize = 4096;
 /// What was found in a stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Received {
-    /// A reply.
     Reply(Reply),
     /// Bytes that are no reply, 1 to [`MAX_NOISE_BYTES`]. The reader has found
     /// its place again behind them.

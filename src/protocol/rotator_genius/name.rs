@@ -38,7 +38,6 @@ impl RotatorName {
         }
     }
 
-    /// The name.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -22,27 +22,19 @@ pub enum Request {
 pub enum Motion {
     /// `|A`: turn to an angle.
     GoTo {
-        /// Which one.
         rotator: RotatorNumber,
         /// Azimuth or elevation.
         target: WholeDegrees,
     },
     /// `|P` or `|M`: turn until stopped. Inside its limits the device itself
     /// stops at the limit; outside nothing but `|S` ends it.
-    Rotate {
-        /// Which one.
-        rotator: RotatorNumber,
-        /// Which way.
-        direction: Direction,
-    },
+    Rotate { rotator: RotatorNumber, direction: Direction },
 }
 
 /// One of the two rotators of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RotatorNumber {
-    /// The first.
     One,
-    /// The second.
     Two,
 }
 

@@ -42,7 +42,6 @@ pub struct Rotator {
     /// Whether it stands outside its limits; `None` when the byte is none of
     /// those that are known.
     pub is_outside_limits: Option<bool>,
-    /// Its name.
     pub name: String,
 }
 

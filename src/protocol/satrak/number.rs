@@ -10,11 +10,8 @@ pub enum ValueError {
     Range {
         /// What the number means, with its unit.
         what: &'static str,
-        /// As given.
         value: f64,
-        /// Smallest accepted.
         least: f64,
-        /// Largest accepted.
         most: f64,
     },
     /// A number that has no meaning in the document.
@@ -22,7 +19,6 @@ pub enum ValueError {
     Choice {
         /// What is chosen.
         what: &'static str,
-        /// As given.
         code: i64,
     },
     /// No axis would move: use the stop command to stand still.

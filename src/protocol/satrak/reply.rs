@@ -9,7 +9,6 @@ use super::{
 
 /// What the unit says.
 #[derive(Debug, Clone, PartialEq)]
-#[allow(missing_docs, reason = "the types of the values say it")]
 pub enum Reply {
     Version(Version),
     Status(Status),
@@ -90,7 +89,6 @@ pub enum ReplyError {
     /// Nobody asks or sets this word in this way.
     #[error("{word}{} is no request", verb.sign())]
     NoSuchRequest {
-        /// The word.
         word: Word,
         /// How it was used.
         verb: Verb,
@@ -101,7 +99,6 @@ pub enum ReplyError {
     /// Not the number of values of this reply.
     #[error("{word}? with {found} instead of {least} to {most} values")]
     Count {
-        /// The word.
         word: Word,
         /// How many values came.
         found: usize,
@@ -115,7 +112,6 @@ pub enum ReplyError {
     /// A value that cannot be read.
     #[error("{word}?: {error}")]
     Field {
-        /// The word.
         word: Word,
         /// Which value, and why.
         error: FieldError,

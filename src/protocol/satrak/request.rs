@@ -22,7 +22,6 @@ pub enum Request {
 
 /// What can be asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "each has a reply of the same name")]
 pub enum Query {
     Version,
     Status,

@@ -122,11 +122,8 @@ impl HttpTle {
 pub struct SatelliteFtp {
     /// Address of the server.
     pub address: String,
-    /// User name.
     pub user: String,
-    /// Password.
     pub password: Password,
-    /// TCP port.
     pub port: u16,
     /// File with the elements.
     pub file: String,
@@ -170,9 +167,7 @@ pub struct TleSelection {
 pub struct FtpTle {
     /// Address of the server.
     pub address: TextValue,
-    /// User name.
     pub user: TextValue,
-    /// Password.
     pub password: Password,
     /// TCP port. The document's example has 22, which is SFTP.
     pub port: u16,

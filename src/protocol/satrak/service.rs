@@ -70,7 +70,6 @@ pub enum AngleChange {
         x_sensor: u16,
         /// Sensor reading of the Y axis.
         y_sensor: u16,
-        /// The angles.
         angles: SensorAngles,
     },
 }

@@ -19,7 +19,6 @@ coded! {
 coded! {
     /// Switch of the transmitter's power amplifier (SSPA).
     SspaMode {
-        /// Off.
         Off = 0,
         /// On: the antenna radiates.
         On = 1,
@@ -129,7 +128,6 @@ impl Settings {
 
 /// A wish to change settings; `None` keeps a value. Meanings as in [`Settings`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[allow(missing_docs, reason = "the fields are those of `Settings`")]
 pub struct SettingsChange {
     pub rtc_from_gps: Option<bool>,
     pub time_offset_ms: Option<i64>,

@@ -4,7 +4,6 @@ use std::fmt;
 
 /// One of the 22 command names of the document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the names are the document's own; `name` gives them")]
 pub enum Word {
     Version,
     Move,

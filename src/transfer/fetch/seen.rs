@@ -17,7 +17,6 @@ const MOST_SIMILAR: usize = 5;
 pub struct UnitView {
     /// Size of the file.
     pub bytes: u64,
-    /// Its hash.
     pub sha256: FileHash,
     /// How many objects can be read.
     pub objects: usize,

@@ -30,7 +30,6 @@ pub enum FrameError {
     /// the eighth bit set.
     #[error("byte {byte:02X} at place {at}")]
     BadByte {
-        /// As received.
         byte: u8,
         /// Its place, counted from 0 at the header.
         at: usize,

@@ -55,7 +55,6 @@ impl Direction {
 
 /// Speed of a jog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the controller has these two, and no numbers for them")]
 pub enum Speed {
     Slow,
     Fast,
@@ -79,17 +78,14 @@ impl Jog {
         Ok(Self { direction, speed, duration_ms })
     }
 
-    /// Which way.
     pub const fn direction(self) -> Direction {
         self.direction
     }
 
-    /// How fast.
     pub const fn speed(self) -> Speed {
         self.speed
     }
 
-    /// How long.
     pub const fn duration(self) -> Duration {
         Duration::from_millis(self.duration_ms as u64)
     }
@@ -108,9 +104,7 @@ impl Jog {
 /// The drive whose alarm is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveReset {
-    /// Azimuth.
     Azimuth,
-    /// Elevation.
     Elevation,
     /// Polarization; refused without a rotating feed.
     Polarization,

@@ -8,11 +8,8 @@ pub enum ValueError {
     Range {
         /// What the number means, with its unit.
         what: &'static str,
-        /// As given.
         value: u64,
-        /// Smallest accepted.
         least: u64,
-        /// Largest accepted.
         most: u64,
     },
     /// A controller would read the ten digits of the name as a position.

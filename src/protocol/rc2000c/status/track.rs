@@ -2,7 +2,6 @@
 
 /// Band of the receiver in track mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names of the bands")]
 pub enum TrackBand {
     C,
     K,
@@ -89,7 +88,6 @@ impl Submode {
     }
 }
 
-/// The track mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Track {
     /// Band in use.
@@ -134,7 +132,6 @@ pub enum ReceiverChannel {
     Unknown,
 }
 
-/// The receiver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Receiver {
     /// The stronger channel.
