@@ -123,7 +123,7 @@ pub enum Extent {
 
 /// What came of something that was asked of the device.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Happening {
+pub enum ControllerEvent {
     /// The target was sent and read back: the device holds it.
     Prepared(TrackTarget),
     /// The target is not on the device.
@@ -263,7 +263,7 @@ pub trait Device: Send {
     fn state(&self) -> &AntennaState;
 
     /// What came of earlier requests, oldest first.
-    fn next_happening(&mut self) -> Option<Happening> {
+    fn next_event(&mut self) -> Option<ControllerEvent> {
         None
     }
 
@@ -294,7 +294,7 @@ pub trait Moves: Device {
     }
 
     /// Puts a target on the device without moving it. The outcome comes as a
-    /// [`Happening`].
+    /// [`ControllerEvent`].
     fn prepare(&mut self, _target: TrackTarget) {}
 
     /// Puts new values of a group on the device and reads them back. How far it

@@ -22,7 +22,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use crate::{
     clock::{Instant, Moment},
-    device::{AntennaState, Asked, Happening, Motion, Question, wire::WireQueue},
+    device::{AntennaState, Asked, ControllerEvent, Motion, Question, wire::WireQueue},
     protocol::rc2000c::{
         self as unit, Address, Decoder, DeviceType, NameIndex, Query, Request, Speed, Status,
     },
@@ -82,7 +82,7 @@ pub struct Rc2000c {
     jog: Option<HeldJog>,
     /// A stop was pressed while the polarization may be under way.
     holds_polarization: bool,
-    happenings: VecDeque<Happening>,
+    events: VecDeque<ControllerEvent>,
     /// Bytes that came in and are not told yet, and when the last of them came.
     heard: Vec<u8>,
     heard_at: Option<Instant>,
@@ -157,7 +157,7 @@ impl Rc2000c {
             orders: VecDeque::new(),
             jog: None,
             holds_polarization: false,
-            happenings: VecDeque::new(),
+            events: VecDeque::new(),
             heard: Vec::new(),
             heard_at: None,
             wire: WireQueue::default(),
@@ -222,7 +222,7 @@ impl Rc2000c {
         let jog = jog.filter(|_| age.is_none_or(|age| age < JOG));
         let Some(jog) = jog else {
             self.jog = None;
-            self.happenings.push_back(Happening::Unanswered(motion.into()));
+            self.events.push_back(ControllerEvent::Unanswered(motion.into()));
             return None;
         };
         held.sent = Some(now.steady);
@@ -233,7 +233,7 @@ impl Rc2000c {
     fn order(&mut self, asked: Asked, request: Result<Request, String>) {
         match request {
             Ok(request) => self.orders.push_back(Order { request, asked: Some(asked) }),
-            Err(reason) => self.happenings.push_back(Happening::Refused(asked, reason)),
+            Err(reason) => self.events.push_back(ControllerEvent::Refused(asked, reason)),
         }
     }
 

@@ -21,7 +21,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use crate::{
     clock::{Instant, Moment},
-    device::{AntennaState, Happening, Question, settings::ChangeQueue, wire::WireQueue},
+    device::{AntennaState, ControllerEvent, Question, settings::ChangeQueue, wire::WireQueue},
     protocol::rotator_genius::{Decoder, Request, Status},
     station::PollRates,
 };
@@ -79,7 +79,7 @@ pub struct Genius {
     is_asked: bool,
     rescue_until: Option<Instant>,
     changes: ChangeQueue,
-    happenings: VecDeque<Happening>,
+    events: VecDeque<ControllerEvent>,
     wire: WireQueue,
 }
 
@@ -118,7 +118,7 @@ impl Genius {
             is_asked: false,
             rescue_until: None,
             changes: ChangeQueue::new(GROUPS),
-            happenings: VecDeque::new(),
+            events: VecDeque::new(),
             wire: WireQueue::default(),
         }
     }

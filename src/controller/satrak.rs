@@ -28,7 +28,7 @@ pub use words::meaning;
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Happening, Motion, PrepareError, settings::ChangeQueue, wire::WireQueue,
+        AntennaState, ControllerEvent, Motion, PrepareError, settings::ChangeQueue, wire::WireQueue,
     },
     protocol::satrak::{Decoder, Halt, Query, Request},
     station::PollRates,
@@ -77,7 +77,7 @@ pub struct Satrak {
     changes: ChangeQueue,
     /// A setting that takes the unit long; other questions go on meanwhile.
     slow: Option<Outstanding>,
-    happenings: VecDeque<Happening>,
+    events: VecDeque<ControllerEvent>,
     wire: WireQueue,
     /// Something with a header has come over this link.
     has_heard_frame: bool,
@@ -112,7 +112,7 @@ impl Satrak {
             wanted: VecDeque::new(),
             changes: ChangeQueue::new(GROUPS),
             slow: None,
-            happenings: VecDeque::new(),
+            events: VecDeque::new(),
             wire: WireQueue::default(),
             has_heard_frame: false,
         }
@@ -146,7 +146,8 @@ impl Satrak {
             return match unit_motion(motion) {
                 Ok(request) => Some((Request::Motion(request), Purpose::Motion(motion))),
                 Err(error) => {
-                    self.happenings.push_back(Happening::Refused(motion.into(), error.to_string()));
+                    self.events
+                        .push_back(ControllerEvent::Refused(motion.into(), error.to_string()));
                     None
                 }
             };
@@ -175,7 +176,7 @@ impl Satrak {
 
     fn fail_preparation(&mut self, reason: PrepareError) {
         if let Some(preparation) = self.preparation.take() {
-            self.happenings.push_back(Happening::NotPrepared(preparation.target, reason));
+            self.events.push_back(ControllerEvent::NotPrepared(preparation.target, reason));
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{Order, Rc2000c, refusal::is_tracking};
 use crate::{
     device::{
-        Asked, Device, Happening,
+        Asked, ControllerEvent, Device,
         panel::{Act, Action, Lead},
         settings::{Field, Key, Unfit},
     },
@@ -137,7 +137,7 @@ impl Rc2000c {
         let asked = Asked::Action(act.action);
         if self.motion_under_way() {
             let reason = "another command is under way".to_owned();
-            return self.happenings.push_back(Happening::Refused(asked, reason));
+            return self.events.push_back(ControllerEvent::Refused(asked, reason));
         }
         match act.action {
             READ_LIST => self.names = super::Names::default(),

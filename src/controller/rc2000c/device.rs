@@ -10,8 +10,8 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Device, Extent, Finding, Happening, Motion, Moves, PrepareError, TrackTarget,
-        WireLine,
+        AntennaState, ControllerEvent, Device, Extent, Finding, Motion, Moves, PrepareError,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
     },
     protocol::rc2000c::{
@@ -143,8 +143,8 @@ impl Device for Rc2000c {
         &self.state
     }
 
-    fn next_happening(&mut self) -> Option<Happening> {
-        self.happenings.pop_front()
+    fn next_event(&mut self) -> Option<ControllerEvent> {
+        self.events.pop_front()
     }
 
     fn patience(&self) -> Duration {
@@ -189,7 +189,7 @@ impl Moves for Rc2000c {
 
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("it holds no elements".to_owned());
-        self.happenings.push_back(Happening::NotPrepared(target, reason));
+        self.events.push_back(ControllerEvent::NotPrepared(target, reason));
     }
 
     fn start(&mut self, motion: Motion) {

@@ -4,7 +4,7 @@ use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings,
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
-    device::{Asked, Happening, Measured, Motion, Phase, Program},
+    device::{Asked, ControllerEvent, Measured, Motion, Phase, Program},
     protocol::rc2000c::{
         AutoMove, Command, Frame, FrameError, Motion as UnitMotion, PolarizationMotion,
         PolarizationUnits, Query, Reply, ReplyError, Request, Status,
@@ -136,7 +136,7 @@ impl Rc2000c {
             Reply::Status { status, .. } => {
                 self.take_status(*status, answered, now);
                 if let Purpose::Order(asked) = answered.purpose {
-                    self.happenings.extend(asked.map(Happening::Accepted));
+                    self.events.extend(asked.map(ControllerEvent::Accepted));
                 }
                 let is_jog = matches!(answered.request, Request::Motion(UnitMotion::Jog(_)));
                 if answered.purpose != Purpose::Poll && !is_jog {
@@ -190,16 +190,16 @@ impl Rc2000c {
 
     /// The unit said no.
     fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
-        self.end_jog(answered, |asked| Happening::Refused(asked, reason.clone()));
+        self.end_jog(answered, |asked| ControllerEvent::Refused(asked, reason.clone()));
         match answered.purpose {
             Purpose::Poll | Purpose::Question => self.question_failed(&answered.request, now),
             Purpose::Order(Some(asked)) => {
                 self.orders.clear();
-                self.happenings.push_back(Happening::Refused(asked, reason));
+                self.events.push_back(ControllerEvent::Refused(asked, reason));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Order(None) => {
-                self.happenings.push_back(Happening::HaltRefused(reason));
+                self.events.push_back(ControllerEvent::HaltRefused(reason));
                 self.look_soon(now);
             }
             Purpose::Disowned => self.look_soon(now),
@@ -216,11 +216,11 @@ impl Rc2000c {
 
     /// Nothing renews the jog any more: the timer of the unit ends it. It is told
     /// where the command that failed was not the jog itself.
-    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Asked) -> Happening) {
+    fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Asked) -> ControllerEvent) {
         let is_told =
             matches!(failed.purpose, Purpose::Order(Some(Asked::Motion(Motion::Jog { .. }))));
         let ended = self.jog.take().filter(|_| !is_told);
-        self.happenings.extend(ended.map(|jog| tell(jog.motion.into())));
+        self.events.extend(ended.map(|jog| tell(jog.motion.into())));
     }
 
     /// What was not answered in time. A question is repeated; anything else
@@ -253,7 +253,7 @@ impl Rc2000c {
             Purpose::Question => self.question_failed(&late.request, now),
             Purpose::Order(asked) => {
                 self.orders.clear();
-                self.happenings.extend(asked.map(Happening::Unanswered));
+                self.events.extend(asked.map(ControllerEvent::Unanswered));
                 self.look_soon(now);
             }
             Purpose::Halt | Purpose::Disowned => self.look_soon(now),
@@ -288,7 +288,7 @@ impl Rc2000c {
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
-        self.end_jog(late, Happening::Unanswered);
+        self.end_jog(late, ControllerEvent::Unanswered);
     }
 
     pub(super) fn refresh_panel(&mut self) {

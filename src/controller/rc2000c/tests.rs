@@ -55,8 +55,8 @@ impl Bench {
         self.unit.receive(bytes, self.now);
     }
 
-    fn happenings(&mut self) -> Vec<Happening> {
-        std::iter::from_fn(|| self.unit.next_happening()).collect()
+    fn events(&mut self) -> Vec<ControllerEvent> {
+        std::iter::from_fn(|| self.unit.next_event()).collect()
     }
 }
 
@@ -119,9 +119,9 @@ fn a_renewal_that_comes_too_late_is_not_sent() {
     bench.hear(IDLE);
     assert_eq!(bench.poll_after(50), Some(jog));
     bench.hear(&idle_reply_to(b'3'));
-    assert_eq!(bench.happenings().len(), 2);
+    assert_eq!(bench.events().len(), 2);
     assert_eq!(bench.poll_after(600).as_deref(), Some(STATUS));
-    assert_eq!(bench.happenings(), [Happening::Unanswered(motion.into())]);
+    assert_eq!(bench.events(), [ControllerEvent::Unanswered(motion.into())]);
     assert!(!bench.unit.motion_under_way());
 }
 
@@ -136,7 +136,7 @@ fn a_halt_goes_past_a_reply_and_ends_what_waits() {
     assert_eq!(bench.poll_after(50), None, "the halt is not answered yet");
     bench.hear(&idle_reply_to(b'3'));
     assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS), "at once, to see it stand");
-    assert_eq!(bench.happenings(), []);
+    assert_eq!(bench.events(), []);
 }
 
 #[test]
@@ -172,10 +172,10 @@ fn an_offline_reply_in_a_jog_ends_it() {
     bench.unit.start(motion);
     bench.poll_after(50).unwrap();
     bench.hear(&idle_reply_to(b'3'));
-    bench.happenings();
+    bench.events();
     assert_eq!(bench.poll_after(260).as_deref(), Some(STATUS));
     bench.hear(OFFLINE);
-    let [Happening::Refused(refused, reason)] = &bench.happenings()[..] else { panic!() };
+    let [ControllerEvent::Refused(refused, reason)] = &bench.events()[..] else { panic!() };
     assert_eq!((*refused, &**reason), (motion.into(), "remote mode is disabled on the unit"));
     assert!(!bench.unit.motion_under_way());
 }

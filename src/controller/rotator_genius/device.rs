@@ -11,8 +11,8 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
-        WireLine,
+        AntennaState, Asked, ControllerEvent, Device, Extent, Motion, Moves, PrepareError,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError},
     },
@@ -130,8 +130,8 @@ impl Device for Genius {
         &self.state
     }
 
-    fn next_happening(&mut self) -> Option<Happening> {
-        self.happenings.pop_front()
+    fn next_event(&mut self) -> Option<ControllerEvent> {
+        self.events.pop_front()
     }
 
     fn patience(&self) -> Duration {
@@ -151,7 +151,7 @@ impl Moves for Genius {
 
     fn prepare(&mut self, target: TrackTarget) {
         let reason = PrepareError::CannotBeSent("the unit does not track by itself".to_owned());
-        self.happenings.push_back(Happening::NotPrepared(target, reason));
+        self.events.push_back(ControllerEvent::NotPrepared(target, reason));
     }
 
     fn settle(&mut self, change: Change, now: Moment) {
@@ -171,7 +171,7 @@ impl Moves for Genius {
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),
             Err(why) => {
-                self.happenings.push_back(Happening::Refused(motion.into(), why.to_owned()));
+                self.events.push_back(ControllerEvent::Refused(motion.into(), why.to_owned()));
             }
         }
     }
@@ -185,7 +185,7 @@ impl Moves for Genius {
                 match self.order_for(&act) {
                     Ok(order) => self.orders.push_back(order),
                     Err(why) => {
-                        self.happenings.push_back(Happening::Refused(asked, why.to_owned()));
+                        self.events.push_back(ControllerEvent::Refused(asked, why.to_owned()));
                     }
                 }
             }

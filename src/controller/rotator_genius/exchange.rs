@@ -4,7 +4,7 @@ use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
-    device::{Asked, Happening, PROMPT},
+    device::{Asked, ControllerEvent, PROMPT},
     protocol::rotator_genius::{
         self as unit, Acknowledgement, Direction, Received, Reply, Request, Status,
     },
@@ -181,7 +181,7 @@ impl Genius {
         }
         self.count_reply(now);
         if !is_accepted {
-            self.happenings.push_back(Happening::HaltRefused("F".to_owned()));
+            self.events.push_back(ControllerEvent::HaltRefused("F".to_owned()));
         }
     }
 
@@ -194,14 +194,14 @@ impl Genius {
         let Purpose::Motion(asked) = outstanding.purpose else { return };
         if is_accepted {
             if !self.orders.iter().any(|order| order.asked == asked) {
-                self.happenings.push_back(Happening::Accepted(asked));
+                self.events.push_back(ControllerEvent::Accepted(asked));
             }
             return;
         }
         self.forget_orders(asked);
         if let Request::Motion(request) = outstanding.request {
             let refusal = self.refusal(request);
-            self.happenings.push_back(Happening::Refused(asked, refusal));
+            self.events.push_back(ControllerEvent::Refused(asked, refusal));
         }
     }
 
@@ -223,7 +223,7 @@ impl Genius {
         match late.purpose {
             Purpose::Motion(asked) => {
                 self.forget_orders(asked);
-                self.happenings.push_back(Happening::Unanswered(asked));
+                self.events.push_back(ControllerEvent::Unanswered(asked));
             }
             Purpose::Settle => self.change_unanswered(now),
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}

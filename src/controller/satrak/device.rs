@@ -9,7 +9,7 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Device, Extent, Happening, Motion, Moves, PrepareError, TrackTarget,
+        AntennaState, ControllerEvent, Device, Extent, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},
         settings::{Change, SettleError},
@@ -166,8 +166,8 @@ impl Device for Satrak {
         &self.state
     }
 
-    fn next_happening(&mut self) -> Option<Happening> {
-        self.happenings.pop_front()
+    fn next_event(&mut self) -> Option<ControllerEvent> {
+        self.events.pop_front()
     }
 
     fn patience(&self) -> Duration {

@@ -5,7 +5,7 @@ use crate::{
     astro::Angle,
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
-    device::{Happening, Motion, PROMPT, PrepareError, settings::ReadFailure},
+    device::{ControllerEvent, Motion, PROMPT, PrepareError, settings::ReadFailure},
     protocol::satrak::{
         self as unit, Frame, FrameError, Goto, Halt, Move, Query, Reply, ReplyError, Request, Step,
         ValueError, Verb, Word,
@@ -148,7 +148,7 @@ impl Satrak {
         match Reply::parse(frame).map(|parsed| parsed.reply) {
             Ok(Reply::Refused { code }) => {
                 self.count_reply(now);
-                self.happenings.push_back(Happening::HaltRefused(code));
+                self.events.push_back(ControllerEvent::HaltRefused(code));
             }
             Ok(_) => self.count_reply(now),
             Err(error) => {
@@ -204,7 +204,7 @@ impl Satrak {
                 self.change_answered(&reply, now);
             }
             (_, Purpose::Motion(motion)) => {
-                self.happenings.push_back(Happening::Accepted(motion.into()));
+                self.events.push_back(ControllerEvent::Accepted(motion.into()));
                 self.look_soon(now);
             }
             (_, Purpose::Calm(_) | Purpose::Disowned) => self.look_soon(now),
@@ -242,7 +242,7 @@ impl Satrak {
             Ok(Outcome::Done) => {
                 let target = preparation.target.clone();
                 self.preparation = None;
-                self.happenings.push_back(Happening::Prepared(target));
+                self.events.push_back(ControllerEvent::Prepared(target));
             }
             Err(reason) => self.fail_preparation(reason),
         }
@@ -256,13 +256,13 @@ impl Satrak {
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
             Purpose::Settle => self.change_refused(code, now),
             Purpose::Motion(motion) => {
-                self.happenings.push_back(Happening::Refused(motion.into(), code));
+                self.events.push_back(ControllerEvent::Refused(motion.into(), code));
                 self.look_soon(now);
             }
             Purpose::Calm(Halt::AutoTrackOff) => {
-                self.happenings.push_back(Happening::AutoStaysOn);
+                self.events.push_back(ControllerEvent::AutoStaysOn);
             }
-            Purpose::Calm(_) => self.happenings.push_back(Happening::HaltRefused(code)),
+            Purpose::Calm(_) => self.events.push_back(ControllerEvent::HaltRefused(code)),
             Purpose::Disowned => {}
         }
     }
@@ -373,11 +373,11 @@ impl Satrak {
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
             Purpose::Settle => self.change_unanswered(now),
             Purpose::Motion(motion) => {
-                self.happenings.push_back(Happening::Unanswered(motion.into()));
+                self.events.push_back(ControllerEvent::Unanswered(motion.into()));
                 self.look_soon(now);
             }
             Purpose::Calm(Halt::AutoTrackOff) => {
-                self.happenings.push_back(Happening::AutoStaysOn);
+                self.events.push_back(ControllerEvent::AutoStaysOn);
             }
             Purpose::Calm(_) | Purpose::Disowned => self.look_soon(now),
         }

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     clock::{Instant, Moment},
-    device::{Asked, Happening, Motion, Phase, TrackTarget},
+    device::{Asked, ControllerEvent, Motion, Phase, TrackTarget},
     driver::{Found, Intent},
 };
 
@@ -32,8 +32,8 @@ pub(super) struct Doubt {
 impl Session {
     /// Looks at everything once. Called after every byte, command and timer.
     pub(super) fn supervise(&mut self, now: Moment) {
-        while let Some(happening) = self.gate.device().next_happening() {
-            self.take(happening, now);
+        while let Some(event) = self.gate.device().next_event() {
+            self.take(event, now);
         }
         self.report_found(now);
         self.watch_likeness(now);
@@ -81,26 +81,28 @@ impl Session {
             .min()
     }
 
-    fn take(&mut self, happening: Happening, now: Moment) {
-        match happening {
-            Happening::Prepared(target) => self.loaded(&target, now),
-            Happening::NotPrepared(target, reason) => {
+    fn take(&mut self, event: ControllerEvent, now: Moment) {
+        match event {
+            ControllerEvent::Prepared(target) => self.loaded(&target, now),
+            ControllerEvent::NotPrepared(target, reason) => {
                 // A target that was given up since then needs no word.
                 if self.activity.on_board().is_some_and(|track| track.target == target) {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
-            Happening::Accepted(Asked::Motion(Motion::Position { .. })) => self.position_taken(),
-            Happening::Accepted(_) => {}
-            Happening::Refused(asked, code) => {
+            ControllerEvent::Accepted(Asked::Motion(Motion::Position { .. })) => {
+                self.position_taken()
+            }
+            ControllerEvent::Accepted(_) => {}
+            ControllerEvent::Refused(asked, code) => {
                 self.forget(asked, Event::Refused(asked, code), now);
             }
-            Happening::Unanswered(asked) => {
+            ControllerEvent::Unanswered(asked) => {
                 let before_deg = self.gate.started_from_deg();
                 self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
             }
-            Happening::HaltRefused(code) => self.tell(Event::StopRefused(code)),
-            Happening::AutoStaysOn => self.tell(Event::AutoStaysOn),
+            ControllerEvent::HaltRefused(code) => self.tell(Event::StopRefused(code)),
+            ControllerEvent::AutoStaysOn => self.tell(Event::AutoStaysOn),
         }
     }
 
