@@ -40,8 +40,8 @@ pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, Session, Wires};
 pub use snapshot::{
-    Event, FollowProblem, FollowView, Found, Inside, LinkLoss, LinkState, OnBoardView, Snapshot,
-    StopState, StoppingWay,
+    Event, Found, Inside, LinkLoss, LinkState, OnBoardView, Snapshot, StopState, StoppingWay,
+    TrackProblem, TrackView,
 };
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{MOST_LINES, Recorded, WireLog};

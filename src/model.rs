@@ -31,7 +31,8 @@ use crate::{
         closing::Closing,
         copies::Copies,
         passes::{
-            Followed, ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses, ahead,
+            ListChoice, ListedSatellite, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses,
+            ahead,
         },
         source_tests::SourceTests,
         sources::Sources,
@@ -139,7 +140,7 @@ pub struct Sky {
 #[derive(Debug)]
 pub struct Seen {
     /// Which.
-    pub satellite: Arc<Followed>,
+    pub satellite: Arc<ListedSatellite>,
     /// Where.
     pub direction: AzEl,
     /// Where it goes in the next minutes.
@@ -246,8 +247,8 @@ impl Model {
 impl Sky {
     fn refresh(
         &mut self,
-        satellites: &[Arc<Followed>],
-        selected: Option<&Followed>,
+        satellites: &[Arc<ListedSatellite>],
+        selected: Option<&ListedSatellite>,
         site: Site,
         now: Timestamp,
     ) {

@@ -5,13 +5,13 @@ mod az_el;
 mod azimuth_wrap;
 pub mod bounds;
 pub(crate) mod detour;
-pub mod follow;
 pub mod on_board;
 pub mod pass_export;
+pub mod program_track;
 mod rate_limited;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
-pub use follow::{Follow, FollowPhase, FollowStats, Target};
 pub use on_board::{OnBoardPass, Supervision};
+pub use program_track::{ProgramTrack, Target, TrackPhase, TrackStats};
 pub use trackability::{Loss, MountLimits, Sample, Trackability, trackability};

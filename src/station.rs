@@ -6,13 +6,13 @@ mod calibration;
 mod connection;
 mod controller_spec;
 mod file;
-mod following;
 mod keep_out;
 mod lock_outs;
 mod mount;
 pub mod ranges;
 mod read;
 mod setting;
+mod track_settings;
 mod watch;
 
 pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
@@ -21,12 +21,12 @@ pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
-pub use following::{AfterPass, Following};
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
 pub use setting::{Holds, Setting, Table, Value};
+pub use track_settings::{AfterPass, TrackSettings};
 pub use watch::{Monitor, OnClose, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
 
 use serde::{Serialize, Serializer};

@@ -17,7 +17,7 @@ use azel::{
         Client, Command, Handle, Settings,
         status::{AntennaStatus, LinkStatus},
     },
-    plan::{Follow, Target},
+    plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
     station::{self, Antenna, AntennaId, Station},
 };
@@ -182,9 +182,12 @@ fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
     }
     let before = here.now().steady;
     let went = there.now().steady;
-    let sun =
-        Follow { target: Target::Sun, site: there.snapshot().station.site, passes: Vec::new() };
-    move_by(&there, "Mast", &driver::Command::Follow(Box::new(sun)));
+    let sun = ProgramTrack {
+        target: Target::Sun,
+        site: there.snapshot().station.site,
+        passes: Vec::new(),
+    };
+    move_by(&there, "Mast", &driver::Command::ProgramTrack(Box::new(sun)));
     until("ten minutes", || ((there.now().steady - went).as_secs() > 600).then_some(()));
     assert!((here.now().steady - before).as_secs() < 60, "{:?}", here.now().steady - before);
     assert!(passed_s(&there) > 600.0);
@@ -219,8 +222,8 @@ fn a_served_station_lives_an_hour_with_trouble_on_the_lines() {
     let (client, units, end) = (scene.client(), scene.units.clone(), scene.end.clone());
     let driving = thread::Builder::new().name("drives".to_owned()).spawn(move || {
         let site = client.snapshot().station.site;
-        let sun = || Follow { target: Target::Sun, site, passes: Vec::new() };
-        move_by(&client, "Mast", &driver::Command::Follow(Box::new(sun())));
+        let sun = || ProgramTrack { target: Target::Sun, site, passes: Vec::new() };
+        move_by(&client, "Mast", &driver::Command::ProgramTrack(Box::new(sun())));
         measured(&client, "Horn");
         let mut count = 0;
         while passed_s(&client) < 3600.0 {

@@ -28,7 +28,7 @@ use azel::{
     },
     makes,
     orbit::bundled,
-    plan::{Follow, Target},
+    plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
     station::{self, Antenna, AntennaId, OnClose, Station},
 };
@@ -199,8 +199,8 @@ fn track_on_board(client: &Client) {
 fn lead_to_the_sun(client: &Client) {
     wait_for("the mast", || is_measured(client, "Mast"));
     let site = client.snapshot().station.site;
-    let follow = Follow { target: Target::Sun, site, passes: Vec::new() };
-    send(client, id(client, "Mast"), driver::Command::Follow(Box::new(follow)));
+    let follow = ProgramTrack { target: Target::Sun, site, passes: Vec::new() };
+    send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the mast moves", || (status(client, "Mast").moves == Some(true)).then_some(()));
 }
 
@@ -295,8 +295,8 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     };
     assert!(told.alarms.list().iter().any(says_so));
     // A motion that is asked for there goes nowhere.
-    let follow = Follow { target: Target::Sun, site: told.station.site, passes: Vec::new() };
-    send(client, id(client, "Mast"), driver::Command::Follow(Box::new(follow)));
+    let follow = ProgramTrack { target: Target::Sun, site: told.station.site, passes: Vec::new() };
+    send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the refusal", || {
         let station = client.snapshot();
         let (news, _) = named(&station, "Mast").news.as_ref()?;

@@ -79,8 +79,8 @@ impl App {
             UiCommand::Track { antenna, pass } => {
                 self.send_to(antenna, |antenna| Command::Track { antenna, pass, is_agreed: false });
             }
-            UiCommand::FollowPass { antenna, pass } => {
-                self.send_to(antenna, |antenna| Command::FollowPass { antenna, pass });
+            UiCommand::ProgramTrackPass { antenna, pass } => {
+                self.send_to(antenna, |antenna| Command::ProgramTrackPass { antenna, pass });
             }
             UiCommand::TrackAnyway { antenna, pass } => {
                 self.send_to(antenna, |antenna| Command::Track { antenna, pass, is_agreed: true });
@@ -106,8 +106,8 @@ impl App {
                 let scope = model.list.scope;
                 self.send(Command::ResumeSearch(scope));
             }
-            UiCommand::Follow { number, is_followed } => {
-                self.send(Command::SetFavourite { number, is_favourite: is_followed });
+            UiCommand::SetFavourite { number, is_favourite } => {
+                self.send(Command::SetFavourite { number, is_favourite });
             }
             UiCommand::AddSource(source) => self.send(Command::AddSource(source)),
             UiCommand::RemoveSource(name) => self.send(Command::RemoveSource(name)),

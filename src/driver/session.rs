@@ -5,7 +5,6 @@
 mod activity;
 mod clocks;
 mod command;
-mod follow;
 mod guard;
 mod inside;
 mod io_loop;
@@ -16,6 +15,7 @@ mod lock_out;
 mod marking;
 mod monitor;
 mod on_board;
+mod program_track;
 mod settle;
 mod shutdown;
 mod silence;
@@ -51,13 +51,13 @@ use crate::{
 };
 use activity::Activity;
 use clocks::Clocks;
-use follow::{Following, Manner, ResumeRule};
 use guard::Guard;
 use jog::JogKey;
 use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{RunOut, Watch};
+use program_track::{Manner, ResumeRule, Tracking};
 use silence::Silence;
 use standstill::{Figures, Rest};
 use step::Stepping;
@@ -372,7 +372,7 @@ impl Session {
             aim: self.activity.aim(),
             target: self.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),
-            following: self.activity.last_program().map(Following::view),
+            program_track: self.activity.last_program().map(Tracking::view),
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),

@@ -13,7 +13,7 @@ use crate::{
         settings::{GroupState, Held, Hindrance},
     },
     orbit::PropagationError,
-    plan::{Barrier, FollowPhase, FollowStats, Sample, Supervision},
+    plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats},
     station::LockOut,
 };
 
@@ -35,7 +35,7 @@ pub struct Snapshot {
     /// How the unit tracks it by itself.
     pub on_board: Option<OnBoardView>,
     /// What this program follows with it, position by position.
-    pub following: Option<FollowView>,
+    pub program_track: Option<TrackView>,
     /// It was moved from here, or a stop is owed, and standstill is not proved
     /// since.
     pub unproved: bool,
@@ -77,7 +77,7 @@ impl Snapshot {
             aim: None,
             target: None,
             on_board: None,
-            following: None,
+            program_track: None,
             unproved: false,
             lock_out: None,
             locking: false,
@@ -112,7 +112,7 @@ impl Snapshot {
         }
         let told = self.pending
             || self.intent == Intent::Track
-            || self.following.is_some()
+            || self.program_track.is_some()
             || self.jog.is_some()
             || self.step.is_some();
         Hindrance::of(&self.state, can, now).or(told.then_some(Hindrance::Moves))
@@ -140,7 +140,7 @@ impl Snapshot {
         newer.state.checked_at = self.state.checked_at;
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.on_board.clock = self.state.on_board.clock;
-        if let (Some(old), Some(new)) = (&self.following, &mut newer.following) {
+        if let (Some(old), Some(new)) = (&self.program_track, &mut newer.program_track) {
             new.next_look = old.next_look;
             new.stats = old.stats;
             new.predicted = old.predicted;
@@ -195,15 +195,15 @@ pub struct OnBoardView {
 
 /// What is followed position by position, and how well.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FollowView {
+pub struct TrackView {
     /// Of the target.
     pub name: String,
     /// Of a satellite, up to nine digits.
     pub catalog_number: Option<u32>,
     /// Where it is in its passes.
-    pub phase: FollowPhase,
+    pub phase: TrackPhase,
     /// How well it is followed, and the number of commands.
-    pub stats: FollowStats,
+    pub stats: TrackStats,
     /// It waits for the operator's word, because the antenna was out of sight.
     pub awaits_word: bool,
     /// When it is looked at next whether the antenna is where it should be.
@@ -344,16 +344,16 @@ pub enum Event {
         aos: Timestamp,
     },
     /// The antenna follows the target of this name, position by position.
-    Follows(String),
+    ProgramTracks(String),
     /// The last pass of a target is over.
-    FollowOver {
+    ProgramTrackOver {
         /// Name of the target.
         name: String,
         /// How well it was followed.
-        stats: FollowStats,
+        stats: TrackStats,
     },
     /// The target of this name cannot be followed, or no further.
-    CannotFollow(String, FollowProblem),
+    CannotProgramTrack(String, TrackProblem),
     /// A motion to a position has arrived.
     Arrived(Pointing),
     /// A motion to a position ended elsewhere.
@@ -385,7 +385,7 @@ pub enum Event {
 
 /// Why a target cannot be followed, or no further.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FollowProblem {
+pub enum TrackProblem {
     /// It does not rise any more in the time that was looked at.
     #[error("there is no pass to come")]
     NoPass,
@@ -397,7 +397,7 @@ pub enum FollowProblem {
     Refused(#[from] Refusal),
 }
 
-impl FollowProblem {
+impl TrackProblem {
     /// Where the antenna must not point, where that is why.
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {

@@ -11,7 +11,7 @@ use crate::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
     },
-    driver::{Event, FollowProblem, Found, LinkLoss, Safety, Unit},
+    driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
     plan::on_board::Ranked,
     station::{AntennaId, Note, NoteReason},
 };
@@ -56,7 +56,7 @@ pub enum AlarmKind {
     /// The satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
     /// A target cannot be followed position by position, or no further.
-    CannotFollow(String, FollowProblem),
+    CannotProgramTrack(String, TrackProblem),
     /// The unit tracks by itself, and not where the satellite is.
     OffTarget {
         /// So far it was off when it was noticed.
@@ -368,7 +368,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
         Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
-        Event::CannotFollow(name, problem) => AlarmKind::CannotFollow(name, problem),
+        Event::CannotProgramTrack(name, problem) => AlarmKind::CannotProgramTrack(name, problem),
         Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,
         Event::EndedShort { .. } => AlarmKind::EndedShort,
         Event::StartedByItself | Event::Connected(Found::Tracking) => AlarmKind::StartedByItself,
@@ -381,8 +381,8 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::WouldMiss { .. }
         | Event::Tracking(_)
         | Event::Awaits { .. }
-        | Event::Follows(_)
-        | Event::FollowOver { .. }
+        | Event::ProgramTracks(_)
+        | Event::ProgramTrackOver { .. }
         | Event::Arrived(_)
         | Event::Stopped => return None,
     })

@@ -11,13 +11,13 @@ pub use stake::Stake;
 
 use jiff::Timestamp;
 
-use super::{claim::HeldBy, on_board::Judged, passes::Followed, track_again::TrackAgain};
+use super::{claim::HeldBy, on_board::Judged, passes::ListedSatellite, track_again::TrackAgain};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     clock::Instant,
     device::{Measured, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, Snapshot, StopState},
-    plan::{FollowPhase, Sample, on_board::KnownOrbit},
+    plan::{Sample, TrackPhase, on_board::KnownOrbit},
     station::{Antenna, AntennaId, ControllerSpec},
 };
 
@@ -131,7 +131,11 @@ impl AntennaModel {
 
     /// Compares what the snapshot measured with what is predicted. `followed` finds a
     /// satellite by its number.
-    pub fn refresh<'a>(&mut self, site: Site, followed: impl Fn(u32) -> Option<&'a Arc<Followed>>) {
+    pub fn refresh<'a>(
+        &mut self,
+        site: Site,
+        followed: impl Fn(u32) -> Option<&'a Arc<ListedSatellite>>,
+    ) {
         let is_told = |pressed: &Instant| match self.snapshot.stop {
             StopState::Ready => false,
             StopState::Stopping { .. } | StopState::NotConfirmed { .. } => true,
@@ -199,7 +203,7 @@ impl AntennaModel {
 
     /// The session has the target and compares with it.
     fn followed_prediction(&self) -> Option<Prediction> {
-        let view = self.snapshot.following.as_ref()?;
+        let view = self.snapshot.program_track.as_ref()?;
         let predicted = view.predicted?;
         Some(Prediction {
             catalog_number: view.catalog_number,
@@ -210,8 +214,8 @@ impl AntennaModel {
 
     /// Whether this program follows a target with it, or waits for one.
     pub fn follows(&self) -> bool {
-        let view = self.snapshot.following.as_ref();
-        view.is_some_and(|view| view.phase != FollowPhase::Over)
+        let view = self.snapshot.program_track.as_ref();
+        view.is_some_and(|view| view.phase != TrackPhase::Over)
     }
 
     /// The satellite that is followed, or is about to be: by the unit itself the
@@ -219,7 +223,7 @@ impl AntennaModel {
     pub fn tracked_number(&self) -> Option<u32> {
         let state = &self.snapshot.state;
         if self.follows() {
-            return self.snapshot.following.as_ref().and_then(|view| view.catalog_number);
+            return self.snapshot.program_track.as_ref().and_then(|view| view.catalog_number);
         }
         let enabled = state.program.is_some_and(|program| program.enabled);
         if enabled {
@@ -245,8 +249,8 @@ impl AntennaModel {
             .state
             .program
             .is_some_and(|program| program.enabled && program.phase == Phase::Tracking);
-        let view = snapshot.following.as_ref();
-        by_unit || view.is_some_and(|view| view.phase == FollowPhase::Following)
+        let view = snapshot.program_track.as_ref();
+        by_unit || view.is_some_and(|view| view.phase == TrackPhase::Tracking)
     }
 
     /// It moves, or is told from here to be somewhere. Without a link nobody knows,
@@ -254,13 +258,13 @@ impl AntennaModel {
     pub fn is_busy(&self) -> bool {
         let snapshot = &self.snapshot;
         let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
-        let tracks = snapshot.following.is_some() || snapshot.intent == Intent::Track;
+        let tracks = snapshot.program_track.is_some() || snapshot.intent == Intent::Track;
         snapshot.link.is_open() && (moves || tracks)
     }
 
     /// The target that is followed stands where the mount does not get to.
     pub fn is_out_of_reach(&self) -> bool {
-        let predicted = self.snapshot.following.as_ref().and_then(|view| view.predicted);
+        let predicted = self.snapshot.program_track.as_ref().and_then(|view| view.predicted);
         let mount = self.config.mount;
         predicted.is_some_and(|Sample { mut direction, .. }| {
             if !self.variant().capabilities.has_elevation {

@@ -37,7 +37,7 @@ impl Engine {
             Command::Track { antenna, pass, is_agreed } => {
                 self.with(antenna, |engine, index| engine.track(index, pass, is_agreed));
             }
-            Command::FollowPass { antenna, pass } => {
+            Command::ProgramTrackPass { antenna, pass } => {
                 self.with(antenna, |engine, index| engine.follow_pass(index, pass));
             }
             Command::SaveSettings(id) => self.with(id, Self::save_copy),
@@ -168,7 +168,7 @@ impl Engine {
         // A pass that is over since it was asked for is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let follow = predicted.follow(self.station.elevation_floor());
-        self.send(index, driver::Command::Follow(Box::new(follow)));
+        self.send(index, driver::Command::ProgramTrack(Box::new(follow)));
     }
 
     /// A pass that is not over.

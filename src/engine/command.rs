@@ -30,7 +30,7 @@ pub enum Command {
     },
     /// Follow a pass from here, position by position, also where the unit could track it
     /// by itself.
-    FollowPass {
+    ProgramTrackPass {
         /// With which antenna.
         antenna: AntennaId,
         /// Which pass.
@@ -106,7 +106,7 @@ impl Command {
         match self {
             Self::Antenna(antenna, _)
             | Self::Track { antenna, .. }
-            | Self::FollowPass { antenna, .. } => Some(*antenna),
+            | Self::ProgramTrackPass { antenna, .. } => Some(*antenna),
             _ => None,
         }
     }
@@ -118,7 +118,7 @@ impl Command {
                 !matches!(command, driver::Command::ReadGroup(_) | driver::Command::LockOut(_))
             }
             Self::Track { .. }
-            | Self::FollowPass { .. }
+            | Self::ProgramTrackPass { .. }
             | Self::CloseAfter(CloseHow::Park)
             | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,

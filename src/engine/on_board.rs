@@ -193,9 +193,9 @@ impl AntennaModel {
     /// What the operator has to watch alone: the unit tracks by itself what cannot be
     /// compared with elements.
     fn not_compared(&self) -> Option<AlarmKind> {
-        let Snapshot { state, following, link, .. } = &*self.snapshot;
+        let Snapshot { state, program_track, link, .. } = &*self.snapshot;
         let tracks = state.program.is_some_and(|program| program.enabled);
-        if !tracks || !link.is_open() || following.is_some() || self.orbit.is_some() {
+        if !tracks || !link.is_open() || program_track.is_some() || self.orbit.is_some() {
             return None;
         }
         match &state.on_board.satellite {
@@ -239,7 +239,7 @@ mod tests {
     use super::*;
     use crate::{
         astro::time::seconds_between,
-        engine::passes::{Followed, Observer},
+        engine::passes::{ListedSatellite, Observer},
         orbit::{Pass, Propagator, bundled},
         station::Station,
     };
@@ -272,7 +272,11 @@ mod tests {
         };
         let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;
         let pass = passes(&propagator, &search, &|| false).into_iter().find(high).unwrap();
-        PredictedPass::new(Arc::new(Followed { elements, propagator }), pass, Arc::new(observer))
+        PredictedPass::new(
+            Arc::new(ListedSatellite { elements, propagator }),
+            pass,
+            Arc::new(observer),
+        )
     }
 
     #[test]

@@ -15,7 +15,7 @@ use jiff::Timestamp;
 pub use self::{
     choice::{ListChoice, SPANS_H, Scope},
     list::{PassList, UpcomingPasses, Work},
-    predicted_pass::{Followed, Observer, PredictedPass},
+    predicted_pass::{ListedSatellite, Observer, PredictedPass},
 };
 use self::{
     list::Search,
@@ -117,8 +117,8 @@ impl PassLists {
     }
 
     /// The satellite with this number, if a list has it.
-    pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<Followed>> {
-        let number = |known: &Arc<Followed>| known.elements.catalog_number();
+    pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
+        let number = |known: &Arc<ListedSatellite>| known.elements.catalog_number();
         let followed = &self.favourites.satellites;
         followed.iter().find(|known| number(known) == catalog_number).or_else(|| {
             let all = &self.all.satellites;
@@ -129,7 +129,7 @@ impl PassLists {
 }
 
 /// Where a satellite goes in the next `span_s`, in steps of 30 s.
-pub fn ahead(satellite: &Followed, site: Site, now: Timestamp, span_s: f64) -> Vec<AzEl> {
+pub fn ahead(satellite: &ListedSatellite, site: Site, now: Timestamp, span_s: f64) -> Vec<AzEl> {
     let steps = (span_s / 30.0) as usize;
     (0..=steps)
         .map_while(|step| {

@@ -64,7 +64,7 @@ impl AntennaStatus {
         let measured = snapshot.state.measured;
         let by_unit = snapshot.state.program.filter(|program| program.enabled);
         let held = by_unit.and(snapshot.state.on_board.satellite.as_ref());
-        let followed = snapshot.following.as_ref().map(|following| following.name.clone());
+        let followed = snapshot.program_track.as_ref().map(|following| following.name.clone());
         let lock_out = snapshot.lock_out.as_ref();
         Self {
             antenna: antenna.config.name.clone(),

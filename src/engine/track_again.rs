@@ -6,7 +6,7 @@ use super::{Command, Engine, antenna::AntennaModel, closing::CloseHow, handle::S
 use crate::{
     astro::time::add_seconds,
     driver::{self, Intent},
-    plan::Follow,
+    plan::ProgramTrack,
     station::AntennaId,
 };
 
@@ -30,13 +30,13 @@ impl Engine {
     pub(super) fn note_track(&mut self, command: &Command) {
         let (id, ordered) = match command {
             Command::Track { antenna, pass, is_agreed: false }
-            | Command::FollowPass { antenna, pass } => {
+            | Command::ProgramTrackPass { antenna, pass } => {
                 let Some(predicted) = self.pass_lists.find(*pass) else { return };
                 let name = predicted.satellite.short_name().to_owned();
                 let until = predicted.pass.los.time;
                 (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
             }
-            Command::Antenna(antenna, driver::Command::Follow(follow)) => {
+            Command::Antenna(antenna, driver::Command::ProgramTrack(follow)) => {
                 let name = follow.target.name().into_owned();
                 let until = end_of(follow, self.now);
                 (*antenna, Some(TrackAgain { name, command: command.clone(), until }))
@@ -118,7 +118,7 @@ impl Engine {
 }
 
 /// When the pass that is followed is over; never for what does not set.
-fn end_of(follow: &Follow, now: Timestamp) -> Timestamp {
+fn end_of(follow: &ProgramTrack, now: Timestamp) -> Timestamp {
     let passes = follow.passes.iter();
     passes.map(|(_, los)| *los).find(|los| *los > now).unwrap_or(Timestamp::MAX)
 }
@@ -133,7 +133,7 @@ fn chooses_something_else(command: &driver::Command) -> bool {
             | driver::Command::Step { .. }
             | driver::Command::Position { .. }
             | driver::Command::MoveAway
-            | driver::Command::FollowIntoSun(_)
+            | driver::Command::ProgramTrackIntoSun(_)
             | driver::Command::Track(_)
             | driver::Command::Park
             | driver::Command::Resume

@@ -42,7 +42,7 @@ pub enum UiCommand {
         pass: PassKey,
     },
     /// Track a pass by positions from here.
-    FollowPass {
+    ProgramTrackPass {
         antenna: usize,
         pass: PassKey,
     },
@@ -62,9 +62,9 @@ pub enum UiCommand {
     /// Begin the cancelled search again.
     ResumeSearch,
     /// Make this satellite a favourite, or no longer.
-    Follow {
+    SetFavourite {
         number: u32,
-        is_followed: bool,
+        is_favourite: bool,
     },
     /// Add this source of elements.
     AddSource(Source),
@@ -130,7 +130,7 @@ impl UiCommand {
             }
             Self::Station(command) => command.may_move(),
             Self::Track { .. }
-            | Self::FollowPass { .. }
+            | Self::ProgramTrackPass { .. }
             | Self::CloseAfter(CloseHow::Park)
             | Self::TrackAnyway { .. }
             | Self::Upload(uploads::Ask::AgreeToTracking) => true,

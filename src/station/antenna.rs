@@ -4,7 +4,9 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{Connection, Following, Monitor, Mount, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
+use super::{
+    Connection, Monitor, Mount, Resume, TrackSettings, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
+};
 use crate::{
     astro::{Angle, AzEl},
     device::Moves,
@@ -53,7 +55,7 @@ pub struct Antenna {
     /// How often the controller is asked.
     pub poll: PollRates,
     /// How this program follows a target with it.
-    pub follow: Following,
+    pub follow: TrackSettings,
     /// What the monitor does when somebody else drives the antenna into what is
     /// forbidden.
     #[serde(skip_serializing_if = "is_default")]

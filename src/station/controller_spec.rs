@@ -4,8 +4,8 @@
 use std::fmt;
 
 use super::{
-    Antenna, AntennaId, Connection, Direction, Following, Monitor, MotionLimits, Mount, PollRates,
-    Resume, Setting, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
+    Antenna, AntennaId, Connection, Direction, Monitor, MotionLimits, Mount, PollRates, Resume,
+    Setting, TrackSettings, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
     connection::{check_address, check_line},
 };
 use crate::device::{ElementFiles, Explained, Moves, Variant, WireLine};
@@ -73,7 +73,7 @@ pub struct Usual {
     /// How often the controller is asked.
     pub poll: PollRates,
     /// How this program follows a target with it.
-    pub follow: Following,
+    pub follow: TrackSettings,
 }
 
 impl ControllerSpec {

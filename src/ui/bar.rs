@@ -106,7 +106,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
 fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
     match kind {
         AlarmKind::Safety(matter) => matter.barrier(),
-        AlarmKind::CannotFollow(_, problem) => problem.barrier(),
+        AlarmKind::CannotProgramTrack(_, problem) => problem.barrier(),
         _ => None,
     }
 }

@@ -1,9 +1,9 @@
 //! What the selected antenna does, why, and what comes next.
 
-mod follow;
 mod link;
 mod lock_out;
 mod news;
+mod program_track;
 
 use jiff::Timestamp;
 
@@ -16,7 +16,7 @@ use crate::{
     astro::time::seconds_between,
     device::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
-    engine::{antenna::AntennaModel, passes::Followed},
+    engine::{antenna::AntennaModel, passes::ListedSatellite},
     model::Model,
 };
 
@@ -65,7 +65,7 @@ pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
         .or_else(|| news::sentence(model, antenna))
         .or_else(|| fault_or_limit(antenna))
         .or_else(|| preparing(antenna))
-        .or_else(|| follow::sentence(model, antenna))
+        .or_else(|| program_track::sentence(model, antenna))
         .or_else(|| program(model, antenna))
         .or_else(|| by_hand(antenna))
         .unwrap_or_else(|| standing(model, antenna))
@@ -275,7 +275,10 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
 }
 
 /// What the operator could track next.
-fn next_words(selected: Option<(&Followed, Timestamp, Timestamp)>, now: Timestamp) -> String {
+fn next_words(
+    selected: Option<(&ListedSatellite, Timestamp, Timestamp)>,
+    now: Timestamp,
+) -> String {
     match selected {
         Some((satellite, aos, _)) if aos > now => format!(
             "{} rises in {}.",

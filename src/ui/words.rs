@@ -9,8 +9,8 @@ mod safety;
 pub use alarms::alarm;
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
-    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, answer, follow_problem, hindrance, link_loss,
-    prepare_error, refusal,
+    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, answer, hindrance, link_loss, prepare_error,
+    refusal, track_problem,
 };
 pub use safety::{
     SUN_IS_LIFTED, UNGUARDED, asks_standing, forbidden, inside, owed, reason, safety, stopping_way,
@@ -68,7 +68,7 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
     match stake {
         Stake::OnBoard(Some(name)) => format!("{antenna} tracks {} by itself.", short(name)),
         Stake::OnBoard(None) => format!("{antenna} tracks by itself."),
-        Stake::Followed(name) => format!("Azel tracks {} with {antenna}.", short(name)),
+        Stake::ProgramTracked(name) => format!("Azel tracks {} with {antenna}.", short(name)),
         Stake::Moves => format!("{antenna} moves."),
         Stake::OwesStop => format!("STOP of {antenna} is not proved."),
         Stake::Unproved => format!("{antenna} was moved and is not known to stand."),

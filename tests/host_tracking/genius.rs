@@ -4,7 +4,7 @@ use azel::{
     astro::{AzEl, time::add_seconds},
     controller::rotator_genius::{ROTATORS, Rotators},
     driver::{Command, Event, Intent},
-    plan::{Follow, FollowStats, Target},
+    plan::{ProgramTrack, Target, TrackStats},
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Options, RotatorOptions},
     station::{Antenna, Mount},
@@ -66,23 +66,23 @@ pub(super) async fn connected(
     (rig, control)
 }
 
-async fn followed(stop_offset_deg: u8, scene: &Scene) -> FollowStats {
+async fn followed(stop_offset_deg: u8, scene: &Scene) -> TrackStats {
     followed_by(&options(stop_offset_deg), &antenna(Rotators::Pair), scene).await
 }
 
 /// With a device whose elevation goes to `to_deg`, on a mount that flips.
-async fn followed_over(to_deg: u16, scene: &Scene) -> FollowStats {
+async fn followed_over(to_deg: u16, scene: &Scene) -> TrackStats {
     let mut options = options(2);
     options.rotators[1].limit_cw = WholeDegrees::saturating(to_deg);
     followed_by(&options, &over(), scene).await
 }
 
-async fn followed_by(options: &Options, antenna: &Antenna, scene: &Scene) -> FollowStats {
+async fn followed_by(options: &Options, antenna: &Antenna, scene: &Scene) -> TrackStats {
     let (mut rig, _) = connected(options, antenna, scene).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let stats = rig.until_over().await;
     let others = rig.events();
-    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::Follows(_));
+    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::ProgramTracks(_));
     assert!(others.iter().all(is_good), "{others:?}");
     stats
 }
@@ -120,12 +120,12 @@ fn azimuths(control: &Control) -> Vec<u16> {
 async fn the_place_for_360_degrees_is_used_where_there_is_one() {
     let scene = sky::usual();
     let target = Target::Fixed(AzEl::from_degrees(359.8, 40.0));
-    let follow = Follow { target, passes: Vec::new(), ..scene.follow() };
+    let follow = ProgramTrack { target, passes: Vec::new(), ..scene.follow() };
     for highest_deg in [360, 359] {
         let mut options = options(1);
         options.rotators[0].limit_cw = WholeDegrees::saturating(highest_deg);
         let (mut rig, control) = connected(&options, &antenna(Rotators::Pair), &scene).await;
-        rig.send(Command::Follow(Box::new(follow.clone())));
+        rig.send(Command::ProgramTrack(Box::new(follow.clone())));
         rig.seconds(120.0).await;
         let sent = azimuths(&control);
         assert!(!sent.is_empty() && sent.iter().all(|deg| *deg == highest_deg), "{sent:?}");
@@ -145,10 +145,10 @@ async fn over_the_zenith_the_sky_shows_where_it_points() {
     let mut options = options(2);
     options.rotators[1].limit_cw = WholeDegrees::saturating(180);
     let (mut rig, _) = connected(&options, &over(), &scene).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.until_utc(scene.pass.tca.time).await;
     let shown = rig.shown();
-    let view = shown.following.clone().unwrap();
+    let view = shown.program_track.clone().unwrap();
     let measured = shown.state.measured.unwrap();
     assert!(measured.axes[1].angle_deg.unwrap() > 90.0);
     let predicted = view.predicted.unwrap().direction;
@@ -183,7 +183,7 @@ async fn it_is_not_sent_where_the_device_does_not_go() {
 async fn a_rotator_alone_follows_in_azimuth() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&options(2), &antenna(Rotators::First), &scene).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let stats = rig.until_over().await;
     let (rms, _) = figures("Genius, azimuth alone", stats);
     assert!(rms < 1.3, "{rms}");
@@ -200,7 +200,7 @@ async fn a_refusal_of_the_device_ends_it_with_its_reason() {
     options.rotators[0].limit_cw = WholeDegrees::saturating(12);
     options.rotators[0].limit_ccw = WholeDegrees::saturating(8);
     let (mut rig, _) = connected(&options, &antenna(Rotators::Pair), &scene).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.until_event(5, |event| matches!(event, Event::Refused(..))).await;
     rig.seconds(1.0).await;
     assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));

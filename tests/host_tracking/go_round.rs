@@ -44,7 +44,7 @@ async fn follow_round<U: Unit>(
     let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
     let bounds = Bounds::of(&station, antenna);
     rig.send(Command::Within(Box::new(bounds.clone())));
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let propagator = Propagator::new(&scene.elements).unwrap();
     let direction = |rig: &Rig<Control<U>>| -> AzEl {
         rig.shown().state.measured.unwrap().pointing.direction().unwrap()
@@ -59,7 +59,8 @@ async fn follow_round<U: Unit>(
         off_deg = target.separation(at).degrees();
     }
     let told = rig.events();
-    let refused = |event: &Event| matches!(event, Event::NotSent(_) | Event::CannotFollow(..));
+    let refused =
+        |event: &Event| matches!(event, Event::NotSent(_) | Event::CannotProgramTrack(..));
     assert!(!told.iter().any(refused), "{told:?}");
     [least_deg, off_deg]
 }

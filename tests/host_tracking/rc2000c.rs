@@ -4,7 +4,7 @@ use azel::{
     astro::{Angle, time::add_seconds},
     controller::rc2000c::Calibration,
     driver::{Command, Event},
-    plan::FollowStats,
+    plan::TrackStats,
     sim::rc2000c::{Control, Options},
     station::{Antenna, CountPoint, Mount},
 };
@@ -47,7 +47,7 @@ fn antenna_to(azimuth_to_deg: f64, elevation_to_deg: f64) -> Antenna {
     antenna
 }
 
-async fn followed(antenna: &Antenna, scene: &Scene) -> FollowStats {
+async fn followed(antenna: &Antenna, scene: &Scene) -> TrackStats {
     let mut rig = connected(antenna, scene).await;
     over(&mut rig, scene).await
 }
@@ -68,12 +68,12 @@ pub(super) async fn connected(antenna: &Antenna, scene: &Scene) -> Rig {
 }
 
 /// How the pass of `scene` is followed.
-async fn over(rig: &mut Rig, scene: &Scene) -> FollowStats {
+async fn over(rig: &mut Rig, scene: &Scene) -> TrackStats {
     rig.events();
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let stats = rig.until_over().await;
     let others = rig.events();
-    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::Follows(_));
+    let is_good = |event: &Event| matches!(event, Event::Awaits { .. } | Event::ProgramTracks(_));
     assert!(others.iter().all(is_good), "{others:?}");
     stats
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use azel::{
     astro::time::seconds_between,
     driver::Event,
-    plan::{FollowPhase, FollowStats},
+    plan::{TrackPhase, TrackStats},
     sim::{Control, Unit},
 };
 use jiff::Timestamp;
@@ -22,23 +22,23 @@ impl<U: Unit> Rig<Control<U>> {
     }
 
     /// Waits for the end of the pass that is followed.
-    pub(super) async fn until_over(&mut self) -> FollowStats {
-        let is_over = |event: &Event| matches!(event, Event::FollowOver { .. });
+    pub(super) async fn until_over(&mut self) -> TrackStats {
+        let is_over = |event: &Event| matches!(event, Event::ProgramTrackOver { .. });
         match self.until_event(3000, is_over).await {
-            Event::FollowOver { stats, .. } => stats,
+            Event::ProgramTrackOver { stats, .. } => stats,
             other => panic!("{other:?}"),
         }
     }
 
     /// Where the target is in its passes, as far as one is followed.
-    pub(super) fn phase(&self) -> Option<FollowPhase> {
-        self.shown().following.as_ref().map(|view| view.phase)
+    pub(super) fn phase(&self) -> Option<TrackPhase> {
+        self.shown().program_track.as_ref().map(|view| view.phase)
     }
 }
 
 /// Prints a line of the table, and gives root mean square and worst error in
 /// degrees.
-pub(super) fn figures(what: &str, stats: FollowStats) -> (f64, f64) {
+pub(super) fn figures(what: &str, stats: TrackStats) -> (f64, f64) {
     let [rms, worst] = [stats.rms(), stats.worst()].map(|off| off.unwrap().degrees());
     println!("{what:44} | rms {rms:6.3} | worst {worst:7.3} | {:4} commands", stats.commands);
     (rms, worst)

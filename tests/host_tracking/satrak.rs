@@ -6,8 +6,8 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, FollowProblem, Intent, Refusal, Safety, Session, Unlike},
-    plan::{Follow, FollowPhase, Target},
+    driver::{Command, Event, Intent, Refusal, Safety, Session, TrackProblem, Unlike},
+    plan::{ProgramTrack, Target, TrackPhase},
     protocol::satrak::{FaultKind, Goto, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},
     station::{AfterPass, Antenna, Resume},
@@ -57,7 +57,7 @@ fn direction(control: &Control) -> AzEl {
 async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&antenna(), &scene, 120.0).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let told = rig.until_event(1, |event| matches!(event, Event::Awaits { .. })).await;
     let name = scene.elements.name().to_owned();
     assert_eq!(told, Event::Awaits { name: name.clone(), aos: scene.pass.aos.time });
@@ -68,14 +68,14 @@ async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     assert!(direction(&control).separation(floor).degrees() < 0.2);
     let shown = rig.shown();
     assert_eq!((shown.intent, shown.pending), (Intent::Track, false));
-    assert_eq!(rig.phase(), Some(FollowPhase::Waiting { aos: aos.time }));
+    assert_eq!(rig.phase(), Some(TrackPhase::Waiting { aos: aos.time }));
     let sent_before = gotos(&control);
 
     rig.until_utc(scene.pass.tca.time).await;
-    let view = rig.shown().following.clone().unwrap();
-    assert_eq!(view.phase, FollowPhase::Following);
+    let view = rig.shown().program_track.clone().unwrap();
+    assert_eq!(view.phase, TrackPhase::Tracking);
     assert!(view.predicted.is_some() && view.next_look.is_some());
-    assert_eq!(rig.events(), [Event::Follows(name)]);
+    assert_eq!(rig.events(), [Event::ProgramTracks(name)]);
 
     let stats = rig.until_over().await;
     let (rms, worst) = figures("Satrak, usual", stats);
@@ -85,7 +85,7 @@ async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     assert!(scene.pass.tca.time < los.time);
     let sent = gotos(&control);
     rig.seconds(30.0).await;
-    assert_eq!((rig.shown().intent, rig.phase()), (Intent::Position, Some(FollowPhase::Over)));
+    assert_eq!((rig.shown().intent, rig.phase()), (Intent::Position, Some(TrackPhase::Over)));
     assert_eq!(gotos(&control), sent, "it holds");
     assert!(!control.received().iter().any(|(_, payload)| payload.starts_with("STOP")));
     assert_eq!(rig.events(), []);
@@ -102,9 +102,9 @@ async fn stop_and_every_other_wish_end_it_for_good() {
         Some(Command::Park),
     ] {
         let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
-        rig.send(Command::Follow(Box::new(scene.follow())));
+        rig.send(Command::ProgramTrack(Box::new(scene.follow())));
         rig.until_utc(add_seconds(scene.pass.aos.time, 120.0)).await;
-        assert_eq!(rig.phase(), Some(FollowPhase::Following));
+        assert_eq!(rig.phase(), Some(TrackPhase::Tracking));
         match command.clone() {
             None => rig.stop(),
             Some(command) => rig.send(command),
@@ -123,7 +123,7 @@ async fn stop_and_every_other_wish_end_it_for_good() {
 async fn following(antenna: &Antenna) -> (Rig, Control, Scene) {
     let scene = sky::usual();
     let (rig, control) = connected(antenna, &scene, 60.0).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let mut rig = rig;
     rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
     (rig, control, scene)
@@ -131,7 +131,7 @@ async fn following(antenna: &Antenna) -> (Rig, Control, Scene) {
 
 fn is_followed(rig: &Rig, control: &Control) -> bool {
     let shown = rig.shown();
-    let predicted = shown.following.as_ref().and_then(|following| following.predicted);
+    let predicted = shown.program_track.as_ref().and_then(|following| following.predicted);
     predicted
         .is_some_and(|predicted| direction(control).separation(predicted.direction).degrees() < 0.6)
 }
@@ -162,10 +162,10 @@ async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
     rig.until_event(20, asks).await;
     rig.seconds(20.0).await;
     assert_eq!(gotos(&control), sent, "nothing moves without a word");
-    assert!(rig.shown().following.as_ref().unwrap().awaits_word);
+    assert!(rig.shown().program_track.as_ref().unwrap().awaits_word);
     rig.send(Command::Resume);
     rig.seconds(20.0).await;
-    assert_eq!(rig.phase(), Some(FollowPhase::Following));
+    assert_eq!(rig.phase(), Some(TrackPhase::Tracking));
     assert!(gotos(&control) > sent && is_followed(&rig, &control));
 }
 
@@ -180,7 +180,7 @@ async fn after_a_restart_in_mid_pass_nothing_moves_until_the_operator_asks() {
     rig.seconds(30.0).await;
     assert_eq!((rig.shown().intent, gotos(&control)), (Intent::Standby, sent));
     assert!(!control.state().is_moving);
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.seconds(20.0).await;
     assert!(gotos(&control) > sent && is_followed(&rig, &control));
 }
@@ -309,7 +309,7 @@ async fn a_wish_or_a_stop_without_a_link_is_not_forgotten_when_it_is_back() {
     let scene = sky::usual();
     for command in [None, Some(Command::Standby), Some(Command::Manual)] {
         let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
-        rig.send(Command::Follow(Box::new(scene.follow())));
+        rig.send(Command::ProgramTrack(Box::new(scene.follow())));
         rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
         rig.set_off(true);
         rig.seconds(5.0).await;
@@ -336,12 +336,12 @@ async fn the_next_pass_is_waited_for_or_the_antenna_parks() {
         let mut antenna = antenna();
         antenna.follow.after = after;
         let (mut rig, control) = connected(&antenna, &scene, 60.0).await;
-        rig.send(Command::Follow(Box::new(follow.clone())));
+        rig.send(Command::ProgramTrack(Box::new(follow.clone())));
         rig.until_over().await;
         rig.seconds(60.0).await;
         if after == AfterPass::Next {
             let aos = scene.pass.aos.time + day;
-            assert_eq!(rig.phase(), Some(FollowPhase::Waiting { aos }));
+            assert_eq!(rig.phase(), Some(TrackPhase::Waiting { aos }));
         } else {
             assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Park));
             assert!(direction(&control).elevation_deg() > 89.5);
@@ -356,10 +356,10 @@ async fn what_cannot_be_followed_is_told_and_nothing_moves() {
     let day = SignedDuration::from_hours(24);
     let mut over = scene.follow();
     over.passes = vec![(scene.pass.aos.time - day, scene.pass.los.time - day)];
-    rig.send(Command::Follow(Box::new(over)));
+    rig.send(Command::ProgramTrack(Box::new(over)));
     rig.seconds(5.0).await;
     let name = scene.elements.name().to_owned();
-    assert_eq!(rig.events(), [Event::CannotFollow(name, FollowProblem::NoPass)]);
+    assert_eq!(rig.events(), [Event::CannotProgramTrack(name, TrackProblem::NoPass)]);
     assert_eq!((gotos(&control), rig.shown().intent), (0, Intent::Standby));
 }
 
@@ -368,11 +368,11 @@ async fn a_direction_the_sun_and_the_moon_are_followed_too() {
     let scene = sky::usual();
     for target in [Target::Fixed(AzEl::from_degrees(200.0, 40.0)), Target::Sun, Target::Moon] {
         let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
-        let follow = Follow { target: target.clone(), site: site(), passes: Vec::new() };
-        rig.send(Command::Follow(Box::new(follow)));
+        let follow = ProgramTrack { target: target.clone(), site: site(), passes: Vec::new() };
+        rig.send(Command::ProgramTrack(Box::new(follow)));
         rig.seconds(4000.0).await;
-        assert_eq!(rig.phase(), Some(FollowPhase::Following));
-        if let Some(predicted) = rig.shown().following.as_ref().unwrap().predicted {
+        assert_eq!(rig.phase(), Some(TrackPhase::Tracking));
+        if let Some(predicted) = rig.shown().program_track.as_ref().unwrap().predicted {
             let off = direction(&control).separation(predicted.direction).degrees();
             assert!(off < 0.15, "{target:?} {off}");
         }
@@ -389,7 +389,7 @@ async fn lost_answers_do_not_end_it() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
     control.set_fault(Fault::DropReply, true);
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let (rms, _) = figures("Satrak, every third answer lost", rig.until_over().await);
     // Each one is waited for.
     assert!(rms < 1.0, "{rms}");
@@ -399,18 +399,18 @@ async fn lost_answers_do_not_end_it() {
 async fn a_fault_ends_it_with_its_reason_and_forbids_it_from_the_start() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.until_utc(add_seconds(scene.pass.aos.time, 120.0)).await;
     rig.events();
     control.set_fault(Fault::Unit(FaultKind::Setup), true);
-    let told = rig.until_event(20, |event| matches!(event, Event::CannotFollow(..))).await;
-    let refused = FollowProblem::Refused(Refusal::Fault);
+    let told = rig.until_event(20, |event| matches!(event, Event::CannotProgramTrack(..))).await;
+    let refused = TrackProblem::Refused(Refusal::Fault);
     let name = scene.elements.name().to_owned();
-    assert_eq!(told, Event::CannotFollow(name.clone(), refused.clone()));
+    assert_eq!(told, Event::CannotProgramTrack(name.clone(), refused.clone()));
     assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
     let sent = gotos(&control);
-    rig.send(Command::Follow(Box::new(scene.follow())));
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     rig.seconds(5.0).await;
-    assert_eq!(rig.events(), [Event::CannotFollow(name, refused)]);
+    assert_eq!(rig.events(), [Event::CannotProgramTrack(name, refused)]);
     assert_eq!((gotos(&control), rig.phase()), (sent, None));
 }

@@ -3,7 +3,7 @@
 use azel::{
     astro::{Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
-    plan::{Follow, Target},
+    plan::{ProgramTrack, Target},
 };
 
 /// Satellites on low orbits.
@@ -19,8 +19,8 @@ pub(super) struct Scene {
 
 impl Scene {
     /// This pass alone.
-    pub(super) fn follow(&self) -> Follow {
-        Follow {
+    pub(super) fn follow(&self) -> ProgramTrack {
+        ProgramTrack {
             target: Target::Satellite(Box::new(self.elements.clone())),
             site: site(),
             passes: vec![(self.pass.aos.time, self.pass.los.time)],

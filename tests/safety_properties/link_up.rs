@@ -6,7 +6,7 @@ use azel::{
     astro::{Angle, AzEl},
     clock::Instant,
     driver::Command,
-    plan::{Follow, Target},
+    plan::{ProgramTrack, Target},
 };
 
 use super::{
@@ -117,7 +117,11 @@ async fn carry_out(scene: &mut Scene, dice: &mut Dice, deeds: &[Deed]) {
         Deed::Follow(azimuth_deg, elevation_deg) => {
             let target = Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg));
             let site = scene.world.station.site;
-            scene.send(Command::Follow(Box::new(Follow { target, site, passes: Vec::new() })));
+            scene.send(Command::ProgramTrack(Box::new(ProgramTrack {
+                target,
+                site,
+                passes: Vec::new(),
+            })));
         }
         Deed::Stop => scene.stop(),
         Deed::Standby => scene.send(Command::Standby),

@@ -3,8 +3,8 @@
 
 use azel::{
     astro::{AzEl, sun_moon},
-    driver::{Command, Event, FollowProblem, Inside, Refusal, Safety},
-    plan::{Barrier, Bounds, Follow, Target},
+    driver::{Command, Event, Inside, Refusal, Safety, TrackProblem},
+    plan::{Barrier, Bounds, ProgramTrack, Target},
     sim::satrak::Options,
     station::{Station, SunAvoidance},
 };
@@ -181,21 +181,21 @@ async fn the_park_position_is_taken_where_it_is_nearer() {
 async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_that_alone() {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.send(within(&sunny()));
-    let follow = || Follow { target: Target::Sun, site: site(), passes: Vec::new() };
-    rig.send(Command::Follow(Box::new(follow())));
-    let refused = rig.until_event(5, |event| matches!(event, Event::CannotFollow(..))).await;
-    let Event::CannotFollow(_, FollowProblem::Refused(Refusal::Forbidden { barrier, .. })) =
+    let follow = || ProgramTrack { target: Target::Sun, site: site(), passes: Vec::new() };
+    rig.send(Command::ProgramTrack(Box::new(follow())));
+    let refused = rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;
+    let Event::CannotProgramTrack(_, TrackProblem::Refused(Refusal::Forbidden { barrier, .. })) =
         refused
     else {
         panic!("{refused:?}")
     };
     assert_eq!((barrier, rig.shown().sun_lifted), (Barrier::Sun, false));
 
-    rig.send(Command::FollowIntoSun(Box::new(follow())));
+    rig.send(Command::ProgramTrackIntoSun(Box::new(follow())));
     rig.until("lifted", 5, |shown| shown.sun_lifted).await;
     rig.seconds(90.0).await;
     let shown = rig.shown();
-    let predicted = shown.following.as_ref().unwrap().predicted.unwrap().direction;
+    let predicted = shown.program_track.as_ref().unwrap().predicted.unwrap().direction;
     assert!(direction(&rig).separation(predicted).degrees() < 0.5, "{predicted:?}");
     assert_eq!((shown.inside.clone(), shown.sun_lifted), (None, true));
     let alarms = rig.events().into_iter().filter(|event| matches!(event, Event::Safety(_)));
@@ -203,6 +203,6 @@ async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_
 
     rig.stop();
     rig.until("inside", 10, |shown| shown.inside.is_some() && !shown.sun_lifted).await;
-    rig.send(Command::Follow(Box::new(follow())));
-    rig.until_event(5, |event| matches!(event, Event::CannotFollow(..))).await;
+    rig.send(Command::ProgramTrack(Box::new(follow())));
+    rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;
 }

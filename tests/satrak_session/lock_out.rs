@@ -7,7 +7,7 @@ use azel::{
         settings::{SettleError, Value},
     },
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
-    plan::{Follow, Target},
+    plan::{ProgramTrack, Target},
     station::LockOut,
 };
 
@@ -46,7 +46,7 @@ fn others(rig: &Rig) -> Vec<String> {
 fn commands() -> Vec<Command> {
     let angle = |degrees| Some(Angle::from_degrees(degrees));
     let target = Target::Fixed(AzEl::from_degrees(180.0, 45.0));
-    let follow = Follow { target, site: site(), passes: Vec::new() };
+    let follow = ProgramTrack { target, site: site(), passes: Vec::new() };
     vec![
         Command::Manual,
         Command::Hold,
@@ -54,7 +54,7 @@ fn commands() -> Vec<Command> {
         Command::Step { steps_deg: [1.0, 0.0] },
         Command::Position { azimuth: angle(74.0), elevation: angle(60.0) },
         track(iss()),
-        Command::Follow(Box::new(follow)),
+        Command::ProgramTrack(Box::new(follow)),
         Command::Park,
         Command::AutoTrack(true),
         Command::AutoTrack(false),
@@ -118,7 +118,7 @@ async fn what_moves_is_stopped_and_auto_track_is_off_before_it_counts_as_locked_
     let shown = rig.shown();
     assert_eq!(shown.state.program.unwrap().auto, Some(false));
     assert!(!shown.state.measured.unwrap().moving());
-    assert_eq!((shown.intent, &shown.following), (Intent::Standby, &None));
+    assert_eq!((shown.intent, &shown.program_track), (Intent::Standby, &None));
     let sent = rig.orders().split_off(before);
     assert_eq!(sent[..2], ["STOP=", "TRACK=,0"]);
     assert_eq!(sent.iter().filter(|payload| *payload == "TRACK_AUTO_ENABLE=,0").count(), 1);

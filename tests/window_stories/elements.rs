@@ -269,11 +269,11 @@ fn satellites_are_followed_and_unfollowed_from_the_catalog() {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");
         window.get_by_label_contains("Add METEOR").click();
-        let follow = UiCommand::Follow { number: METEOR_M2_3, is_followed: true };
+        let follow = UiCommand::SetFavourite { number: METEOR_M2_3, is_favourite: true };
         assert_eq!(asked(&mut window), [follow]);
         write(&mut window, "Search the catalogue", "43013");
         click(&mut window, "Remove NOAA 20 (JPSS-1) from the favourites");
-        let unfollow = UiCommand::Follow { number: NOAA_20, is_followed: false };
+        let unfollow = UiCommand::SetFavourite { number: NOAA_20, is_favourite: false };
         assert_eq!(asked(&mut window), [unfollow]);
     }
 }

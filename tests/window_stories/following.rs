@@ -7,10 +7,10 @@ use azel::{
     },
     clock::Instant,
     device::AxisMotion,
-    driver::{Command, Event, FollowView, Found, Intent, LinkState, Snapshot},
+    driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
     engine::passes::PredictedPass,
     model::{Model, UiCommand},
-    plan::{Follow, FollowPhase, FollowStats, Sample, Target},
+    plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats},
     station::{Antenna, Mount},
     ui::bar::activity,
 };
@@ -24,21 +24,21 @@ use crate::window_stories::{rig, states};
 const WANTED: AzEl = AzEl::from_degrees(134.0, 20.0);
 
 /// A Genius that follows NOAA 20 and is `off_deg` too high.
-fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
-    let is_up = phase == FollowPhase::Following;
+fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
+    let is_up = phase == TrackPhase::Tracking;
     let predicted = Sample { time: rig::now(), direction: WANTED };
-    let view = FollowView {
+    let view = TrackView {
         name: "NOAA 20 (JPSS-1)".to_owned(),
         catalog_number: Some(rig::NOAA_20),
         phase,
-        stats: FollowStats::default(),
+        stats: TrackStats::default(),
         awaits_word: false,
         next_look: None,
         commanded: is_up.then_some(WANTED.into()),
         predicted: is_up.then_some(predicted),
     };
-    let intent = if phase == FollowPhase::Over { Intent::Position } else { Intent::Track };
-    let mut snapshot = Snapshot { intent, following: Some(view), ..rig::quiet() };
+    let intent = if phase == TrackPhase::Over { Intent::Position } else { Intent::Track };
+    let mut snapshot = Snapshot { intent, program_track: Some(view), ..rig::quiet() };
     snapshot.state.measured = Some(states::measured(134.0, 20.0 + off_deg, motion));
     let mut model = rig::model(rig::quiet());
     let mut antenna = rig::antenna(Antenna::genius("Mast", "192.168.1.250:9006"), snapshot);
@@ -50,7 +50,7 @@ fn following(phase: FollowPhase, off_deg: f64, motion: AxisMotion) -> Model {
 #[test]
 fn the_sentence_says_what_is_waited_for_followed_and_over() {
     use AxisMotion::{Plus, Still};
-    let waiting = FollowPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
+    let waiting = TrackPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
     for (phase, off_deg, motion, wanted) in [
         (waiting, 0.0, Plus, "Moving to meet NOAA 20, which rises at 11:18:42Z in 3:12."),
         (
@@ -60,20 +60,20 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
             "Waiting at 134°, 20° for NOAA 20, which rises at 11:18:42Z in 3:12.",
         ),
         (
-            FollowPhase::Following,
+            TrackPhase::Tracking,
             0.4,
             Plus,
             "Following NOAA 20, sent from position to position. The antenna is 0.40° off, inside \
              its 20.00° beam.",
         ),
         (
-            FollowPhase::Following,
+            TrackPhase::Tracking,
             11.0,
             Plus,
             "Following NOAA 20, sent from position to position. The antenna is 11.00° off, \
              outside its 20.00° beam.",
         ),
-        (FollowPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134°, 20°."),
+        (TrackPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134°, 20°."),
     ] {
         assert_eq!(states::sentence(&following(phase, off_deg, motion)), wanted);
     }
@@ -81,18 +81,18 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
 
 #[test]
 fn the_chip_and_the_prediction_are_those_of_the_target() {
-    let model = following(FollowPhase::Following, 0.4, AxisMotion::Plus);
+    let model = following(TrackPhase::Tracking, 0.4, AxisMotion::Plus);
     let antenna = &model.antennas[0];
     assert_eq!((activity(antenna), antenna.tracked_number()), ("Tracking", Some(rig::NOAA_20)));
     assert_eq!(antenna.prediction.unwrap().direction, WANTED);
     let off_deg = antenna.error().unwrap().off_beam.degrees();
     assert!((off_deg - 0.4).abs() < 1e-9, "{off_deg}");
 
-    let waiting = FollowPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
+    let waiting = TrackPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
     let model = following(waiting, 0.0, AxisMotion::Still);
     assert_eq!(activity(&model.antennas[0]), "Waiting");
     assert_eq!(model.antennas[0].prediction, None);
-    let model = following(FollowPhase::Over, 0.0, AxisMotion::Still);
+    let model = following(TrackPhase::Over, 0.0, AxisMotion::Still);
     assert_eq!(
         (model.antennas[0].tracked_number(), activity(&model.antennas[0])),
         (None, "Holding")
@@ -101,7 +101,7 @@ fn the_chip_and_the_prediction_are_those_of_the_target() {
 
 #[test]
 fn the_plot_shows_where_the_antenna_was_sent() {
-    for (phase, is_shown) in [(FollowPhase::Following, true), (FollowPhase::Over, false)] {
+    for (phase, is_shown) in [(TrackPhase::Tracking, true), (TrackPhase::Over, false)] {
         let window = rig::window(rig::LARGE, following(phase, 0.4, AxisMotion::Plus));
         let ring = window.query_all_by_label_contains("Commanded, azimuth 134").next().is_some();
         assert_eq!(ring, is_shown, "{phase:?}");
@@ -110,7 +110,7 @@ fn the_plot_shows_where_the_antenna_was_sent() {
 
 #[test]
 fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
-    let mut model = following(FollowPhase::Following, 40.0, AxisMotion::Still);
+    let mut model = following(TrackPhase::Tracking, 40.0, AxisMotion::Still);
     let Mount::AzEl { azimuth_from_deg, elevation_to_deg, .. } =
         &mut model.antennas[0].config.mount
     else {
@@ -125,7 +125,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
 
 #[test]
 fn after_a_lost_link_it_is_said_to_follow_on() {
-    let mut model = following(FollowPhase::Following, 0.4, AxisMotion::Still);
+    let mut model = following(TrackPhase::Tracking, 0.4, AxisMotion::Still);
     let back = Event::Back { after: Duration::from_secs(20), found: Found::Still };
     model.antennas[0].news = Some((back, model.now));
     let said = states::sentence(&model);
@@ -134,12 +134,12 @@ fn after_a_lost_link_it_is_said_to_follow_on() {
 
 #[test]
 fn after_the_pass_it_is_told_how_well_it_was_followed() {
-    let mut stats = FollowStats::default();
+    let mut stats = TrackStats::default();
     stats.commands = 206;
     stats.take(Angle::from_degrees(0.6));
     stats.take(Angle::from_degrees(0.8));
-    let mut model = following(FollowPhase::Over, 0.0, AxisMotion::Still);
-    let over = Event::FollowOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
+    let mut model = following(TrackPhase::Over, 0.0, AxisMotion::Still);
+    let over = Event::ProgramTrackOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
     model.antennas[0].news = Some((over, model.now));
     let wanted = "The pass of NOAA 20 is over. It was followed to 0.71° rms, 0.80° at worst, with \
                   206 commands.";
@@ -184,9 +184,9 @@ fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     rig::asked(&mut window)
 }
 
-fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> Follow {
+fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> ProgramTrack {
     match chosen(size, antenna, entry).as_slice() {
-        [UiCommand::Antenna(0, Command::Follow(follow))] => (**follow).clone(),
+        [UiCommand::Antenna(0, Command::ProgramTrack(follow))] => (**follow).clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -196,7 +196,7 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
     let genius = || Antenna::genius("Mast", "192.168.1.250:9006");
     for size in rig::SIZES {
         let site = rig::station().site;
-        let always = |target| Follow { target, site, passes: Vec::new() };
+        let always = |target| ProgramTrack { target, site, passes: Vec::new() };
         assert_eq!(followed(size, genius(), "Follow the Sun"), always(Target::Sun));
         assert_eq!(followed(size, genius(), "Follow the Moon"), always(Target::Moon));
         let kept = followed(size, genius(), "Keep pointing to 343°, 5°");
@@ -210,6 +210,6 @@ fn a_unit_that_tracks_by_itself_can_be_sent_from_here_all_the_same() {
     let satrak = Antenna::satrak("Dish", "192.168.10.21:4001");
     let entry = "Follow NOAA 20 position by position, from here";
     let Some(UiCommand::Track { pass, .. }) = Some(rig::track_noaa_20()) else { unreachable!() };
-    let wanted = [UiCommand::FollowPass { antenna: 0, pass }];
+    let wanted = [UiCommand::ProgramTrackPass { antenna: 0, pass }];
     assert_eq!(chosen(rig::LARGE, satrak, entry), wanted);
 }

@@ -115,8 +115,10 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
             window
         };
         let follow = |window: &mut Window| match &asked(window)[..] {
-            [UiCommand::Antenna(0, Command::Follow(follow))] => (follow.target.clone(), false),
-            [UiCommand::Antenna(0, Command::FollowIntoSun(follow))] => {
+            [UiCommand::Antenna(0, Command::ProgramTrack(follow))] => {
+                (follow.target.clone(), false)
+            }
+            [UiCommand::Antenna(0, Command::ProgramTrackIntoSun(follow))] => {
                 (follow.target.clone(), true)
             }
             other => panic!("{other:?}"),

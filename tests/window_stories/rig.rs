@@ -15,7 +15,7 @@ use azel::{
         CatalogState,
         alarms::Alarms,
         antenna::AntennaModel,
-        passes::{Followed, ListChoice, Observer, PassLists, PredictedPass},
+        passes::{ListChoice, ListedSatellite, Observer, PassLists, PredictedPass},
     },
     model::{Model, Sky, ThemeName, UiCommand, View, effects::Effects},
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
@@ -56,7 +56,7 @@ pub(crate) fn now() -> Timestamp {
 /// The elements and the passes over the site of [`station`], made once.
 struct Orbits {
     catalog: Arc<Catalog>,
-    satellites: Vec<Arc<Followed>>,
+    satellites: Vec<Arc<ListedSatellite>>,
     passes: Vec<PredictedPass>,
 }
 
@@ -64,7 +64,7 @@ fn orbits() -> &'static Orbits {
     static ORBITS: OnceLock<Orbits> = OnceLock::new();
     ORBITS.get_or_init(|| {
         let catalog = Arc::new(bundled().unwrap());
-        let satellites: Vec<Arc<Followed>> =
+        let satellites: Vec<Arc<ListedSatellite>> =
             FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
         let mut passes: Vec<PredictedPass> =
             satellites.iter().flat_map(|satellite| predicted_passes(satellite, now())).collect();
@@ -77,14 +77,17 @@ fn orbits() -> &'static Orbits {
     })
 }
 
-fn followed(catalog: &Catalog, number: u32) -> Followed {
+fn followed(catalog: &Catalog, number: u32) -> ListedSatellite {
     let elements = catalog.get(number).unwrap().clone();
     let propagator = Propagator::new(&elements).unwrap();
-    Followed { elements, propagator }
+    ListedSatellite { elements, propagator }
 }
 
 /// The passes of the 12 h after `now`, with the one that is under way.
-pub(crate) fn predicted_passes(satellite: &Arc<Followed>, now: Timestamp) -> Vec<PredictedPass> {
+pub(crate) fn predicted_passes(
+    satellite: &Arc<ListedSatellite>,
+    now: Timestamp,
+) -> Vec<PredictedPass> {
     let station = station();
     let observer = Arc::new(Observer::of(&station));
     let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));

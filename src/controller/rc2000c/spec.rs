@@ -4,8 +4,8 @@ use super::{Rc2000c, actions};
 use crate::{
     device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, Connection, ControllerSpec, CountPoint, Direction, Following, Link,
-        MotionLimits, Mount, PollRates, Setting, Table, Usual, Value,
+        AfterPass, Antenna, Connection, ControllerSpec, CountPoint, Direction, Link, MotionLimits,
+        Mount, PollRates, Setting, Table, TrackSettings, Usual, Value,
     },
 };
 
@@ -34,7 +34,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             maximum_step_deg: 5.0,
         },
         poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
-        follow: Following {
+        follow: TrackSettings {
             period_s: 2.0,
             dead_band_deg: 0.2,
             latency_s: 0.5,

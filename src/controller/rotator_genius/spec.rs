@@ -4,8 +4,8 @@ use super::{GROUPS, Genius, actions};
 use crate::{
     device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, Connection, ControllerSpec, Direction, Following, Link, MotionLimits,
-        Mount, PollRates, Setting, Usual, Value,
+        AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
+        PollRates, Setting, TrackSettings, Usual, Value,
     },
 };
 
@@ -36,7 +36,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             maximum_step_deg: 10.0,
         },
         poll: PollRates { idle_hz: 2.0, moving_hz: 4.0 },
-        follow: Following {
+        follow: TrackSettings {
             period_s: 1.0,
             dead_band_deg: 0.5,
             latency_s: 0.5,

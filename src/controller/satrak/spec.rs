@@ -4,8 +4,8 @@ use super::{ELEMENT_FILES, GROUPS, Satrak, words};
 use crate::{
     device::{Capabilities, JogSpeeds, Standstill, Variant},
     station::{
-        AfterPass, Antenna, ControllerSpec, Direction, Following, Link, MotionLimits, Mount,
-        PollRates, Setting, Usual,
+        AfterPass, Antenna, ControllerSpec, Direction, Link, MotionLimits, Mount, PollRates,
+        Setting, TrackSettings, Usual,
     },
 };
 
@@ -30,7 +30,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             maximum_step_deg: 5.0,
         },
         poll: PollRates { idle_hz: 2.0, moving_hz: 5.0 },
-        follow: Following {
+        follow: TrackSettings {
             period_s: 1.0,
             dead_band_deg: 0.1,
             latency_s: 0.3,

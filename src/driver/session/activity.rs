@@ -1,6 +1,6 @@
 //! What an antenna is wanted to do, and how far that is.
 
-use super::{follow::Following, on_board::Watch};
+use super::{on_board::Watch, program_track::Tracking};
 use crate::{
     clock::Instant,
     device::{Motion, Pointing, TrackTarget},
@@ -15,13 +15,13 @@ pub(super) enum Activity {
     Manual,
     /// Stays where it is, ready for a direction; after program track with what was
     /// tracked.
-    Hold(Option<Box<Following>>),
+    Hold(Option<Box<Tracking>>),
     /// Goes to a direction, and stays there.
     GoTo(GoTo),
     /// The unit tracks a pass by itself.
     OnBoardTrack(Box<OnBoardTrack>),
     /// Azel commands position by position.
-    ProgramTrack(Box<Following>),
+    ProgramTrack(Box<Tracking>),
 }
 
 /// A go-to or the way to park.
@@ -127,14 +127,14 @@ impl Activity {
         }
     }
 
-    pub(super) fn program(&self) -> Option<&Following> {
+    pub(super) fn program(&self) -> Option<&Tracking> {
         match self {
             Self::ProgramTrack(following) => Some(following),
             _ => None,
         }
     }
 
-    pub(super) fn program_mut(&mut self) -> Option<&mut Following> {
+    pub(super) fn program_mut(&mut self) -> Option<&mut Tracking> {
         match self {
             Self::ProgramTrack(following) => Some(following),
             _ => None,
@@ -142,14 +142,14 @@ impl Activity {
     }
 
     /// The program track that runs, or whose last pass is over.
-    pub(super) fn last_program(&self) -> Option<&Following> {
+    pub(super) fn last_program(&self) -> Option<&Tracking> {
         match self {
             Self::ProgramTrack(following) | Self::Hold(Some(following)) => Some(following),
             _ => None,
         }
     }
 
-    pub(super) fn last_program_mut(&mut self) -> Option<&mut Following> {
+    pub(super) fn last_program_mut(&mut self) -> Option<&mut Tracking> {
         match self {
             Self::ProgramTrack(following) | Self::Hold(Some(following)) => Some(following),
             _ => None,

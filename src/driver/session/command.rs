@@ -17,7 +17,7 @@ use crate::{
         settings::{Change, SettleError},
     },
     driver::{Intent, Refusal},
-    plan::{Bounds, Follow, OnBoardPass},
+    plan::{Bounds, OnBoardPass, ProgramTrack},
     station::LockOut,
 };
 
@@ -60,10 +60,10 @@ pub enum Command {
     Track(Box<OnBoardPass>),
     /// Follow a target position by position, also where the device could track by
     /// itself.
-    Follow(Box<Follow>),
+    ProgramTrack(Box<ProgramTrack>),
     /// Follow a target that leads to the Sun, by the operator's word: the avoidance of
     /// it is lifted for that alone.
-    FollowIntoSun(Box<Follow>),
+    ProgramTrackIntoSun(Box<ProgramTrack>),
     /// Follow on, where that waits for the operator's word.
     Resume,
     /// Keep within these bounds from now on.
@@ -107,8 +107,8 @@ impl Session {
             command,
             Command::Jog { .. }
                 | Command::Settle(_)
-                | Command::Follow(_)
-                | Command::FollowIntoSun(_)
+                | Command::ProgramTrack(_)
+                | Command::ProgramTrackIntoSun(_)
                 | Command::Track(_)
                 | Command::Within(_)
         );
@@ -143,8 +143,8 @@ impl Session {
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Track(pass) => self.track(*pass, now),
-            Command::Follow(follow) => self.follow_as_agreed(*follow, false, now),
-            Command::FollowIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
+            Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
+            Command::ProgramTrackIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
             Command::AutoTrack(true) => {
                 let held = self.held(now);
                 self.gate.will_hold(held);

@@ -9,7 +9,7 @@ use crate::{
     clock::{Instant, Moment},
     device::Motion,
     driver::{Inside, Refusal},
-    plan::{Barrier, Bounds, Follow},
+    plan::{Barrier, Bounds, ProgramTrack},
 };
 
 /// For so long the operator's word lets it out.
@@ -63,7 +63,12 @@ impl Session {
     }
 
     /// Takes up a target. Only by the operator's word it may lead to the Sun.
-    pub(super) fn follow_as_agreed(&mut self, follow: Follow, leads_to_sun: bool, now: Moment) {
+    pub(super) fn follow_as_agreed(
+        &mut self,
+        follow: ProgramTrack,
+        leads_to_sun: bool,
+        now: Moment,
+    ) {
         let before = self.gate.lift_sun(leads_to_sun);
         if !self.follow(follow, now) {
             // What is followed already goes on as it was agreed.

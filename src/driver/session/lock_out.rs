@@ -112,8 +112,8 @@ impl Session {
             | Command::Step { .. }
             | Command::Position { .. }
             | Command::Track(_)
-            | Command::Follow(_)
-            | Command::FollowIntoSun(_)
+            | Command::ProgramTrack(_)
+            | Command::ProgramTrackIntoSun(_)
             | Command::MoveAway
             | Command::Park
             | Command::AutoTrack(_) => true,

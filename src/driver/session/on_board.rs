@@ -8,7 +8,7 @@ use crate::{
     astro::{Angle, time::add_seconds},
     clock::{Instant, Moment},
     device::OnBoard,
-    driver::{FollowProblem, OnBoardView, gate::Held},
+    driver::{OnBoardView, TrackProblem, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
@@ -84,7 +84,7 @@ impl Session {
     pub(super) fn examine_pass(&mut self, pass: OnBoardPass, now: Moment) -> Result<Watch, Event> {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
-            .map_err(|error| Event::CannotFollow(name, FollowProblem::Orbit(error)))?;
+            .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
         let watch = Watch::new(Arc::new(judge), &self.gate.state().on_board);
         if let Some(event) = watch.objection() {
             return Err(event);

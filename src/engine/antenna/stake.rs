@@ -10,7 +10,7 @@ pub enum Stake {
     /// The unit tracks this by itself.
     OnBoard(Option<String>),
     /// This program follows the target of this name with it.
-    Followed(String),
+    ProgramTracked(String),
     /// It moves.
     Moves,
     /// A stop is owed to it.
@@ -26,8 +26,8 @@ impl AntennaModel {
         if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
             return Some(Stake::OwesStop);
         }
-        if let Some(following) = &snapshot.following {
-            return Some(Stake::Followed(following.name.clone()));
+        if let Some(following) = &snapshot.program_track {
+            return Some(Stake::ProgramTracked(following.name.clone()));
         }
         if state.program.is_some_and(|program| program.enabled) {
             let held = state.on_board.satellite.as_ref();

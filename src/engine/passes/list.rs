@@ -7,7 +7,7 @@ use jiff::Timestamp;
 
 use super::{
     PassKey,
-    predicted_pass::{Followed, PredictedPass},
+    predicted_pass::{ListedSatellite, PredictedPass},
     search::{Found, Progress, SearchKey, search},
 };
 use crate::{
@@ -24,7 +24,7 @@ const SAME_AOS_S: f64 = 60.0;
 #[derive(Debug, Clone)]
 pub struct PassList {
     /// The satellites, in the order of the station or by catalog number.
-    pub satellites: Arc<Vec<Arc<Followed>>>,
+    pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
     /// Passes by AOS, then by catalog number. In a list of all satellites those that
     /// are always up come last. Some of them may be over.
     pub passes: Arc<Vec<PredictedPass>>,

@@ -9,7 +9,7 @@ use super::PassKey;
 use crate::{
     astro::{Angle, Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, passes},
-    plan::{Follow, MountLimits, Sample, Target, Trackability, trackability},
+    plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, trackability},
     station::{Antenna, Station},
 };
 
@@ -23,14 +23,14 @@ const OUTLINE_STEP_DEG: f64 = 3.0;
 
 /// A satellite of a list.
 #[derive(Debug)]
-pub struct Followed {
+pub struct ListedSatellite {
     /// Its elements.
     pub elements: Elements,
     /// Where it goes.
     pub propagator: Propagator,
 }
 
-impl Followed {
+impl ListedSatellite {
     /// The name without what stands in brackets behind it.
     pub fn short_name(&self) -> &str {
         let name = self.elements.name();
@@ -67,7 +67,7 @@ impl Observer {
 #[derive(Debug, Clone)]
 pub struct PredictedPass {
     /// Its satellite.
-    pub satellite: Arc<Followed>,
+    pub satellite: Arc<ListedSatellite>,
     /// Its three events.
     pub pass: Pass,
     observer: Arc<Observer>,
@@ -85,7 +85,7 @@ struct Outline {
 
 impl PredictedPass {
     /// A pass of `satellite` seen from `observer`.
-    pub fn new(satellite: Arc<Followed>, pass: Pass, observer: Arc<Observer>) -> Self {
+    pub fn new(satellite: Arc<ListedSatellite>, pass: Pass, observer: Arc<Observer>) -> Self {
         Self { satellite, pass, observer, outline: OnceLock::new() }
     }
 
@@ -96,7 +96,7 @@ impl PredictedPass {
 
     /// What an antenna has to follow for this pass and those of its satellite in the
     /// next days that get as high as `floor`.
-    pub fn follow(&self, floor: Angle) -> Follow {
+    pub fn follow(&self, floor: Angle) -> ProgramTrack {
         let mut los = self.pass.los.time;
         // The end of the search has cut it: it goes on.
         let from = if self.pass.ends_after { self.pass.tca.time } else { los };
@@ -119,7 +119,7 @@ impl PredictedPass {
         }
         let elements = Box::new(self.satellite.elements.clone());
         let target = Target::Satellite(elements);
-        Follow { target, site: self.observer.site, passes: spans }
+        ProgramTrack { target, site: self.observer.site, passes: spans }
     }
 
     /// Catalog number of its satellite.
@@ -217,7 +217,7 @@ mod tests {
         let search = PassSearch::new(station.site, from, add_seconds(from, 86_400.0));
         let observer = Arc::new(Observer::of(&station));
         let found = passes(&propagator, &search, &|| false);
-        let satellite = Arc::new(Followed { elements, propagator });
+        let satellite = Arc::new(ListedSatellite { elements, propagator });
         assert!(found.len() > 3);
         for pass in found {
             let predicted = PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer));

@@ -9,7 +9,7 @@ use std::sync::{
 use jiff::Timestamp;
 use rayon::prelude::*;
 
-use super::predicted_pass::{Followed, Observer, PredictedPass};
+use super::predicted_pass::{ListedSatellite, Observer, PredictedPass};
 use crate::{
     astro::{Angle, time::add_seconds},
     job::Wake,
@@ -56,7 +56,7 @@ impl SearchKey {
         Arc::ptr_eq(&self.catalog, &other.catalog) && self.scope == other.scope
     }
 
-    fn satellites(&self) -> Vec<Arc<Followed>> {
+    fn satellites(&self) -> Vec<Arc<ListedSatellite>> {
         match &self.scope {
             SearchScope::Favourites(numbers) => {
                 let known = numbers.iter().filter_map(|number| self.catalog.get(*number));
@@ -70,9 +70,11 @@ impl SearchKey {
     }
 }
 
-fn prepared(elements: &Elements) -> Option<Arc<Followed>> {
+fn prepared(elements: &Elements) -> Option<Arc<ListedSatellite>> {
     match Propagator::new(elements) {
-        Ok(propagator) => Some(Arc::new(Followed { elements: elements.clone(), propagator })),
+        Ok(propagator) => {
+            Some(Arc::new(ListedSatellite { elements: elements.clone(), propagator }))
+        }
         Err(error) => {
             tracing::warn!(number = elements.catalog_number(), %error, "cannot be propagated");
             None
@@ -89,7 +91,7 @@ pub(super) struct Progress {
 
 /// What a search has found.
 pub(super) struct Found {
-    pub(super) satellites: Arc<Vec<Arc<Followed>>>,
+    pub(super) satellites: Arc<Vec<Arc<ListedSatellite>>>,
     pub(super) passes: Vec<PredictedPass>,
 }
 
@@ -97,7 +99,7 @@ pub(super) struct Found {
 /// prepared already.
 pub(super) fn search(
     key: &SearchKey,
-    satellites: Option<Arc<Vec<Arc<Followed>>>>,
+    satellites: Option<Arc<Vec<Arc<ListedSatellite>>>>,
     now: Timestamp,
     progress: &Progress,
     wake: &Wake,

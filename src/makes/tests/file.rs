@@ -13,9 +13,9 @@ use crate::{
         rotator_genius::{ROTATORS, Rotators},
     },
     station::{
-        self, AfterPass, Antenna, AntennaId, CountPoint, Entered, Following, KeepOut, LoadError,
-        Loaded, Monitor, Mount, Note, NoteReason, OnClose, Resume, SaveError, Station,
-        SunAvoidance, save,
+        self, AfterPass, Antenna, AntennaId, CountPoint, Entered, KeepOut, LoadError, Loaded,
+        Monitor, Mount, Note, NoteReason, OnClose, Resume, SaveError, Station, SunAvoidance,
+        TrackSettings, save,
     },
 };
 
@@ -127,7 +127,7 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
             elevation_from_deg: -5.0,
             elevation_to_deg: 180.0,
         },
-        follow: Following {
+        follow: TrackSettings {
             period_s: 0.5,
             dead_band_deg: 1.25,
             latency_s: 0.0,

@@ -6,8 +6,8 @@ use toml::Value;
 
 use super::Fields;
 use crate::station::{
-    AfterPass, Antenna, AntennaId, Connection, ControllerSpec, Direction, Following, Monitor,
-    MotionLimits, Mount, PollRates, Resume, Setting, ranges,
+    AfterPass, Antenna, AntennaId, Connection, ControllerSpec, Direction, Monitor, MotionLimits,
+    Mount, PollRates, Resume, Setting, TrackSettings, ranges,
 };
 
 impl Fields<'_> {
@@ -130,11 +130,11 @@ impl Fields<'_> {
         }
     }
 
-    fn following(&mut self, default: Following) -> Following {
+    fn following(&mut self, default: TrackSettings) -> TrackSettings {
         let after =
             [("hold", AfterPass::Hold), ("park", AfterPass::Park), ("next", AfterPass::Next)];
-        let Following { period_s, dead_band_deg, latency_s, .. } = default;
-        Following {
+        let TrackSettings { period_s, dead_band_deg, latency_s, .. } = default;
+        TrackSettings {
             period_s: self.number("period_s", &ranges::FOLLOW_PERIOD_S, period_s),
             dead_band_deg: self.number("dead_band_deg", &ranges::DEAD_BAND_DEG, dead_band_deg),
             latency_s: self.number("latency_s", &ranges::LATENCY_S, latency_s),

@@ -43,7 +43,7 @@ enum Among {
     #[default]
     All,
     /// Those that the operator follows.
-    Followed,
+    Favourites,
     /// Those of one source.
     Group(String),
 }
@@ -52,7 +52,7 @@ impl Among {
     fn word(&self) -> &str {
         match self {
             Self::All => "All",
-            Self::Followed => "Favourites",
+            Self::Favourites => "Favourites",
             Self::Group(name) => name,
         }
     }
@@ -77,14 +77,14 @@ impl SearchState {
             Arc::ptr_eq(&found.catalog, catalog)
                 && found.typed == self.typed
                 && found.among == self.among
-                && (self.among != Among::Followed || found.favourites == favourites)
+                && (self.among != Among::Favourites || found.favourites == favourites)
         };
         let found = self.found.take().filter(is_known).unwrap_or_else(|| {
             let mut found = match &self.among {
                 Among::Group(group) => catalog.search_group(group, &self.typed, usize::MAX),
-                Among::All | Among::Followed => catalog.search(&self.typed, usize::MAX),
+                Among::All | Among::Favourites => catalog.search(&self.typed, usize::MAX),
             };
-            if self.among == Among::Followed {
+            if self.among == Among::Favourites {
                 found.retain(|elements| favourites.contains(&elements.catalog_number()));
             }
             Found {
@@ -153,7 +153,7 @@ fn fields(ui: &mut Ui, catalog: &Catalog, state: &mut SearchState) {
         let size = vec2(ui.available_width(), SMALL_HEIGHT);
         let (place, _) = ui.allocate_exact_size(size, Sense::hover());
         groups.show(ui, place, |ui| {
-            for among in [Among::All, Among::Followed] {
+            for among in [Among::All, Among::Favourites] {
                 let word = among.word().to_owned();
                 ui.selectable_value(&mut state.among, among, word);
             }
@@ -194,8 +194,8 @@ fn row(
     paint::name_text(ui, ("object", number), room, &format!("{name}, {second}"))
         .on_hover_text(format!("{name}\n{second}"));
 
-    let is_followed = model.station.favourites.contains(&number);
-    let (word, spoken) = if is_followed {
+    let is_favourite = model.station.favourites.contains(&number);
+    let (word, spoken) = if is_favourite {
         ("Remove", format!("Remove {name} from the favourites"))
     } else {
         ("Add", format!("Add {name} to the favourites"))
@@ -205,7 +205,7 @@ fn row(
     let builder = UiBuilder::new().id_salt(("follow", number)).max_rect(place).layout(layout);
     ui.scope_builder(builder, |ui| {
         if named_button(ui, !settings_are_edited, word, &spoken) {
-            commands.push(UiCommand::Follow { number, is_followed: !is_followed });
+            commands.push(UiCommand::SetFavourite { number, is_favourite: !is_favourite });
         }
     });
 }

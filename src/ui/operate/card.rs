@@ -234,7 +234,7 @@ fn track<'a>(
     let state = &antenna.snapshot.state;
     let selected = model.selected_pass();
     let number = selected.map(|predicted| predicted.satellite.elements.catalog_number());
-    let followed = antenna.snapshot.following.as_ref();
+    let followed = antenna.snapshot.program_track.as_ref();
     let is_here = followed.is_some() || !antenna.variant().capabilities.has_program;
     let (head, held, tracks_selected) = if is_here {
         let name = followed.map(|followed| followed.name.as_str());

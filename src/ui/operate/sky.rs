@@ -119,7 +119,7 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
 /// Where the antenna was sent: by the operator, or for what is followed.
 fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
     let snapshot = &antenna.snapshot;
-    let follows = snapshot.following.as_ref().filter(|_| antenna.follows());
+    let follows = snapshot.program_track.as_ref().filter(|_| antenna.follows());
     snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 

@@ -6,7 +6,7 @@ use crate::{
     driver::{Event, Found},
     engine::antenna::AntennaModel,
     model::Model,
-    plan::FollowStats,
+    plan::TrackStats,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
@@ -67,11 +67,11 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             "Not tracking. {} Hold Track anyway, or follow from here.",
             words::would_miss(short(name), found)
         )),
-        Event::FollowOver { name, stats } => follow_over(name, *stats),
-        Event::CannotFollow(target, problem) => caution
+        Event::ProgramTrackOver { name, stats } => follow_over(name, *stats),
+        Event::CannotProgramTrack(target, problem) => caution
             .plain("Not following ")
             .bold(short(target))
-            .plain(format!(": {}", words::follow_problem(problem)))
+            .plain(format!(": {}", words::track_problem(problem)))
             .plain(problem.barrier().map(reason).unwrap_or_default()),
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
@@ -104,7 +104,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         | Event::Connected(_)
         | Event::Tracking(_)
         | Event::Awaits { .. }
-        | Event::Follows(_)
+        | Event::ProgramTracks(_)
         | Event::TrackingEnded { completed: true }
         | Event::Arrived(_)
         | Event::Stopped
@@ -112,7 +112,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     })
 }
 
-fn follow_over(name: &str, stats: FollowStats) -> Spoken {
+fn follow_over(name: &str, stats: TrackStats) -> Spoken {
     let spoken = Spoken::new(SentenceKind::Holding)
         .plain("The pass of ")
         .bold(short(name))

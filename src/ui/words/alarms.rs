@@ -66,8 +66,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::CannotTrack(target, reason) => {
             format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))
         }
-        AlarmKind::CannotFollow(name, problem) => {
-            format!("{antenna} does not follow {name}: {}", super::follow_problem(problem))
+        AlarmKind::CannotProgramTrack(name, problem) => {
+            format!("{antenna} does not follow {name}: {}", super::track_problem(problem))
         }
         AlarmKind::OffTarget { off, cause } => {
             let off = format::degrees(off.degrees(), 1);

@@ -2,7 +2,7 @@
 
 use crate::{
     device::{PrepareError, settings::Hindrance},
-    driver::{FollowProblem, LinkLoss, Refusal},
+    driver::{LinkLoss, Refusal, TrackProblem},
     ui::format,
 };
 
@@ -126,11 +126,11 @@ pub fn hindrance(hindrance: Hindrance) -> String {
 }
 
 /// Why a target is not followed, or no further.
-pub fn follow_problem(problem: &FollowProblem) -> String {
+pub fn track_problem(problem: &TrackProblem) -> String {
     match problem {
-        FollowProblem::NoPass => "it does not rise in the next days.".to_owned(),
-        FollowProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
-        FollowProblem::Refused(why) => {
+        TrackProblem::NoPass => "it does not rise in the next days.".to_owned(),
+        TrackProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
+        TrackProblem::Refused(why) => {
             let words = refusal(why);
             words.strip_prefix("Not sent: ").map_or_else(|| words.clone(), str::to_owned)
         }

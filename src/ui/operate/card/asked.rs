@@ -6,7 +6,7 @@ use crate::{
     driver::{Command, Intent},
     engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
-    plan::{self, Follow},
+    plan::{self, ProgramTrack},
     ui::{
         antenna_card::{CardAction, FollowChoice},
         confirm::Question,
@@ -89,7 +89,7 @@ impl Desk<'_> {
             FollowChoice::Selected => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
                 let antenna = self.model.selected_antenna;
-                let command = pass.map(|pass| UiCommand::FollowPass { antenna, pass });
+                let command = pass.map(|pass| UiCommand::ProgramTrackPass { antenna, pass });
                 return self.commands.extend(command);
             }
             FollowChoice::Sun | FollowChoice::IntoSun => plan::Target::Sun,
@@ -100,10 +100,10 @@ impl Desk<'_> {
             }
         };
         let site = self.model.station.site;
-        let follow = Box::new(Follow { target, site, passes: Vec::new() });
+        let follow = Box::new(ProgramTrack { target, site, passes: Vec::new() });
         let command = match choice {
-            FollowChoice::IntoSun => Command::FollowIntoSun(follow),
-            _ => Command::Follow(follow),
+            FollowChoice::IntoSun => Command::ProgramTrackIntoSun(follow),
+            _ => Command::ProgramTrack(follow),
         };
         self.commands.push(self.for_antenna(command));
     }

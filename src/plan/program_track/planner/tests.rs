@@ -5,7 +5,7 @@ use crate::{
     astro::{Angle, Site},
     clock::Instant,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    plan::{FollowStats, Target},
+    plan::{Target, TrackStats},
     station::{AfterPass, Antenna, Entered, KeepOut, MotionLimits, Mount, Station},
 };
 
@@ -55,7 +55,7 @@ impl Metal {
 }
 
 struct Run {
-    stats: FollowStats,
+    stats: TrackStats,
     azimuths_deg: Vec<f64>,
 }
 
@@ -84,8 +84,8 @@ fn azel(range_deg: (f64, f64), rate_deg_s: f64, step_deg: f64) -> Drives {
     }
 }
 
-fn following(period_s: f64, dead_band_deg: f64) -> Following {
-    Following { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
+fn following(period_s: f64, dead_band_deg: f64) -> TrackSettings {
+    TrackSettings { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
 }
 
 /// The first pass of a satellite in three days for which this holds.
@@ -119,11 +119,11 @@ fn max_deg(pass: &Pass) -> f64 {
     pass.max_elevation().degrees()
 }
 
-fn run(target: Target, pass: &Pass, drives: Drives, following: Following) -> Run {
+fn run(target: Target, pass: &Pass, drives: Drives, following: TrackSettings) -> Run {
     run_on(target, pass, drives, following, &metal(drives, following))
 }
 
-fn metal(drives: Drives, following: Following) -> Metal {
+fn metal(drives: Drives, following: TrackSettings) -> Metal {
     let [rate_deg_s, _] = drives.rates_deg_s;
     Metal {
         axes_deg: [180.0, 45.0],
@@ -142,9 +142,15 @@ fn free() -> Bounds {
     Bounds::of_antenna(&antenna)
 }
 
-fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, metal: &Metal) -> Run {
+fn run_on(
+    target: Target,
+    pass: &Pass,
+    drives: Drives,
+    following: TrackSettings,
+    metal: &Metal,
+) -> Run {
     let passes = vec![(pass.aos.time, pass.los.time)];
-    let follow = Follow { target, site: site(), passes };
+    let follow = ProgramTrack { target, site: site(), passes };
     let planner = Planner::new(follow, drives, following, free()).unwrap();
     run_planner(planner, pass, following, metal, |_, _| {})
 }
@@ -153,14 +159,14 @@ fn run_on(target: Target, pass: &Pass, drives: Drives, following: Following, met
 fn run_planner(
     mut planner: Planner,
     pass: &Pass,
-    following: Following,
+    following: TrackSettings,
     metal: &Metal,
     mut look: impl FnMut(Timestamp, [f64; 2]),
 ) -> Run {
     let mut metal = metal.clone();
     let begin = add_seconds(pass.aos.time, -240.0);
     let started = Instant::now();
-    let mut run = Run { stats: FollowStats::default(), azimuths_deg: Vec::new() };
+    let mut run = Run { stats: TrackStats::default(), azimuths_deg: Vec::new() };
     let ticks = ((pass.duration_s() + 240.0) / TICK_S) as u32;
     let mut next_look_s = 0.0;
     for tick in 0..ticks {
@@ -191,7 +197,7 @@ fn run_planner(
     run
 }
 
-fn shown(what: &str, stats: FollowStats) -> (f64, f64, u32) {
+fn shown(what: &str, stats: TrackStats) -> (f64, f64, u32) {
     let [rms, worst] = [stats.rms(), stats.worst()].map(|off| off.unwrap().degrees());
     println!("{what:40} rms {rms:6.3} worst {worst:7.3} commands {}", stats.commands);
     (rms, worst, stats.commands)
@@ -309,7 +315,8 @@ fn a_planner_keeps_the_side_for_the_pass() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let follow =
+        ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
     let drives = over(azel((0.0, 360.0), 4.0, 0.0));
     let mut planner = Planner::new(follow, drives, following(1.0, 0.2), free()).unwrap();
     let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
@@ -355,7 +362,8 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
         let course = Course::new(&target, site()).unwrap();
         let drives = azel((-180.0, 540.0), rate_deg_s, step_deg);
         let following = following(0.5, 0.2);
-        let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+        let follow =
+            ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
         let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
         let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
         run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
@@ -394,7 +402,8 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let bounds = Bounds::of(&station, &antenna);
     let drives = azel((-180.0, 540.0), 6.0, 0.0);
     let following = following(0.5, 0.2);
-    let follow = Follow { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let follow =
+        ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
     let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
     let mut last_deg = f64::MAX;
     run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {

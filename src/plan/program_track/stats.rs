@@ -4,7 +4,7 @@ use crate::astro::Angle;
 
 /// Pointing error while tracking, and the number of commands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FollowStats {
+pub struct TrackStats {
     /// Positions that were sent.
     pub commands: u32,
     samples: u32,
@@ -12,7 +12,7 @@ pub struct FollowStats {
     worst_deg: f64,
 }
 
-impl FollowStats {
+impl TrackStats {
     /// Takes the angle between target and measured direction.
     pub fn take(&mut self, off: Angle) {
         let off_deg = off.degrees().abs();
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn the_root_of_the_mean_square_and_the_worst() {
-        let mut stats = FollowStats::default();
+        let mut stats = TrackStats::default();
         assert_eq!((stats.rms(), stats.worst()), (None, None));
         for off_deg in [3.0, -4.0, 0.0, 0.0] {
             stats.take(Angle::from_degrees(off_deg));

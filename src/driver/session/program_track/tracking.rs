@@ -5,10 +5,10 @@ use std::time::Duration;
 use crate::{
     clock::Instant,
     device::{AxisMotion, Capabilities, Measured, Pointing},
-    driver::{FollowView, session::likeness::Recheck},
+    driver::{TrackView, session::likeness::Recheck},
     plan::{
-        FollowPhase, FollowStats, Sample,
-        follow::{AxisNow, Drives, Planner},
+        Sample, TrackPhase, TrackStats,
+        program_track::{AxisNow, Drives, Planner},
     },
     station::{self, Antenna},
 };
@@ -17,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub(in crate::driver::session) struct Manner {
     pub(super) drives: Drives,
-    pub(super) following: station::Following,
+    pub(super) following: station::TrackSettings,
 }
 
 impl Manner {
@@ -40,10 +40,10 @@ impl Manner {
 }
 
 /// A target that is followed.
-pub(in crate::driver::session) struct Following {
+pub(in crate::driver::session) struct Tracking {
     pub(super) planner: Planner,
-    pub(super) phase: FollowPhase,
-    pub(super) stats: FollowStats,
+    pub(super) phase: TrackPhase,
+    pub(super) stats: TrackStats,
     pub(super) next_look: Instant,
     /// The look is due, but something else has to end first, which brings it.
     pub(super) is_held_up: bool,
@@ -66,13 +66,13 @@ pub(in crate::driver::session) struct Following {
     pub(in crate::driver::session) aim: Option<Pointing>,
 }
 
-impl Following {
+impl Tracking {
     /// Nothing was sent yet; it is looked at now.
-    pub(super) fn new(planner: Planner, phase: FollowPhase, now: Instant) -> Self {
+    pub(super) fn new(planner: Planner, phase: TrackPhase, now: Instant) -> Self {
         Self {
             planner,
             phase,
-            stats: FollowStats::default(),
+            stats: TrackStats::default(),
             next_look: now,
             is_held_up: false,
             sent: None,
@@ -87,15 +87,15 @@ impl Following {
         }
     }
 
-    pub(in crate::driver::session) fn view(&self) -> FollowView {
+    pub(in crate::driver::session) fn view(&self) -> TrackView {
         let target = &self.planner.follow().target;
-        FollowView {
+        TrackView {
             name: target.name().into_owned(),
             catalog_number: target.catalog_number(),
             phase: self.phase,
             stats: self.stats,
             awaits_word: self.awaits_word,
-            next_look: (self.phase != FollowPhase::Over).then_some(self.next_look),
+            next_look: (self.phase != TrackPhase::Over).then_some(self.next_look),
             commanded: self.commanded,
             predicted: self.predicted,
         }
@@ -112,7 +112,7 @@ impl Following {
         }
         let positions_deg = measured.axes.map(|axis| axis.angle_deg);
         self.planner.watch(measured.asked, positions_deg);
-        let is_up = self.phase == FollowPhase::Following;
+        let is_up = self.phase == TrackPhase::Tracking;
         let direction = is_up.then(|| self.planner.reachable(measured.at)).flatten();
         self.predicted = direction.map(|direction| Sample { time: measured.at, direction });
         if let Some(off) =

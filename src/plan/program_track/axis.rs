@@ -1,7 +1,7 @@
 //! The commands for one axis.
 
 use super::{drives::Drives, path::Path, slew_rate::SlewRate};
-use crate::{clock::Instant, station::Following};
+use crate::{clock::Instant, station::TrackSettings};
 
 /// Iterations on the time of arrival.
 const ROUNDS: usize = 4;
@@ -48,7 +48,7 @@ pub(super) struct Axis {
     /// 0 or 1.
     index: usize,
     pub(super) drives: Drives,
-    following: Following,
+    following: TrackSettings,
     pub(super) told: Told,
     /// The longest way for which the axis did not set out, degrees.
     ignored_deg: f64,
@@ -58,7 +58,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(index: usize, drives: Drives, following: Following) -> Self {
+    pub(super) fn new(index: usize, drives: Drives, following: TrackSettings) -> Self {
         Self {
             index,
             drives,

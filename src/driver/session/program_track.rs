@@ -2,21 +2,21 @@
 //! on while a link is lost and comes back, and ends with anything else that the
 //! operator wants.
 
-mod following;
+mod tracking;
 
 use std::time::Duration;
 
-pub(super) use following::{Following, Manner};
+pub(super) use tracking::{Manner, Tracking};
 
 use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
     device::{Motion, Pointing},
-    driver::{FollowProblem, Intent, Refusal, Safety, Unlike},
+    driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
     plan::{
-        Bounds, Follow, FollowPhase,
-        follow::{AxisNow, Next, Planner},
+        Bounds, ProgramTrack, TrackPhase,
+        program_track::{AxisNow, Next, Planner},
     },
     station::{AfterPass, Antenna, Resume},
 };
@@ -49,7 +49,7 @@ impl ResumeRule {
 impl Session {
     /// Takes up a target. What moves for another reason is stopped first.
     /// Returns whether it was taken up; if not, the reason was told.
-    pub(super) fn follow(&mut self, follow: Follow, now: Moment) -> bool {
+    pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
         let Manner { mut drives, following } = self.setup.manner;
@@ -57,18 +57,18 @@ impl Session {
         let follow =
             if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);
-        let planned = if phase == FollowPhase::Over {
-            Err(FollowProblem::NoPass)
+        let planned = if phase == TrackPhase::Over {
+            Err(TrackProblem::NoPass)
         } else {
             let bounds = self.gate.bounds_in(Intent::Track).clone();
-            Planner::new(follow, drives, following, bounds).map_err(FollowProblem::Orbit)
+            Planner::new(follow, drives, following, bounds).map_err(TrackProblem::Orbit)
         };
         // Checked before anything that runs is ended for it.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
         let planner = match checked {
             Ok(planner) => planner,
             Err(problem) => {
-                self.tell(Event::CannotFollow(name, problem));
+                self.tell(Event::CannotProgramTrack(name, problem));
                 return false;
             }
         };
@@ -76,14 +76,14 @@ impl Session {
         if self.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
-        let following = Following::new(planner, phase, now.steady);
+        let following = Tracking::new(planner, phase, now.steady);
         self.activity = Activity::ProgramTrack(Box::new(following));
         self.tell_phase(phase, name);
         true
     }
 
     /// Whether the first position may be sent.
-    fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, FollowProblem> {
+    fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
         let axes = self.gate.state().measured.map(|measured| measured.axes);
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
         let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
@@ -93,11 +93,11 @@ impl Session {
         Ok(planner)
     }
 
-    fn tell_phase(&self, phase: FollowPhase, name: String) {
+    fn tell_phase(&self, phase: TrackPhase, name: String) {
         match phase {
-            FollowPhase::Waiting { aos } => self.tell(Event::Awaits { name, aos }),
-            FollowPhase::Following => self.tell(Event::Follows(name)),
-            FollowPhase::Over => {}
+            TrackPhase::Waiting { aos } => self.tell(Event::Awaits { name, aos }),
+            TrackPhase::Tracking => self.tell(Event::ProgramTracks(name)),
+            TrackPhase::Over => {}
         }
     }
 
@@ -105,7 +105,7 @@ impl Session {
     pub(super) fn follows_now(&self) -> bool {
         self.activity
             .program()
-            .is_some_and(|it| it.phase == FollowPhase::Following && !it.awaits_word)
+            .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_word)
     }
 
     /// When the antenna is looked at next by the clock.
@@ -130,26 +130,26 @@ impl Session {
         self.look(now);
     }
 
-    fn enter_phase(&mut self, phase: FollowPhase, now: Moment) {
+    fn enter_phase(&mut self, phase: TrackPhase, now: Moment) {
         let Some(following) = self.activity.program_mut() else { return };
         let name = following.name();
         let before = std::mem::replace(&mut following.phase, phase);
         // No answer was no for the pass that is over.
-        following.awaits_word &= before != FollowPhase::Following;
+        following.awaits_word &= before != TrackPhase::Tracking;
         let mut over = None;
-        if before == FollowPhase::Following {
+        if before == TrackPhase::Tracking {
             following.predicted = None;
             let stats = std::mem::take(&mut following.stats);
-            over = Some(Event::FollowOver { name: name.clone(), stats });
+            over = Some(Event::ProgramTrackOver { name: name.clone(), stats });
         }
-        if phase == FollowPhase::Following {
+        if phase == TrackPhase::Tracking {
             following.aim = None;
         }
         if let Some(event) = over {
             self.tell(event);
         }
         self.tell_phase(phase, name);
-        if phase == FollowPhase::Over {
+        if phase == TrackPhase::Over {
             self.end_program(now);
         }
     }
@@ -189,7 +189,7 @@ impl Session {
         match following.planner.look(now.utc, axes) {
             Ok(None) => {}
             Ok(Some(next)) => self.send_next(next, now),
-            Err(error) => self.end_follow(FollowProblem::Orbit(error), now),
+            Err(error) => self.end_follow(TrackProblem::Orbit(error), now),
         }
     }
 
@@ -214,7 +214,7 @@ impl Session {
                 following.commanded = aim;
                 following.barrier_is_told &= route.then.is_some();
                 // What is up is compared with itself, not with the last step.
-                following.aim = aim.filter(|_| following.phase != FollowPhase::Following);
+                following.aim = aim.filter(|_| following.phase != TrackPhase::Tracking);
             }
             // It waits at the edge, and goes on where the way is free again.
             Err(Refusal::Forbidden { barrier, at }) => {
@@ -236,9 +236,9 @@ impl Session {
         }
     }
 
-    fn end_follow(&mut self, problem: FollowProblem, now: Moment) {
-        let Some(name) = self.activity.program().map(Following::name) else { return };
-        self.give_up(Event::CannotFollow(name, problem), now);
+    fn end_follow(&mut self, problem: TrackProblem, now: Moment) {
+        let Some(name) = self.activity.program().map(Tracking::name) else { return };
+        self.give_up(Event::CannotProgramTrack(name, problem), now);
     }
 
     /// A position was not answered and has had no effect: `true` when another may

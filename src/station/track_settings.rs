@@ -7,7 +7,7 @@ use serde::Serialize;
 /// How this program follows a target with an antenna whose controller does not
 /// do so by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Following {
+pub struct TrackSettings {
     /// Between two looks at where the antenna should be, seconds, 0.05 to 600.
     pub period_s: f64,
     /// No new position is sent while the last one is off by less, degrees, 0 to
@@ -31,7 +31,7 @@ pub enum AfterPass {
     Next,
 }
 
-impl Following {
+impl TrackSettings {
     /// Between two looks at where the antenna should be.
     pub fn period(&self) -> Duration {
         Duration::try_from_secs_f64(self.period_s.clamp(0.05, 600.0))

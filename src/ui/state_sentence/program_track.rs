@@ -3,18 +3,18 @@
 use super::{Spoken, place, short};
 use crate::{
     astro::time::seconds_between,
-    driver::FollowView,
+    driver::TrackView,
     engine::antenna::AntennaModel,
     model::Model,
-    plan::FollowPhase,
+    plan::TrackPhase,
     ui::{format, widgets::sentence::SentenceKind},
 };
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
-    let view = antenna.snapshot.following.as_ref()?;
+    let view = antenna.snapshot.program_track.as_ref()?;
     let name = short(&view.name);
     Some(match view.phase {
-        FollowPhase::Waiting { aos } => {
+        TrackPhase::Waiting { aos } => {
             let spoken = Spoken::new(SentenceKind::Commanded);
             let moving = antenna.snapshot.state.measured.is_some_and(|measured| measured.moving());
             let spoken = if moving {
@@ -28,15 +28,15 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::time_left(seconds_between(model.now, aos))
             ))
         }
-        FollowPhase::Following => following(antenna, view, name),
-        FollowPhase::Over => Spoken::new(SentenceKind::Holding)
+        TrackPhase::Tracking => following(antenna, view, name),
+        TrackPhase::Over => Spoken::new(SentenceKind::Holding)
             .plain("The pass of ")
             .bold(name)
             .plain(format!(" is over. Holding{}.", place(antenna))),
     })
 }
 
-fn following(antenna: &AntennaModel, view: &FollowView, name: &str) -> Spoken {
+fn following(antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     let lead = |kind| Spoken::new(kind).plain("Following ").bold(name);
     let is_near = view.predicted.is_some() && !antenna.is_out_of_reach();
     let Some(error) = antenna.error().filter(|_| is_near) else {

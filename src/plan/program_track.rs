@@ -15,14 +15,14 @@ use jiff::Timestamp;
 pub use axis::AxisNow;
 pub use drives::{Drives, SetPoint};
 pub use planner::{Next, Planner};
-pub use stats::FollowStats;
+pub use stats::TrackStats;
 pub use target::{Course, Target};
 
 use crate::astro::Site;
 
 /// A target, its site and its passes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Follow {
+pub struct ProgramTrack {
     pub target: Target,
     pub site: Site,
     /// AOS and LOS of its passes, in order; empty for a target that is always up.
@@ -31,24 +31,24 @@ pub struct Follow {
 
 /// The phase of a target in its passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FollowPhase {
+pub enum TrackPhase {
     /// Before a pass: the antenna goes to its start and waits.
     Waiting { aos: Timestamp },
     /// During a pass.
-    Following,
+    Tracking,
     /// After the last pass.
     Over,
 }
 
-impl Follow {
-    pub fn phase(&self, now: Timestamp) -> FollowPhase {
+impl ProgramTrack {
+    pub fn phase(&self, now: Timestamp) -> TrackPhase {
         if self.passes.is_empty() {
-            return FollowPhase::Following;
+            return TrackPhase::Tracking;
         }
         match self.pass(now) {
-            None => FollowPhase::Over,
-            Some((aos, _)) if now < aos => FollowPhase::Waiting { aos },
-            Some(_) => FollowPhase::Following,
+            None => TrackPhase::Over,
+            Some((aos, _)) if now < aos => TrackPhase::Waiting { aos },
+            Some(_) => TrackPhase::Tracking,
         }
     }
 
@@ -74,8 +74,8 @@ mod tests {
         Timestamp::from_second(second).unwrap()
     }
 
-    fn follow(passes: &[(i64, i64)]) -> Follow {
-        Follow {
+    fn follow(passes: &[(i64, i64)]) -> ProgramTrack {
+        ProgramTrack {
             target: Target::Sun,
             site: Site::new(41.0, 29.0, 100.0).unwrap(),
             passes: passes.iter().map(|(aos, los)| (at(*aos), at(*los))).collect(),
@@ -85,24 +85,24 @@ mod tests {
     #[test]
     fn a_target_waits_is_followed_and_is_over() {
         let follow = follow(&[(10, 20), (50, 60)]);
-        assert_eq!(follow.phase(at(9)), FollowPhase::Waiting { aos: at(10) });
-        assert_eq!(follow.phase(at(10)), FollowPhase::Following);
-        assert_eq!(follow.phase(at(20)), FollowPhase::Waiting { aos: at(50) });
-        assert_eq!(follow.phase(at(60)), FollowPhase::Over);
+        assert_eq!(follow.phase(at(9)), TrackPhase::Waiting { aos: at(10) });
+        assert_eq!(follow.phase(at(10)), TrackPhase::Tracking);
+        assert_eq!(follow.phase(at(20)), TrackPhase::Waiting { aos: at(50) });
+        assert_eq!(follow.phase(at(60)), TrackPhase::Over);
     }
 
     #[test]
     fn without_passes_a_target_is_always_followed() {
-        assert_eq!(follow(&[]).phase(at(9)), FollowPhase::Following);
-        assert_eq!(follow(&[]).one_pass(at(9)).phase(at(9)), FollowPhase::Following);
+        assert_eq!(follow(&[]).phase(at(9)), TrackPhase::Tracking);
+        assert_eq!(follow(&[]).one_pass(at(9)).phase(at(9)), TrackPhase::Tracking);
     }
 
     #[test]
     fn one_pass_is_the_one_under_way_or_the_next() {
         let passes = [(10, 20), (50, 60), (90, 99)];
-        assert_eq!(follow(&passes).one_pass(at(0)).phase(at(20)), FollowPhase::Over);
-        assert_eq!(follow(&passes).one_pass(at(20)).phase(at(59)), FollowPhase::Following);
-        assert_eq!(follow(&passes).one_pass(at(55)).phase(at(60)), FollowPhase::Over);
-        assert_eq!(follow(&passes).one_pass(at(99)).phase(at(99)), FollowPhase::Over);
+        assert_eq!(follow(&passes).one_pass(at(0)).phase(at(20)), TrackPhase::Over);
+        assert_eq!(follow(&passes).one_pass(at(20)).phase(at(59)), TrackPhase::Tracking);
+        assert_eq!(follow(&passes).one_pass(at(55)).phase(at(60)), TrackPhase::Over);
+        assert_eq!(follow(&passes).one_pass(at(99)).phase(at(99)), TrackPhase::Over);
     }
 }

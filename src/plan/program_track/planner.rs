@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 
 use super::{
-    Follow,
+    ProgramTrack,
     axis::{Axis, AxisNow, Told},
     drives::{Drives, SetPoint},
     path::Path,
@@ -20,7 +20,7 @@ use crate::{
         Bounds,
         az_el::{Choice, Flip, Start},
     },
-    station::Following,
+    station::TrackSettings,
 };
 
 /// Longest time that a path covers, seconds.
@@ -38,10 +38,10 @@ pub struct Next {
 /// Plans the commands for one target.
 #[derive(Debug)]
 pub struct Planner {
-    follow: Follow,
+    follow: ProgramTrack,
     course: Course,
     drives: Drives,
-    following: Following,
+    following: TrackSettings,
     bounds: Bounds,
     /// The path, and the end of its pass.
     path: Option<(Path, Timestamp)>,
@@ -53,9 +53,9 @@ pub struct Planner {
 impl Planner {
     /// Fails where the elements describe no orbit. Paths lead round the keep-outs of `bounds`.
     pub fn new(
-        follow: Follow,
+        follow: ProgramTrack,
         drives: Drives,
-        following: Following,
+        following: TrackSettings,
         bounds: Bounds,
     ) -> Result<Self, PropagationError> {
         let course = Course::new(&follow.target, follow.site)?;
@@ -71,7 +71,7 @@ impl Planner {
         }
     }
 
-    pub fn follow(&self) -> &Follow {
+    pub fn follow(&self) -> &ProgramTrack {
         &self.follow
     }
 
