@@ -30,7 +30,7 @@ use crate::{
     clock::{Instant, Moment},
 };
 use panel::{Act, Lead};
-use settings::{Change, SettleError};
+use settings::{Change, WriteError};
 
 /// A reply that has not come after this long is missing while metal moves.
 pub const PROMPT: Duration = Duration::from_millis(600);
@@ -237,10 +237,10 @@ pub trait Device: Send {
     fn read_group(&mut self, _group: &str) {}
 
     /// A change that is not sent: the reason stands in [`AntennaState::held`].
-    fn refuse_change(&mut self, _change: Change, _why: SettleError, _now: Moment) {}
+    fn refuse_change(&mut self, _change: Change, _why: WriteError, _now: Moment) {}
 
     /// While they are locked, changes of settings that wait end with
-    /// [`LockedOut`](settings::SettleError::LockedOut). The gate lets no new one by.
+    /// [`LockedOut`](settings::WriteError::LockedOut). The gate lets no new one by.
     fn lock_changes(&mut self, _are_locked: bool) {}
 
     /// Asks this one of [`AntennaState::questions`], by its key, between its own. What is
@@ -299,7 +299,7 @@ pub trait Moves: Device {
 
     /// Puts new values of a group on the device and reads them back. How far it
     /// is, and what came of it, stands in [`AntennaState::held`].
-    fn settle(&mut self, _change: Change, _now: Moment) {}
+    fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
     /// Queues a motion. It is sent once, and not at all
     /// when a halt comes first.

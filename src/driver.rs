@@ -44,7 +44,7 @@ pub use snapshot::{
     TrackProblem, TrackView,
 };
 pub use time_sync::{TimeSync, time_sync};
-pub use wire_log::{MOST_LINES, Recorded, WireLog};
+pub use wire_log::{MAX_LINES, Recorded, WireLog};
 
 use self::{before_sleep::BeforeSleep, pulse::Pulse};
 use crate::{
@@ -63,7 +63,7 @@ const EVENTS: usize = 256;
 const FAREWELL: Duration = Duration::from_secs(6);
 
 /// The longest rest of a session that breaks down again and again.
-const MOST_REST: Duration = Duration::from_secs(5);
+const MAX_REST: Duration = Duration::from_secs(5);
 
 /// The near end of one antenna's session. Dropping it ends the session, which
 /// ends a jog with a stop first.
@@ -381,7 +381,7 @@ async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
         wires.tell(Event::Safety(Safety::SessionBroke));
         // The first restart waits for nothing; one that breaks again and again must
         // not keep the other sessions from running.
-        tokio::time::sleep(MOST_REST.min(Duration::from_millis(200) * broke)).await;
+        tokio::time::sleep(MAX_REST.min(Duration::from_millis(200) * broke)).await;
         broke = broke.saturating_add(1);
     }
 }

@@ -18,7 +18,6 @@ mod lock_outs;
 pub mod on_board;
 mod owed;
 pub mod passes;
-mod settle;
 pub mod signals;
 mod snapshot;
 #[cfg(unix)]
@@ -29,6 +28,7 @@ pub mod status;
 pub mod track_again;
 mod turn;
 pub mod uploads;
+mod write_settings;
 
 use std::{
     io,

@@ -27,7 +27,7 @@ pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
 pub use setting::{Holds, Setting, Table, Value};
 pub use track_settings::{AfterPass, TrackSettings};
-pub use watch::{Monitor, OnClose, Resume, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG};
+pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
 
 use serde::{Serialize, Serializer};
 

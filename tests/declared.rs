@@ -7,7 +7,7 @@ use azel::{
     device::{
         Variant,
         panel::{Act, Action},
-        settings::{Access, Change, Field, Group, Kind, Secret, SettleError, Value, Values},
+        settings::{Access, Change, Field, Group, Kind, Secret, Value, Values, WriteError},
     },
     driver::{Command, Event},
     makes,
@@ -73,7 +73,7 @@ async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Contr
 }
 
 /// Puts what the unit holds into each group once more.
-async fn settle<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticket: u64) {
+async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticket: u64) {
     rig.send(Command::ReadGroup(group.key));
     rig.seconds(5.0).await;
     let held = rig.shown().state.held.get(group.key).and_then(|held| held.held.clone());
@@ -89,13 +89,13 @@ async fn settle<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticke
         return;
     }
     let change = Change { ticket, group: group.key, values, seen: None, is_unlocked: true };
-    rig.send(Command::Settle(change));
+    rig.send(Command::WriteSettings(change));
     let is_over = |shown: &azel::driver::Snapshot| {
-        let settled = shown.state.held.get(group.key).and_then(|held| held.settled.as_ref());
-        settled.is_some_and(|settled| {
-            let is_known = settled.result != Err(SettleError::NoSuchSetting);
+        let written = shown.state.held.get(group.key).and_then(|held| held.written.as_ref());
+        written.is_some_and(|written| {
+            let is_known = written.result != Err(WriteError::NoSuchSetting);
             assert!(is_known, "{} is declared and not taken", group.key);
-            settled.change.ticket == ticket
+            written.change.ticket == ticket
         })
     };
     rig.until(group.key, OUTCOME_S, is_over).await;
@@ -131,7 +131,7 @@ async fn takes_all<U: Unit>(antenna: &Antenna, unit: impl Fn() -> Control<U>) {
     let Variant { groups, actions, .. } = variant(antenna);
     let mut rig = in_manual(antenna, unit()).await;
     for (group, ticket) in groups.iter().zip(1..) {
-        settle(&mut rig, group, ticket).await;
+        write_settings(&mut rig, group, ticket).await;
     }
     let mut rig = in_manual(antenna, unit()).await;
     for action in *actions {

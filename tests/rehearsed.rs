@@ -24,7 +24,7 @@ use azel::{
 use jiff::Timestamp;
 
 /// Longer than anything here takes, in real time.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 /// How often something is looked for, in real time.
 const LOOK: Duration = Duration::from_millis(20);
 /// Times real time.

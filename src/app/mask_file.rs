@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// A file with a mask is not larger, bytes.
-const MOST: u64 = 4 << 20;
+const MAX: u64 = 4 << 20;
 
 /// One file at a time, in one folder for those that are written.
 #[derive(Default)]
@@ -71,8 +71,8 @@ impl App {
 
 fn read(path: &std::path::Path) -> Result<(HorizonMask, MaskForm), String> {
     let size = fs::metadata(path).map_err(|error| error.to_string())?.len();
-    if size > MOST {
-        return Err(format!("the file has {size} bytes, a mask has {MOST} at most"));
+    if size > MAX {
+        return Err(format!("the file has {size} bytes, a mask has {MAX} at most"));
     }
     let bytes = fs::read(path).map_err(|error| error.to_string())?;
     let text = String::from_utf8(bytes).map_err(|_| "the file is no text".to_owned())?;

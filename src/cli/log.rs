@@ -20,7 +20,7 @@ use jiff::Timestamp;
 use tracing_subscriber::{EnvFilter, fmt::MakeWriter};
 
 /// How much may wait, in bytes: some thousand lines.
-const MOST_BYTES: usize = 1 << 20;
+const MAX_BYTES: usize = 1 << 20;
 /// How long the end of the program waits for a reader.
 const FAREWELL: Duration = Duration::from_secs(1);
 
@@ -134,7 +134,7 @@ impl Queue {
         let mut waiting = self.lock();
         // What is dropped then stands behind all that waits, and before all that
         // comes after the next look of the thread.
-        if waiting.dropped > 0 || waiting.text.len() + line.len() > MOST_BYTES {
+        if waiting.dropped > 0 || waiting.text.len() + line.len() > MAX_BYTES {
             waiting.dropped += 1;
         } else {
             waiting.text.extend_from_slice(line);
@@ -244,12 +244,12 @@ mod tests {
         let (log, _open, text) = blocked();
         let start = Instant::now();
         for _ in 0..100 {
-            log.say(&"x".repeat(MOST_BYTES / 10));
+            log.say(&"x".repeat(MAX_BYTES / 10));
         }
-        log.say(&"x".repeat(10 * MOST_BYTES));
+        log.say(&"x".repeat(10 * MAX_BYTES));
         log.finish_within(Duration::from_millis(50));
         assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
-        assert!(log.queue.lock().text.len() <= MOST_BYTES);
+        assert!(log.queue.lock().text.len() <= MAX_BYTES);
         assert_eq!(*text.lock().unwrap(), "");
     }
 
@@ -257,7 +257,7 @@ mod tests {
     fn the_number_of_dropped_lines_stands_where_they_would_have_stood() {
         let (log, open, text) = blocked();
         for number in 0..20 {
-            log.say(&format!("{number} {}", "x".repeat(MOST_BYTES / 10)));
+            log.say(&format!("{number} {}", "x".repeat(MAX_BYTES / 10)));
         }
         open.send(()).unwrap();
         log.finish_within(Duration::from_secs(20));

@@ -143,7 +143,7 @@ impl Genius {
             return Some((Request::Read, Purpose::Asked));
         }
         let is_due = self.next_poll.is_some_and(|due| due <= now.steady);
-        if !is_due && let Some(request) = self.settling_request(now) {
+        if !is_due && let Some(request) = self.write_request(now) {
             return Some(request);
         }
         is_due.then_some((Request::Read, Purpose::Poll))

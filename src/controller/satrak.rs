@@ -12,10 +12,10 @@ mod record;
 mod reported;
 mod schedule;
 pub mod settings;
-mod settle;
 mod spec;
 mod state;
 mod words;
+mod write_settings;
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -164,8 +164,8 @@ impl Satrak {
         let due = self.schedule.as_ref()?.next(now.steady);
         // Whatever else there is to ask, the position must not grow old.
         if due != Some(Query::Status) {
-            if let Some(request) = self.settling_request(now) {
-                return Some((request, Purpose::Settle));
+            if let Some(request) = self.write_request(now) {
+                return Some((request, Purpose::WriteSettings));
             }
             if let Some(query) = self.wanted.pop_front() {
                 return Some((Request::Query(query), Purpose::Asked(query)));

@@ -7,17 +7,15 @@ mod held;
 mod hindrance;
 mod key;
 mod queue;
-mod settling;
+mod settings_write;
 mod value;
 
 pub use crate::secret::Secret;
 pub use copy::{CopiedValue, CopyError, CopyHead, Difference, SettingsCopy, Verdict};
 pub use field::{Access, Field, Group, Guard, Kind};
-pub use held::{
-    Change, GroupState, Held, HeldGroup, ReadFailure, SettleError, SettleStep, Settled,
-};
+pub use held::{Change, GroupState, Held, HeldGroup, ReadFailure, WriteError, WriteStep, Written};
 pub use hindrance::Hindrance;
 pub use key::Key;
 pub(crate) use queue::ChangeQueue;
-pub(crate) use settling::{Settling, Step};
+pub(crate) use settings_write::{SettingsWrite, Step};
 pub use value::{Unfit, Value, Values};

@@ -7,7 +7,7 @@ use jiff::Timestamp;
 use super::{
     OnBoard, Question,
     panel::{Check, Reading},
-    settings::{Change, GroupState, Held, SettleError, Settled},
+    settings::{Change, GroupState, Held, WriteError, Written},
 };
 use crate::{
     astro::{Angle, AzEl},
@@ -66,7 +66,7 @@ impl AntennaState {
     pub(crate) fn end_change(
         &mut self,
         change: Change,
-        result: Result<(), SettleError>,
+        result: Result<(), WriteError>,
         is_followed: bool,
         now: Moment,
     ) {
@@ -77,7 +77,7 @@ impl AntennaState {
         if !is_followed {
             state.step = None;
         }
-        state.settled = Some(Arc::new(Settled { change, at: now.utc, result }));
+        state.written = Some(Arc::new(Written { change, at: now.utc, result }));
     }
 }
 

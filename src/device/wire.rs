@@ -9,7 +9,7 @@ use super::panel::Tone;
 use crate::clock::Moment;
 
 /// How many lines wait to be taken; beyond it the oldest go.
-const MOST_WAITING: usize = 4096;
+const MAX_WAITING: usize = 4096;
 
 /// One line of the conversation with a device.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -148,7 +148,7 @@ pub(crate) struct WireQueue(VecDeque<WireLine>);
 impl WireQueue {
     /// Adds the newest.
     pub(crate) fn push(&mut self, line: WireLine) {
-        if self.0.len() == MOST_WAITING {
+        if self.0.len() == MAX_WAITING {
             self.0.pop_front();
         }
         self.0.push_back(line);

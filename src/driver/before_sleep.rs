@@ -11,7 +11,7 @@ use tokio::sync::mpsc;
 
 /// How long a sleep is put off at most. `logind` waits for 5 s unless it is set
 /// otherwise (`InhibitDelayMaxSec`, logind.conf(5)).
-const MOST: Duration = Duration::from_secs(3);
+const MAX: Duration = Duration::from_secs(3);
 
 /// A bus that was lost is looked for again after this long.
 #[cfg(target_os = "linux")]
@@ -46,7 +46,7 @@ impl BeforeSleep {
             let _ = session.try_send(Awake(awake.clone()));
         }
         drop(awake);
-        if tokio::time::timeout(MOST, all_quiet.recv()).await.is_err() {
+        if tokio::time::timeout(MAX, all_quiet.recv()).await.is_err() {
             tracing::error!("this computer sleeps before standstill is proved");
         }
     }
@@ -241,8 +241,8 @@ mod tests {
         }
         assert!(unit.state().is_moving, "{:?}", unit.received());
         let begun = Instant::now();
-        timeout(MOST, sleeps.all_quiet()).await.unwrap();
-        assert!(begun.elapsed() < MOST, "it did not wait in vain");
+        timeout(MAX, sleeps.all_quiet()).await.unwrap();
+        assert!(begun.elapsed() < MAX, "it did not wait in vain");
         assert!(!unit.state().is_moving);
         // The key that stays down does not move it again after the sleep.
         for _ in 0..10 {

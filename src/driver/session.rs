@@ -16,7 +16,6 @@ mod marking;
 mod monitor;
 mod on_board;
 mod program_track;
-mod settle;
 mod shutdown;
 mod silence;
 mod standstill;
@@ -27,6 +26,7 @@ mod supervise;
 pub(in crate::driver) mod testing;
 mod unproved;
 mod wanted;
+mod write_settings;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 

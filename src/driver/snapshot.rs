@@ -153,7 +153,7 @@ impl Snapshot {
 /// the device reports anew of its own accord is shown with the next tick.
 fn same_settings(old: &Held, new: &Held) -> bool {
     let shown = |state: &GroupState| {
-        (state.held.is_some(), state.failure.clone(), state.step, state.settled.clone())
+        (state.held.is_some(), state.failure.clone(), state.step, state.written.clone())
     };
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
 }

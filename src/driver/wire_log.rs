@@ -10,11 +10,11 @@ use std::{
 use crate::device::WireLine;
 
 /// How many lines are kept.
-pub const MOST_LINES: usize = 20_000;
+pub const MAX_LINES: usize = 20_000;
 /// How many bytes all lines together have at most.
-const MOST_BYTES: usize = 4 * 1024 * 1024;
+const MAX_BYTES: usize = 4 * 1024 * 1024;
 /// How many lines are read at once, so that the lock is short.
-const MOST_READ: usize = 1000;
+const MAX_READ: usize = 1000;
 
 /// A line with its place in the log. Numbers count from 0 and leave none out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,7 +47,7 @@ impl WireLog {
         let number = ring.next;
         ring.next += 1;
         ring.lines.push_back(Arc::new(Recorded { number, line }));
-        while ring.lines.len() > MOST_LINES || ring.bytes > MOST_BYTES {
+        while ring.lines.len() > MAX_LINES || ring.bytes > MAX_BYTES {
             let Some(oldest) = ring.lines.pop_front() else { break };
             ring.bytes -= oldest.line.bytes.len();
         }
@@ -60,8 +60,8 @@ impl WireLog {
         let mut ring = self.ring();
         let first = ring.next - ring.lines.len() as u64;
         let skip = usize::try_from(number.saturating_sub(first)).unwrap_or(usize::MAX);
-        let lines: Vec<_> = ring.lines.iter().skip(skip).take(MOST_READ).cloned().collect();
-        ring.is_watched = lines.len() < MOST_READ;
+        let lines: Vec<_> = ring.lines.iter().skip(skip).take(MAX_READ).cloned().collect();
+        ring.is_watched = lines.len() < MAX_READ;
         lines
     }
 
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn the_oldest_lines_go_when_there_are_too_many() {
         let log = WireLog::default();
-        for _ in 0..MOST_LINES + 5 {
+        for _ in 0..MAX_LINES + 5 {
             log.push(line(1));
         }
         assert_eq!(numbers(&log, 0).first(), Some(&5));
@@ -131,13 +131,13 @@ mod tests {
             count += numbers(&log, next).len();
             next = last.number + 1;
         }
-        assert_eq!((count, next), (MOST_LINES, MOST_LINES as u64 + 5));
+        assert_eq!((count, next), (MAX_LINES, MAX_LINES as u64 + 5));
     }
 
     #[test]
     fn the_oldest_lines_go_when_they_are_too_long() {
         let log = WireLog::default();
-        let long = MOST_BYTES / 4;
+        let long = MAX_BYTES / 4;
         for _ in 0..5 {
             log.push(line(long));
         }

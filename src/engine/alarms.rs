@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Older ones are forgotten, seen ones first.
-const MOST: usize = 100;
+const MAX: usize = 100;
 
 /// How much it matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -216,7 +216,7 @@ impl Alarms {
         list.retain(|alarm| {
             alarm.cleared || alarm.antenna != antenna || !replaces(&kind, &alarm.kind)
         });
-        if list.len() >= MOST {
+        if list.len() >= MAX {
             let oldest = list.iter().position(|alarm| alarm.seen).unwrap_or(0);
             list.remove(oldest);
         }
@@ -482,6 +482,6 @@ mod tests {
         for number in 0..1000_u32 {
             alarms.raise(None, AlarmKind::Settings(number.to_string()), time());
         }
-        assert_eq!(alarms.list().len(), MOST);
+        assert_eq!(alarms.list().len(), MAX);
     }
 }

@@ -22,8 +22,8 @@ impl Engine {
         }
         self.note_track(&command);
         match command {
-            Command::Antenna(id, driver::Command::Settle(change)) => {
-                self.with(id, |engine, index| engine.settle(index, change));
+            Command::Antenna(id, driver::Command::WriteSettings(change)) => {
+                self.with(id, |engine, index| engine.write_settings(index, change));
             }
             Command::Antenna(id, driver::Command::LockOut(lock_out)) => {
                 self.with(id, |engine, index| engine.set_lock_out(index, Some(lock_out)));

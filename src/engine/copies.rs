@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// A copy larger than this is none.
-const MOST_BYTES: u64 = 1 << 20;
+const MAX_BYTES: u64 = 1 << 20;
 
 /// The copies of the settings of units.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -183,7 +183,7 @@ fn carry_out(task: Task, folder: Option<&Path>) -> Outcome {
 }
 
 fn text(path: &Path) -> io::Result<String> {
-    if fs::metadata(path)?.len() > MOST_BYTES {
+    if fs::metadata(path)?.len() > MAX_BYTES {
         return Err(io::Error::other("it is too large for a copy of settings"));
     }
     fs::read_to_string(path)

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// A question is not longer, bytes.
-const MOST_BYTES: u64 = 64 * 1024;
+const MAX_BYTES: u64 = 64 * 1024;
 /// Whoever connects has to ask within this.
 const ASKS_WITHIN: Duration = Duration::from_secs(5);
 /// A session tells by then whether a STOP is proved, also of a unit that may sway.
@@ -134,7 +134,7 @@ async fn accept(listener: UnixListener, mut station: Client) {
 async fn converse(stream: UnixStream, station: Client) -> io::Result<()> {
     let (reader, mut writer) = stream.into_split();
     let mut line = String::new();
-    let mut reader = BufReader::new(reader.take(MOST_BYTES));
+    let mut reader = BufReader::new(reader.take(MAX_BYTES));
     timeout(ASKS_WITHIN, reader.read_line(&mut line)).await??;
     let answer = match serde_json::from_str(&line) {
         Ok(ask) => answer(ask, station).await,

@@ -18,7 +18,7 @@ fn each_make_fits_what_it_says_of_itself() {
     keys.dedup();
     assert_eq!(keys.len(), SPECS.len(), "two makes of one key");
     for spec in SPECS {
-        assert_eq!(spec.check_address(spec.usual_address), Ok(()), "{spec:?}");
+        assert_eq!(spec.check_address(spec.default_address), Ok(()), "{spec:?}");
         for setting in spec.settings {
             assert_eq!(setting.check(setting.usual), Ok(()), "{spec:?}: {}", setting.key);
             let is_left_out = matches!(setting.holds, Holds::Text | Holds::Points);

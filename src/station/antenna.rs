@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{
-    Connection, Monitor, Mount, Resume, TrackSettings, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
+    Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, Mount, Resume, TrackSettings,
 };
 use crate::{
     astro::{Angle, AzEl},
@@ -79,12 +79,12 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 // The signatures are serde's.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_usual_sway(sway_deg: &f64) -> bool {
-    sway_deg.total_cmp(&USUAL_SWAY_DEG).is_eq()
+    sway_deg.total_cmp(&DEFAULT_SWAY_DEG).is_eq()
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_usual_outage(resume_after_s: &f64) -> bool {
-    resume_after_s.total_cmp(&USUAL_RESUME_AFTER_S).is_eq()
+    resume_after_s.total_cmp(&DEFAULT_RESUME_AFTER_S).is_eq()
 }
 
 /// A direction in a file.

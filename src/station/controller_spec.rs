@@ -4,8 +4,8 @@
 use std::fmt;
 
 use super::{
-    Antenna, AntennaId, Connection, Direction, Monitor, MotionLimits, Mount, PollRates, Resume,
-    Setting, TrackSettings, USUAL_RESUME_AFTER_S, USUAL_SWAY_DEG,
+    Antenna, AntennaId, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Direction, Monitor,
+    MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
     connection::{check_address, check_line},
 };
 use crate::device::{ElementFiles, Explained, Moves, Variant, WireLine};
@@ -22,7 +22,7 @@ pub struct ControllerSpec {
     /// Over what it is reached.
     pub link: Link,
     /// Where it answers as it leaves the factory, or else an example.
-    pub usual_address: &'static str,
+    pub default_address: &'static str,
     /// Figures of an antenna of which nothing else is known.
     pub usual: Usual,
     /// What its connection holds besides the address, in the order of the file.
@@ -96,9 +96,9 @@ impl ControllerSpec {
             poll,
             follow,
             monitor: Monitor::default(),
-            sway_deg: USUAL_SWAY_DEG,
+            sway_deg: DEFAULT_SWAY_DEG,
             resume: Resume::default(),
-            resume_after_s: USUAL_RESUME_AFTER_S,
+            resume_after_s: DEFAULT_RESUME_AFTER_S,
         }
     }
 

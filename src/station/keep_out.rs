@@ -50,12 +50,12 @@ pub struct SunAvoidance {
 
 impl SunAvoidance {
     /// The usual time ahead, minutes.
-    pub const USUAL_AHEAD_MIN: f64 = 10.0;
+    pub const DEFAULT_AHEAD_MIN: f64 = 10.0;
 }
 
 impl KeepOut {
     /// The usual margin, degrees.
-    pub const USUAL_MARGIN_DEG: f64 = 1.0;
+    pub const DEFAULT_MARGIN_DEG: f64 = 1.0;
 
     /// Whether it holds for the antenna of that name.
     pub fn holds_for(&self, antenna: &str) -> bool {

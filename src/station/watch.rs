@@ -44,6 +44,6 @@ pub enum OnClose {
 }
 
 /// How far a standing antenna usually sways between two looks, degrees.
-pub const USUAL_SWAY_DEG: f64 = 0.1;
+pub const DEFAULT_SWAY_DEG: f64 = 0.1;
 /// The usual longest outage after which an antenna goes on, seconds.
-pub const USUAL_RESUME_AFTER_S: f64 = 5.0;
+pub const DEFAULT_RESUME_AFTER_S: f64 = 5.0;

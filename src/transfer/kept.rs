@@ -18,7 +18,7 @@ use crate::whole_file;
 /// The version that this program writes. A list of a later one is left alone.
 const VERSION: u32 = 1;
 /// How many are kept of one file on one unit.
-const MOST: usize = 20;
+const MAX: usize = 20;
 
 /// One file as it was on a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -143,7 +143,7 @@ impl KeptFiles {
             at,
             origin,
         });
-        let too_many = list.kept.iter().filter(|one| is_of_file(one)).count().saturating_sub(MOST);
+        let too_many = list.kept.iter().filter(|one| is_of_file(one)).count().saturating_sub(MAX);
         let mut dropped = Vec::new();
         list.kept.retain(|one| {
             let is_old = is_of_file(one) && dropped.len() < too_many;
@@ -247,12 +247,12 @@ mod tests {
     fn the_oldest_give_way() {
         let (_folder, kept) = files();
         kept.keep("other:22", "a.txt", b"0", at(0), Origin::Uploaded).unwrap();
-        for minute in 0..MOST + 3 {
+        for minute in 0..MAX + 3 {
             let bytes = minute.to_string();
             kept.keep(UNIT, "a.txt", bytes.as_bytes(), at(minute), Origin::Uploaded).unwrap();
         }
         let list = kept.list(UNIT, "a.txt").unwrap();
-        assert_eq!((list.len(), list[MOST - 1].at), (MOST, at(3)));
+        assert_eq!((list.len(), list[MAX - 1].at), (MAX, at(3)));
         let exists = |bytes: &str| kept.content(FileHash::of(bytes.as_bytes())).is_file();
         assert!(!exists("1") && !exists("2") && exists("3"));
         assert!(exists("0"), "another unit still names it");

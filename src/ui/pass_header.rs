@@ -34,7 +34,7 @@ const MIN_TEXT: f32 = 24.0;
 const TCA_FROM: f32 = 180.0;
 /// Room for a countdown of the usual length, so that the words before it do
 /// not move with its figures.
-const USUAL_COUNTDOWN: &str = "T−00:00";
+const DEFAULT_COUNTDOWN: &str = "T−00:00";
 
 /// The selected pass, all in words.
 #[derive(Debug, Clone, Copy, Default)]
@@ -164,7 +164,7 @@ fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     if countdown.is_empty() {
         return 0.0;
     }
-    let usual = paint::text_width(ui, USUAL_COUNTDOWN, font.clone());
+    let usual = paint::text_width(ui, DEFAULT_COUNTDOWN, font.clone());
     paint::text_width(ui, countdown, font).max(usual)
 }
 

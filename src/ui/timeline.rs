@@ -59,7 +59,7 @@ pub struct TimelineModel<'a> {
 /// Below this height the strip has its small form, in points.
 pub const SMALL_BELOW: f32 = 120.0;
 /// In less room than this nothing can be told apart, in points.
-const LEAST: Vec2 = vec2(160.0, 60.0);
+const MIN: Vec2 = vec2(160.0, 60.0);
 /// Below this height all passes share one lane, in points.
 const TWO_LANES_FROM: f32 = 190.0;
 const MARGIN: f32 = 16.0;
@@ -93,7 +93,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, 
     };
     let group = ui.interact(rect, ui.make_persistent_id("timeline"), Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
-    if rect.width() < LEAST.x || rect.height() < LEAST.y {
+    if rect.width() < MIN.x || rect.height() < MIN.y {
         return None;
     }
     let names = if is_small { SMALL_NAMES } else { NAMES };

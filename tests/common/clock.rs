@@ -15,7 +15,7 @@ use azel::{
 use jiff::Timestamp;
 
 /// No test needs more readings of the clock than this.
-const MOST_READINGS: u64 = 4_000_000;
+const MAX_READINGS: u64 = 4_000_000;
 
 /// The clock of a computer, which a test can set; clones are the same one.
 #[derive(Clone)]
@@ -45,7 +45,7 @@ impl TestClock {
         let clock = Clock::new(move || {
             // In paused time a loop that never sleeps would go on for ever.
             let readings = utc.readings.fetch_add(1, Ordering::Relaxed);
-            assert!(readings < MOST_READINGS, "a busy loop");
+            assert!(readings < MAX_READINGS, "a busy loop");
             add_seconds(utc.utc(), utc.ahead_s.load(Ordering::Relaxed) as f64)
         });
         clock.sleeping(move || Duration::from_secs(asleep.asleep_s.load(Ordering::Relaxed)))

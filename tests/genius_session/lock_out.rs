@@ -1,7 +1,7 @@
 //! A unit that is worked on: neither rotator is moved or configured.
 
 use azel::{
-    device::settings::{Change, SettleError, Value},
+    device::settings::{Change, Value, WriteError},
     driver::{Command, Event, Intent, Refusal},
     station::LockOut,
 };
@@ -33,9 +33,9 @@ async fn nothing_is_moved_or_configured_and_nothing_has_to_be_read_back() {
     let group = *rig.shown().state.held.keys().next().unwrap();
     let values = [("stop_offset_deg", Value::Integer(3))].into();
     let change = Change { ticket: 1, group, values, seen: None, is_unlocked: true };
-    rig.send(Command::Settle(change));
-    rig.until("refused", 5, |shown| shown.state.held[group].settled.is_some()).await;
-    let settled = rig.shown().state.held[group].settled.clone().unwrap();
-    assert_eq!(settled.result, Err(SettleError::LockedOut));
+    rig.send(Command::WriteSettings(change));
+    rig.until("refused", 5, |shown| shown.state.held[group].written.is_some()).await;
+    let written = rig.shown().state.held[group].written.clone().unwrap();
+    assert_eq!(written.result, Err(WriteError::LockedOut));
     assert_eq!(rig.orders(), before);
 }

@@ -49,12 +49,12 @@ async fn follow_round<U: Unit>(
     let direction = |rig: &Rig<Control<U>>| -> AzEl {
         rig.shown().state.measured.unwrap().pointing.direction().unwrap()
     };
-    let (mut least_deg, mut off_deg) = (f64::MAX, f64::MAX);
+    let (mut min_deg, mut off_deg) = (f64::MAX, f64::MAX);
     while rig.clock.utc() < scene.pass.los.time {
         rig.seconds(0.2).await;
         let at = direction(rig);
         let clearance = bounds.at(rig.clock.utc()).nearest(at).unwrap();
-        least_deg = least_deg.min(clearance.angle.degrees());
+        min_deg = min_deg.min(clearance.angle.degrees());
         let target = propagator.look_from(sky::site(), rig.clock.utc()).unwrap().direction;
         off_deg = target.separation(at).degrees();
     }
@@ -62,7 +62,7 @@ async fn follow_round<U: Unit>(
     let refused =
         |event: &Event| matches!(event, Event::NotSent(_) | Event::CannotProgramTrack(..));
     assert!(!told.iter().any(refused), "{told:?}");
-    [least_deg, off_deg]
+    [min_deg, off_deg]
 }
 
 #[tokio::test(start_paused = true)]
@@ -70,9 +70,9 @@ async fn by_an_rc2000c() {
     let scene = sky::usual();
     let antenna = rc2000c::antenna(360.0);
     let mut rig = rc2000c::connected(&antenna, &scene).await;
-    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
-    println!("RC2000C: {least_deg:.2} outside, at last {off_deg:.2} beside");
-    assert!(least_deg > -0.1, "{least_deg}");
+    let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
+    println!("RC2000C: {min_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(min_deg > -0.1, "{min_deg}");
     assert!(off_deg < 1.0, "{off_deg}");
 }
 
@@ -81,10 +81,10 @@ async fn by_a_genius_that_coasts() {
     let scene = sky::usual();
     let antenna = genius::antenna(azel::controller::rotator_genius::Rotators::Pair);
     let (mut rig, _control) = genius::connected(&genius::options(2), &antenna, &scene).await;
-    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 4.0)).await;
-    println!("Genius: {least_deg:.2} outside, at last {off_deg:.2} beside");
+    let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 4.0)).await;
+    println!("Genius: {min_deg:.2} outside, at last {off_deg:.2} beside");
     // It coasts by up to two degrees, which its margin is wider by.
-    assert!(least_deg > -3.0, "{least_deg}");
+    assert!(min_deg > -3.0, "{min_deg}");
     assert!(off_deg < 3.0, "{off_deg}");
 }
 
@@ -101,9 +101,9 @@ async fn on_the_way_to_where_a_pass_begins() {
     });
     rig.seconds(100.0).await;
     let between = mast(begins + side / 2.0, 60.0, 1.0);
-    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, between).await;
-    println!("RC2000C, to its AOS: {least_deg:.2} outside, at last {off_deg:.2} beside");
-    assert!(least_deg > -0.1, "{least_deg}");
+    let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, between).await;
+    println!("RC2000C, to its AOS: {min_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(min_deg > -0.1, "{min_deg}");
     assert!(off_deg < 1.0, "{off_deg}");
 }
 
@@ -112,9 +112,9 @@ async fn by_a_satrak_on_crossed_axes() {
     let scene = sky::usual();
     let antenna = satrak::antenna();
     let (mut rig, _control) = satrak::connected(&antenna, &scene, 120.0).await;
-    let [least_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
-    println!("Satrak: {least_deg:.2} outside, at last {off_deg:.2} beside");
-    assert!(least_deg > -0.1, "{least_deg}");
+    let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
+    println!("Satrak: {min_deg:.2} outside, at last {off_deg:.2} beside");
+    assert!(min_deg > -0.1, "{min_deg}");
     // It stays above its minimum elevation of five degrees.
     assert!(off_deg < 5.5, "{off_deg}");
 }

@@ -27,8 +27,8 @@ fn assert_true(scene: &Scene, case: &str) {
     for (axis, true_deg) in look.axes.iter().zip(unit.axes_deg()) {
         let Some(shown_deg) = axis.angle_deg else { continue };
         let off_deg = (shown_deg - true_deg + 180.0).rem_euclid(360.0) - 180.0;
-        let most_deg = fastest_deg_s * age_s + coarse_deg;
-        assert!(off_deg.abs() <= most_deg, "{off_deg} off: {case}\n{}", scene.report());
+        let max_deg = fastest_deg_s * age_s + coarse_deg;
+        assert!(off_deg.abs() <= max_deg, "{off_deg} off: {case}\n{}", scene.report());
     }
 }
 
@@ -41,9 +41,9 @@ async fn watched(scene: &mut Scene, seconds: f64, case: &str) {
 }
 
 async fn damaged(mut dice: Dice, make: usize, percent: u32) {
-    let least_margin_deg = |world: &World| world.coarse_deg;
+    let min_margin_deg = |world: &World| world.coarse_deg;
     let wish =
-        Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+        Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
     let world = loop {
         let world = World::random(&mut dice, &wish);
         let is_it = match world.unit {

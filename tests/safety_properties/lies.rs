@@ -16,8 +16,8 @@ use super::{
 use crate::common::dice::Dice;
 
 async fn scene(dice: &mut Dice, makes: usize) -> Scene {
-    let least_margin_deg = |world: &World| world.coarse_deg;
-    let wish = Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes };
+    let min_margin_deg = |world: &World| world.coarse_deg;
+    let wish = Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes };
     let world = World::random(dice, &wish);
     Scene::start(world, dice).await
 }

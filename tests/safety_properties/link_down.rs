@@ -71,9 +71,9 @@ const RUNS_ON_S: f64 = 2.0;
 const AGAIN: Duration = Duration::from_millis(1500);
 
 async fn fails(mut dice: Dice) {
-    let least_margin_deg = |world: &World| world.coarse_deg;
+    let min_margin_deg = |world: &World| world.coarse_deg;
     let keep_outs = dice.below(3);
-    let wish = Wish { keep_outs, least_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+    let wish = Wish { keep_outs, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let is_jog = dice.chance(0.6);
@@ -143,8 +143,8 @@ async fn fails(mut dice: Dice) {
     let ends_by_itself = !scene.world.unit.jogs_run_on() || !is_jog;
     if is_jog && !scene.world.unit.jogs_run_on() {
         let turned_deg = (scene.world.unit.axes_deg()[axis] - from_deg[axis]).abs();
-        let most_deg = scene.world.fastest_deg_s * RUNS_ON_S;
-        assert!(turned_deg <= most_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
+        let max_deg = scene.world.fastest_deg_s * RUNS_ON_S;
+        assert!(turned_deg <= max_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
         assert!(!scene.world.unit.is_turning(), "runs on: {case}\n{}", scene.report());
     }
     let back = Instant::now();
@@ -218,9 +218,9 @@ async fn hold(scene: &mut Scene, rates_deg_s: [f64; 2], seconds: f64) {
 
 /// Replies that are late, and one that is lost, are no silence.
 async fn answers_late(mut dice: Dice) {
-    let least_margin_deg = |world: &World| world.coarse_deg;
+    let min_margin_deg = |world: &World| world.coarse_deg;
     let wish =
-        Wish { keep_outs: 0, least_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+        Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let late_ms = dice.between(0.0, 400.0);

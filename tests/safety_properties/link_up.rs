@@ -134,8 +134,8 @@ async fn carry_out(scene: &mut Scene, dice: &mut Dice, deeds: &[Deed]) {
 
 async fn drives(mut dice: Dice) {
     let keep_outs = dice.below(4);
-    let least_margin_deg = |world: &World| world.coarse_deg;
-    let wish = Wish { keep_outs, least_margin_deg, has_sun: true, starts_inside: false, makes: 3 };
+    let min_margin_deg = |world: &World| world.coarse_deg;
+    let wish = Wish { keep_outs, min_margin_deg, has_sun: true, starts_inside: false, makes: 3 };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let mut deeds = Vec::new();
@@ -169,7 +169,7 @@ async fn others_move(mut dice: Dice) {
     let keep_outs = 1 + dice.below(3);
     let wish = Wish {
         keep_outs,
-        least_margin_deg: room_deg,
+        min_margin_deg: room_deg,
         has_sun: false,
         starts_inside: false,
         makes: 2,
@@ -270,9 +270,9 @@ fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64
 }
 
 async fn starts_inside(mut dice: Dice) {
-    let least_margin_deg = |world: &World| world.coarse_deg;
+    let min_margin_deg = |world: &World| world.coarse_deg;
     let keep_outs = 1 + dice.below(2);
-    let wish = Wish { keep_outs, least_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
+    let wish = Wish { keep_outs, min_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let slow_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * 0.24;

@@ -32,7 +32,7 @@ pub(super) struct World {
 /// What a world is to have.
 pub(super) struct Wish {
     pub(super) keep_outs: usize,
-    pub(super) least_margin_deg: fn(&World) -> f64,
+    pub(super) min_margin_deg: fn(&World) -> f64,
     pub(super) has_sun: bool,
     /// The axes stand inside a keep-out.
     pub(super) starts_inside: bool,
@@ -53,9 +53,9 @@ impl World {
                 let ahead_min = dice.between(0.0, 30.0);
                 world.station.sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min });
             }
-            let least_deg = (wish.least_margin_deg)(&world);
+            let min_deg = (wish.min_margin_deg)(&world);
             for number in 0..wish.keep_outs {
-                let margin_deg = f64::min(least_deg + dice.between(0.0, 4.0), 30.0);
+                let margin_deg = f64::min(min_deg + dice.between(0.0, 4.0), 30.0);
                 world.station.keep_outs.extend(keep_out(dice, number, margin_deg));
             }
             world.bounds = Bounds::of(&world.station, &world.antenna);

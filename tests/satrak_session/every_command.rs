@@ -11,7 +11,7 @@ use azel::{
 
 use super::{
     rig::{Rig, iss, track},
-    settings::{change, read, settle, text},
+    settings::{change, read, text, write_settings},
 };
 
 /// What a setting is sent with, and the payload that the unit receives.
@@ -71,11 +71,11 @@ async fn all_of_them_reach_the_unit_as_documented() {
     }
     let mut expected: Vec<String> = Vec::new();
     for (wish, payload) in settings() {
-        settle(&mut rig, Change { is_unlocked: true, ..wish }).await.expect(payload);
+        write_settings(&mut rig, Change { is_unlocked: true, ..wish }).await.expect(payload);
         expected.push(payload.to_owned());
     }
     let from_pc = change("clock", [("set_from", Value::Choice(FROM_THIS_PC))]);
-    settle(&mut rig, from_pc).await.unwrap();
+    write_settings(&mut rig, from_pc).await.unwrap();
     rig.send(Command::Manual);
     rig.hold([-1.5, 0.0], 1.0).await;
     rig.send(Command::EndJog);

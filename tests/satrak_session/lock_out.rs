@@ -4,7 +4,7 @@ use azel::{
     astro::{Angle, AzEl},
     device::{
         panel::Act,
-        settings::{SettleError, Value},
+        settings::{Value, WriteError},
     },
     driver::{Command, Event, Found, Intent, LinkState, Refusal, StopState},
     plan::{ProgramTrack, Target},
@@ -82,10 +82,10 @@ async fn every_command_is_refused_and_nothing_but_questions_and_stop_goes_out() 
     }
     rig.send(Command::Standby);
     let wish = change("general", [("lead_ms", Value::Integer(90_000))]);
-    rig.send(Command::Settle(wish));
-    rig.until("refused", 5, |shown| shown.state.held["general"].settled.is_some()).await;
-    let settled = rig.shown().state.held["general"].settled.clone().unwrap();
-    assert_eq!(settled.result, Err(SettleError::LockedOut));
+    rig.send(Command::WriteSettings(wish));
+    rig.until("refused", 5, |shown| shown.state.held["general"].written.is_some()).await;
+    let written = rig.shown().state.held["general"].written.clone().unwrap();
+    assert_eq!(written.result, Err(WriteError::LockedOut));
     let asked = rig.sent("GPS_DATA?").len();
     rig.send(Command::Ask("GPS_DATA?".into()));
     rig.seconds(2.0).await;
@@ -130,11 +130,11 @@ async fn what_moves_is_stopped_and_auto_track_is_off_before_it_counts_as_locked_
 async fn a_change_of_settings_that_waits_is_not_sent_any_more() {
     let mut rig = Rig::usual().await;
     read(&mut rig, "web").await;
-    rig.send(Command::Settle(change("web", [("url", text("https://example.org/tle"))])));
+    rig.send(Command::WriteSettings(change("web", [("url", text("https://example.org/tle"))])));
     rig.send(Command::LockOut(lock_out()));
-    rig.until("refused", 5, |shown| shown.state.held["web"].settled.is_some()).await;
-    let settled = rig.shown().state.held["web"].settled.clone().unwrap();
-    assert_eq!(settled.result, Err(SettleError::LockedOut));
+    rig.until("refused", 5, |shown| shown.state.held["web"].written.is_some()).await;
+    let written = rig.shown().state.held["web"].written.clone().unwrap();
+    assert_eq!(written.result, Err(WriteError::LockedOut));
     assert_eq!(others(&rig), [""; 0]);
 }
 

@@ -18,7 +18,7 @@ use tokio::io::AsyncWriteExt as _;
 use super::{
     rig::{Rig, antenna, iss, options, track, twin},
     scene,
-    settings::{change, settle},
+    settings::{change, write_settings},
 };
 
 /// So far south-east that it sees the pass from elsewhere: 1,596 km away.
@@ -33,14 +33,14 @@ async fn read() -> Rig {
 }
 
 async fn general(rig: &mut Rig, field: &'static str, value: Value) {
-    assert_eq!(settle(rig, change("general", [(field, value)])).await, Ok(()));
+    assert_eq!(write_settings(rig, change("general", [(field, value)])).await, Ok(()));
 }
 
 async fn stand_elsewhere(rig: &mut Rig) {
     let place = ELSEWHERE.map(|(field, angle_deg)| (field, Value::Decimal(angle_deg)));
     let [latitude, longitude] = place;
     let by_hand = ("is_automatic", Value::Flag(false));
-    assert_eq!(settle(rig, change("gps", [by_hand, latitude, longitude])).await, Ok(()));
+    assert_eq!(write_settings(rig, change("gps", [by_hand, latitude, longitude])).await, Ok(()));
 }
 
 /// Another client tells the unit something.

@@ -15,7 +15,7 @@ use tracing_subscriber::fmt::MakeWriter;
 
 use super::{
     rig::Rig,
-    settings::{change, read, settle, text},
+    settings::{change, read, text, write_settings},
     wire::{all, line_text},
 };
 
@@ -63,13 +63,13 @@ async fn no_password_is_left_behind() {
             ("satellite", text("TWIN")),
         ],
     );
-    settle(&mut rig, wish.clone()).await.unwrap();
+    write_settings(&mut rig, wish.clone()).await.unwrap();
     read(&mut rig, "ftp").await;
     // The same over a line that spoils, splits and repeats what it carries.
     for fault in [Fault::Garbage, Fault::Split, Fault::Merge, Fault::BadChecksum] {
         rig.control.set_fault(fault, true);
         // It may come through or not.
-        let _ = settle(&mut rig, wish.clone()).await;
+        let _ = write_settings(&mut rig, wish.clone()).await;
         read(&mut rig, "ftp").await;
         rig.control.set_fault(fault, false);
     }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use azel::{
     controller::satrak::settings::{FROM_GPS, FROM_THIS_PC, GROUPS},
-    device::settings::{Access, Change, Secret, SettleError, Value, Values},
+    device::settings::{Access, Change, Secret, Value, Values, WriteError},
     driver::Command,
     protocol::satrak::encode,
 };
@@ -22,18 +22,18 @@ pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
 }
 
 /// What came of putting `values` on the unit.
-pub(super) async fn settle(rig: &mut Rig, change: Change) -> Result<(), SettleError> {
+pub(super) async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), WriteError> {
     static TICKET: AtomicU64 = AtomicU64::new(1);
     let (group, ticket) = (change.group, TICKET.fetch_add(1, Ordering::Relaxed));
-    rig.send(Command::Settle(Change { ticket, ..change }));
+    rig.send(Command::WriteSettings(Change { ticket, ..change }));
     rig.until("settled", 60, |shown| {
-        let settled = shown.state.held.get(group).and_then(|state| state.settled.as_ref());
-        settled.is_some_and(|settled| settled.change.ticket == ticket)
+        let written = shown.state.held.get(group).and_then(|state| state.written.as_ref());
+        written.is_some_and(|written| written.change.ticket == ticket)
     })
     .await;
     let shown = rig.shown();
     assert_eq!(shown.state.held[group].step, None);
-    shown.state.held[group].settled.as_ref().unwrap().result.clone()
+    shown.state.held[group].written.as_ref().unwrap().result.clone()
 }
 
 pub(super) fn change<const N: usize>(
@@ -156,7 +156,7 @@ async fn each_setting_goes_out_as_documented_and_is_read_back() {
     ];
     for (change, order) in cases {
         let (group, before) = (change.group, rig.orders().len());
-        assert_eq!(settle(&mut rig, change).await, Ok(()), "{order}");
+        assert_eq!(write_settings(&mut rig, change).await, Ok(()), "{order}");
         let orders = rig.orders();
         let sent = &orders[before..];
         assert_eq!(sent, [order], "{group}");
@@ -182,13 +182,13 @@ async fn the_password_of_the_ftp_source_comes_through_and_is_never_shown() {
         ],
     );
     // Read back and compared, the password among it.
-    assert_eq!(settle(&mut rig, wish).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, wish).await, Ok(()));
     assert_eq!(shown(&rig, "general", "tle_source"), "FTP", "read again after the source");
     let record = format!("{:?} {:?}", rig.shown(), rig.payloads());
     assert!(!record.contains("hunter2"), "{record}");
     let another = change("ftp", [("password", Value::Secret(Secret::new("a,b")))]);
-    let refused = settle(&mut rig, another).await;
-    let named = matches!(refused, Err(SettleError::CannotBeSent { field: "password", .. }));
+    let refused = write_settings(&mut rig, another).await;
+    let named = matches!(refused, Err(WriteError::CannotBeSent { field: "password", .. }));
     assert!(named && !format!("{refused:?}").contains("a,b"), "{refused:?}");
 }
 
@@ -197,7 +197,7 @@ async fn the_clock_is_set_just_after_a_full_second() {
     let mut rig = Rig::usual().await;
     rig.seconds(0.4).await;
     let from_pc = change("clock", [("set_from", Value::Choice(FROM_THIS_PC))]);
-    assert_eq!(settle(&mut rig, from_pc).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, from_pc).await, Ok(()));
     let sent = rig.sent("TIME=");
     assert_eq!(sent.len(), 1, "{sent:?}");
     let ahead: f64 = shown(&rig, "clock", "ahead_s").parse().unwrap();
@@ -228,9 +228,13 @@ async fn service_settings_go_out_when_unlocked() {
         (change("general", [("sspa", Value::Choice(1))]), "SETTINGS=,?,?,?,?,?,?,?,?,1,?,?"),
     ];
     for (change, order) in cases {
-        assert_eq!(settle(&mut rig, change.clone()).await, Err(SettleError::Locked), "{order}");
+        assert_eq!(
+            write_settings(&mut rig, change.clone()).await,
+            Err(WriteError::Locked),
+            "{order}"
+        );
         let unlocked = Change { is_unlocked: true, ..change };
-        assert_eq!(settle(&mut rig, unlocked).await, Ok(()), "{order}");
+        assert_eq!(write_settings(&mut rig, unlocked).await, Ok(()), "{order}");
         assert_eq!(rig.orders().last().unwrap(), order);
     }
     assert_eq!(rig.orders().len(), 5, "a locked one never goes out");

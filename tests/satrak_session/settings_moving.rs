@@ -1,21 +1,21 @@
 //! Settings that decide where the antenna points wait until it stands.
 
 use azel::{
-    device::settings::{Change, Hindrance, SettleError, Value},
+    device::settings::{Change, Hindrance, Value, WriteError},
     driver::{Command, Event, Refusal},
 };
 
 use super::{
     rig::{Rig, iss, track},
-    settings::{change, settle, text},
+    settings::{change, text, write_settings},
 };
 
 fn elevation_offset(offset_deg: f64) -> Change {
     change("general", [("elevation_offset_deg", Value::Decimal(offset_deg))])
 }
 
-fn hindered(field: &'static str, hindrance: Hindrance) -> Result<(), SettleError> {
-    Err(SettleError::Hindered { field, hindrance })
+fn hindered(field: &'static str, hindrance: Hindrance) -> Result<(), WriteError> {
+    Err(WriteError::Hindered { field, hindrance })
 }
 
 async fn tracking() -> Rig {
@@ -31,7 +31,7 @@ async fn tracking() -> Rig {
 async fn an_offset_does_not_move_an_antenna_that_tracks() {
     let mut rig = tracking().await;
     let before = rig.control.state().el_deg;
-    let result = settle(&mut rig, elevation_offset(10.0)).await;
+    let result = write_settings(&mut rig, elevation_offset(10.0)).await;
     assert_eq!(result, hindered("elevation_offset_deg", Hindrance::Tracks));
     let why = Refusal::Setting { field: "Elevation offset", why: Hindrance::Tracks };
     assert_eq!(rig.events(), [Event::NotSent(why)]);
@@ -39,10 +39,10 @@ async fn an_offset_does_not_move_an_antenna_that_tracks() {
     let moved = rig.control.state().el_deg - before;
     assert!(moved.abs() < 5.0 && rig.sent("SETTINGS=").is_empty(), "{moved}");
     let rule = change("general", [("sspa_rule", Value::Choice(2))]);
-    assert_eq!(settle(&mut rig, rule).await, Ok(()), "what points nowhere is free");
+    assert_eq!(write_settings(&mut rig, rule).await, Ok(()), "what points nowhere is free");
     rig.stop();
     rig.until_event(5, |event| *event == Event::Stopped).await;
-    assert_eq!(settle(&mut rig, elevation_offset(10.0)).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, elevation_offset(10.0)).await, Ok(()));
 }
 
 #[tokio::test(start_paused = true)]
@@ -66,7 +66,7 @@ async fn every_setting_that_points_waits_while_the_unit_tracks() {
         ("reduction", "x", Value::Decimal(4100.0)),
     ] {
         let wish = Change { is_unlocked: true, ..change(group, [(field, value)]) };
-        let result = settle(&mut rig, wish).await;
+        let result = write_settings(&mut rig, wish).await;
         assert_eq!(result, hindered(field, Hindrance::Tracks), "{group}");
     }
     let after_start = rig.orders().into_iter().skip_while(|order| order != "TRACK=,1").count();
@@ -80,13 +80,13 @@ async fn a_window_is_not_set_while_the_unit_starts_by_itself() {
     rig.until("auto", 5, |shown| shown.state.program.unwrap().auto == Some(true)).await;
     let window =
         change("window", [("start", Value::Time(iss().from)), ("stop", Value::Time(iss().until))]);
-    let result = settle(&mut rig, window.clone()).await;
+    let result = write_settings(&mut rig, window.clone()).await;
     assert_eq!(result, hindered("start", Hindrance::AutoTrack));
     let twin = change("file", [("file", text("stations.txt")), ("name", text("TWIN"))]);
-    assert_eq!(settle(&mut rig, twin).await, hindered("file", Hindrance::AutoTrack));
+    assert_eq!(write_settings(&mut rig, twin).await, hindered("file", Hindrance::AutoTrack));
     rig.send(Command::AutoTrack(false));
     rig.until("no auto", 5, |shown| shown.state.program.unwrap().auto == Some(false)).await;
-    assert_eq!(settle(&mut rig, window).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, window).await, Ok(()));
 }
 
 #[tokio::test(start_paused = true)]
@@ -94,16 +94,16 @@ async fn a_jog_and_a_stop_under_way_hold_such_a_setting_up() {
     let mut rig = Rig::usual().await;
     rig.send(Command::Manual);
     rig.hold([1.0, 0.0], 1.0).await;
-    rig.send(Command::Settle(elevation_offset(1.0)));
+    rig.send(Command::WriteSettings(elevation_offset(1.0)));
     rig.hold([1.0, 0.0], 0.3).await;
     let result = |rig: &Rig| {
-        let settled = rig.shown().state.held["general"].settled.clone();
-        settled.map(|settled| settled.result.clone())
+        let written = rig.shown().state.held["general"].written.clone();
+        written.map(|written| written.result.clone())
     };
     assert_eq!(result(&rig), Some(hindered("elevation_offset_deg", Hindrance::Moves)));
     rig.stop();
     rig.seconds(0.02).await;
-    let stopped = settle(&mut rig, elevation_offset(2.0)).await;
+    let stopped = write_settings(&mut rig, elevation_offset(2.0)).await;
     assert_eq!(stopped, hindered("elevation_offset_deg", Hindrance::Stopping));
 }
 
@@ -113,7 +113,7 @@ async fn what_waits_in_the_queue_is_not_sent_once_the_unit_is_to_track() {
     for ticket in 100..110 {
         let azimuth = Value::Decimal(ticket as f64 / 100.0);
         let wish = change("general", [("azimuth_offset_deg", azimuth)]);
-        rig.send(Command::Settle(Change { ticket, ..wish }));
+        rig.send(Command::WriteSettings(Change { ticket, ..wish }));
     }
     rig.send(track(iss()));
     rig.until_event(20, |event| matches!(event, Event::Tracking(_))).await;
@@ -121,6 +121,6 @@ async fn what_waits_in_the_queue_is_not_sent_once_the_unit_is_to_track() {
     let orders = rig.orders();
     let start = orders.iter().position(|order| order == "TRACK=,1").unwrap();
     assert!(!orders[start..].iter().any(|order| order.starts_with("SETTINGS=")), "{orders:?}");
-    let last = rig.shown().state.held["general"].settled.clone().unwrap();
-    assert!(matches!(last.result, Err(SettleError::Hindered { .. })), "{last:?}");
+    let last = rig.shown().state.held["general"].written.clone().unwrap();
+    assert!(matches!(last.result, Err(WriteError::Hindered { .. })), "{last:?}");
 }

@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use azel::{
-    device::settings::{Change, Hindrance, SettleError, SettleStep, Value},
+    device::settings::{Change, Hindrance, Value, WriteError, WriteStep},
     driver::{Command, Snapshot},
     protocol::satrak::encode,
     sim::satrak::Fault,
@@ -14,7 +14,7 @@ use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use super::{
     rig::Rig,
     script::{Scripted, plain},
-    settings::{change, read, settle, shown, text},
+    settings::{change, read, shown, text, write_settings},
 };
 
 fn threshold(value: f64) -> Change {
@@ -25,8 +25,8 @@ fn threshold(value: f64) -> Change {
 async fn a_refused_setting_shows_the_code_and_what_the_unit_kept() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::RefuseSettings, true);
-    let refused = settle(&mut rig, threshold(12.0)).await;
-    assert_eq!(refused, Err(SettleError::Refused("7".to_owned())));
+    let refused = write_settings(&mut rig, threshold(12.0)).await;
+    assert_eq!(refused, Err(WriteError::Refused("7".to_owned())));
     assert_eq!(shown(&rig, "general", "elevation_threshold_deg"), "2.0");
     assert_eq!(rig.sent("SETTINGS=").len(), 1, "never again by itself");
     // Read back all the same.
@@ -45,25 +45,25 @@ async fn what_another_client_has_changed_is_not_overwritten() {
     let count = near.read(&mut answer).await.unwrap();
     assert!(answer[..count].starts_with(b"$SETTINGS=,OK"));
     let mine = Change { seen: Some(seen), ..threshold(4.0) };
-    assert_eq!(settle(&mut rig, mine).await, Err(SettleError::ChangedMeanwhile));
+    assert_eq!(write_settings(&mut rig, mine).await, Err(WriteError::ChangedMeanwhile));
     assert_eq!(shown(&rig, "general", "minimum_elevation_deg"), "7.5", "the new value is shown");
     assert_eq!(shown(&rig, "general", "elevation_threshold_deg"), "2.0", "nothing was sent");
     let seen = rig.shown().state.held["general"].held.clone().unwrap().values;
     let again = Change { seen: Some(seen), ..threshold(4.0) };
-    assert_eq!(settle(&mut rig, again).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, again).await, Ok(()));
 }
 
 #[tokio::test(start_paused = true)]
 async fn a_link_lost_in_the_middle_is_told_and_nothing_is_sent_again() {
     let mut rig = Rig::usual().await;
-    rig.send(Command::Settle(threshold(4.0)));
-    rig.until("sending", 10, |shown| shown.state.held["general"].step == Some(SettleStep::Sending))
+    rig.send(Command::WriteSettings(threshold(4.0)));
+    rig.until("sending", 10, |shown| shown.state.held["general"].step == Some(WriteStep::Sending))
         .await;
     rig.set_off(true);
-    rig.until("over", 10, |shown| shown.state.held["general"].settled.is_some()).await;
-    let result = rig.shown().state.held["general"].settled.as_ref().unwrap().result.clone();
-    assert_eq!(result, Err(SettleError::LinkLost));
-    assert_eq!(settle(&mut rig, threshold(5.0)).await, Err(SettleError::NoLink));
+    rig.until("over", 10, |shown| shown.state.held["general"].written.is_some()).await;
+    let result = rig.shown().state.held["general"].written.as_ref().unwrap().result.clone();
+    assert_eq!(result, Err(WriteError::LinkLost));
+    assert_eq!(write_settings(&mut rig, threshold(5.0)).await, Err(WriteError::NoLink));
     rig.set_off(false);
     rig.until_up(20).await;
     rig.seconds(5.0).await;
@@ -74,7 +74,7 @@ async fn a_link_lost_in_the_middle_is_told_and_nothing_is_sent_again() {
 async fn a_unit_that_hangs_up_after_a_command_is_read_anew() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::HangUp, true);
-    assert_eq!(settle(&mut rig, threshold(4.0)).await, Err(SettleError::LinkLost));
+    assert_eq!(write_settings(&mut rig, threshold(4.0)).await, Err(WriteError::LinkLost));
     rig.control.set_fault(Fault::HangUp, false);
     rig.until_up(20).await;
     let held = |shown: &Snapshot| {
@@ -87,7 +87,7 @@ async fn a_unit_that_hangs_up_after_a_command_is_read_anew() {
 
 #[tokio::test(start_paused = true)]
 async fn a_lost_answer_is_settled_by_the_read_back() {
-    for (is_taken, result) in [(true, Ok(())), (false, Err(SettleError::Unanswered))] {
+    for (is_taken, result) in [(true, Ok(())), (false, Err(WriteError::Unanswered))] {
         let mut threshold_now = "2.0";
         let mut unit = Scripted::start(Box::new(move |payload| {
             let values = format!("SETTINGS?,1,100,1.0,2.0,60000,1,3.0,6.0,1,1,1,{threshold_now}");
@@ -101,11 +101,11 @@ async fn a_lost_answer_is_settled_by_the_read_back() {
             }
         }));
         unit.seconds(3.0).await;
-        unit.handle.send(Command::Settle(threshold(4.0))).unwrap();
+        unit.handle.send(Command::WriteSettings(threshold(4.0))).unwrap();
         unit.seconds(10.0).await;
         let shown = unit.handle.snapshot();
-        let settled = shown.state.held["general"].settled.clone().unwrap();
-        assert_eq!(settled.result, result);
+        let written = shown.state.held["general"].written.clone().unwrap();
+        assert_eq!(written.result, result);
         assert_eq!(unit.sent("SETTINGS=").len(), 1);
     }
 }
@@ -119,10 +119,10 @@ async fn an_ok_that_changes_nothing_is_no_success() {
         other => plain(other),
     }));
     unit.seconds(3.0).await;
-    unit.handle.send(Command::Settle(threshold(4.0))).unwrap();
+    unit.handle.send(Command::WriteSettings(threshold(4.0))).unwrap();
     unit.seconds(3.0).await;
-    let settled = unit.handle.snapshot().state.held["general"].settled.clone().unwrap();
-    assert_eq!(settled.result, Err(SettleError::Differs(vec!["elevation_threshold_deg"])));
+    let written = unit.handle.snapshot().state.held["general"].written.clone().unwrap();
+    assert_eq!(written.result, Err(WriteError::Differs(vec!["elevation_threshold_deg"])));
 }
 
 #[tokio::test(start_paused = true)]
@@ -139,14 +139,14 @@ async fn a_slow_source_does_not_stop_the_polling() {
     unit.seconds(3.0).await;
     let before = unit.sent("STATUS?").len();
     let wish = change("web", [("url", text("https://example.org/a"))]);
-    unit.handle.send(Command::Settle(wish)).unwrap();
+    unit.handle.send(Command::WriteSettings(wish)).unwrap();
     unit.seconds(8.0).await;
-    assert_eq!(unit.handle.snapshot().state.held["web"].step, Some(SettleStep::Sending));
+    assert_eq!(unit.handle.snapshot().state.held["web"].step, Some(WriteStep::Sending));
     assert!(unit.sent("STATUS?").len() >= before + 8, "the position must not grow old");
     unit.seconds(4.0).await;
     let shown = unit.handle.snapshot();
     assert!(shown.link.is_open());
-    assert_eq!(shown.state.held["web"].settled.as_ref().unwrap().result, Ok(()));
+    assert_eq!(shown.state.held["web"].written.as_ref().unwrap().result, Ok(()));
     assert_eq!(unit.sent("SATELLITE_HTTP=").len(), 1);
 }
 
@@ -157,7 +157,7 @@ async fn a_satellite_that_is_not_in_the_file_is_no_success() {
         [("stations.txt", "NOBODY", "satellite"), ("nothing.txt", "TWIN", "file")]
     {
         let wish = change("file", [("file", text(file)), ("name", text(name))]);
-        let Err(SettleError::Useless(why)) = settle(&mut rig, wish).await else {
+        let Err(WriteError::Useless(why)) = write_settings(&mut rig, wish).await else {
             panic!("{name} is not there");
         };
         assert!(why.contains(word), "{why}");
@@ -173,17 +173,17 @@ async fn metal_that_moves_forbids_service_and_the_clock() {
     rig.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
     let service = change("reduction", [("x", Value::Decimal(4100.0))]);
     let service = Change { is_unlocked: true, ..service };
-    rig.send(Command::Settle(service));
+    rig.send(Command::WriteSettings(service));
     rig.hold([1.0, 0.0], 3.0).await;
     let shown = rig.shown();
-    let settled = shown.state.held["reduction"].settled.as_ref().unwrap();
-    let moves = SettleError::Hindered { field: "x", hindrance: Hindrance::Moves };
-    assert_eq!(settled.result, Err(moves));
+    let written = shown.state.held["reduction"].written.as_ref().unwrap();
+    let moves = WriteError::Hindered { field: "x", hindrance: Hindrance::Moves };
+    assert_eq!(written.result, Err(moves));
     assert!(rig.sent("REDUCTION=").is_empty());
     rig.stop();
     rig.seconds(5.0).await;
     let pc = change("clock", [("set_from", Value::Choice(0))]);
-    assert_eq!(settle(&mut rig, pc).await, Ok(()));
+    assert_eq!(write_settings(&mut rig, pc).await, Ok(()));
 }
 
 #[tokio::test(start_paused = true)]
@@ -195,7 +195,7 @@ async fn a_stop_overtakes_settings_and_spoils_none() {
             "gps" => change("gps", [("latitude_deg", Value::Decimal(41.5))]),
             _ => change("web", [("url", text("https://example.org/a"))]),
         };
-        rig.send(Command::Settle(Change { ticket, ..wish }));
+        rig.send(Command::WriteSettings(Change { ticket, ..wish }));
     }
     rig.seconds(0.05).await;
     let pressed = azel::clock::Instant::now();
@@ -205,7 +205,7 @@ async fn a_stop_overtakes_settings_and_spoils_none() {
     assert!(first - pressed < Duration::from_millis(20), "{:?}", first - pressed);
     for group in ["general", "gps", "web"] {
         let shown = rig.shown();
-        assert_eq!(shown.state.held[group].settled.as_ref().unwrap().result, Ok(()), "{group}");
+        assert_eq!(shown.state.held[group].written.as_ref().unwrap().result, Ok(()), "{group}");
     }
 }
 
@@ -218,11 +218,11 @@ async fn what_is_not_there_cannot_be_set() {
         change("general", []),
     ];
     for wish in nothing {
-        assert_eq!(settle(&mut rig, wish).await, Err(SettleError::NoSuchSetting));
+        assert_eq!(write_settings(&mut rig, wish).await, Err(WriteError::NoSuchSetting));
     }
     let over = Value::Time("2001-01-01T00:00:00Z".parse().unwrap());
     let wish = change("window", [("stop", over)]);
-    let result = settle(&mut rig, wish).await;
-    assert!(matches!(result, Err(SettleError::CannotBeSent { field: "stop", .. })), "{result:?}");
+    let result = write_settings(&mut rig, wish).await;
+    assert!(matches!(result, Err(WriteError::CannotBeSent { field: "stop", .. })), "{result:?}");
     assert!(rig.orders().is_empty());
 }

@@ -80,7 +80,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
 #[test]
 fn its_own_settings_are_fields_of_the_form() {
     for size in SIZES {
-        let antenna = SPEC.antenna("Lever", SPEC.usual_address);
+        let antenna = SPEC.antenna("Lever", SPEC.default_address);
         let mut model = crate::window_stories::makes::model(antenna.clone(), rig::quiet());
         (model.view, Arc::make_mut(&mut model.station).antennas) =
             (View::Preferences, vec![antenna]);

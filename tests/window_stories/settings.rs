@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    device::settings::{Change, GroupState, ReadFailure, SettleError, SettleStep, Settled, Value},
+    device::settings::{Change, GroupState, ReadFailure, Value, WriteError, WriteStep, Written},
     driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
     model::{UiCommand, View},
 };
@@ -22,7 +22,7 @@ use crate::window_stories::{
 /// The only change that was asked for, and what was asked for before it.
 pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     let change = |command| match command {
-        UiCommand::Antenna(0, Command::Settle(change)) => change,
+        UiCommand::Antenna(0, Command::WriteSettings(change)) => change,
         other => panic!("{other:?}"),
     };
     commands.into_iter().map(change).collect()
@@ -33,14 +33,14 @@ pub(crate) fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mu
 }
 
 /// The session is done with `change`.
-fn end(window: &mut Window, change: &Change, result: Result<(), SettleError>) {
-    let settled = Settled { change: change.clone(), at: rig::now(), result };
+fn end(window: &mut Window, change: &Change, result: Result<(), WriteError>) {
+    let written = Written { change: change.clone(), at: rig::now(), result };
     self::change(window, 0, |snapshot| {
         let state = group(snapshot, change.group);
-        if settled.result.is_ok() {
+        if written.result.is_ok() {
             state.held.as_mut().unwrap().values.extend(change.values.clone());
         }
-        state.settled = Some(Arc::new(settled));
+        state.written = Some(Arc::new(written));
     });
 }
 
@@ -159,9 +159,9 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         apply(&mut window);
         assert_eq!(asked(&mut window), [], "not twice");
 
-        change(&mut window, 0, |of| group(of, "general").step = Some(SettleStep::Sending));
+        change(&mut window, 0, |of| group(of, "general").step = Some(WriteStep::Sending));
         change(&mut window, 0, |of| group(of, "general").step = None);
-        end(&mut window, change_of_general, Err(SettleError::ChangedMeanwhile));
+        end(&mut window, change_of_general, Err(WriteError::ChangedMeanwhile));
         assert_eq!(state_of(&window, "Minimum elevation"), "Rejected");
         assert!(says(
             &window,
@@ -275,7 +275,7 @@ fn no_text_ever_has_a_password() {
         let commands = asked(&mut window);
         let told = format!("{:?} {commands:?}", texts(&window));
         let change = settles(commands).remove(0);
-        end(&mut window, &change, Err(SettleError::Refused("7".to_owned())));
+        end(&mut window, &change, Err(WriteError::Refused("7".to_owned())));
         let told = format!("{told} {:?}", texts(&window));
         for secret in [ON_UNIT, "swordfish"] {
             assert!(!told.contains(secret), "{told}");

@@ -63,7 +63,8 @@ fn a_change_that_is_not_heard_of_may_be_tried_again() {
             write(&mut window, "X reduction", ratio);
             apply(&mut window);
             let commands = asked(&mut window);
-            let [UiCommand::Antenna(0, Command::Settle(change))] = commands.as_slice() else {
+            let [UiCommand::Antenna(0, Command::WriteSettings(change))] = commands.as_slice()
+            else {
                 panic!("{commands:?}")
             };
             assert!(change.is_unlocked && change.group == "reduction");
@@ -124,7 +125,7 @@ fn the_transmitter_is_switched_on_unlocked_and_confirmed() {
     hold(&mut window, "Hold 1 s to confirm Transmitter (SSPA) On");
     apply(&mut window);
     let commands = asked(&mut window);
-    let [UiCommand::Antenna(0, Command::Settle(change))] = commands.as_slice() else {
+    let [UiCommand::Antenna(0, Command::WriteSettings(change))] = commands.as_slice() else {
         panic!("{commands:?}")
     };
     assert!(change.is_unlocked);

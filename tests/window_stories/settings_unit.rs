@@ -2,7 +2,7 @@
 //! another client meanwhile, and the link lost in the middle.
 
 use azel::{
-    device::settings::{GroupState, SettleError, Settled},
+    device::settings::{GroupState, WriteError, Written},
     driver::LinkState,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault},
@@ -97,10 +97,10 @@ impl Scene {
         control.set_fault(Fault::HangUp, true);
         press(&mut self.window);
         crate::window_stories::unit::wait_until("the link is lost", || {
-            let is_lost = |settled: &Settled| settled.result == Err(SettleError::LinkLost);
+            let is_lost = |written: &Written| written.result == Err(WriteError::LinkLost);
             let shown = &self.window.state().model().antennas[0].snapshot;
             let state = shown.state.held.get(group);
-            if state.is_some_and(|state| state.settled.as_deref().is_some_and(is_lost)) {
+            if state.is_some_and(|state| state.written.as_deref().is_some_and(is_lost)) {
                 control.drop_clients();
             }
             self.window.step();

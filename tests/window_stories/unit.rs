@@ -31,7 +31,8 @@ use crate::window_stories::rig;
 /// No story may take longer for one step.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-const USUAL_DELAY: RangeInclusive<Duration> = Duration::from_millis(5)..=Duration::from_millis(30);
+const DEFAULT_DELAY: RangeInclusive<Duration> =
+    Duration::from_millis(5)..=Duration::from_millis(30);
 
 pub(crate) type RealWindow = Harness<'static, App>;
 
@@ -46,7 +47,7 @@ impl Unit {
     /// A unit that holds the elements of the station and whose clock starts at
     /// `utc`.
     pub(crate) fn start(utc: Timestamp) -> Self {
-        Self::with_delay(utc, USUAL_DELAY)
+        Self::with_delay(utc, DEFAULT_DELAY)
     }
 
     /// The same, with answers that take so long.
@@ -105,7 +106,7 @@ impl Unit {
 fn holding(elements: Vec<Elements>, utc: Timestamp) -> Options {
     Options {
         elements: BTreeMap::from([(BUNDLED_FILE.to_owned(), elements)]),
-        reply_delay: USUAL_DELAY,
+        reply_delay: DEFAULT_DELAY,
         ..Options::new(rig::station().site, utc)
     }
 }

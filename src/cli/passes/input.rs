@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// Of one file; the whole catalogue as XML has 30 MB.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// Elements, ready to be computed with.
 pub(super) struct Satellite {
@@ -85,9 +85,9 @@ pub(super) fn read(files: &[PathBuf], numbers: &[u32]) -> anyhow::Result<Input> 
 
 fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
     if file == Path::new("-") {
-        read_limited(io::stdin().lock(), MOST_BYTES)
+        read_limited(io::stdin().lock(), MAX_BYTES)
     } else {
-        read_limited(File::open(file)?, MOST_BYTES)
+        read_limited(File::open(file)?, MAX_BYTES)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// A question is asked at most so often; anything else once.
-const MOST_TRIES: u8 = 3;
+const MAX_TRIES: u8 = 3;
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
 /// Why a command was sent.
@@ -237,7 +237,7 @@ impl Rc2000c {
         let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
         let mut late = self.outstanding.take_if(|_| is_late)?;
         let is_repeated = matches!(late.purpose, Purpose::Poll | Purpose::Question)
-            && late.clock.tries < MOST_TRIES;
+            && late.clock.tries < MAX_TRIES;
         self.miss(&late, is_repeated, now);
         if is_repeated {
             late.clock.repeat(now);

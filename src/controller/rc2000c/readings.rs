@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// The highest level of the receiver.
-const MOST_AGC: f64 = 1023.0;
+const MAX_AGC: f64 = 1023.0;
 
 pub(super) fn readings(status: &Status, device: Option<DeviceType>, names: &Names) -> Vec<Reading> {
     let mut lines = Vec::new();
@@ -100,7 +100,7 @@ fn signal(receiver: Receiver) -> Reading {
         ReceiverChannel::Unknown => "",
     };
     Reading::new("Signal", format!("{}{channel}", receiver.agc))
-        .with_bar(f64::from(receiver.agc) / MOST_AGC)
+        .with_bar(f64::from(receiver.agc) / MAX_AGC)
 }
 
 fn track(Track { band, submode }: Track) -> Reading {

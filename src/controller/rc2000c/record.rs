@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Heard bytes without a frame are told in lines of this.
-const MOST_NOISE: usize = 4 * MAX_FRAME_BYTES;
+const MAX_NOISE: usize = 4 * MAX_FRAME_BYTES;
 
 impl Rc2000c {
     /// A command that was written.
@@ -31,7 +31,7 @@ impl Rc2000c {
 
     /// Noise without an end is told in pieces.
     pub(super) fn limit_noise(&mut self, now: Moment) {
-        if self.heard.len() > MOST_NOISE {
+        if self.heard.len() > MAX_NOISE {
             self.record_noise(Finding::NoHeader, now);
         }
     }

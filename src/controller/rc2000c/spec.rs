@@ -18,7 +18,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     name: "Research Concepts RC2000C",
     short_name: "RC2000C",
     link: Link::Line { baud: &BAUD },
-    usual_address: if cfg!(windows) { "COM3" } else { "/dev/ttyUSB0" },
+    default_address: if cfg!(windows) { "COM3" } else { "/dev/ttyUSB0" },
     usual: Usual {
         mount: Mount::AzEl {
             azimuth_from_deg: 0.0,

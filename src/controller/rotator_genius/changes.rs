@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     clock::Moment,
-    device::settings::{SettleError, Settling, Step},
+    device::settings::{SettingsWrite, Step, WriteError},
     protocol::rotator_genius::Request,
 };
 
@@ -17,36 +17,36 @@ enum Next {
     /// This is to be sent.
     Send(Request),
     /// It is over.
-    Over(Result<(), SettleError>),
+    Over(Result<(), WriteError>),
 }
 
 impl Genius {
     /// The next request of the changes, of which those that have none are over.
-    pub(super) fn settling_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
+    pub(super) fn write_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         loop {
             self.changes.begin(&mut self.state, now);
             match self.next_step(self.changes.under_way()?) {
                 Next::Send(Request::Configure(_)) if self.changes.are_locked() => {
-                    self.changes.end(Err(SettleError::LockedOut), &mut self.state, now);
+                    self.changes.end(Err(WriteError::LockedOut), &mut self.state, now);
                 }
-                Next::Send(request) => return Some((request, Purpose::Settle)),
+                Next::Send(request) => return Some((request, Purpose::WriteSettings)),
                 Next::Over(result) => self.changes.end(result, &mut self.state, now),
             }
         }
     }
 
-    fn next_step(&self, settling: &Settling) -> Next {
-        match settling.step() {
+    fn next_step(&self, settings_write: &SettingsWrite) -> Next {
+        match settings_write.step() {
             Step::Look | Step::ReadBack => Next::Send(Request::Read),
-            Step::Done => Next::Over(settling.result()),
+            Step::Done => Next::Over(settings_write.result()),
             // A device that is configured lets go of what it turns.
             Step::Send if self.moving() || self.motion_waits() => {
-                Next::Over(Err(SettleError::Moving))
+                Next::Over(Err(WriteError::Moving))
             }
             Step::Send => {
-                let number = rotator_of(settling.group.key).ok_or(SettleError::NoSuchSetting);
+                let number = rotator_of(settings_write.group.key).ok_or(WriteError::NoSuchSetting);
                 let sent = number.and_then(|number| {
-                    configuration(number, &settling.change.values, settling.before())
+                    configuration(number, &settings_write.change.values, settings_write.before())
                 });
                 sent.map_or_else(
                     |error| Next::Over(Err(error)),
@@ -59,16 +59,16 @@ impl Genius {
     /// A status has come that a change waits for.
     pub(super) fn change_read(&mut self, now: Moment) {
         let Some(status) = &self.status else { return };
-        self.changes.advance(&mut self.state, now, |settling| {
-            let Some(number) = rotator_of(settling.group.key) else { return Ok(()) };
+        self.changes.advance(&mut self.state, now, |settings_write| {
+            let Some(number) = rotator_of(settings_write.group.key) else { return Ok(()) };
             let held = values(status, number);
-            match settling.step() {
-                Step::Look => settling.looked(held),
+            match settings_write.step() {
+                Step::Look => settings_write.looked(held),
                 Step::ReadBack => {
-                    let mut sent = settling.before().clone();
-                    sent.extend(settling.change.values.clone());
-                    let differing = differing(settling.group, &sent, &held);
-                    settling.read_back(&held, differing);
+                    let mut sent = settings_write.before().clone();
+                    sent.extend(settings_write.change.values.clone());
+                    let differing = differing(settings_write.group, &sent, &held);
+                    settings_write.read_back(&held, differing);
                     Ok(())
                 }
                 Step::Send | Step::Done => Ok(()),
@@ -78,17 +78,17 @@ impl Genius {
 
     /// The device has answered the command of a change.
     pub(super) fn change_judged(&mut self, is_accepted: bool, now: Moment) {
-        self.changes.advance(&mut self.state, now, |settling| {
+        self.changes.advance(&mut self.state, now, |settings_write| {
             if is_accepted {
-                settling.accepted();
+                settings_write.accepted();
                 return Ok(());
             }
-            settling.refused("F".to_owned())
+            settings_write.refused("F".to_owned())
         });
     }
 
     /// The device has not answered.
     pub(super) fn change_unanswered(&mut self, now: Moment) {
-        self.changes.advance(&mut self.state, now, Settling::unanswered);
+        self.changes.advance(&mut self.state, now, SettingsWrite::unanswered);
     }
 }

@@ -14,7 +14,7 @@ use crate::{
         AntennaState, Asked, ControllerEvent, Device, Extent, Motion, Moves, PrepareError,
         TrackTarget, WireLine,
         panel::{Act, Lead},
-        settings::{Change, SettleError},
+        settings::{Change, WriteError},
     },
     protocol::rotator_genius::Decoder,
 };
@@ -106,7 +106,7 @@ impl Device for Genius {
         self.is_watched = is_watched;
     }
 
-    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
+    fn refuse_change(&mut self, change: Change, why: WriteError, now: Moment) {
         self.changes.refuse(change, why, &mut self.state, now);
     }
 
@@ -154,9 +154,9 @@ impl Moves for Genius {
         self.events.push_back(ControllerEvent::NotPrepared(target, reason));
     }
 
-    fn settle(&mut self, change: Change, now: Moment) {
+    fn write_settings(&mut self, change: Change, now: Moment) {
         if self.next_poll.is_none() {
-            return self.changes.refuse(change, SettleError::NoLink, &mut self.state, now);
+            return self.changes.refuse(change, WriteError::NoLink, &mut self.state, now);
         }
         self.changes.push(change, &mut self.state);
     }

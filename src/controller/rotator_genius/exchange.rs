@@ -23,7 +23,7 @@ pub(super) enum Purpose {
     /// Metal is to move.
     Motion(Asked),
     /// A step of changing the configuration.
-    Settle,
+    WriteSettings,
     /// A halt has overtaken it: whatever comes is of no interest.
     Disowned,
 }
@@ -169,7 +169,7 @@ impl Genius {
         let sent = read.as_ref().map_or(asked, Outstanding::sent);
         self.take_status(status, asked, sent, now);
         self.next_poll = Some(sent + self.period(now.steady));
-        if read.is_some_and(|read| read.purpose == Purpose::Settle) {
+        if read.is_some_and(|read| read.purpose == Purpose::WriteSettings) {
             self.change_read(now);
         }
     }
@@ -188,7 +188,7 @@ impl Genius {
     fn take_verdict(&mut self, outstanding: &Outstanding, is_accepted: bool, now: Moment) {
         self.count_reply(now);
         self.look_soon(now);
-        if outstanding.purpose == Purpose::Settle {
+        if outstanding.purpose == Purpose::WriteSettings {
             return self.change_judged(is_accepted, now);
         }
         let Purpose::Motion(asked) = outstanding.purpose else { return };
@@ -225,7 +225,7 @@ impl Genius {
                 self.forget_orders(asked);
                 self.events.push_back(ControllerEvent::Unanswered(asked));
             }
-            Purpose::Settle => self.change_unanswered(now),
+            Purpose::WriteSettings => self.change_unanswered(now),
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}
         }
         self.look_soon(now);

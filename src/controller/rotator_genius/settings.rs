@@ -6,7 +6,7 @@
 //! of a status. A status has names of 12 characters, a configuration of 10.
 
 use crate::{
-    device::settings::{Field, Group, Key, SettleError, Unfit, Values},
+    device::settings::{Field, Group, Key, Unfit, Values, WriteError},
     protocol::rotator_genius::{
         Configuration, MAX_STOP_OFFSET_DEG, Rotator, RotatorKind, RotatorName, RotatorNumber,
         Status, WholeDegrees,
@@ -73,7 +73,7 @@ pub(super) fn configuration(
     number: RotatorNumber,
     new: &Values,
     held: &Values,
-) -> Result<Configuration, SettleError> {
+) -> Result<Configuration, WriteError> {
     let integer = |key: &Key<i64>| key.of(new).or_else(|| key.of(held));
     let limit = |key: &Key<i64>| {
         let degrees = integer(key).and_then(|degrees| u16::try_from(degrees).ok());
@@ -106,10 +106,10 @@ pub(super) fn differing(group: &Group, sent: &Values, held: &Values) -> Vec<&'st
     group.fields.iter().filter(differs).map(|field| field.key).collect()
 }
 
-fn missing(field: &'static str) -> SettleError {
+fn missing(field: &'static str) -> WriteError {
     cannot(field, "has no value yet, give one".to_owned())
 }
 
-fn cannot(field: &'static str, reason: String) -> SettleError {
-    SettleError::CannotBeSent { field, reason: Unfit::Text(reason) }
+fn cannot(field: &'static str, reason: String) -> WriteError {
+    WriteError::CannotBeSent { field, reason: Unfit::Text(reason) }
 }

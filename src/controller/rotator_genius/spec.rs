@@ -19,7 +19,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     name: "4O3A Rotator Genius",
     short_name: "Genius",
     link: Link::Tcp,
-    usual_address: "192.168.1.250:9006",
+    default_address: "192.168.1.250:9006",
     usual: Usual {
         mount: Mount::AzEl {
             azimuth_from_deg: 0.0,

@@ -23,7 +23,7 @@ enum Step {
     Receive(Vec<u8>),
     Start(Motion),
     Act(&'static str, i64),
-    Settle,
+    WriteSettings,
     Halt,
     LinkUp,
     LinkDown,
@@ -57,14 +57,14 @@ fn step() -> impl Strategy<Value = Step> {
         3 => motion().prop_map(Step::Start),
         1 => (prop::sample::select(vec![OTHER, RESCUE, "none"]), -10_i64..400)
             .prop_map(|(action, degrees)| Step::Act(action, degrees)),
-        1 => Just(Step::Settle),
+        1 => Just(Step::WriteSettings),
         1 => Just(Step::Halt),
         1 => Just(Step::LinkUp),
         1 => Just(Step::LinkDown),
     ]
 }
 
-fn settling() -> Change {
+fn settings_write() -> Change {
     let values = [("stop_offset_deg", Value::Integer(2))].into();
     Change { ticket: 1, group: "rotator_1", values, seen: None, is_unlocked: true }
 }
@@ -91,7 +91,7 @@ proptest! {
                     let values: Values = [actions::DIRECTION.with(degrees)].into();
                     genius.act(Act { action, values });
                 }
-                Step::Settle => genius.settle(settling(), now),
+                Step::WriteSettings => genius.write_settings(settings_write(), now),
                 Step::Halt => prop_assert_eq!(genius.halt(Extent::Motion, now), b"|S"),
                 Step::LinkUp => genius.link_up(now),
                 Step::LinkDown => genius.link_down(now),

@@ -3,11 +3,11 @@
 use super::{
     Satrak,
     settings::Plan,
-    settle::{Doing, Next},
+    write_settings::{Doing, Next},
 };
 use crate::{
     clock::{Instant, Moment},
-    device::settings::{SettleError, Settling},
+    device::settings::{SettingsWrite, WriteError},
     protocol::satrak::{Reply, Request},
 };
 
@@ -23,19 +23,19 @@ impl Satrak {
     /// What is to be done for the change under way; `None` while there is none, or while the
     /// unit still works on a setting.
     fn next_of_change(&self, now: Moment) -> Option<Next> {
-        let settling = self.changes.under_way().filter(|_| self.slow.is_none())?;
-        Some(match Plan::of(settling.group.key) {
-            Some(plan) => plan.next(settling, self.doing(), now),
-            None => Next::Over(Err(SettleError::NoSuchSetting)),
+        let settings_write = self.changes.under_way().filter(|_| self.slow.is_none())?;
+        Some(match Plan::of(settings_write.group.key) {
+            Some(plan) => plan.next(settings_write, self.doing(), now),
+            None => Next::Over(Err(WriteError::NoSuchSetting)),
         })
     }
 
     /// The next request of the change under way. It is over when there is none
     /// and nothing to wait for.
-    pub(super) fn settling_request(&mut self, now: Moment) -> Option<Request> {
+    pub(super) fn write_request(&mut self, now: Moment) -> Option<Request> {
         match self.next_of_change(now)? {
             Next::Send(Request::Setting(_)) if self.changes.are_locked() => {
-                self.end_change(Err(SettleError::LockedOut), now);
+                self.end_change(Err(WriteError::LockedOut), now);
                 None
             }
             Next::Send(request) => Some(request),
@@ -47,8 +47,8 @@ impl Satrak {
         }
     }
 
-    /// When [`Self::settling_request`] is worth a call.
-    pub(super) fn settling_due(&self, now: Moment) -> Option<Instant> {
+    /// When [`Self::write_request`] is worth a call.
+    pub(super) fn write_due(&self, now: Moment) -> Option<Instant> {
         if self.slow.is_some() || self.changes.is_empty() {
             return None;
         }
@@ -60,31 +60,31 @@ impl Satrak {
 
     pub(super) fn change_answered(&mut self, reply: &Reply, now: Moment) {
         let ahead_s = self.reported.clock.map(|clock| clock.ahead_s);
-        self.advance_change(now, |settling| match Plan::of(settling.group.key) {
-            Some(plan) => plan.answered(settling, reply, ahead_s),
-            None => Err(SettleError::NoSuchSetting),
+        self.advance_change(now, |settings_write| match Plan::of(settings_write.group.key) {
+            Some(plan) => plan.answered(settings_write, reply, ahead_s),
+            None => Err(WriteError::NoSuchSetting),
         });
     }
 
     pub(super) fn change_refused(&mut self, code: String, now: Moment) {
-        self.advance_change(now, |settling| settling.refused(code));
+        self.advance_change(now, |settings_write| settings_write.refused(code));
     }
 
     pub(super) fn change_unanswered(&mut self, now: Moment) {
-        self.advance_change(now, Settling::unanswered);
+        self.advance_change(now, SettingsWrite::unanswered);
     }
 
     fn advance_change(
         &mut self,
         now: Moment,
-        step: impl FnOnce(&mut Settling) -> Result<(), SettleError>,
+        step: impl FnOnce(&mut SettingsWrite) -> Result<(), WriteError>,
     ) {
         if self.changes.advance(&mut self.state, now, step) {
             self.look_soon(now);
         }
     }
 
-    fn end_change(&mut self, result: Result<(), SettleError>, now: Moment) {
+    fn end_change(&mut self, result: Result<(), WriteError>, now: Moment) {
         self.changes.end(result, &mut self.state, now);
         self.look_soon(now);
     }

@@ -12,7 +12,7 @@ use crate::{
         AntennaState, ControllerEvent, Device, Extent, Motion, Moves, PrepareError, TrackTarget,
         WireLine,
         panel::{Act, Lead},
-        settings::{Change, SettleError},
+        settings::{Change, WriteError},
     },
     protocol::satrak::{Decoder, Halt, Request},
 };
@@ -105,7 +105,7 @@ impl Device for Satrak {
         if waits {
             return now.steady;
         }
-        let due = schedule.due().into_iter().chain(slow).chain(self.settling_due(now));
+        let due = schedule.due().into_iter().chain(slow).chain(self.write_due(now));
         due.min().unwrap_or(far)
     }
 
@@ -140,7 +140,7 @@ impl Device for Satrak {
         }
     }
 
-    fn refuse_change(&mut self, change: Change, why: SettleError, now: Moment) {
+    fn refuse_change(&mut self, change: Change, why: WriteError, now: Moment) {
         self.changes.refuse(change, why, &mut self.state, now);
     }
 
@@ -193,9 +193,9 @@ impl Moves for Satrak {
         self.preparation = Some(Preparation::new(target));
     }
 
-    fn settle(&mut self, change: Change, now: Moment) {
+    fn write_settings(&mut self, change: Change, now: Moment) {
         if self.schedule.is_none() {
-            return self.changes.refuse(change, SettleError::NoLink, &mut self.state, now);
+            return self.changes.refuse(change, WriteError::NoLink, &mut self.state, now);
         }
         self.changes.push(change, &mut self.state);
     }

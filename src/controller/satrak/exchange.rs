@@ -22,7 +22,7 @@ pub(super) enum Purpose {
     /// A step of putting a target on the unit.
     Prepare,
     /// A step of changing a group of settings.
-    Settle,
+    WriteSettings,
     /// Metal is to move.
     Motion(Motion),
     /// A program is to be switched off, without hurry.
@@ -62,7 +62,7 @@ impl Outstanding {
                 word,
                 Word::Satellite | Word::SatelliteHttp | Word::SatelliteFtp | Word::LoadImage
             )
-            && self.purpose == Purpose::Settle
+            && self.purpose == Purpose::WriteSettings
     }
 
     pub(super) fn is_status(&self) -> bool {
@@ -75,7 +75,7 @@ impl Outstanding {
 
     /// A halt or a newer wish came after it. Settings move nothing.
     pub(super) fn disown(&mut self) {
-        if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::Settle) {
+        if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::WriteSettings) {
             self.purpose = Purpose::Disowned;
         }
     }
@@ -199,7 +199,7 @@ impl Satrak {
                 self.advance_preparation(&reply);
                 self.take_report(reply, outstanding.clock.first_sent, now);
             }
-            (reply, Purpose::Settle) => {
+            (reply, Purpose::WriteSettings) => {
                 self.take_report(reply.clone(), outstanding.clock.first_sent, now);
                 self.change_answered(&reply, now);
             }
@@ -254,7 +254,7 @@ impl Satrak {
                 self.poll_failed(query, ReadFailure::Refused(code), now);
             }
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
-            Purpose::Settle => self.change_refused(code, now),
+            Purpose::WriteSettings => self.change_refused(code, now),
             Purpose::Motion(motion) => {
                 self.events.push_back(ControllerEvent::Refused(motion.into(), code));
                 self.look_soon(now);
@@ -371,7 +371,7 @@ impl Satrak {
                 self.poll_failed(query, ReadFailure::Unanswered, now);
             }
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
-            Purpose::Settle => self.change_unanswered(now),
+            Purpose::WriteSettings => self.change_unanswered(now),
             Purpose::Motion(motion) => {
                 self.events.push_back(ControllerEvent::Unanswered(motion.into()));
                 self.look_soon(now);

@@ -13,7 +13,7 @@ mod times;
 mod wish;
 
 use crate::{
-    device::settings::{Group, SettleError, Unfit, Values},
+    device::settings::{Group, Unfit, Values, WriteError},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
 pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_SOURCE};
@@ -101,7 +101,7 @@ pub(super) struct Plan {
     pub(super) is_clock: bool,
 }
 
-pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, SettleError>;
+pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, WriteError>;
 
 impl Plan {
     const fn reported(

@@ -15,7 +15,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     name: "SVS Satrak",
     short_name: "Satrak",
     link: Link::Tcp,
-    usual_address: "192.168.10.21:4001",
+    default_address: "192.168.10.21:4001",
     usual: Usual {
         mount: Mount::Xy {
             lower_axis_azimuth_deg: 0.0,

@@ -17,9 +17,9 @@ pub struct GroupState {
     /// Why the last attempt to read it failed; `None` when it did not.
     pub failure: Option<ReadFailure>,
     /// How far a change of it is; `None` while none is under way.
-    pub step: Option<SettleStep>,
+    pub step: Option<WriteStep>,
     /// The last change of it that is over.
-    pub settled: Option<Arc<Settled>>,
+    pub written: Option<Arc<Written>>,
 }
 
 /// A group as it was read.
@@ -44,7 +44,7 @@ pub enum ReadFailure {
 
 /// How far a change is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SettleStep {
+pub enum WriteStep {
     /// Others come first.
     Waiting,
     /// It is read whether the device still holds what the operator saw.
@@ -73,18 +73,18 @@ pub struct Change {
 
 /// A change that is over.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Settled {
+pub struct Written {
     /// What was asked for.
     pub change: Change,
     /// When it was over.
     pub at: Timestamp,
     /// Read back and found right; or why not.
-    pub result: Result<(), SettleError>,
+    pub result: Result<(), WriteError>,
 }
 
 /// Why a device does not hold what it was to hold, or is not known to.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SettleError {
+pub enum WriteError {
     /// There is no link.
     #[error("there is no link to the unit")]
     NoLink,

@@ -2,14 +2,14 @@
 
 use std::collections::VecDeque;
 
-use super::{Change, Group, SettleError, SettleStep, Settling};
+use super::{Change, Group, SettingsWrite, WriteError, WriteStep};
 use crate::{clock::Moment, device::AntennaState};
 
 /// The changes of one device. How far each is stands in [`AntennaState::held`].
 #[derive(Debug)]
 pub(crate) struct ChangeQueue {
     groups: &'static [&'static Group],
-    under_way: Option<Settling>,
+    under_way: Option<SettingsWrite>,
     waiting: VecDeque<Change>,
     /// The unit is locked out: no setting goes to it.
     are_locked: bool,
@@ -29,7 +29,7 @@ impl ChangeQueue {
         self.are_locked
     }
 
-    pub(crate) fn under_way(&self) -> Option<&Settling> {
+    pub(crate) fn under_way(&self) -> Option<&SettingsWrite> {
         self.under_way.as_ref()
     }
 
@@ -39,7 +39,7 @@ impl ChangeQueue {
     }
 
     pub(crate) fn push(&mut self, change: Change, state: &mut AntennaState) {
-        state.group(change.group).step = Some(SettleStep::Waiting);
+        state.group(change.group).step = Some(WriteStep::Waiting);
         self.waiting.push_back(change);
     }
 
@@ -48,12 +48,12 @@ impl ChangeQueue {
         while self.under_way.is_none()
             && let Some(change) = self.waiting.pop_front()
         {
-            match Settling::new(&change, self.groups) {
-                Ok(settling) => {
-                    self.under_way = Some(settling);
+            match SettingsWrite::new(&change, self.groups) {
+                Ok(settings_write) => {
+                    self.under_way = Some(settings_write);
                     self.show(state);
                 }
-                Err(error) => self.settled(change, Err(error), state, now),
+                Err(error) => self.written(change, Err(error), state, now),
             }
         }
     }
@@ -63,10 +63,10 @@ impl ChangeQueue {
         &mut self,
         state: &mut AntennaState,
         now: Moment,
-        step: impl FnOnce(&mut Settling) -> Result<(), SettleError>,
+        step: impl FnOnce(&mut SettingsWrite) -> Result<(), WriteError>,
     ) -> bool {
-        let Some(settling) = &mut self.under_way else { return false };
-        let result = step(settling);
+        let Some(settings_write) = &mut self.under_way else { return false };
+        let result = step(settings_write);
         let is_over = result.is_err();
         if is_over {
             self.end(result, state, now);
@@ -79,12 +79,12 @@ impl ChangeQueue {
     /// The change under way is over.
     pub(crate) fn end(
         &mut self,
-        result: Result<(), SettleError>,
+        result: Result<(), WriteError>,
         state: &mut AntennaState,
         now: Moment,
     ) {
-        if let Some(settling) = self.under_way.take() {
-            self.settled(settling.change, result, state, now);
+        if let Some(settings_write) = self.under_way.take() {
+            self.written(settings_write.change, result, state, now);
         }
     }
 
@@ -92,29 +92,29 @@ impl ChangeQueue {
     pub(crate) fn refuse(
         &self,
         change: Change,
-        why: SettleError,
+        why: WriteError,
         state: &mut AntennaState,
         now: Moment,
     ) {
-        self.settled(change, Err(why), state, now);
+        self.written(change, Err(why), state, now);
     }
 
     /// The link is gone: what may be on the device is not known.
     pub(crate) fn abandon(&mut self, state: &mut AntennaState, now: Moment) {
-        if let Some(settling) = self.under_way.take() {
-            let is_lost = settling.may_be_sent();
-            let error = if is_lost { SettleError::LinkLost } else { SettleError::NoLink };
-            self.settled(settling.change, Err(error), state, now);
+        if let Some(settings_write) = self.under_way.take() {
+            let is_lost = settings_write.may_be_sent();
+            let error = if is_lost { WriteError::LinkLost } else { WriteError::NoLink };
+            self.written(settings_write.change, Err(error), state, now);
         }
         while let Some(change) = self.waiting.pop_front() {
-            self.settled(change, Err(SettleError::NoLink), state, now);
+            self.written(change, Err(WriteError::NoLink), state, now);
         }
     }
 
-    fn settled(
+    fn written(
         &self,
         change: Change,
-        result: Result<(), SettleError>,
+        result: Result<(), WriteError>,
         state: &mut AntennaState,
         now: Moment,
     ) {
@@ -123,8 +123,8 @@ impl ChangeQueue {
     }
 
     fn show(&self, state: &mut AntennaState) {
-        if let Some(settling) = &self.under_way {
-            state.group(settling.group.key).step = Some(settling.shown());
+        if let Some(settings_write) = &self.under_way {
+            state.group(settings_write.group.key).step = Some(settings_write.shown());
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::{
     clock::Moment,
     device::{
         Motion, TrackTarget,
-        settings::{Change, SettleError},
+        settings::{Change, WriteError},
     },
     driver::Intent,
 };
@@ -16,7 +16,7 @@ impl Gate {
     /// the antenna points waits until it stands and would not start by itself. A
     /// refusal stands among the outcomes of the settings too. `may_move` says that
     /// the antenna was told to move, whatever it does.
-    pub(in crate::driver) fn settle(
+    pub(in crate::driver) fn write_settings(
         &mut self,
         change: Change,
         may_move: bool,
@@ -29,7 +29,7 @@ impl Gate {
             _ => Ok(()),
         });
         if let Err(refusal) = allowed {
-            self.controller.refuse_change(change, SettleError::LockedOut, now);
+            self.controller.refuse_change(change, WriteError::LockedOut, now);
             return Err(refusal);
         }
         let group = self.make.groups.iter().find(|group| group.key == change.group);
@@ -43,10 +43,10 @@ impl Gate {
             })
         };
         let Some((field, why)) = field.and_then(|field| Some((field, hindrance()?))) else {
-            self.controller.settle(change, now);
+            self.controller.write_settings(change, now);
             return Ok(());
         };
-        let error = SettleError::Hindered { field: field.key, hindrance: why };
+        let error = WriteError::Hindered { field: field.key, hindrance: why };
         self.controller.refuse_change(change, error, now);
         Err(Refusal::Setting { field: field.label, why })
     }

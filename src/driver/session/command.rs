@@ -14,7 +14,7 @@ use crate::{
     device::{
         Motion,
         panel::Act,
-        settings::{Change, SettleError},
+        settings::{Change, WriteError},
     },
     driver::{Intent, Refusal},
     plan::{Bounds, OnBoardPass, ProgramTrack},
@@ -88,7 +88,7 @@ pub enum Command {
     ReadGroup(&'static str),
     /// Put new values of a group of settings on the device. The outcome stands
     /// in the snapshot.
-    Settle(Change),
+    WriteSettings(Change),
     /// Lock the unit out for maintenance: from now on nothing but questions and STOP
     /// goes to it. What moves is stopped first.
     LockOut(LockOut),
@@ -106,7 +106,7 @@ impl Session {
         let quiet = matches!(
             command,
             Command::Jog { .. }
-                | Command::Settle(_)
+                | Command::WriteSettings(_)
                 | Command::ProgramTrack(_)
                 | Command::ProgramTrackIntoSun(_)
                 | Command::Track(_)
@@ -152,7 +152,7 @@ impl Session {
             }
             Command::AutoTrack(false) => self.gate.device().disable_auto(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
-            Command::Settle(change) => self.settle(change, now),
+            Command::WriteSettings(change) => self.write_settings(change, now),
             Command::Ask(question) => self.gate.device().ask(&question),
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
@@ -270,8 +270,8 @@ impl Session {
             return;
         }
         match command {
-            Command::Settle(change) => {
-                self.gate.device().refuse_change(change, SettleError::NoLink, now);
+            Command::WriteSettings(change) => {
+                self.gate.device().refuse_change(change, WriteError::NoLink, now);
             }
             // A group is read when the link is back and somebody looks; that
             // nothing can be asked is told by the link itself.

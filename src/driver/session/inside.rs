@@ -15,7 +15,7 @@ use crate::{
 /// For so long the operator's word lets it out.
 const ALLOWED: Duration = Duration::from_mins(1);
 /// So many ways to a refuge are tried.
-const MOST_REFUGES: usize = 64;
+const MAX_REFUGES: usize = 64;
 
 /// What the antenna is inside of, by the last look.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -97,7 +97,7 @@ impl Session {
         // Without an elevation axis it gets to its own elevation alone.
         let is_reached =
             |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
-        let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MOST_REFUGES);
+        let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);
         let mut round_a_corner = None;
         let refuge = refuges
             .filter_map(|refuge| way(refuge, Intent::Position))

@@ -128,7 +128,7 @@ impl Session {
             | Command::SeenStanding
             | Command::Resume
             | Command::Within(_)
-            | Command::Settle(_)
+            | Command::WriteSettings(_)
             | Command::Disconnect
             | Command::ReadGroup(_)
             | Command::Ask(_)

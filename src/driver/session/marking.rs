@@ -9,7 +9,7 @@ use super::{Event, Session};
 use crate::{astro::time::seconds_between, clock::Instant, clock::Moment, driver::Safety};
 
 /// A disk that takes longer must not keep the operator from moving the antenna.
-const MOST: Duration = Duration::from_millis(300);
+const MAX: Duration = Duration::from_millis(300);
 /// How often it is looked whether the mark is on the disk.
 const LOOK: Duration = Duration::from_millis(2);
 /// A mark that is older asks: much may have been done at the antenna since.
@@ -39,7 +39,7 @@ impl Session {
         match &mut self.owed.marking {
             Marking::Marked | Marking::Failed => true,
             Marking::Writing { since, writing } => {
-                let is_late = now.steady.saturating_duration_since(*since) >= MOST;
+                let is_late = now.steady.saturating_duration_since(*since) >= MAX;
                 if !writing.is_finished() && !is_late {
                     return false;
                 }

@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// So many commands in a row may stay without an answer and without effect.
-const MOST_LOST: u32 = 3;
+const MAX_LOST: u32 = 3;
 
 /// Where a barrier is in the way the next look comes no sooner.
 const BLOCKED: Duration = Duration::from_secs(2);
@@ -247,7 +247,7 @@ impl Session {
         let Some(following) = self.activity.last_program_mut() else { return false };
         following.lost += 1;
         following.planner.forget_sent();
-        following.lost < MOST_LOST
+        following.lost < MAX_LOST
     }
 
     /// A position was taken by the device.

@@ -91,7 +91,7 @@ impl Session {
                 }
             }
             ControllerEvent::Accepted(Asked::Motion(Motion::Position { .. })) => {
-                self.position_taken()
+                self.position_taken();
             }
             ControllerEvent::Accepted(_) => {}
             ControllerEvent::Refused(asked, code) => {

@@ -9,7 +9,7 @@ use crate::{
     device::{
         ElementFiles,
         panel::{Check, CheckState},
-        settings::{Change, HeldGroup, Hindrance, Settled},
+        settings::{Change, HeldGroup, Hindrance, Written},
     },
     driver,
     engine::antenna::AntennaModel,
@@ -59,7 +59,7 @@ pub(in crate::engine) struct UnitNow {
 /// How a selection ended.
 #[derive(Debug, Clone)]
 pub(super) struct Answer {
-    settled: Arc<Settled>,
+    written: Arc<Written>,
     /// What the unit holds now.
     held: Option<HeldGroup>,
     checks: Arc<[Check]>,
@@ -80,7 +80,7 @@ impl UnitNow {
         let group = takes.and_then(|takes| state.held.get(takes.group));
         let answer = group.and_then(|group| {
             Some(Answer {
-                settled: group.settled.clone()?,
+                written: group.written.clone()?,
                 held: group.held.clone(),
                 checks: Arc::clone(&state.checks),
                 checked_at: state.checked_at,
@@ -113,7 +113,7 @@ impl Selection {
     /// What the session is told. The present track ends.
     pub(in crate::engine) fn command(&self) -> driver::Command {
         let values = (self.takes.choose)(&self.file, &self.satellite.name);
-        driver::Command::Settle(Change {
+        driver::Command::WriteSettings(Change {
             ticket: self.ticket,
             group: self.takes.group,
             values,
@@ -125,12 +125,12 @@ impl Selection {
     /// When and how it ended; `None` while it has not. Good only when the unit
     /// has named the very object and its checks were read since.
     pub(super) fn end(&self, answer: &Answer) -> Option<(Timestamp, Result<(), String>)> {
-        let settled = &answer.settled;
-        if settled.change.ticket != self.ticket {
+        let written = &answer.written;
+        if written.change.ticket != self.ticket {
             return None;
         }
-        let result = settled.result.clone().map_err(|error| error.to_string());
-        Some((settled.at, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
+        let result = written.result.clone().map_err(|error| error.to_string());
+        Some((written.at, result.and_then(|()| self.judge(answer).map_err(str::to_owned))))
     }
 
     fn judge(&self, answer: &Answer) -> Result<(), &'static str> {
@@ -175,7 +175,7 @@ mod tests {
             ELEMENT_FILES,
             settings::{CATALOG_NUMBER, CONTINUE_TRACKING, PERIOD, SATELLITE_NAME},
         },
-        device::settings::SettleError,
+        device::settings::WriteError,
         driver::Command,
     };
 
@@ -201,11 +201,11 @@ mod tests {
         ELEMENT_FILES.checks.iter().map(|name| Check::new(name, file, "")).collect()
     }
 
-    fn answer(result: Result<(), SettleError>) -> Answer {
-        let Command::Settle(change) = selection().command() else { panic!() };
+    fn answer(result: Result<(), WriteError>) -> Answer {
+        let Command::WriteSettings(change) = selection().command() else { panic!() };
         let values = [CATALOG_NUMBER.with(NUMBER.into())].into();
         Answer {
-            settled: Arc::new(Settled { change, at: time(3), result }),
+            written: Arc::new(Written { change, at: time(3), result }),
             held: Some(HeldGroup { values, read_at: time(1) }),
             checks: checks(CheckState::Good),
             checked_at: Some(time(2)),
@@ -218,7 +218,7 @@ mod tests {
 
     #[test]
     fn the_unit_is_told_to_end_its_track_and_to_keep_its_period() {
-        let Command::Settle(change) = selection().command() else { panic!() };
+        let Command::WriteSettings(change) = selection().command() else { panic!() };
         assert_eq!(CONTINUE_TRACKING.of(&change.values), Some(false));
         assert_eq!(SATELLITE_NAME.of(&change.values).as_deref(), Some("NOAA 20"));
         assert!(!change.values.contains_key(PERIOD.name));
@@ -229,7 +229,7 @@ mod tests {
         assert_eq!(selection().end(&answer(Ok(()))), Some((time(3), Ok(()))));
         let other = Selection { ticket: TICKETS + 2, ..selection() };
         assert_eq!(other.end(&answer(Ok(()))), None, "of another order");
-        let failed = answer(Err(SettleError::LinkLost));
+        let failed = answer(Err(WriteError::LinkLost));
         assert!(problem(&failed).contains("link was lost"));
         let old = Answer { checked_at: Some(time(-1)), ..answer(Ok(())) };
         assert!(problem(&old).contains("did not tell its checks"));

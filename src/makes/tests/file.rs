@@ -408,9 +408,9 @@ fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     };
     assert_eq!(
         station.keep_outs,
-        [strict("Keep-out 1", 30.0), mast(), strict("mast 2", KeepOut::USUAL_MARGIN_DEG)]
+        [strict("Keep-out 1", 30.0), mast(), strict("mast 2", KeepOut::DEFAULT_MARGIN_DEG)]
     );
-    let sun = SunAvoidance { radius_deg: 5.0, ahead_min: SunAvoidance::USUAL_AHEAD_MIN };
+    let sun = SunAvoidance { radius_deg: 5.0, ahead_min: SunAvoidance::DEFAULT_AHEAD_MIN };
     assert_eq!(station.sun_avoidance, Some(sun));
     let places: Vec<&str> = notes.iter().map(|note| note.place.as_str()).collect();
     assert_eq!(

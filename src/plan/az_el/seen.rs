@@ -17,7 +17,7 @@ pub(super) struct Seen {
     /// Sine and cosine of its elevation.
     height: (f64, f64),
     /// Position of the elevation axis, degrees.
-    usual_deg: f64,
+    default_deg: f64,
     usual: (f64, f64),
     /// Ends of the elevation axis, where it makes up for the azimuth, degrees.
     ends_deg: Option<[f64; 2]>,
@@ -30,15 +30,15 @@ impl Seen {
         let elevation_deg = direction.elevation_deg();
         let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
         let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
-        let usual_deg = side_deg.min(to_deg).max(from_deg);
+        let default_deg = side_deg.min(to_deg).max(from_deg);
         let helps = ends_deg.filter(|_| is_overhead(direction));
         let ends_deg = helps.map(|(from_deg, to_deg)| [from_deg, to_deg]);
         let turned = |deg: f64| deg.to_radians().sin_cos();
         Self {
             azimuth_rad: direction.azimuth.radians(),
             height: direction.elevation.radians().sin_cos(),
-            usual_deg,
-            usual: turned(usual_deg),
+            default_deg,
+            usual: turned(default_deg),
             ends_deg,
             ends: ends_deg.map(|ends_deg| ends_deg.map(turned)),
         }
@@ -47,7 +47,7 @@ impl Seen {
     /// The best position of the elevation axis for a position of the azimuth axis, both in
     /// degrees.
     pub(super) fn elevation_deg(&self, azimuth_deg: f64) -> f64 {
-        let Some([from_deg, to_deg]) = self.ends_deg else { return self.usual_deg };
+        let Some([from_deg, to_deg]) = self.ends_deg else { return self.default_deg };
         let (up, along) = self.in_plane(azimuth_deg);
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }

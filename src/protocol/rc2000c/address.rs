@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-const LEAST: u8 = 49;
-const MOST: u8 = 111;
+const MIN: u8 = 49;
+const MAX: u8 = 111;
 
 /// Address of a controller, 49 to 111 (appendix D). It goes over the line as
 /// one printable character.
@@ -12,7 +12,7 @@ pub struct Address(u8);
 
 /// A number that is no address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("address {number} is not between {LEAST} and {MOST}")]
+#[error("address {number} is not between {MIN} and {MAX}")]
 pub struct AddressError {
     pub number: u8,
 }
@@ -23,11 +23,7 @@ impl Address {
 
     /// The address with this number, 49 to 111.
     pub const fn new(number: u8) -> Result<Self, AddressError> {
-        if LEAST <= number && number <= MOST {
-            Ok(Self(number))
-        } else {
-            Err(AddressError { number })
-        }
+        if MIN <= number && number <= MAX { Ok(Self(number)) } else { Err(AddressError { number }) }
     }
 
     /// The number, which is also the byte on the line.

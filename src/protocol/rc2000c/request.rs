@@ -49,11 +49,11 @@ pub enum Query {
 pub struct NameIndex(u8);
 
 impl NameIndex {
-    const MOST: u8 = 50;
+    const MAX: u8 = 50;
 
     /// A place from 1 to 50.
     pub fn new(index: u8) -> Result<Self, ValueError> {
-        value::checked("place in the list", index.into(), 1, Self::MOST.into())?;
+        value::checked("place in the list", index.into(), 1, Self::MAX.into())?;
         Ok(Self(index))
     }
 

@@ -105,13 +105,13 @@ pub struct Faults {
 
 impl Faults {
     /// The document's own example leaves the last field out.
-    pub(super) const LEAST_FIELDS: usize = 11;
+    pub(super) const MIN_FIELDS: usize = 11;
     pub(super) const FIELDS: usize = 12;
 
     pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
         let mut states = [None; 12];
         for (state, kind) in states.iter_mut().zip(FaultKind::ALL) {
-            if kind.index() > fields.count().max(Self::LEAST_FIELDS) {
+            if kind.index() > fields.count().max(Self::MIN_FIELDS) {
                 break;
             }
             let code = fields.integer(kind.index())?;

@@ -133,8 +133,8 @@ impl Shape {
         const ANY: usize = usize::MAX;
         let (least, listed, most, decimals) = match word {
             Word::Version => (1, 2, ANY, 0),
-            Word::Status => (Status::LEAST_FIELDS, Status::FIELDS, Status::MOST_FIELDS, 4),
-            Word::ErrStatus => (Faults::LEAST_FIELDS, Faults::FIELDS, ANY, 0),
+            Word::Status => (Status::MIN_FIELDS, Status::FIELDS, Status::MAX_FIELDS, 4),
+            Word::ErrStatus => (Faults::MIN_FIELDS, Faults::FIELDS, ANY, 0),
             Word::Time => (6, 7, 7, 0),
             Word::StartStopTime => (12, 12, 12, 0),
             Word::Settings => (Settings::FIELDS, Settings::FIELDS, Settings::FIELDS, 5),

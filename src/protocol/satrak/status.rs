@@ -89,12 +89,12 @@ pub struct Status {
 
 impl Status {
     /// Fields of an older unit.
-    pub(super) const LEAST_FIELDS: usize = 15;
+    pub(super) const MIN_FIELDS: usize = 15;
     /// Fields that the document lists.
     pub(super) const FIELDS: usize = 16;
     /// More than a newer unit may add. Decimal commas turn 15 fields into 19,
     /// which would be read as other angles, so they must not pass as additions.
-    pub(super) const MOST_FIELDS: usize = 18;
+    pub(super) const MAX_FIELDS: usize = 18;
 
     pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
         Ok(Self {

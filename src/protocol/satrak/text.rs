@@ -36,10 +36,10 @@ pub enum TextProblem {
     KeepSign,
 }
 
-fn check(text: &str, most_bytes: usize) -> Result<(), TextProblem> {
+fn check(text: &str, max_bytes: usize) -> Result<(), TextProblem> {
     let problem = [
         (text.is_empty(), TextProblem::Empty),
-        (text.len() > most_bytes, TextProblem::TooLong),
+        (text.len() > max_bytes, TextProblem::TooLong),
         (text.bytes().any(|byte| !(0x20..0x7f).contains(&byte)), TextProblem::NotPrintable),
         (text.contains(','), TextProblem::Comma),
         (text.contains(['$', '*']), TextProblem::FrameSign),

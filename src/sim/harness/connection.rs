@@ -12,7 +12,7 @@ const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// With [`Unit::SPLIT`], the pause between two pieces.
 const SPLIT_PAUSE: Duration = Duration::from_millis(5);
 /// Replies that may wait; with more, nothing is read.
-const MOST_WAITING: usize = 64;
+const MAX_WAITING: usize = 64;
 
 impl<U: Unit> Control<U> {
     /// Serves one client until it leaves, is dropped or stops reading.
@@ -83,7 +83,7 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
             let waiting = &self.replies.waiting;
             let due = waiting.front().map(|(due, _)| *due);
             tokio::select! {
-                read = self.stream.read(&mut buffer), if waiting.len() < MOST_WAITING => {
+                read = self.stream.read(&mut buffer), if waiting.len() < MAX_WAITING => {
                     let count = read?;
                     if count == 0 {
                         return Ok(());

@@ -206,9 +206,9 @@ impl Axis {
     fn turn(&mut self, wanted_counts_s: f64, step_s: f64) {
         let is_braking = wanted_counts_s.abs() < self.rate_counts_s.abs()
             || wanted_counts_s * self.rate_counts_s < 0.0;
-        let most_change = step_s * if is_braking { COAST_COUNTS_S2 } else { RAMP_COUNTS_S2 };
+        let max_change = step_s * if is_braking { COAST_COUNTS_S2 } else { RAMP_COUNTS_S2 };
         let change = wanted_counts_s - self.rate_counts_s;
-        self.rate_counts_s += change.clamp(-most_change, most_change);
+        self.rate_counts_s += change.clamp(-max_change, max_change);
         self.counts += self.rate_counts_s * step_s;
         let end = if self.rate_counts_s < 0.0 { *self.travel.start() } else { *self.travel.end() };
         let is_beyond = (self.counts - end) * self.rate_counts_s >= 0.0;

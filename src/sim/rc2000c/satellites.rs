@@ -9,7 +9,7 @@ const NEAR_COUNTS: [u16; 2] = [45, 20];
 /// Closer than this a polarization is the stored one, and close to it.
 const ON_UNITS: u16 = 5;
 const NEAR_UNITS: u16 = 20;
-const MOST_AGC: f64 = 900.0;
+const MAX_AGC: f64 = 900.0;
 const NOISE_AGC: f64 = 60.0;
 /// Half width of the simulated beam.
 const BEAM_COUNTS: f64 = 25.0;
@@ -100,7 +100,7 @@ impl StoredSatellite {
         let away = f64::from(self.az_counts.abs_diff(az))
             .hypot(f64::from(self.el_counts.abs_diff(el)))
             / BEAM_COUNTS;
-        (NOISE_AGC + (MOST_AGC - NOISE_AGC) * (-away * away).exp()).round() as u16
+        (NOISE_AGC + (MAX_AGC - NOISE_AGC) * (-away * away).exp()).round() as u16
     }
 }
 

@@ -132,11 +132,11 @@ impl Tracking {
     pub(super) fn highest_deg(&self, site: Site) -> Option<f64> {
         const SAMPLE_S: i64 = 10;
         /// A day of samples.
-        const MOST_SAMPLES: usize = 8640;
+        const MAX_SAMPLES: usize = 8640;
         let (target, window) = (self.target.as_ref()?, self.window?);
         (window.start().as_second()..=window.stop().as_second())
             .step_by(SAMPLE_S as usize)
-            .take(MOST_SAMPLES)
+            .take(MAX_SAMPLES)
             .filter_map(|second| Timestamp::from_second(second).ok())
             .filter_map(|at| target.direction(site, at).ok())
             .map(AzEl::elevation_deg)

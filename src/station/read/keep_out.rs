@@ -77,7 +77,7 @@ impl Fields<'_> {
         });
         let is_too_large = written.is_some_and(|margin| margin > *ranges::MARGIN_DEG.end());
         let default =
-            if is_too_large { *ranges::MARGIN_DEG.end() } else { KeepOut::USUAL_MARGIN_DEG };
+            if is_too_large { *ranges::MARGIN_DEG.end() } else { KeepOut::DEFAULT_MARGIN_DEG };
         self.number("margin_deg", &ranges::MARGIN_DEG, default)
     }
 
@@ -103,7 +103,7 @@ impl Fields<'_> {
         }
         let (radius_deg, ahead_min) = self.inner(KEY, |sun| {
             let radius_deg = sun.number("radius_deg", &ranges::SUN_RADIUS_DEG, f64::NAN);
-            let usual = SunAvoidance::USUAL_AHEAD_MIN;
+            let usual = SunAvoidance::DEFAULT_AHEAD_MIN;
             (radius_deg, sun.number("ahead_min", &ranges::SUN_AHEAD_MIN, usual))
         });
         if radius_deg.is_nan() {

@@ -10,7 +10,7 @@ use crate::{
 /// Columns of a TLE line before its checksum.
 const TLE_COLUMNS: usize = 68;
 /// How many names are offered in place of one that was not found.
-const MOST_SIMILAR: usize = 5;
+const MAX_SIMILAR: usize = 5;
 
 /// What a unit will make of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,7 +97,7 @@ fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
         !wanted.is_empty() && !name.is_empty() && (name.contains(&wanted) || wanted.contains(&name))
     };
     let names = elements.iter().map(Elements::name).filter(is_similar);
-    names.take(MOST_SIMILAR).map(str::to_owned).collect()
+    names.take(MAX_SIMILAR).map(str::to_owned).collect()
 }
 
 /// Whether two lines that follow one another are those of a TLE.

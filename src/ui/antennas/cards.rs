@@ -46,7 +46,7 @@ pub(super) fn show(
     if all.is_empty() {
         return row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
     }
-    let least = row::LEAST_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
+    let least = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
     let half = (room - GAP) / 2.0;
     if half < least {
         column(ui, room.min(WIDEST), unit, form, &all, (&mut *scroll_to, desk));

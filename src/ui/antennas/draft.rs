@@ -6,7 +6,7 @@ use jiff::Timestamp;
 
 use crate::{
     clock::Instant,
-    device::settings::{Access, Field, Kind, Settled, Unfit, Value, Values},
+    device::settings::{Access, Field, Kind, Unfit, Value, Values, Written},
     ui::widgets::hold_button::HoldState,
 };
 
@@ -55,7 +55,7 @@ pub(super) enum Reading {
 }
 
 /// What stands in a field while nothing is typed.
-fn usual_text(field: &Field, held: Option<&Values>) -> String {
+fn default_text(field: &Field, held: Option<&Values>) -> String {
     if field.access == Access::Write {
         return match field.kind {
             Kind::Flag => "Off".to_owned(),
@@ -73,13 +73,13 @@ impl Draft {
     /// What stands in the field.
     pub(super) fn text(&self, field: &Field, held: Option<&Values>) -> String {
         let typed = self.edits.get(field.key).map(|edit| edit.text.clone());
-        typed.unwrap_or_else(|| usual_text(field, held))
+        typed.unwrap_or_else(|| default_text(field, held))
     }
 
     /// The operator has typed `text`.
     pub(super) fn type_in(&mut self, field: &'static Field, text: String, held: Option<&Values>) {
         self.marks.remove(field.key);
-        if text == usual_text(field, held) {
+        if text == default_text(field, held) {
             self.edits.remove(field.key);
         } else {
             if self.edits.is_empty() {
@@ -91,7 +91,7 @@ impl Draft {
 
     pub(super) fn reading(&self, field: &Field, held: Option<&Values>) -> Reading {
         let Some(edit) = self.edits.get(field.key) else { return Reading::Same };
-        if edit.text == usual_text(field, held) {
+        if edit.text == default_text(field, held) {
             return Reading::Same;
         }
         match field.kind.read(&edit.text) {
@@ -153,14 +153,14 @@ impl Draft {
 
     /// The change is over. What was proved is no longer an edit; what the form
     /// shows from here on is what the operator sees.
-    pub(super) fn end(&mut self, settled: &Settled, fields: &[Field], held: Option<&Values>) {
+    pub(super) fn end(&mut self, written: &Written, fields: &[Field], held: Option<&Values>) {
         let Some(sent) = self.sent.take() else { return };
         for (key, value) in &sent.values {
             let Some(field) = fields.iter().find(|field| field.key == *key) else { continue };
-            let mark = match (&settled.result, field.access) {
+            let mark = match (&written.result, field.access) {
                 (Err(_), _) => Mark::Rejected,
-                (Ok(()), Access::Write) => Mark::Taken(settled.at),
-                (Ok(()), _) => Mark::Verified(settled.at),
+                (Ok(()), Access::Write) => Mark::Taken(written.at),
+                (Ok(()), _) => Mark::Verified(written.at),
             };
             self.marks.insert(field.key, mark);
             let proved = held.and_then(|held| held.get(field.key)).cloned();
@@ -188,7 +188,7 @@ impl Draft {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::settings::{Change, Key, SettleError};
+    use crate::device::settings::{Change, Key, WriteError};
 
     static FIELDS: [Field; 2] = [
         Field::edit(Key::decimal("low", 0.0, 90.0, 1), "Low"),
@@ -205,10 +205,10 @@ mod tests {
         draft
     }
 
-    fn settled(result: Result<(), SettleError>) -> Settled {
+    fn written(result: Result<(), WriteError>) -> Written {
         let values = held(5.0);
         let change = Change { ticket: 1, group: "g", values, seen: None, is_unlocked: false };
-        Settled { change, at: Timestamp::UNIX_EPOCH, result }
+        Written { change, at: Timestamp::UNIX_EPOCH, result }
     }
 
     fn send(draft: &mut Draft) {
@@ -242,11 +242,11 @@ mod tests {
         let mut draft = draft_of("5");
         send(&mut draft);
         assert!(draft.is_sending("low"));
-        draft.end(&settled(Err(SettleError::NoLink)), &FIELDS, Some(&held(3.0)));
+        draft.end(&written(Err(WriteError::NoLink)), &FIELDS, Some(&held(3.0)));
         assert_eq!(draft.mark(&FIELDS[0], Some(&held(3.0))), Some(Mark::Rejected));
         assert_eq!(draft.text(&FIELDS[0], Some(&held(3.0))), "5");
         send(&mut draft);
-        draft.end(&settled(Ok(())), &FIELDS, Some(&held(5.0)));
+        draft.end(&written(Ok(())), &FIELDS, Some(&held(5.0)));
         let verified = Some(Mark::Verified(Timestamp::UNIX_EPOCH));
         assert_eq!(draft.mark(&FIELDS[0], Some(&held(5.0))), verified);
         assert_eq!(draft.mark(&FIELDS[0], Some(&held(7.5))), None, "changed by another");
@@ -260,7 +260,7 @@ mod tests {
         let mut draft = draft_of("5");
         send(&mut draft);
         draft.type_in(&FIELDS[0], "6".to_owned(), Some(&held(3.0)));
-        draft.end(&settled(Ok(())), &FIELDS, Some(&held(5.0)));
+        draft.end(&written(Ok(())), &FIELDS, Some(&held(5.0)));
         let still = draft.reading(&FIELDS[0], Some(&held(5.0)));
         assert_eq!(still, Reading::New(Value::Decimal(6.0)));
     }

@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-const LEAST_HEIGHT: f32 = 64.0;
+const MIN_HEIGHT: f32 = 64.0;
 const PADDING: f32 = 16.0;
 const LINE_GAP: f32 = 4.0;
 /// The report may take this part of the width,
@@ -63,7 +63,7 @@ impl Lines {
 
 /// The height that the bar needs in a view of this width.
 pub(super) fn height(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> f32 {
-    (Lines::of(ui, unit, form, width).height + 16.0).max(LEAST_HEIGHT)
+    (Lines::of(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
 }
 
 /// Shows the bar in `rect` and does what it was asked for.

@@ -187,7 +187,7 @@ impl Form {
         draft.begin(Sent { ticket, at: unit.model.steady, values: values.clone() });
         let is_unlocked = is_service && unit.is_unlocked;
         let change = Change { ticket, group: group.key, values, seen, is_unlocked };
-        commands.push(UiCommand::Antenna(unit.index, Command::Settle(change)));
+        commands.push(UiCommand::Antenna(unit.index, Command::WriteSettings(change)));
     }
 
     /// Takes what came of the changes that were sent.
@@ -195,20 +195,20 @@ impl Form {
         for (key, draft) in &mut self.drafts {
             let (Some(sent), Some(group)) = (draft.sent(), unit.description(key)) else { continue };
             let state = unit.group(key);
-            let settled = state.and_then(|state| state.settled.clone()).filter(|settled| {
-                settled.change.ticket == sent.ticket && settled.change.values == sent.values
+            let written = state.and_then(|state| state.written.clone()).filter(|written| {
+                written.change.ticket == sent.ticket && written.change.values == sent.values
             });
             let held = unit.values(key);
-            if let Some(settled) = settled {
+            if let Some(written) = written {
                 let count = sent.values.len();
-                match &settled.result {
-                    Ok(()) => self.report.verify(group, &sent.values, count, &settled.at),
+                match &written.result {
+                    Ok(()) => self.report.verify(group, &sent.values, count, &written.at),
                     Err(error) => {
-                        let words = outcome::sentence(group, &settled, error, draft.seen(), held);
+                        let words = outcome::sentence(group, &written, error, draft.seen(), held);
                         self.report.lines.push((false, words));
                     }
                 }
-                draft.end(&settled, group.fields, held);
+                draft.end(&written, group.fields, held);
                 continue;
             }
             let is_under_way = state.is_some_and(|state| state.step.is_some());

@@ -2,7 +2,7 @@
 //! now, what to do.
 
 use crate::{
-    device::settings::{Field, Group, Kind, ReadFailure, SettleError, Settled, Value, Values},
+    device::settings::{Field, Group, Kind, ReadFailure, Value, Values, WriteError, Written},
     ui::{format, words},
 };
 
@@ -43,70 +43,70 @@ pub(super) fn read_failure(failure: &ReadFailure) -> String {
     }
 }
 
-/// Why `settled` failed. `seen` is what the form showed before, `held` what the
+/// Why `written` failed. `seen` is what the form showed before, `held` what the
 /// unit holds now.
 pub(super) fn sentence(
     group: &Group,
-    settled: &Settled,
-    error: &SettleError,
+    written: &Written,
+    error: &WriteError,
     seen: Option<&Values>,
     held: Option<&Values>,
 ) -> String {
     let fields: Vec<&Field> =
-        settled.change.values.keys().filter_map(|key| group.field(key)).collect();
+        written.change.values.keys().filter_map(|key| group.field(key)).collect();
     let subject = match fields.as_slice() {
         [only] => only.label,
         _ => group.title,
     };
     let kept = || kept(&fields, held);
     match error {
-        SettleError::NoLink => format!("{subject}: not sent, there is no link. The edit stays."),
-        SettleError::LinkLost => format!(
+        WriteError::NoLink => format!("{subject}: not sent, there is no link. The edit stays."),
+        WriteError::LinkLost => format!(
             "{subject}: the link was lost before it was read back. What the unit holds is not \
              known until it is read again."
         ),
-        SettleError::NoSuchSetting => format!("{subject}: not sent, the unit has no such setting."),
-        SettleError::Locked => {
+        WriteError::NoSuchSetting => format!("{subject}: not sent, the unit has no such setting."),
+        WriteError::Locked => {
             format!("{subject}: not sent, the service functions are locked. Unlock Service.")
         }
-        SettleError::LockedOut => {
+        WriteError::LockedOut => {
             format!("{subject}: not sent, the unit is in maintenance. The edit stays.")
         }
-        SettleError::Moving => {
+        WriteError::Moving => {
             format!("{subject}: not sent, the antenna moves. Apply when it stands.")
         }
-        SettleError::Hindered { field, hindrance } => {
+        WriteError::Hindered { field, hindrance } => {
             let label = group.field(field).map_or(subject, |field| field.label);
             format!("{label}: not sent. {} The edit stays.", words::hindrance(*hindrance))
         }
-        SettleError::Unread(failure) => format!(
+        WriteError::Unread(failure) => format!(
             "{subject}: not sent, its present value cannot be read: {}. Read again.",
             read_failure(failure)
         ),
-        SettleError::ChangedMeanwhile => {
+        WriteError::ChangedMeanwhile => {
             let changed = changed(group, seen, held);
             format!("{}: not sent. {changed} Apply again to send yours.", group.title)
         }
-        SettleError::CannotBeSent { field, reason } => {
+        WriteError::CannotBeSent { field, reason } => {
             let label = group.field(field).map_or(subject, |field| field.label);
             format!("{label} {reason}. Nothing was sent.")
         }
-        SettleError::Refused(code) => {
+        WriteError::Refused(code) => {
             format!("{subject}: the unit answered {} and kept {}.", words::answer(code), kept())
         }
-        SettleError::Unanswered => {
+        WriteError::Unanswered => {
             format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())
         }
-        SettleError::NotReadBack(failure) => format!(
+        WriteError::NotReadBack(failure) => format!(
             "{subject}: sent, but not read back: {}. What the unit holds is not known. Read again.",
             read_failure(failure)
         ),
-        SettleError::Differs(keys) => {
+        WriteError::Differs(keys) => {
             let fields: Vec<&Field> = keys.iter().filter_map(|key| group.field(key)).collect();
             let holds = self::kept(&fields, held);
             format!("{subject}: the unit said OK, but holds {holds}. Read again.")
         }
-        SettleError::Useless(why) => format!("{subject}: set, but {why}."),
+        WriteError::Useless(why) => format!("{subject}: set, but {why}."),
     }
 }
 
@@ -145,23 +145,23 @@ mod tests {
     use crate::device::settings::{Change, Secret};
     use jiff::Timestamp;
 
-    fn said(values: Values, error: &SettleError, seen: f64, held: f64) -> String {
+    fn said(values: Values, error: &WriteError, seen: f64, held: f64) -> String {
         let of = |low| Values::from([("elevation_threshold_deg", Value::Decimal(low))]);
         let change =
             Change { ticket: 1, group: GENERAL.key, values, seen: None, is_unlocked: false };
-        let settled = Settled { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
-        sentence(&GENERAL, &settled, error, Some(&of(seen)), Some(&of(held)))
+        let written = Written { change, at: Timestamp::UNIX_EPOCH, result: Err(error.clone()) };
+        sentence(&GENERAL, &written, error, Some(&of(seen)), Some(&of(held)))
     }
 
     #[test]
     fn a_refusal_names_the_field_the_answer_and_what_was_kept() {
         let values = Values::from([("elevation_threshold_deg", Value::Decimal(12.0))]);
         assert_eq!(
-            said(values.clone(), &SettleError::Refused("7".to_owned()), 2.0, 2.0),
+            said(values.clone(), &WriteError::Refused("7".to_owned()), 2.0, 2.0),
             "Elevation threshold: the unit answered ERR,7 and kept 2.0°."
         );
         assert_eq!(
-            said(values, &SettleError::ChangedMeanwhile, 2.0, 7.5),
+            said(values, &WriteError::ChangedMeanwhile, 2.0, 7.5),
             "General: not sent. On the unit Elevation threshold was 2.0° and is 7.5° now. \
              Apply again to send yours."
         );
@@ -173,14 +173,14 @@ mod tests {
         let values = secret("hunter2");
         let change = Change { ticket: 1, group: FTP.key, values, seen: None, is_unlocked: false };
         for error in [
-            SettleError::Refused("7".to_owned()),
-            SettleError::ChangedMeanwhile,
-            SettleError::Differs(vec![PASSWORD.name]),
+            WriteError::Refused("7".to_owned()),
+            WriteError::ChangedMeanwhile,
+            WriteError::Differs(vec![PASSWORD.name]),
         ] {
             let result = Err(error.clone());
-            let settled = Settled { change: change.clone(), at: Timestamp::UNIX_EPOCH, result };
+            let written = Written { change: change.clone(), at: Timestamp::UNIX_EPOCH, result };
             let (seen, held) = (secret("hunter3"), secret("hunter4"));
-            let words = sentence(&FTP, &settled, &error, Some(&seen), Some(&held));
+            let words = sentence(&FTP, &written, &error, Some(&seen), Some(&held));
             assert!(!words.contains("hunter") && words.contains(HIDDEN), "{words}");
         }
     }

@@ -13,7 +13,7 @@ pub(super) const HEIGHT: f32 = 28.0;
 /// Height of a field in it.
 const FIELD: f32 = 24.0;
 /// The columns need so much.
-pub(super) const LEAST_WIDTH: f32 = 516.0;
+pub(super) const MIN_WIDTH: f32 = 516.0;
 
 /// Setting, on the unit, new value, unit, state.
 pub(super) struct Columns {
@@ -28,7 +28,7 @@ impl Columns {
     /// The columns of a line in `rect`; what is beyond the least width is
     /// shared by the values.
     pub(super) fn of(rect: Rect) -> Self {
-        let spare = (rect.width() - LEAST_WIDTH).max(0.0);
+        let spare = (rect.width() - MIN_WIDTH).max(0.0);
         let widths = [130.0, 92.0 + spare * 0.5, 122.0 + spare * 0.3, 32.0, 128.0 + spare * 0.2];
         let mut left = rect.left();
         let [label, on_unit, new, unit, state] = widths.map(|width| {

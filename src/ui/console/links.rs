@@ -7,13 +7,13 @@ use crate::ui::{format, text, theme, widgets::paint};
 
 const ROW: f32 = 22.0;
 /// Beyond so many antennas the rest is left out.
-const MOST: usize = 6;
+const MAX: usize = 6;
 /// Width of a column with a number.
 const NUMBER: f32 = 58.0;
 
 /// The height that the table of so many antennas takes.
 pub(super) fn height(antennas: usize) -> f32 {
-    (antennas.min(MOST) + 1) as f32 * ROW + 2.0 * PADDING
+    (antennas.min(MAX) + 1) as f32 * ROW + 2.0 * PADDING
 }
 
 /// Draws the table.
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, tallies: &[Tally]) {
     };
     let head = ["lines", "bad", "missing", "median"].map(|word| (word.to_owned(), t.t3));
     show_row(ui, row(0), ("Last 10 min", t.t3), &head);
-    for (index, tally) in tallies.iter().take(MOST).enumerate() {
+    for (index, tally) in tallies.iter().take(MAX).enumerate() {
         let count = |count: usize| format::number(count as f64, 0);
         let at_worst = |number: usize, colour| if number > 0 { colour } else { t.t2 };
         let median = tally.median.map_or_else(

@@ -3,7 +3,7 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use crate::driver::{MOST_LINES, WireLog};
+use crate::driver::{MAX_LINES, WireLog};
 use crate::model::Line;
 
 /// What is shown of the log.
@@ -88,7 +88,7 @@ impl Log {
             self.list(&line, &self.filter.needle.to_lowercase());
             self.lines.push_back(Arc::new(line));
         }
-        self.drop_oldest(MOST_LINES * self.sources.len().max(1));
+        self.drop_oldest(MAX_LINES * self.sources.len().max(1));
         self.waiting() > 0
     }
 
@@ -259,14 +259,14 @@ mod tests {
     fn a_full_log_loses_its_oldest_lines() {
         let wires = WireLog::default();
         let mut log = Log::default();
-        for second in 0..i64::try_from(MOST_LINES).unwrap() + 7 {
+        for second in 0..i64::try_from(MAX_LINES).unwrap() + 7 {
             wires.push(sent(second, "$STOP=*25"));
             if second % 900 == 0 {
                 log.pull([("Dish", &wires)].into_iter());
             }
         }
         while log.pull([("Dish", &wires)].into_iter()) {}
-        assert_eq!(log.shown().len(), MOST_LINES);
+        assert_eq!(log.shown().len(), MAX_LINES);
         assert_eq!(log.take_gone(), 7);
         assert_eq!(log.take_gone(), 0);
         assert!(log.line(6).is_none() && log.line(7).is_some());

@@ -13,7 +13,7 @@ use crate::{
     ui::{text, theme, widgets::card},
 };
 
-const MOST: f32 = 720.0;
+const MAX: f32 = 720.0;
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 const NAME: f32 = 240.0;
@@ -67,7 +67,7 @@ pub(super) fn show(
 ) {
     state.forget_the_added(sources);
     let t = theme::tokens(ui);
-    card::show(ui, MOST, |ui| {
+    card::show(ui, MAX, |ui| {
         ui.label(RichText::new("Add a source").font(text::value()));
         ui.horizontal(|ui| {
             for (kind, word) in

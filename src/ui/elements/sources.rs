@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// A card is not wider than its words need.
-const MOST: f32 = 720.0;
+const MAX: f32 = 720.0;
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -24,7 +24,7 @@ pub(super) fn show(
 ) {
     for (index, source) in model.sources.list.iter().enumerate() {
         let report = model.sources.reports.get(index);
-        card::show(ui, MOST, |ui| one(ui, model, source, report, question, commands));
+        card::show(ui, MAX, |ui| one(ui, model, source, report, question, commands));
     }
 }
 

@@ -37,7 +37,7 @@ impl Draft {
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
-        self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.usual_address) }));
+        self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.default_address) }));
     }
 
     /// The antennas of the form, each by its name before anything was typed.

@@ -16,7 +16,7 @@ use crate::{
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 /// No field is wider than its words need.
-const MOST: f32 = 360.0;
+const MAX: f32 = 360.0;
 const SSH: &str = "22";
 
 /// What was typed for one antenna.
@@ -191,7 +191,7 @@ pub(super) fn field(ui: &mut Ui, (label, hint): (&str, &str), typed: &mut String
             })
             .inner;
         let hint = RichText::new(hint).color(t.t3);
-        let width = ui.available_width().min(MOST);
+        let width = ui.available_width().min(MAX);
         let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
         ui.add(edit).labelled_by(label_id);
     });

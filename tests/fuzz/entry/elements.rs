@@ -11,12 +11,12 @@ use azel::{
 use jiff::{SignedDuration, Timestamp};
 
 /// Objects of one file whose passes are searched for.
-const MOST_OBJECTS: usize = 4;
+const MAX_OBJECTS: usize = 4;
 /// Passes come once or twice a revolution, and a revolution takes over an hour.
-const MOST_PASSES: usize = 40;
+const MAX_PASSES: usize = 40;
 /// States that a day of one object may take; the worst of the catalog takes
 /// some hundreds.
-const MOST_EFFORT: u64 = 50_000;
+const MAX_EFFORT: u64 = 50_000;
 
 /// Closer to the horizon than this, in degrees, either side is right.
 const LEVEL_DEG: f64 = 1e-3;
@@ -28,7 +28,7 @@ pub(crate) fn run(bytes: &[u8]) {
         assert!(!refused.reason.to_string().is_empty());
     }
     comes_back(&report.elements);
-    for elements in report.elements.iter().take(MOST_OBJECTS) {
+    for elements in report.elements.iter().take(MAX_OBJECTS) {
         two_days(elements);
     }
 }
@@ -69,8 +69,8 @@ fn day(propagator: &Propagator, site: Site, from: Timestamp) {
     let to = from + SignedDuration::from_hours(24);
     let search = PassSearch::new(site, from, to);
     let (found, effort) = passes_and_effort(propagator, &search, &|| false);
-    assert!(found.len() < MOST_PASSES, "{} passes", found.len());
-    assert!(effort < MOST_EFFORT, "{effort} states");
+    assert!(found.len() < MAX_PASSES, "{} passes", found.len());
+    assert!(effort < MAX_EFFORT, "{effort} states");
     in_order(&found, from, to);
     if !flies(propagator, from) {
         return;

@@ -24,7 +24,7 @@ pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     name: "Archimedes Lever",
     short_name: "Lever",
     link: Link::Tcp,
-    usual_address: "lever.example:1",
+    default_address: "lever.example:1",
     usual: Usual { beam_width_deg: 7.0, ..satrak::SPEC.usual },
     settings: &[&CODE, &GEAR, &SHAFTS],
     closed_note: None,

@@ -3,7 +3,7 @@
 
 use super::wish::{Wish, cannot};
 use crate::{
-    device::settings::{Field, Group, Guard, Key, SettleError, Value, Values},
+    device::settings::{Field, Group, Guard, Key, Value, Values, WriteError},
     protocol::satrak::{
         PositionBase, Reply, Setting, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode,
     },
@@ -100,7 +100,7 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
 }
 
 /// Only what changes is sent; for the rest stands the sign that keeps it.
-pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let new = wish.new;
     let change = SettingsChange {
         rtc_from_gps: CLOCK_FROM_GPS.of(new),

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::wish::{Wish, cannot};
 use crate::{
-    device::settings::{Field, Group, Key, SettleError, Values},
+    device::settings::{Field, Group, Key, Values, WriteError},
     protocol::satrak::{GpsSettingsChange, Position, Reply, Setting},
 };
 
@@ -68,7 +68,7 @@ fn place(position: Option<Position>) -> Values {
 
 /// All three always go out: whether the place is needed on automatic is not
 /// documented.
-pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let position = Position::new(wish.get(&LATITUDE_DEG)?, wish.get(&LONGITUDE_DEG)?)
         .map_err(cannot(LATITUDE_DEG.name))?;
     let automatic = wish.is_on(&IS_AUTOMATIC);

@@ -7,7 +7,7 @@ use super::{
     wish::{Wish, cannot},
 };
 use crate::{
-    device::settings::{Field, Group, Key, Kind, SettleError, Values},
+    device::settings::{Field, Group, Key, Kind, Values, WriteError},
     protocol::satrak::{AngleChange, Reduction, Reply, SensorAngles, Setting},
 };
 
@@ -83,7 +83,7 @@ pub(super) fn image(reply: &Reply) -> Option<Values> {
     Some(Values::from([STATUS.with(status.raw.clone())]))
 }
 
-pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let angles =
         SensorAngles::new(wish.get(&X_DEG)?, wish.get(&Y_DEG)?).map_err(cannot(X_DEG.name))?;
     let change = if wish.get(&REFERENCE).unwrap_or(GIVEN) == PRESENT {
@@ -98,12 +98,12 @@ pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     Ok(Setting::AngleSettings(change))
 }
 
-pub(super) fn write_reduction(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_reduction(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let reduction = Reduction::new(wish.get(&X_RATIO)?, wish.get(&Y_RATIO)?);
     reduction.map(Setting::Reduction).map_err(cannot(X_RATIO.name))
 }
 
-pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::LoadImage(wish.text(&FILE)?))
 }
 

@@ -6,7 +6,7 @@ use super::{
     wish::{Wish, cannot},
 };
 use crate::{
-    device::settings::{Field, Group, Key, Secret, SettleError, Unfit, Value, Values},
+    device::settings::{Field, Group, Key, Secret, Unfit, Value, Values, WriteError},
     protocol::satrak::{
         FaultKind, Faults, FtpTle, HttpTle, Password, Reply, SatelliteChoice, Setting,
         TleSelection, UrlValue,
@@ -125,7 +125,7 @@ pub(super) fn ftp(reply: &Reply) -> Option<Values> {
     ]))
 }
 
-pub(super) fn write_file(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_file(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::Satellite(SatelliteChoice {
         file: wish.text(&FILE_NAME)?,
         name: wish.text(&SATELLITE_NAME)?,
@@ -134,7 +134,7 @@ pub(super) fn write_file(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     }))
 }
 
-pub(super) fn write_web(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_web(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::SatelliteHttp(HttpTle {
         url: UrlValue::new(&wish.get(&URL)?).map_err(cannot(URL.name))?,
         period_days: wish.whole(&PERIOD_DAYS)?,
@@ -143,7 +143,7 @@ pub(super) fn write_web(wish: &Wish<'_>) -> Result<Setting, SettleError> {
     }))
 }
 
-pub(super) fn write_ftp(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_ftp(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let password = wish.get(&PASSWORD)?;
     Ok(Setting::SatelliteFtp(FtpTle {
         address: wish.text(&ADDRESS)?,

@@ -10,7 +10,7 @@ use crate::{
     astro::time::add_seconds,
     device::{
         UnitClock,
-        settings::{Field, Group, Key, SettleError, Unfit, Value, Values},
+        settings::{Field, Group, Key, Unfit, Value, Values, WriteError},
     },
     protocol::satrak::{ClockTime, Reply, Setting, TrackWindow},
 };
@@ -74,10 +74,10 @@ pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, 
     AHEAD_S.with((clock.ahead_s * 10.0).round() / 10.0)
 }
 
-pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let refuse = |reason: &str| {
         let reason = Unfit::Text(reason.to_owned());
-        Err(SettleError::CannotBeSent { field: STOP.name, reason })
+        Err(WriteError::CannotBeSent { field: STOP.name, reason })
     };
     let (start, stop) = (wish.get(&START)?, wish.get(&STOP)?);
     if stop <= wish.utc {
@@ -91,7 +91,7 @@ pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, SettleError> {
 
 /// Sent just after a full second of our clock, for the command has no parts
 /// of a second.
-pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, SettleError> {
+pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     if wish.get(&SET_FROM).unwrap_or(FROM_THIS_PC) == FROM_GPS {
         return Ok(Setting::RtcReupdate);
     }

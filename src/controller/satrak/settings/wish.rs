@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::unfit;
 use crate::{
-    device::settings::{Key, SettleError, Unfit, Values},
+    device::settings::{Key, Unfit, Values, WriteError},
     protocol::satrak::{TextValue, ValueError},
 };
 
@@ -28,26 +28,26 @@ impl Wish<'_> {
         self.find(key) == Some(true)
     }
 
-    pub(super) fn get<T>(&self, key: &Key<T>) -> Result<T, SettleError> {
+    pub(super) fn get<T>(&self, key: &Key<T>) -> Result<T, WriteError> {
         self.find(key).ok_or_else(|| missing(key.name))
     }
 
     /// A whole number that fits into `N`.
-    pub(super) fn whole<N: TryFrom<i64>>(&self, key: &Key<i64>) -> Result<N, SettleError> {
+    pub(super) fn whole<N: TryFrom<i64>>(&self, key: &Key<i64>) -> Result<N, WriteError> {
         N::try_from(self.get(key)?).map_err(|_| missing(key.name))
     }
 
-    pub(super) fn text(&self, key: &Key<String>) -> Result<TextValue, SettleError> {
+    pub(super) fn text(&self, key: &Key<String>) -> Result<TextValue, WriteError> {
         TextValue::new(key.name, &self.get(key)?).map_err(cannot(key.name))
     }
 }
 
 /// What becomes of an error of the field `key`.
-pub(super) fn cannot(field: &'static str) -> impl Fn(ValueError) -> SettleError {
-    move |error| SettleError::CannotBeSent { field, reason: unfit(error) }
+pub(super) fn cannot(field: &'static str) -> impl Fn(ValueError) -> WriteError {
+    move |error| WriteError::CannotBeSent { field, reason: unfit(error) }
 }
 
 /// The unit does not report the value, and nobody gave one.
-fn missing(field: &'static str) -> SettleError {
-    SettleError::CannotBeSent { field, reason: Unfit::Text("has no value yet".to_owned()) }
+fn missing(field: &'static str) -> WriteError {
+    WriteError::CannotBeSent { field, reason: Unfit::Text("has no value yet".to_owned()) }
 }

@@ -138,10 +138,10 @@ fn way_out_deg(bounds: &Bounds, from_deg: [f64; 2], utc: jiff::Timestamp) -> Opt
     let place = |axis: usize, turned_deg: f64| {
         let mut axes_deg = from_deg;
         axes_deg[axis] += turned_deg;
-        let (least_deg, most_deg) = bounds.mount().travel_deg()[axis];
+        let (min_deg, max_deg) = bounds.mount().travel_deg()[axis];
         let here_deg = clear_deg(axes_deg);
         let enters = before_deg.iter().zip(&here_deg).any(|(a, b)| *a >= 0.0 && *b < 0.0);
-        if enters || !(least_deg..=most_deg).contains(&axes_deg[axis]) {
+        if enters || !(min_deg..=max_deg).contains(&axes_deg[axis]) {
             OnTheWay::Barred
         } else if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
             OnTheWay::Free
@@ -232,8 +232,8 @@ fn look_closely(seed: u64) -> Outcome {
         Motion::Step { x_deg, y_deg } => ([from_deg[0] + x_deg, from_deg[1] + y_deg], true),
         _ => (gate.ends(motion, now).unwrap().1, false),
     };
-    for (to_deg, (least_deg, most_deg)) in to_deg.into_iter().zip(antenna.mount.travel_deg()) {
-        assert!((least_deg - 1e-6..=most_deg + 1e-6).contains(&to_deg), "{seed}: {to_deg}");
+    for (to_deg, (min_deg, max_deg)) in to_deg.into_iter().zip(antenna.mount.travel_deg()) {
+        assert!((min_deg - 1e-6..=max_deg + 1e-6).contains(&to_deg), "{seed}: {to_deg}");
     }
     let floor_deg = f64::min(antenna.limits.minimum_elevation_deg, here.elevation_deg());
     let clear_deg = |axes_deg: [f64; 2]| {
@@ -272,7 +272,7 @@ fn look_closely(seed: u64) -> Outcome {
         return Outcome::LedOut;
     }
     // Only out of the surroundings of the Sun a go-to begins inside: it gets no nearer.
-    let least_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
+    let min_clear_deg = f64::min(start_deg, 0.0) - EDGE_DEG;
     assert!(clear_deg(to_deg) > -EDGE_DEG, "{seed}: {motion:?} ends inside");
     assert!(
         start_deg > -EDGE_DEG || sun_clear_deg(&station, here, utc) < 0.0,
@@ -286,7 +286,7 @@ fn look_closely(seed: u64) -> Outcome {
                 from_deg[axis] + share[axis] * (to_deg[axis] - from_deg[axis])
             });
             let clear_deg = clear_deg(axes_deg);
-            assert!(clear_deg > least_clear_deg, "{seed}: {motion:?} at {axes_deg:?}: {clear_deg}");
+            assert!(clear_deg > min_clear_deg, "{seed}: {motion:?} at {axes_deg:?}: {clear_deg}");
             let elevation_deg = bounds.direction(axes_deg).elevation_deg();
             assert!(elevation_deg > floor_deg - EDGE_DEG, "{seed}: {motion:?} {elevation_deg}");
         }

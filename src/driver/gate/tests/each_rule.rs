@@ -58,8 +58,8 @@ fn put(gate: &mut Gate, case: &Case, asked: Asked) -> Result<(), Refusal> {
         Asked::Act => gate.act(act("read_list"), false, intent, stopping, now).map(drop),
         Asked::MovingAct => gate.act(act("to_counts"), false, intent, stopping, now).map(drop),
         Asked::AgreedAct => gate.act(act("to_counts"), true, intent, stopping, now).map(drop),
-        Asked::Setting => gate.settle(change(), false, stopping, now),
-        Asked::SettingInMotion => gate.settle(change(), true, stopping, now),
+        Asked::Setting => gate.write_settings(change(), false, stopping, now),
+        Asked::SettingInMotion => gate.write_settings(change(), true, stopping, now),
     }
 }
 

@@ -73,8 +73,8 @@ impl Jog {
     /// rounds to its own steps of about 150 ms.
     pub fn new(direction: Direction, speed: Speed, duration: Duration) -> Result<Self, ValueError> {
         let given_ms = u64::try_from(duration.as_millis()).unwrap_or(u64::MAX);
-        let [least_ms, most_ms] = [MIN_JOG, MAX_JOG].map(|bound| bound.as_millis() as u64);
-        let duration_ms = checked("jog in ms", given_ms, least_ms, most_ms)? as u16;
+        let [min_ms, max_ms] = [MIN_JOG, MAX_JOG].map(|bound| bound.as_millis() as u64);
+        let duration_ms = checked("jog in ms", given_ms, min_ms, max_ms)? as u16;
         Ok(Self { direction, speed, duration_ms })
     }
 

@@ -8,7 +8,7 @@ use crate::protocol::satrak::{
 /// Degrees of one count of the position sensors. Own choice: 16 bits a turn.
 const DEG_PER_COUNT: f64 = 360.0 / 65_536.0;
 /// Reduction at which the drives run as commanded, as in the document's example.
-pub(super) const USUAL_REDUCTION: f64 = 4000.0;
+pub(super) const DEFAULT_REDUCTION: f64 = 4000.0;
 
 /// Settings; `None` where nothing was ever set.
 #[derive(Debug, Clone)]
@@ -90,8 +90,9 @@ impl Memory {
 
     /// Share of a commanded rate that the drives make.
     pub(super) fn drive_scales(&self) -> [f64; 2] {
-        self.reduction
-            .map_or([1.0; 2], |ratio| [USUAL_REDUCTION / ratio.x(), USUAL_REDUCTION / ratio.y()])
+        self.reduction.map_or([1.0; 2], |ratio| {
+            [DEFAULT_REDUCTION / ratio.x(), DEFAULT_REDUCTION / ratio.y()]
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Answers to queries, value by value as the document lists them.
 
 use super::Satrak;
-use super::memory::USUAL_REDUCTION;
+use super::memory::DEFAULT_REDUCTION;
 use crate::protocol::satrak::{AxisMotion, FaultKind, Query};
 use crate::sim::satrak::answer::{Answer, Value};
 
@@ -29,7 +29,7 @@ impl Satrak {
             Query::Reduction => {
                 let ratio = self.memory.reduction;
                 let (x, y) =
-                    ratio.map_or((USUAL_REDUCTION, USUAL_REDUCTION), |it| (it.x(), it.y()));
+                    ratio.map_or((DEFAULT_REDUCTION, DEFAULT_REDUCTION), |it| (it.x(), it.y()));
                 vec![Value::text(x), Value::text(y)]
             }
         };

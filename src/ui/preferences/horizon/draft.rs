@@ -174,7 +174,7 @@ impl ZoneDraft {
             reason: String::new(),
             antenna: None,
             entered: Entered::Hard,
-            margin: Cell::new(KeepOut::USUAL_MARGIN_DEG, None, &ranges::MARGIN_DEG),
+            margin: Cell::new(KeepOut::DEFAULT_MARGIN_DEG, None, &ranges::MARGIN_DEG),
             corners: corners.iter().map(|at| Corner::new(*at, None)).collect(),
             was: None,
         }
@@ -232,9 +232,9 @@ impl ZoneDraft {
 
 impl SunDraft {
     fn of(sun: Option<SunAvoidance>) -> Self {
-        const USUAL_RADIUS_DEG: f64 = 5.0;
-        let radius = sun.map_or(USUAL_RADIUS_DEG, |sun| sun.radius_deg);
-        let ahead = sun.map_or(SunAvoidance::USUAL_AHEAD_MIN, |sun| sun.ahead_min);
+        const DEFAULT_RADIUS_DEG: f64 = 5.0;
+        let radius = sun.map_or(DEFAULT_RADIUS_DEG, |sun| sun.radius_deg);
+        let ahead = sun.map_or(SunAvoidance::DEFAULT_AHEAD_MIN, |sun| sun.ahead_min);
         Self {
             is_on: sun.is_some(),
             radius: Cell::new(radius, sun.map(|_| radius), &ranges::SUN_RADIUS_DEG),

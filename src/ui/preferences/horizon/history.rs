@@ -3,7 +3,7 @@
 use super::draft::Skies;
 
 /// Steps that are kept.
-const MOST: usize = 100;
+const MAX: usize = 100;
 
 /// The states before this one, and those that were undone.
 #[derive(Default)]
@@ -22,7 +22,7 @@ impl History {
         if let Some(old) = self.settled.replace(now.clone()) {
             self.before.push(old);
             self.undone.clear();
-            if self.before.len() > MOST {
+            if self.before.len() > MAX {
                 self.before.remove(0);
             }
         }

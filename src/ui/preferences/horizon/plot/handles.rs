@@ -16,7 +16,7 @@ use super::{
 use crate::ui::{sky_plot::geometry::Dome, tokens::Tokens, widgets::paint};
 
 /// More points of a skyline are drawn without handles.
-const MOST_HANDLES: usize = 120;
+const MAX_HANDLES: usize = 120;
 const CHOSEN: f32 = 12.0;
 const MIDDLE: f32 = 7.0;
 const POINT: f32 = 6.0;
@@ -106,7 +106,7 @@ pub(super) fn skyline_handles(
     t: &Tokens,
 ) {
     let mut points = skies.skyline();
-    if points.len() > MOST_HANDLES {
+    if points.len() > MAX_HANDLES {
         return;
     }
     let mut changed = None;

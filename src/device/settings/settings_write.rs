@@ -1,11 +1,11 @@
 //! A change on its way to a device, whatever the device: looks whether it still
 //! holds what the operator saw, sends, and reads back. Nothing is sent twice.
 
-use super::{Access, Change, Field, Group, Guard, ReadFailure, SettleError, SettleStep, Values};
+use super::{Access, Change, Field, Group, Guard, ReadFailure, Values, WriteError, WriteStep};
 
 /// A change that is under way.
 #[derive(Debug)]
-pub(crate) struct Settling {
+pub(crate) struct SettingsWrite {
     /// What was asked for.
     pub(crate) change: Change,
     /// The group of it.
@@ -14,7 +14,7 @@ pub(crate) struct Settling {
     /// As read before anything was sent.
     before: Values,
     /// What came of sending and reading back so far.
-    result: Result<(), SettleError>,
+    result: Result<(), WriteError>,
     /// How many questions after the read-back are over.
     checked: usize,
 }
@@ -32,22 +32,22 @@ pub(crate) enum Step {
     Done,
 }
 
-impl Settling {
+impl SettingsWrite {
     /// The first step of `change` on a device with these groups; an error when it
     /// cannot be begun.
     pub(crate) fn new(
         change: &Change,
         groups: &'static [&'static Group],
-    ) -> Result<Self, SettleError> {
+    ) -> Result<Self, WriteError> {
         let group = groups.iter().find(|group| group.key == change.group);
-        let group = *group.ok_or(SettleError::NoSuchSetting)?;
+        let group = *group.ok_or(WriteError::NoSuchSetting)?;
         let writable =
             |key: &&str| group.field(key).is_some_and(|field| field.access != Access::Read);
         if change.values.is_empty() || !change.values.keys().all(writable) {
-            return Err(SettleError::NoSuchSetting);
+            return Err(WriteError::NoSuchSetting);
         }
         if group.guard(&change.values) == Guard::Service && !change.is_unlocked {
-            return Err(SettleError::Locked);
+            return Err(WriteError::Locked);
         }
         let (before, step) = (Values::new(), Step::Look);
         Ok(Self { change: change.clone(), group, step, before, result: Ok(()), checked: 0 })
@@ -59,11 +59,11 @@ impl Settling {
     }
 
     /// How far it is, for the operator.
-    pub(crate) fn shown(&self) -> SettleStep {
+    pub(crate) fn shown(&self) -> WriteStep {
         match self.step {
-            Step::Look => SettleStep::Looking,
-            Step::Send => SettleStep::Sending,
-            Step::ReadBack | Step::Done => SettleStep::ReadingBack,
+            Step::Look => WriteStep::Looking,
+            Step::Send => WriteStep::Sending,
+            Step::ReadBack | Step::Done => WriteStep::ReadingBack,
         }
     }
 
@@ -88,10 +88,10 @@ impl Settling {
     }
 
     /// The present values came.
-    pub(crate) fn looked(&mut self, held: Values) -> Result<(), SettleError> {
+    pub(crate) fn looked(&mut self, held: Values) -> Result<(), WriteError> {
         self.before = held;
         if self.has_changed_meanwhile() {
-            return Err(SettleError::ChangedMeanwhile);
+            return Err(WriteError::ChangedMeanwhile);
         }
         self.step = Step::Send;
         Ok(())
@@ -106,10 +106,10 @@ impl Settling {
     /// what was asked for.
     pub(crate) fn read_back(&mut self, held: &Values, differing: Vec<&'static str>) {
         self.result = match std::mem::replace(&mut self.result, Ok(())) {
-            Ok(()) | Err(SettleError::Unanswered) if differing.is_empty() => Ok(()),
-            Ok(()) => Err(SettleError::Differs(differing)),
-            Err(SettleError::Unanswered) if *held != self.before => {
-                Err(SettleError::Differs(differing))
+            Ok(()) | Err(WriteError::Unanswered) if differing.is_empty() => Ok(()),
+            Ok(()) => Err(WriteError::Differs(differing)),
+            Err(WriteError::Unanswered) if *held != self.before => {
+                Err(WriteError::Differs(differing))
             }
             Err(error) => Err(error),
         };
@@ -117,11 +117,11 @@ impl Settling {
     }
 
     /// The device said no to what it waits for.
-    pub(crate) fn refused(&mut self, code: String) -> Result<(), SettleError> {
+    pub(crate) fn refused(&mut self, code: String) -> Result<(), WriteError> {
         match self.step {
-            Step::Look => return Err(SettleError::Unread(ReadFailure::Refused(code))),
+            Step::Look => return Err(WriteError::Unread(ReadFailure::Refused(code))),
             Step::Send => {
-                self.result = Err(SettleError::Refused(code));
+                self.result = Err(WriteError::Refused(code));
                 self.step = Step::ReadBack;
             }
             Step::ReadBack => return self.not_read_back(ReadFailure::Refused(code)),
@@ -131,11 +131,11 @@ impl Settling {
     }
 
     /// No answer came, or none that can be read.
-    pub(crate) fn unanswered(&mut self) -> Result<(), SettleError> {
+    pub(crate) fn unanswered(&mut self) -> Result<(), WriteError> {
         match self.step {
-            Step::Look => return Err(SettleError::Unread(ReadFailure::Unanswered)),
+            Step::Look => return Err(WriteError::Unread(ReadFailure::Unanswered)),
             Step::Send => {
-                self.result = Err(SettleError::Unanswered);
+                self.result = Err(WriteError::Unanswered);
                 self.step = Step::ReadBack;
             }
             Step::ReadBack => return self.not_read_back(ReadFailure::Unanswered),
@@ -144,16 +144,16 @@ impl Settling {
         Ok(())
     }
 
-    fn not_read_back(&self, failure: ReadFailure) -> Result<(), SettleError> {
+    fn not_read_back(&self, failure: ReadFailure) -> Result<(), WriteError> {
         match &self.result {
-            Err(refused @ SettleError::Refused(_)) => Err(refused.clone()),
-            _ => Err(SettleError::NotReadBack(failure)),
+            Err(refused @ WriteError::Refused(_)) => Err(refused.clone()),
+            _ => Err(WriteError::NotReadBack(failure)),
         }
     }
 
     /// A question after the read-back was answered; whether the device can work with the
     /// values is in `verdict`.
-    pub(crate) fn judge(&mut self, verdict: Result<(), SettleError>) {
+    pub(crate) fn judge(&mut self, verdict: Result<(), WriteError>) {
         self.checked += 1;
         if self.result.is_ok() {
             self.result = verdict;
@@ -166,7 +166,7 @@ impl Settling {
     }
 
     /// What came of it.
-    pub(crate) fn result(&self) -> Result<(), SettleError> {
+    pub(crate) fn result(&self) -> Result<(), WriteError> {
         self.result.clone()
     }
 

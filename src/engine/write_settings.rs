@@ -20,9 +20,9 @@ impl Engine {
     }
 
     /// Hands a change to the session, a service setting after a copy was saved.
-    pub(super) fn settle(&mut self, index: usize, change: Change) {
+    pub(super) fn write_settings(&mut self, index: usize, change: Change) {
         if !self.needs_copy(index, &change) {
-            return self.send(index, driver::Command::Settle(change));
+            return self.send(index, driver::Command::WriteSettings(change));
         }
         let Some(antenna) = self.antennas.get(index) else { return };
         let name = antenna.shown.config.name.clone();
@@ -103,7 +103,7 @@ impl Engine {
             Some(why) => self.service_not_sent(index, &not_saved(&why)),
             None => {
                 for change in waiting.changes {
-                    self.send(index, driver::Command::Settle(change));
+                    self.send(index, driver::Command::WriteSettings(change));
                 }
             }
         }

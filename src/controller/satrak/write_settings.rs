@@ -5,7 +5,7 @@
 use super::settings::{Plan, Proof, Wish};
 use crate::{
     clock::Moment,
-    device::settings::{Hindrance, ReadFailure, SettleError, Settling, Step},
+    device::settings::{Hindrance, ReadFailure, SettingsWrite, Step, WriteError},
     protocol::satrak::{Faults, Reply, Request},
 };
 
@@ -19,7 +19,7 @@ pub(super) enum Next {
     /// Nothing before this time.
     At(crate::clock::Instant),
     /// It is over.
-    Over(Result<(), SettleError>),
+    Over(Result<(), WriteError>),
 }
 
 /// What the unit does while a change is to be sent.
@@ -48,23 +48,23 @@ impl Doing {
 
 impl Plan {
     /// What is to be done now for a change of this group.
-    pub(super) fn next(&self, settling: &Settling, doing: Doing, now: Moment) -> Next {
-        match settling.step() {
+    pub(super) fn next(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> Next {
+        match settings_write.step() {
             Step::Look | Step::ReadBack => Next::Send(Request::Query(self.query)),
-            Step::Done => match self.also.get(settling.checked()) {
+            Step::Done => match self.also.get(settings_write.checked()) {
                 Some(query) => Next::Send(Request::Query(*query)),
-                None => Next::Over(settling.result()),
+                None => Next::Over(settings_write.result()),
             },
-            Step::Send => self.command(settling, doing, now),
+            Step::Send => self.command(settings_write, doing, now),
         }
     }
 
-    fn command(&self, settling: &Settling, doing: Doing, now: Moment) -> Next {
-        if settling.needs_standstill() && doing.moves {
-            return Next::Over(Err(SettleError::Moving));
+    fn command(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> Next {
+        if settings_write.needs_standstill() && doing.moves {
+            return Next::Over(Err(WriteError::Moving));
         }
-        if let Some((field, hindrance)) = settling.moving_field().zip(doing.hindrance()) {
-            return Next::Over(Err(SettleError::Hindered { field, hindrance }));
+        if let Some((field, hindrance)) = settings_write.moving_field().zip(doing.hindrance()) {
+            return Next::Over(Err(WriteError::Hindered { field, hindrance }));
         }
         if self.is_clock {
             let after = now.utc.subsec_nanosecond().rem_euclid(1_000_000_000);
@@ -73,8 +73,12 @@ impl Plan {
                 return Next::At(now.steady + std::time::Duration::from_nanos(wait.into()));
             }
         }
-        let Some(write) = self.write else { return Next::Over(Err(SettleError::NoSuchSetting)) };
-        let wish = Wish { new: &settling.change.values, held: settling.before(), utc: now.utc };
+        let Some(write) = self.write else { return Next::Over(Err(WriteError::NoSuchSetting)) };
+        let wish = Wish {
+            new: &settings_write.change.values,
+            held: settings_write.before(),
+            utc: now.utc,
+        };
         match write(&wish) {
             Ok(setting) => Next::Send(Request::Setting(setting)),
             Err(error) => Next::Over(Err(error)),
@@ -84,21 +88,21 @@ impl Plan {
     /// The present step of a change of this group was answered. An error ends it at once.
     pub(super) fn answered(
         &self,
-        settling: &mut Settling,
+        settings_write: &mut SettingsWrite,
         reply: &Reply,
         ahead_s: Option<f64>,
-    ) -> Result<(), SettleError> {
-        let values = || (self.values)(reply).ok_or(SettleError::Unread(ReadFailure::Unanswered));
-        match settling.step() {
-            Step::Look => settling.looked(values()?)?,
-            Step::Send => settling.accepted(),
+    ) -> Result<(), WriteError> {
+        let values = || (self.values)(reply).ok_or(WriteError::Unread(ReadFailure::Unanswered));
+        match settings_write.step() {
+            Step::Look => settings_write.looked(values()?)?,
+            Step::Send => settings_write.accepted(),
             Step::ReadBack => {
                 let (group, held) = (self.group, values()?);
-                let new = &settling.change.values;
+                let new = &settings_write.change.values;
                 let differing = (self.differing)(&Proof { group, new, held: &held, ahead_s });
-                settling.read_back(&held, differing);
+                settings_write.read_back(&held, differing);
             }
-            Step::Done => settling.judge(match reply {
+            Step::Done => settings_write.judge(match reply {
                 Reply::Faults(faults) => self.judged(*faults),
                 _ => Ok(()),
             }),
@@ -107,8 +111,8 @@ impl Plan {
     }
 
     /// What the faults say about values that the unit holds.
-    fn judged(&self, faults: Faults) -> Result<(), SettleError> {
+    fn judged(&self, faults: Faults) -> Result<(), WriteError> {
         let objection = (self.judge)(faults);
-        objection.map_or(Ok(()), |why| Err(SettleError::Useless(why.to_owned())))
+        objection.map_or(Ok(()), |why| Err(WriteError::Useless(why.to_owned())))
     }
 }
