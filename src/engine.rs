@@ -347,7 +347,7 @@ impl Engine {
         if urgent.is_stop_lost {
             self.alarms.raise(None, AlarmKind::StopNotElsewhere, self.now);
         }
-        if urgent.is_overrun {
+        if urgent.has_turned_away {
             tracing::error!("the station was too busy to take what was asked for");
             self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }

@@ -45,7 +45,7 @@ pub struct Standstill {
     pub slowest_deg_s: f64,
     /// For how long an axis usually runs on at its rate after a STOP, seconds: half
     /// of the time in which it slows down.
-    pub run_out_s: f64,
+    pub overrun_s: f64,
 }
 
 /// How fast a controller jogs.

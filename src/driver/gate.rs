@@ -246,7 +246,7 @@ pub(super) struct Gate {
     mount: Mount,
     bounds: Bounds,
     /// For how long the axes run on at their rate after a STOP, seconds.
-    run_out_s: f64,
+    overrun_s: f64,
     /// Where the last motion to a position ends, degrees as the mount counts; `None`
     /// after any other motion.
     to_deg: Option<[f64; 2]>,
@@ -275,7 +275,7 @@ impl Gate {
             limits: antenna.limits,
             mount: bounds.mount(),
             bounds,
-            run_out_s: make.capabilities.standstill.run_out_s,
+            overrun_s: make.capabilities.standstill.overrun_s,
             to_deg: None,
             started_from_deg: None,
             lock_out: None,
@@ -343,22 +343,22 @@ impl Gate {
     }
 
     /// For how long the axes run on at their rate after a STOP, seconds.
-    pub(super) fn run_out_s(&self) -> f64 {
-        self.run_out_s
+    pub(super) fn overrun_s(&self) -> f64 {
+        self.overrun_s
     }
 
     /// The axes were measured to run on for this long after a STOP, seconds.
-    pub(super) fn set_run_out(&mut self, run_out_s: f64) {
-        self.run_out_s = run_out_s;
+    pub(super) fn set_overrun(&mut self, overrun_s: f64) {
+        self.overrun_s = overrun_s;
     }
 
     /// How far ahead of the last position a motion is judged, seconds: the age of
-    /// the position, the time to the next one and its way here, and the run-out.
+    /// the position, the time to the next one and its way here, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
-        let Some(measured) = self.state().measured else { return self.run_out_s };
+        let Some(measured) = self.state().measured else { return self.overrun_s };
         let age = now.steady.saturating_duration_since(measured.asked);
         let reply = measured.received.saturating_duration_since(measured.asked);
-        (age + reply + self.controller.poll_period()).as_secs_f64() + self.run_out_s
+        (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
     }
 
     /// The harmless side of the controller.

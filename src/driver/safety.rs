@@ -106,7 +106,7 @@ pub enum Mover {
     Azel,
     /// The unit's own program.
     Program,
-    /// Nobody that is known here: the panel, another client, a run-out.
+    /// Nobody that is known here: the panel, another client, a overrun.
     Somebody,
 }
 

@@ -56,7 +56,7 @@ use jog::JogKey;
 use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
-use monitor::{RunOut, Watch};
+use monitor::{Overrun, Watch};
 use program_track::{Manner, ResumeRule, Tracking};
 use silence::Silence;
 use standstill::{Figures, Rest};
@@ -228,7 +228,7 @@ struct Owed {
 struct Seen {
     watch: Watch,
     place: inside::Place,
-    run_out: RunOut,
+    overrun: Overrun,
     rest: Rest,
     /// When the look came in by which the rest was watched last.
     looked: Option<Instant>,

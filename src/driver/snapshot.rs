@@ -162,7 +162,7 @@ fn same_settings(old: &Held, new: &Held) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StoppingWay {
     /// That is reckoned with, seconds.
-    pub run_out_s: f64,
+    pub overrun_s: f64,
     /// In so many STOPs it was seen.
     pub stops: u32,
     /// It was measured; until then it is the figure of the make.

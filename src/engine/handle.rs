@@ -48,7 +48,7 @@ pub(super) struct Urgent {
     /// The station ends, and nobody can be asked.
     pub(super) ends_unasked: bool,
     /// A request found no room.
-    pub(super) is_overrun: bool,
+    pub(super) has_turned_away: bool,
     /// STOP is not known to have been carried out by the Azel that drives an antenna.
     pub(super) is_stop_lost: bool,
 }
@@ -135,7 +135,7 @@ impl Client {
         let number = self.orders.next();
         let Some(requests) = self.requests.upgrade() else { return Err(command) };
         let Ok(place) = requests.try_reserve() else {
-            self.urgent().is_overrun = true;
+            self.urgent().has_turned_away = true;
             return Err(command);
         };
         place.send(Request { command, number, at: self.clock.now().steady });

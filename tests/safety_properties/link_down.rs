@@ -65,7 +65,7 @@ const MISSING: Duration = Duration::from_millis(760);
 /// After the first reply that is missing the operator is told within this.
 const ALARM: Duration = Duration::from_secs(1);
 /// A jog of an RC2000C runs on for so long at its rate: what was renewed last, one more
-/// where commands still get through, and the run-out.
+/// where commands still get through, and the overrun.
 const RUNS_ON_S: f64 = 2.0;
 /// A STOP that is not proved is sent again within this.
 const AGAIN: Duration = Duration::from_millis(1500);

@@ -63,7 +63,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     assert!(learned.is_learned);
     // Even braking from the fastest rate at 5 degrees a second squared, and a look.
     let braking_s = fastest_deg_s / 5.0 / 2.0;
-    assert!((braking_s * 0.8..braking_s + 0.5).contains(&learned.run_out_s), "{learned:?}");
+    assert!((braking_s * 0.8..braking_s + 0.5).contains(&learned.overrun_s), "{learned:?}");
 }
 
 #[tokio::test(start_paused = true)]

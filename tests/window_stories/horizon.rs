@@ -467,7 +467,7 @@ fn what_holds_is_drawn_in_the_sky_plot() {
 
 #[test]
 fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
-    let stopping_way = StoppingWay { run_out_s: 0.4, stops: 0, is_learned: false };
+    let stopping_way = StoppingWay { overrun_s: 0.4, stops: 0, is_learned: false };
     let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
     Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);

@@ -57,8 +57,8 @@ fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
         model.view = azel::model::View::Preferences;
         rig::window(rig::LARGE, model)
     };
-    let window = shown(StoppingWay { run_out_s: 0.4, stops: 1, is_learned: false });
+    let window = shown(StoppingWay { overrun_s: 0.4, stops: 1, is_learned: false });
     assert!(says(&window, "Runs on for 0.4 s by its make: 1 of 3 STOPs seen."));
-    let window = shown(StoppingWay { run_out_s: 0.62, stops: 7, is_learned: true });
+    let window = shown(StoppingWay { overrun_s: 0.62, stops: 7, is_learned: true });
     assert!(says(&window, "Runs on for 0.6 s: the longest of the last 3 of 7 STOPs."));
 }

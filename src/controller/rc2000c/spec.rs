@@ -66,7 +66,7 @@ pub static VARIANT: Variant = Variant {
         ends_jogs: true,
         waits_for_word: true,
         // A count is some hundredths of a degree; slow speed is a few tenths.
-        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, run_out_s: 0.6 },
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, overrun_s: 0.6 },
         stop_note: None,
     },
     groups: &[],

@@ -71,7 +71,7 @@ pub static PAIR: Variant = Variant {
         ends_jogs: false,
         waits_for_word: false,
         // Whole degrees; the slowest rotators it drives take two minutes a turn.
-        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, run_out_s: 0.8 },
+        standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, overrun_s: 0.8 },
         stop_note: Some("STOP stops both rotators."),
     },
     groups: GROUPS,

@@ -66,7 +66,7 @@ pub static VARIANT: Variant = Variant {
         waits_for_word: false,
         // Tenths of a degree. What is slower than half a degree a second, such as
         // tracking, shows later, while the antenna is watched at rest.
-        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, run_out_s: 0.4 },
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.4 },
         stop_note: None,
     },
     groups: GROUPS,

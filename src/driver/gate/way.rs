@@ -305,13 +305,13 @@ impl Gate {
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
         let Some(to_deg) = self.to_deg else { return reached };
-        let coasts_deg = self.make.capabilities.arrives_within_deg * 2.0;
+        let overrun_deg = self.make.capabilities.arrives_within_deg * 2.0;
         for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(to_deg) {
             let passes =
                 (from_deg..=*reached).contains(&to_deg) || (*reached..=from_deg).contains(&to_deg);
             if passes {
                 *reached = to_deg;
-            } else if (from_deg - to_deg).abs() <= coasts_deg {
+            } else if (from_deg - to_deg).abs() <= overrun_deg {
                 // It runs out around the place where it was sent.
                 *reached = from_deg;
             }

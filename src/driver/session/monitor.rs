@@ -148,7 +148,7 @@ fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
 
 /// How long the axes run on after a STOP, as it was measured.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct RunOut {
+pub(super) struct Overrun {
     /// The look before the STOP, the rate then, and when STOP went out.
     before: Option<(Measured, [f64; 2], Instant)>,
     /// The last ones, seconds.
@@ -159,11 +159,11 @@ pub(super) struct RunOut {
 
 /// So many STOPs have to be seen before they replace the usual figure.
 const ENOUGH: usize = StoppingWay::ENOUGH as usize;
-/// A run-out is taken from jogs at this share of the fastest rate or more. That of a
+/// A overrun is taken from jogs at this share of the fastest rate or more. That of a
 /// slower one is too short to be told from the noise of the readings.
 const TELLING_SHARE: f64 = 0.5;
 
-impl RunOut {
+impl Overrun {
     /// A STOP goes out.
     pub(super) fn begin(&mut self, before: Option<(Measured, [f64; 2])>, now: Instant) {
         self.before = before.map(|(look, rates)| (look, rates, now));
@@ -177,18 +177,18 @@ impl RunOut {
         let (before, rates, stop) = self.before.take()?;
         let to_stop_s = stop.saturating_duration_since(before.asked).as_secs_f64();
         let axes = before.axes.iter().zip(&rest.axes).zip(rates);
-        let run_out_s = axes
+        let overrun_s = axes
             .filter(|(_, rate)| rate.abs() >= fastest_deg_s * TELLING_SHARE)
             .filter_map(|((before, rest), rate)| {
                 let turned_deg = rest.angle_deg? - before.angle_deg?;
-                let run_out_s = turned_deg / rate - to_stop_s;
-                Some(run_out_s * (fastest_deg_s / rate.abs()).max(1.0))
+                let overrun_s = turned_deg / rate - to_stop_s;
+                Some(overrun_s * (fastest_deg_s / rate.abs()).max(1.0))
             })
             .max_by(f64::total_cmp)?;
         if self.seen_s.len() >= ENOUGH {
             self.seen_s.pop_front();
         }
-        self.seen_s.push_back(run_out_s.clamp(0.0, 10.0));
+        self.seen_s.push_back(overrun_s.clamp(0.0, 10.0));
         self.stops = self.stops.saturating_add(1);
         let worst_s = self.seen_s.iter().copied().fold(0.0, f64::max);
         (self.seen_s.len() >= ENOUGH).then_some(worst_s)
@@ -197,10 +197,10 @@ impl RunOut {
 
 impl Session {
     /// Remembers how fast the axes turn when a STOP goes out.
-    pub(super) fn begin_run_out(&mut self, now: Moment) {
+    pub(super) fn begin_overrun(&mut self, now: Moment) {
         let look = self.gate.state().measured;
         let rates = self.rates_now();
-        self.seen.run_out.begin(look.zip(rates), now.steady);
+        self.seen.overrun.begin(look.zip(rates), now.steady);
     }
 
     fn rates_now(&self) -> Option<[f64; 2]> {
@@ -210,20 +210,20 @@ impl Session {
 
     /// How long the axes run on after a STOP, as far as that is known.
     pub(super) fn stopping_way(&self) -> StoppingWay {
-        let RunOut { stops, seen_s, .. } = &self.seen.run_out;
+        let Overrun { stops, seen_s, .. } = &self.seen.overrun;
         StoppingWay {
-            run_out_s: self.gate.run_out_s(),
+            overrun_s: self.gate.overrun_s(),
             stops: *stops,
             is_learned: seen_s.len() >= ENOUGH,
         }
     }
 
     /// Learns how long the axes ran on.
-    pub(super) fn end_run_out(&mut self) {
+    pub(super) fn end_overrun(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
         let fastest_deg_s = self.setup.manner.fastest_deg_s();
-        if let Some(run_out_s) = self.seen.run_out.end(&rest, fastest_deg_s) {
-            self.gate.set_run_out(run_out_s);
+        if let Some(overrun_s) = self.seen.overrun.end(&rest, fastest_deg_s) {
+            self.gate.set_overrun(overrun_s);
         }
     }
 }

@@ -281,7 +281,9 @@ impl Session {
         // Where it was sent, or where it was left, within what it coasts.
         let places = following.commanded.into_iter().chain(self.contact.left_at);
         let is_where_it_was = places.into_iter().any(|place| {
-            place.separation(at).is_some_and(|off| off <= self.setup.rule.half_beam + self.coast())
+            place
+                .separation(at)
+                .is_some_and(|off| off <= self.setup.rule.half_beam + self.overrun())
         });
         if self.setup.rule.resume == Resume::Ask || !is_where_it_was {
             return self.await_word(lost, None);
@@ -291,9 +293,9 @@ impl Session {
         }
     }
 
-    fn coast(&self) -> Angle {
+    fn overrun(&self) -> Angle {
         let rate_deg_s = self.setup.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
-        Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.run_out_s)
+        Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.overrun_s)
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {

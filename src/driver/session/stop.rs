@@ -98,7 +98,7 @@ impl Session {
 
     fn begin_halt(&mut self, pressed: bool, now: Moment) {
         if !self.stop.is_under_way() {
-            self.begin_run_out(now);
+            self.begin_overrun(now);
         }
         if pressed {
             self.key.spend();
@@ -168,7 +168,7 @@ impl Session {
         self.stop = if is_pressed { Stop::Proved { at: now.steady } } else { Stop::Ready };
         self.settle_debt();
         self.prove_still();
-        self.end_run_out();
+        self.end_overrun();
         if is_pressed {
             self.tell(Event::Stopped);
             if let Proof::Flags { axis } = proof {

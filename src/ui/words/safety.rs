@@ -70,8 +70,8 @@ pub fn reason(barrier: &Barrier, station: &Station) -> String {
 }
 
 /// How long an antenna runs on after STOP, and where that is known from.
-pub fn stopping_way(StoppingWay { run_out_s, stops, is_learned }: StoppingWay) -> String {
-    let run_out = format!("Runs on for {} s", format::number(run_out_s, 1));
+pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -> String {
+    let overrun = format!("Runs on for {} s", format::number(overrun_s, 1));
     let enough = StoppingWay::ENOUGH;
     if is_learned {
         return format!("{run_out}: the longest of the last {enough} of {stops} STOPs.");

@@ -65,7 +65,7 @@ static VARIANT: Variant = Variant {
         steps: false,
         ends_jogs: false,
         waits_for_word: false,
-        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, run_out_s: 0.5 },
+        standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.5 },
         stop_note: None,
     },
     groups: &[],

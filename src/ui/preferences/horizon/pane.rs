@@ -232,7 +232,7 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
     let half_deg = antenna.config.beam_width_deg / 2.0;
     let stopping_way = antenna.snapshot.stopping_way;
     let fastest_deg_s = antenna.config.limits.maximum_rate_deg_s;
-    let overshoot = format::degrees(stopping_way.run_out_s * fastest_deg_s, 1);
+    let overshoot = format::degrees(stopping_way.overrun_s * fastest_deg_s, 1);
     let words =
         format!("°   beam {} + overshoot {overshoot} + {own}", format::degrees(half_deg, 2));
     let about = format!(
