@@ -74,9 +74,9 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
     let overrun = format!("Runs on for {} s", format::number(overrun_s, 1));
     let enough = StoppingWay::ENOUGH;
     if is_learned {
-        return format!("{run_out}: the longest of the last {enough} of {stops} STOPs.");
+        return format!("{overrun}: the longest of the last {enough} of {stops} STOPs.");
     }
-    format!("{run_out} by its make: {stops} of {enough} STOPs seen.")
+    format!("{overrun} by its make: {stops} of {enough} STOPs seen.")
 }
 
 /// Why a jog waits for the operator's word.
