@@ -9,7 +9,7 @@ use super::{
 };
 use crate::device::{
     Phase, Program,
-    settings::{Value, Values},
+    settings::{Hindrance, Value, Values},
 };
 
 /// What is asked of the gate.
