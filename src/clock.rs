@@ -145,12 +145,19 @@ impl Clock {
 
     /// Waits for `span` of this clock.
     pub async fn sleep(&self, span: Duration) {
-        tokio::time::sleep(span / self.speed.get()).await;
+        tokio::time::sleep(self.real(span)).await;
     }
 
     /// What `work` comes to, unless it takes longer than `span` of this clock.
     pub async fn timeout<F: Future>(&self, span: Duration, work: F) -> Result<F::Output, Elapsed> {
-        tokio::time::timeout(span / self.speed.get(), work).await
+        tokio::time::timeout(self.real(span), work).await
+    }
+
+    /// The real time in which `span` passes, rounded up: a sleep that ends too early would
+    /// be begun again and again.
+    fn real(&self, span: Duration) -> Duration {
+        let nanos = span.as_nanos().div_ceil(self.speed.get().into());
+        u64::try_from(nanos).map_or(Duration::MAX, Duration::from_nanos)
     }
 
     /// A reading of the steady clock that runs at `speed`.

@@ -321,10 +321,13 @@ impl Gate {
         }
         let elevation_now = self.elevation_axis_deg().map(Angle::from_degrees);
         let azimuth_now = measured.and_then(|measured| measured.axes[0].angle_deg);
-        Some(Pointing::of_axes(
-            azimuth.or(azimuth_now.map(Angle::from_degrees)),
-            elevation.or(elevation_now),
-        ))
+        let azimuth = azimuth.or(azimuth_now.map(Angle::from_degrees));
+        let elevation = elevation.or(elevation_now);
+        if elevation.is_none() && self.is_flipped() {
+            let azimuth = azimuth.map(|azimuth| (azimuth + HALF_TURN).wrapped_360());
+            return Some(Pointing { azimuth, elevation });
+        }
+        Some(Pointing::of_axes(azimuth, elevation))
     }
 
     /// Where the elevation axis was measured, degrees; `None` without one.
@@ -334,8 +337,14 @@ impl Gate {
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 
+    /// An axis at its upper limit may tell no angle.
     fn is_flipped(&self) -> bool {
+        let at_upper_end = || {
+            let axis = self.state().measured.map(|measured| measured.axes[1]);
+            axis.is_some_and(|axis| axis.angle_deg.is_none() && axis.plus_limit)
+        };
         self.mount.is_flipped(self.elevation_axis_deg())
+            || (self.mount.can_flip() && at_upper_end())
     }
 }
 

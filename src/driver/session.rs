@@ -435,6 +435,7 @@ impl Session {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
             || self.activity.may_move()
+            || (self.contact.unread && self.gate.unproved_since().is_some())
             || self.key.held().is_some()
             || self.stepping.is_some()
             || self.gate.device().motion_under_way()

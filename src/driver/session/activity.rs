@@ -160,8 +160,8 @@ impl Activity {
     pub(super) fn halt(&mut self) {
         *self = match self {
             Self::Manual => Self::Manual,
-            Self::Hold(_) | Self::GoTo(_) => Self::Hold(None),
-            Self::Standby | Self::OnBoardTrack(_) | Self::ProgramTrack(_) => Self::Standby,
+            Self::Hold(_) | Self::GoTo(GoTo { parks: false, .. }) => Self::Hold(None),
+            _ => Self::Standby,
         };
     }
 

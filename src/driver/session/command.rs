@@ -234,6 +234,7 @@ impl Session {
         if self.may_move() {
             self.halt_quietly(now);
         }
+        self.unasked = None;
         let stage = OnBoardStage::LoadQueued;
         self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }

@@ -313,6 +313,9 @@ impl Session {
         let program = std::mem::replace(&mut self.activity, Activity::Standby);
         self.halt_quietly(now);
         self.activity = program;
+        if let Some(tracking) = self.activity.program_mut() {
+            tracking.aim = None;
+        }
         self.await_word(lost, None);
     }
 

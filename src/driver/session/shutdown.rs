@@ -25,7 +25,9 @@ impl Session {
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) {
         let start = self.now();
-        if self.key.held().is_some() || self.activity.is_queued() {
+        let is_held = self.key.held().is_some();
+        self.key.end();
+        if is_held || self.activity.is_queued() {
             self.halt_quietly(start);
         }
         let mut buffer = [0; 4096];

@@ -185,7 +185,9 @@ impl Session {
     /// The operator has seen that it stands.
     pub(super) fn take_word_for_standstill(&mut self) {
         tracing::warn!(antenna = self.name, "standstill by the operator's word");
-        self.stop = Stop::Ready;
+        if self.stop.is_under_way() {
+            self.stop = Stop::Ready;
+        }
         self.forget_silence();
         self.urgent.clear();
         self.settle_debt();

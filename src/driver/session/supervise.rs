@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{
     Event, Session,
-    activity::{Activity, GoTo, GoToStage, OnBoardStage},
+    activity::{Activity, GoTo, GoToStage, OnBoardStage, OnBoardTrack},
 };
 use crate::{
     clock::{Instant, Moment},
@@ -108,7 +108,10 @@ impl Session {
 
     /// The unit holds the target: its program is started on it.
     fn loaded(&mut self, target: &TrackTarget, now: Moment) {
-        if self.activity.on_board().is_none_or(|track| track.target != *target) {
+        let awaits_it = |track: &OnBoardTrack| {
+            track.target == *target && matches!(track.stage, OnBoardStage::Loading { .. })
+        };
+        if !self.activity.on_board().is_some_and(awaits_it) {
             return;
         }
         if let Some(objection) = self.objection_to_pass() {

@@ -62,6 +62,11 @@ impl Session {
             self.tell(Event::NotSent(Refusal::Stopping));
             return false;
         }
+        // What waits to be sent is known to be wanted, and not to be over.
+        if self.activity.is_queued() {
+            let now = self.now();
+            self.halt_quietly(now);
+        }
         self.contact.wanted = Wanted::No;
         self.forget_silence();
         self.activity = Activity::Standby;

@@ -281,3 +281,22 @@ fn changed_mount(case: Case) -> Case {
     let mount = Antenna::rc2000c("Dish", "").mount;
     Case { antenna: Antenna { mount, ..case.antenna }, ..case }
 }
+
+#[test]
+fn an_azimuth_alone_is_asked_of_the_other_side_at_the_upper_limit_of_a_mount_that_flips() {
+    let mut case = rc2000c(Intent::Position);
+    case.antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 450.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 180.0,
+    };
+    case.axes()[0].angle_deg = Some(170.0);
+    let [_, elevation] = case.axes();
+    (elevation.angle_deg, elevation.plus_limit) = (None, true);
+    let gate = case.gate(&Arc::default());
+    let motion = gate.nearest(position(347.0, None)).unwrap();
+    assert_eq!(motion, position(167.0, None));
+    let aim = gate.aim(&motion).unwrap();
+    assert_eq!((aim.azimuth.map(Angle::degrees), aim.elevation), (Some(347.0), None));
+}
