@@ -71,7 +71,7 @@ fn nanos(span: Duration) -> i64 {
 }
 
 /// One instant on both clocks: the steady one for intervals, UTC for the sky.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Moment {
     /// Never jumps.
     pub steady: Instant,

@@ -16,6 +16,7 @@ pub(crate) mod wire;
 use std::{borrow::Cow, time::Duration};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
@@ -28,6 +29,7 @@ pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine}
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
+    name::{self, Name},
 };
 use panel::{Act, Lead};
 use settings::{Change, WriteError};
@@ -41,7 +43,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 const LONGEST_POLL_PERIOD: Duration = Duration::from_millis(500);
 
 /// What makes metal move.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
     /// Both axes turn at these rates until stopped; degrees a second.
     Jog {
@@ -73,12 +75,12 @@ pub enum Motion {
 }
 
 /// A request to move, as its outcome is told.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Asked {
     /// By [`Moves::start`].
     Motion(Motion),
     /// By [`Moves::act`]: one of [`Variant::actions`], by its key.
-    Action(&'static str),
+    Action(#[serde(deserialize_with = "name::one")] Name),
 }
 
 impl From<Motion> for Asked {
@@ -89,7 +91,7 @@ impl From<Motion> for Asked {
 
 /// What an antenna shall follow, as far as a controller that tracks by itself
 /// needs to know.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackTarget {
     /// Up to nine digits.
     pub catalog_number: u32,
@@ -102,7 +104,7 @@ pub struct TrackTarget {
 }
 
 /// What the operator may ask a device by hand; it changes nothing.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Question {
     /// As it is typed, in capitals, such as `STATUS?`.
     pub key: SmolStr,
@@ -141,7 +143,7 @@ pub enum ControllerEvent {
 }
 
 /// Why the device does not hold the target.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PrepareError {
     /// A name, file or time cannot be carried by the protocol.
     #[error("cannot be sent: {0}")]

@@ -74,6 +74,7 @@ pub struct AntennaHandle {
     events: mpsc::Receiver<Event>,
     wire: WireLog,
     orbit: Orbits,
+    bounds: watch::Sender<Bounds>,
 }
 
 /// Numbers what is asked for, over all antennas of a station.
@@ -172,6 +173,11 @@ impl AntennaHandle {
     /// What went over the link.
     pub fn wire(&self) -> &WireLog {
         &self.wire
+    }
+
+    /// Other bounds hold for the antenna from now on.
+    pub fn keep_within(&self, bounds: Bounds) {
+        self.bounds.send_replace(bounds);
     }
 
     /// Tells by which orbit to judge what the unit does by itself.
@@ -313,6 +319,7 @@ impl Driver {
     ) -> AntennaHandle {
         let (wires, handle) = Wires::new(
             antenna,
+            bounds,
             self.outside.clock.now().steady,
             Arc::clone(&self.wake),
             &self.orders,
@@ -324,16 +331,8 @@ impl Driver {
         let open = move || {
             let (controller, dial) = (antenna.controller(), dial(&antenna));
             let (wires, debts) = (ends.clone(), debts.clone());
-            let session = Session::over(
-                controller,
-                &antenna,
-                dial,
-                clock.clone(),
-                wires,
-                debts,
-                ends.kept().unwrap_or_else(|| bounds.clone()),
-            )
-            .locked_out(lock_out.clone());
+            let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts)
+                .locked_out(lock_out.clone());
             match &dead_man {
                 Some(program) => session.guarded_by(program.clone()),
                 None => session,

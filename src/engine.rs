@@ -29,6 +29,7 @@ pub mod track_again;
 mod turn;
 pub mod uploads;
 mod write_settings;
+mod written;
 
 use std::{
     io,
@@ -61,7 +62,7 @@ pub use self::{
 };
 use crate::{
     clock::{Clock, Instant},
-    driver::{self, AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
+    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
     job::{Job, Wake},
     makes::{self, DemoAddresses},
     plan::Bounds,
@@ -123,6 +124,7 @@ struct Engine {
     time_sync: TimeSync,
     station: Arc<Station>,
     catalog: CatalogState,
+    catalog_revision: u64,
     sources: Sources,
     antennas: Vec<Antenna>,
     /// How many sessions were begun.
@@ -221,10 +223,9 @@ impl Engine {
         let upload_desk =
             uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
         let source_desk = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
-        let snapshot = Arc::new(Snapshot::before_anything());
         let now = clock.now();
-        let at = now.steady;
-        let published = Published { at, snapshot, ends: Arc::new([]) };
+        let snapshot = Arc::new(Snapshot::before_anything(now));
+        let published = Published { snapshot, ends: Arc::new([]) };
         let (publish, published) = watch::channel(published);
         let client = Client::new(
             requests,
@@ -240,6 +241,7 @@ impl Engine {
             station: Arc::default(),
             demo: None,
             catalog: CatalogState::Loading,
+            catalog_revision: 0,
             sources: Sources { work: SourceWork::Reading, ..Sources::default() },
             antennas: Vec::new(),
             sessions: 0,
@@ -379,10 +381,12 @@ impl Engine {
     fn publish(&mut self) {
         let last = Arc::clone(&self.publish.borrow().snapshot);
         let snapshot = Arc::new(Snapshot {
+            at: self.clock.now(),
             time_sync: self.time_sync,
             station: Arc::clone(&self.station),
             demo: self.demo.is_some(),
             catalog: self.catalog.clone(),
+            catalog_revision: self.catalog_revision,
             sources: shared(&self.sources, &last.sources),
             antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
             pass_lists: self.pass_lists.clone(),
@@ -409,7 +413,7 @@ impl Engine {
             });
             ends.collect()
         };
-        self.publish.send_replace(Published { at: self.clock.now().steady, snapshot, ends });
+        self.publish.send_replace(Published { snapshot, ends });
         // What they tell of is shown by now.
         for event in std::mem::take(&mut self.told) {
             if self.outbox.events.try_send(event).is_err() {
@@ -475,10 +479,7 @@ impl Engine {
             let kept = before.iter().position(|antenna| antenna.shown.config == *config);
             let antenna = if let Some(kept) = kept {
                 let antenna = before.swap_remove(kept);
-                // Not taken only where the session is too busy to take anything.
-                if antenna.handle.send(driver::Command::Within(Box::new(bounds))).is_err() {
-                    self.alarms.raise(None, AlarmKind::NotTaken, self.now);
-                }
+                antenna.handle.keep_within(bounds);
                 antenna
             } else {
                 let antenna = self.open_antenna(config.clone(), bounds);

@@ -18,6 +18,7 @@ pub mod job;
 pub mod library;
 pub mod makes;
 pub mod model;
+pub mod name;
 pub mod orbit;
 pub mod plan;
 pub mod protocol;

@@ -200,7 +200,7 @@ impl Model {
     /// Takes what the station shows of itself.
     pub fn take(&mut self, station: &Handle) {
         let shown = Arc::clone(station.snapshot());
-        let renewed = self.pass_lists.favourites.edition != shown.pass_lists.favourites.edition;
+        let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
         self.demo = shown.demo;

@@ -1,8 +1,10 @@
 //! Passwords, wherever they are on their way.
 
 use secrecy::{ExposeSecret as _, SecretString};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A password or passphrase. Never shown by `Debug`, wiped when dropped.
+/// A password or passphrase. Never shown by `Debug`, never written down by serde, wiped when
+/// dropped.
 #[derive(Debug, Clone)]
 pub struct Secret(SecretString);
 
@@ -41,6 +43,20 @@ impl PartialEq for Secret {
 
 impl Eq for Secret {}
 
+/// Leaves the secret out.
+impl Serialize for Secret {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_none()
+    }
+}
+
+/// Reads a secret that a client sends; one that was left out is empty.
+impl<'de> Deserialize<'de> for Secret {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Option::<String>::deserialize(from).map(|text| Self(text.unwrap_or_default().into()))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,6 +67,8 @@ mod tests {
         let secret = Secret::take(&mut typed);
         assert!(typed.is_empty());
         assert!(!format!("{secret:?}").contains("hunter2"));
+        assert_eq!(serde_json::to_string(&secret).unwrap(), "null");
+        assert_eq!(serde_json::from_str::<Secret>("\"hunter2\"").unwrap(), secret);
         assert!(secret == Secret::new("hunter2") && secret != Secret::new("hunter3"));
     }
 }

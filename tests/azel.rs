@@ -36,3 +36,4 @@ mod satrak_vectors;
 mod sgp4_verification;
 mod three_units;
 mod window_stories;
+mod written;

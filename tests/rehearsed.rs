@@ -14,7 +14,7 @@ use azel::{
     clock::Clock,
     driver::{self, Dial, Outside, Stream},
     engine::{
-        Client, Command, Handle, Settings,
+        Client, Command, Handle, Settings, Snapshot,
         status::{AntennaStatus, LinkStatus},
     },
     plan::{ProgramTrack, Target},
@@ -197,6 +197,27 @@ fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
     until("standstill", || fast.units.all_stand().then_some(()));
 }
 
+/// Writes down every snapshot of a station that it gets hold of until the station ends;
+/// how many.
+fn write_down(mut client: Client) -> usize {
+    let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+    let mut count = 0;
+    while runtime.block_on(client.changed()) {
+        let snapshot = client.snapshot();
+        let text = serde_json::to_string(&*snapshot).unwrap();
+        let back: Snapshot = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
+        assert_eq!(serde_json::to_string(&back).unwrap(), text);
+        // What is left out stands in the catalog and the pass lists alone.
+        let shown = |of: &Snapshot| {
+            let of = (&of.at, &of.time_sync, &of.station, &of.sources, &of.antennas, &of.alarms);
+            format!("{of:?}")
+        };
+        assert_eq!(shown(&back), shown(&snapshot));
+        count += 1;
+    }
+    count
+}
+
 /// One of nine things that go wrong for a while.
 fn trouble(kind: u32, units: &Units, is_on: bool) {
     use rc2000c::Fault as Line;
@@ -220,6 +241,8 @@ fn trouble(kind: u32, units: &Units, is_on: bool) {
 fn a_served_station_lives_an_hour_with_trouble_on_the_lines() {
     let scene = Scene::at_speed(FAST);
     let (client, units, end) = (scene.client(), scene.units.clone(), scene.end.clone());
+    let witness = scene.client();
+    let written = thread::Builder::new().name("writes".to_owned()).spawn(|| write_down(witness));
     let driving = thread::Builder::new().name("drives".to_owned()).spawn(move || {
         let site = client.snapshot().station.site;
         let sun = || ProgramTrack { target: Target::Sun, site, passes: Vec::new() };
@@ -251,6 +274,8 @@ fn a_served_station_lives_an_hour_with_trouble_on_the_lines() {
     let mut lines = 0_u32;
     let Ended { not_proved, broke_down } = until_the_end(station, &woken, &mut |_| lines += 1);
     driving.unwrap().join().unwrap();
+    let written = written.unwrap().join().unwrap();
+    assert!(written > 100, "{written} snapshots were written down");
     assert!(!broke_down);
     assert_eq!(not_proved, [""; 0]);
     assert!(units.all_stand());

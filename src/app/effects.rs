@@ -31,17 +31,17 @@ impl App {
         }
         let Some((question, since)) = &effects.asked else { return };
         let listing = &self.model.pass_lists.favourites;
-        let edition = listing.edition;
+        let revision = listing.revision;
         let is_answered = effects
             .effect
             .as_ref()
-            .is_some_and(|effect| effect.question == *question && effect.edition == edition);
-        let is_begun = begun.as_ref().is_some_and(|(of, at, _)| of == question && *at == edition);
+            .is_some_and(|effect| effect.question == *question && effect.revision == revision);
+        let is_begun = begun.as_ref().is_some_and(|(of, at, _)| of == question && *at == revision);
         if is_answered || is_begun || self.model.steady.saturating_duration_since(*since) < DEBOUNCE
         {
             return;
         }
-        let known = effects.effect.as_ref().filter(|effect| effect.edition == edition);
+        let known = effects.effect.as_ref().filter(|effect| effect.revision == revision);
         let known = known.map(|effect| Arc::clone(&effect.ways));
         let passes = if known.is_some() {
             Vec::new()
@@ -51,11 +51,11 @@ impl App {
         let asked = question.clone();
         let work = move |cancelled: &(dyn Fn() -> bool + Sync)| {
             let ways = known.unwrap_or_else(|| ways(&passes, cancelled));
-            answer(asked, &ways, edition)
+            answer(asked, &ways, revision)
         };
         match Job::start("azel-effects", Arc::clone(&self.wake), work) {
             // A job on an older question is cancelled.
-            Ok(job) => *begun = Some((question.clone(), edition, job)),
+            Ok(job) => *begun = Some((question.clone(), revision, job)),
             Err(error) => tracing::error!(%error, "no thread for the effects"),
         }
     }

@@ -2,8 +2,10 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A plane angle, held in radians. Never wrapped unless asked to.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
+use serde::{Deserialize, Serialize};
+
+/// A plane angle, held and written down in radians. Never wrapped unless asked to.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default, Serialize, Deserialize)]
 pub struct Angle(f64);
 
 impl Angle {

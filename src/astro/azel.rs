@@ -1,5 +1,7 @@
 //! A direction in the sky of a site.
 
+use serde::{Deserialize, Serialize};
+
 use glam::DVec3;
 
 use super::Angle;
@@ -8,7 +10,7 @@ use super::Angle;
 const ZENITH: Angle = Angle::from_degrees(90.0);
 
 /// A direction: azimuth from true north over east, elevation from the horizon.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AzEl {
     /// From true north over east.
     pub azimuth: Angle,

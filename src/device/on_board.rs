@@ -1,10 +1,11 @@
 //! What a device that tracks by itself tells of how it does so.
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 /// What a device that tracks by itself goes by, each part as last read. `None`
 /// means not read, or not told.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct OnBoard {
     /// Where it takes itself to stand.
     pub place: Option<Place>,
@@ -19,7 +20,7 @@ pub struct OnBoard {
 }
 
 /// A unit's clock against ours.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct UnitClock {
     /// How far the unit is ahead of us, in seconds; half the way over the link
     /// is taken off.
@@ -31,7 +32,7 @@ pub struct UnitClock {
 }
 
 /// A place as a device tells it: without its height.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// North positive.
     pub latitude_deg: f64,
@@ -42,7 +43,7 @@ pub struct Place {
 }
 
 /// What a device adds to the path that it computes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Offsets {
     /// Along the track. Which sign is ahead is not known.
     pub time_s: f64,
@@ -59,7 +60,7 @@ pub struct Offsets {
 }
 
 /// The satellite that a device holds. The epoch of its elements is not told.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeldSatellite {
     /// Up to nine digits; 0 for none.
     pub catalog_number: u32,

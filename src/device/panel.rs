@@ -3,10 +3,13 @@
 
 use std::borrow::Cow;
 
+use serde::{Deserialize, Serialize};
+
 use super::settings::{Field, Values};
+use crate::name::{self, Name};
 
 /// One line of what a device tells of itself.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     /// Before the value. Lines with the same label would not be told apart.
     pub label: Cow<'static, str>,
@@ -38,7 +41,7 @@ impl Reading {
 }
 
 /// How something that a device tells, or is told, is to be taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tone {
     /// As usual.
     Plain,
@@ -53,18 +56,21 @@ pub enum Tone {
 }
 
 /// A fault or warning that a device can report.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Check {
     /// As the operator knows it.
-    pub name: &'static str,
+    #[serde(deserialize_with = "name::one")]
+    pub name: Name,
     /// What is good, or not, with it; after the name, may be empty.
-    pub about: &'static str,
+    #[serde(deserialize_with = "name::one")]
+    pub about: Name,
     /// How it is.
     pub state: CheckState,
     /// How the device puts it where it says more than `state` does; else empty.
     pub told: Cow<'static, str>,
     /// What to do about it, in a sentence.
-    pub advice: &'static str,
+    #[serde(deserialize_with = "name::one")]
+    pub advice: Name,
     /// As long as it is a fault, nothing may be moved.
     pub locks_motion: bool,
 }
@@ -83,7 +89,7 @@ impl Check {
 }
 
 /// How a checked thing is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CheckState {
     /// Not told.
     Unknown,
@@ -113,11 +119,13 @@ pub struct Action {
 }
 
 /// An action with what it was told.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Act {
     /// Key of the action.
-    pub action: &'static str,
+    #[serde(deserialize_with = "name::one")]
+    pub action: Name,
     /// By the keys of its fields.
+    #[serde(deserialize_with = "name::map")]
     pub values: Values,
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{
     OnBoard, Question,
@@ -12,10 +13,11 @@ use super::{
 use crate::{
     astro::{Angle, AzEl},
     clock::{Instant, Moment},
+    name::{self, Name},
 };
 
 /// What is known of an antenna. `None` means not read yet, never a default.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct AntennaState {
     /// The last measured position.
     pub measured: Option<Measured>,
@@ -43,8 +45,10 @@ pub struct AntennaState {
     pub on_board: OnBoard,
     /// Why the last position could not be read, as far as it is known, and what to do;
     /// in a sentence or two.
-    pub unreadable: Option<&'static str>,
+    #[serde(deserialize_with = "name::option")]
+    pub unreadable: Option<Name>,
     /// Its settings, as far as they were read, and what came of changes.
+    #[serde(deserialize_with = "name::shared_map")]
     pub held: Arc<Held>,
     /// What answers is another device, or wants to be told a code first.
     pub is_other_device: bool,
@@ -82,7 +86,7 @@ impl AntennaState {
 }
 
 /// A measured position.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// When the device measured it, as well as the way over the link tells.
     pub at: Timestamp,
@@ -107,7 +111,7 @@ impl Measured {
 }
 
 /// Where an antenna points, as far as its device tells.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pointing {
     /// `None` without a sensor, or while the reading cannot be turned into one.
     pub azimuth: Option<Angle>,
@@ -162,7 +166,7 @@ impl Measured {
 }
 
 /// One axis as the device reports it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// In degrees, counted as the mount counts; `None` when it is not known.
     pub angle_deg: Option<f64>,
@@ -175,7 +179,7 @@ pub struct Axis {
 }
 
 /// Whether an axis turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AxisMotion {
     /// It stands.
     Still,
@@ -188,7 +192,7 @@ pub enum AxisMotion {
 }
 
 /// The device's own tracking program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Program {
     /// It is switched on.
     pub enabled: bool,
@@ -199,7 +203,7 @@ pub struct Program {
 }
 
 /// What the device's tracking program is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
     /// Its time has not come, or there is none.
     OutOfWindow,
@@ -214,7 +218,7 @@ pub enum Phase {
 }
 
 /// What went over the link since it came up.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Traffic {
     /// Good frames that answered a question.
     pub replies: u64,

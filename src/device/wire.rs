@@ -4,6 +4,7 @@
 use std::{borrow::Cow, collections::VecDeque, time::Duration};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::panel::Tone;
 use crate::clock::Moment;
@@ -12,7 +13,7 @@ use crate::clock::Moment;
 const MAX_WAITING: usize = 4096;
 
 /// One line of the conversation with a device.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WireLine {
     /// When it was sent or had come in whole, UTC.
     pub at: Timestamp,
@@ -53,7 +54,7 @@ impl WireLine {
 }
 
 /// What a line says, in a sentence.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Meaning {
     /// How it is to be taken.
     pub tone: Tone,
@@ -93,7 +94,7 @@ pub struct ExplainedValue {
 }
 
 /// Which way a line went.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Direction {
     /// To the device.
     Sent,
@@ -102,7 +103,7 @@ pub enum Direction {
 }
 
 /// What was found in a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Finding {
     /// A frame whose checksum is right.
     Good,

@@ -1,8 +1,10 @@
 //! What the operator wants of an antenna.
 
+use serde::{Deserialize, Serialize};
+
 /// What the operator wants of an antenna. A state of the driver: it holds with
 /// or without a window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Intent {
     /// Nothing is to move.
     #[default]

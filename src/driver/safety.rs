@@ -3,11 +3,15 @@
 use std::time::Duration;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
-use crate::plan::Barrier;
+use crate::{
+    name::{self, Name},
+    plan::Barrier,
+};
 
 /// A matter of safety, for the event line and the alarm list.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Safety {
     /// The dead-man has stopped the unit, because this program was late.
     DeadManFired,
@@ -26,12 +30,14 @@ pub enum Safety {
     /// STOP is proved by what the unit says alone: this axis tells no angle.
     StoppedByFlags {
         /// Name of the axis.
-        axis: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
     },
     /// Angles change although the unit says that it stands.
     FlagsContradict {
         /// Name of the axis.
-        axis: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
         /// By how much it has turned, degrees.
         turned_deg: f64,
     },
@@ -75,7 +81,7 @@ pub enum Safety {
 }
 
 /// In what a unit differs from what it was before it was out of sight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unlike {
     /// It gives another name or firmware.
     Identity,
@@ -100,7 +106,7 @@ impl Safety {
 }
 
 /// Who moves an antenna.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mover {
     /// This program, by hand or position by position.
     Azel,
@@ -111,7 +117,7 @@ pub enum Mover {
 }
 
 /// What was done about an antenna that enters what is forbidden.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Response {
     /// STOP was sent.
     Stopped,

@@ -78,14 +78,15 @@ pub struct Wires {
     wake: Wake,
     wire_log: WireLog,
     orbit: Orbits,
-    /// The last that it was told to keep within: a session that breaks down loses it.
-    bounds: Arc<watch::Sender<Option<Bounds>>>,
+    /// The bounds of the antenna.
+    bounds: watch::Receiver<Bounds>,
 }
 
 impl Wires {
     /// The far and the near ends for one antenna.
     pub(super) fn new(
         antenna: &Antenna,
+        bounds: Bounds,
         now: Instant,
         wake: Wake,
         orders: &Orders,
@@ -102,6 +103,7 @@ impl Wires {
             snapshots: read_snapshots,
         };
         let (wire_log, orbit) = (WireLog::default(), Orbits::default());
+        let (keep_within, bounds) = watch::channel(bounds);
         let wires = Self {
             commands: Arc::new(AsyncMutex::new(commands)),
             stopper: stopper.clone(),
@@ -111,7 +113,7 @@ impl Wires {
             wake,
             wire_log: wire_log.clone(),
             orbit: Arc::clone(&orbit),
-            bounds: Arc::default(),
+            bounds,
         };
         let handle = AntennaHandle {
             commands: send_command,
@@ -120,13 +122,15 @@ impl Wires {
             events: read_events,
             wire: wire_log,
             orbit,
+            bounds: keep_within,
         };
         (wires, handle)
     }
 
     /// The near end of an antenna that no session drives: nothing is taken.
     pub(super) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
-        let (wires, handle) = Self::new(antenna, now, Arc::new(|| {}), &Orders::default());
+        let bounds = Bounds::of_antenna(antenna);
+        let (wires, handle) = Self::new(antenna, bounds, now, Arc::new(|| {}), &Orders::default());
         let off = Snapshot::before_anything(LinkState::Off);
         wires.snapshots.send_replace(Arc::new(off));
         handle
@@ -136,15 +140,6 @@ impl Wires {
     pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
-    }
-
-    fn keep(&self, bounds: &Bounds) {
-        self.bounds.send_replace(Some(bounds.clone()));
-    }
-
-    /// What an earlier session over these wires was told to keep within last.
-    pub(super) fn kept(&self) -> Option<Bounds> {
-        self.bounds.borrow().clone()
     }
 
     /// Puts STOP before the next word.
@@ -277,9 +272,10 @@ impl Session {
         clock: Clock,
         wake: Wake,
     ) -> (Self, AntennaHandle) {
-        let (wires, handle) = Wires::new(antenna, clock.now().steady, wake, &Orders::default());
         let bounds = Bounds::of_antenna(antenna);
-        (Self::over(controller, antenna, dial, clock, wires, Debts::default(), bounds), handle)
+        let now = clock.now().steady;
+        let (wires, handle) = Wires::new(antenna, bounds, now, wake, &Orders::default());
+        (Self::over(controller, antenna, dial, clock, wires, Debts::default()), handle)
     }
 
     /// A session of `antenna` that reads and writes `wires`, and owes in `debts`.
@@ -288,10 +284,10 @@ impl Session {
         antenna: &Antenna,
         dial: Dial,
         clock: Clock,
-        wires: Wires,
+        mut wires: Wires,
         debts: Debts,
-        bounds: Bounds,
     ) -> Self {
+        let bounds = wires.bounds.borrow_and_update().clone();
         let mut gate = Gate::new(controller, antenna, bounds);
         let make = antenna.connection.variant();
         let (wanted, link) = first_link(antenna, clock.now().steady);

@@ -3,6 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{Intent, Refusal, Safety};
 use crate::{
@@ -18,7 +19,7 @@ use crate::{
 };
 
 /// One antenna at one instant. Replaced as a whole, never changed in place.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// The link.
     pub link: LinkState,
@@ -159,7 +160,7 @@ fn same_settings(old: &Held, new: &Held) -> bool {
 }
 
 /// How long the axes run on at their rate after a STOP.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StoppingWay {
     /// That is reckoned with, seconds.
     pub overrun_s: f64,
@@ -175,7 +176,7 @@ impl StoppingWay {
 }
 
 /// What an antenna is inside of that is forbidden.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inside {
     /// What it is.
     pub barrier: Barrier,
@@ -184,7 +185,7 @@ pub struct Inside {
 }
 
 /// What the unit tracks by itself, and how well.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardView {
     /// How it will follow by what it tells of itself.
     pub found: Arc<Supervision>,
@@ -194,7 +195,7 @@ pub struct OnBoardView {
 }
 
 /// What is followed position by position, and how well.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackView {
     /// Of the target.
     pub name: String,
@@ -216,7 +217,7 @@ pub struct TrackView {
 }
 
 /// The link to a controller.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LinkState {
     /// Nobody wants one: the operator has not connected or has disconnected, or
     /// the session has ended.
@@ -255,7 +256,7 @@ impl LinkState {
 }
 
 /// Why a link is lost.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LinkLoss {
     /// The other end is not there or does not want us; in the words of the
     /// operating system.
@@ -277,7 +278,7 @@ pub enum LinkLoss {
 }
 
 /// The stop button of one antenna.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopState {
     /// Nothing was asked.
     Ready,
@@ -299,7 +300,7 @@ pub enum StopState {
 }
 
 /// Something that happened, for the event line and the alarm list.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     /// The link went.
     LinkLost(LinkLoss),
@@ -384,7 +385,7 @@ pub enum Event {
 }
 
 /// Why a target cannot be followed, or no further.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum TrackProblem {
     /// It does not rise any more in the time that was looked at.
     #[error("there is no pass to come")]
@@ -408,7 +409,7 @@ impl TrackProblem {
 }
 
 /// What a device was found doing when its link came back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Found {
     /// It tracks.
     Tracking,

@@ -1,7 +1,9 @@
 //! Whether a time service keeps the clock of this computer right.
 
+use serde::{Deserialize, Serialize};
+
 /// How the clock of this computer is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum TimeSync {
     /// A time service has set it and keeps it.
     Synchronised,

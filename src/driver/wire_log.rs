@@ -7,6 +7,8 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
+use serde::{Deserialize, Serialize};
+
 use crate::device::WireLine;
 
 /// How many lines are kept.
@@ -17,7 +19,7 @@ const MAX_BYTES: usize = 4 * 1024 * 1024;
 const MAX_READ: usize = 1000;
 
 /// A line with its place in the log. Numbers count from 0 and leave none out.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Recorded {
     /// Its place among all lines since the start.
     pub number: u64,

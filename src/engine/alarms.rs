@@ -3,6 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::claim::HeldBy;
 use crate::{
@@ -12,6 +13,7 @@ use crate::{
         panel::{Check, CheckState},
     },
     driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
+    name::{self, Name},
     plan::on_board::Ranked,
     station::{AntennaId, Note, NoteReason},
 };
@@ -29,7 +31,7 @@ pub enum Priority {
 }
 
 /// What happened. The words are the view's.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum AlarmKind {
     /// No link to the antenna.
     LinkLost(LinkLoss),
@@ -111,7 +113,7 @@ pub enum AlarmKind {
     /// The unit's clock was never set.
     ClockNotSet,
     /// Its position cannot be read, for this reason.
-    Unreadable(&'static str),
+    Unreadable(#[serde(deserialize_with = "name::one")] Name),
     /// A setting of the station file that was not taken over.
     Setting(Note),
     /// The settings could not be read or written; in words.
@@ -121,7 +123,7 @@ pub enum AlarmKind {
 }
 
 /// Work that can break off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
     /// The reading of the sources of elements.
     Elements,
@@ -130,7 +132,7 @@ pub enum Work {
 }
 
 /// One entry of the list.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alarm {
     /// Never used twice.
     pub id: u64,
@@ -177,7 +179,7 @@ impl Alarm {
 }
 
 /// All alarms, the newest last. A copy shares them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Alarms {
     list: Arc<Vec<Alarm>>,
     next_id: u64,

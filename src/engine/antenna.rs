@@ -10,8 +10,11 @@ pub use errors::{ErrorSample, Errors};
 pub use stake::Stake;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
-use super::{claim::HeldBy, on_board::Judged, passes::ListedSatellite, track_again::TrackAgain};
+use super::{
+    claim::HeldBy, on_board::Judged, passes::ListedSatellite, track_again::TrackAgain, written,
+};
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     clock::Instant,
@@ -25,7 +28,7 @@ use crate::{
 const RATE_SPAN_S: f64 = 0.9;
 
 /// Where a target stood when the antenna was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Its catalog number, for a satellite.
     pub catalog_number: Option<u32>,
@@ -36,9 +39,10 @@ pub struct Prediction {
 }
 
 /// One antenna.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct AntennaModel {
     /// What it is.
+    #[serde(with = "written::antenna")]
     pub config: Antenna,
     /// What its session told last.
     pub snapshot: Arc<Snapshot>,

@@ -44,7 +44,7 @@ pub enum HolderKind {
 }
 
 /// Another Azel of this machine holds it; it may not say who it is.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HeldBy(pub Option<Holder>);
 
 impl std::fmt::Display for HeldBy {

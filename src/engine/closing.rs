@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Engine, Event as Told, antenna::Stake};
 use crate::{
     clock::Instant,
@@ -15,7 +17,7 @@ const STOPPED_IN: Duration = Duration::from_secs(6);
 const TAKEN_IN: Duration = Duration::from_secs(2);
 
 /// What becomes of antennas that move or are tracked at the end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CloseHow {
     /// They are stopped and hold.
     Hold,
@@ -26,7 +28,7 @@ pub enum CloseHow {
 }
 
 /// The end comes when these antennas are done.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Closing {
     /// What the operator has said.
     pub how: CloseHow,
@@ -36,7 +38,7 @@ pub struct Closing {
 }
 
 /// What is waited for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Wanted {
     /// Proved standstill.
     Still,

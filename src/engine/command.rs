@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     closing::CloseHow,
     passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
-    uploads,
+    uploads, written,
 };
 use crate::{
     driver,
@@ -15,7 +17,7 @@ use crate::{
 };
 
 /// What a client of a station asks for. A STOP is none of these: it goes past them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Something for an antenna.
     Antenna(AntennaId, driver::Command),
@@ -78,7 +80,7 @@ pub enum Command {
     /// End the comparison.
     CloseCopy,
     /// Save these settings and use them.
-    SaveStation(Box<Station>),
+    SaveStation(#[serde(with = "written::station")] Box<Station>),
     /// About a file of elements for a unit.
     Upload(uploads::Ask),
     /// About a test of a source that a unit is told to use.
@@ -92,7 +94,7 @@ pub enum Command {
 }
 
 /// What a client looks at, and what is therefore worked out.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Attention {
     /// Which passes it lists.
     pub list: ListChoice,

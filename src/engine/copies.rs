@@ -7,6 +7,7 @@ use std::{
 };
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::antenna::AntennaModel;
 use crate::{
@@ -19,7 +20,7 @@ use crate::{
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The copies of the settings of units.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Copies {
     /// What came of the last saving.
     pub saved: Option<Saving>,
@@ -28,7 +29,7 @@ pub struct Copies {
 }
 
 /// What came of a saving.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Saving {
     /// Name of the antenna.
     pub antenna: String,
@@ -39,7 +40,7 @@ pub struct Saving {
 }
 
 /// A comparison on its way.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OpenCopy {
     /// Name of the antenna.
     pub antenna: String,

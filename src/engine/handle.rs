@@ -6,6 +6,7 @@ use std::{
     time::Duration,
 };
 
+use serde::{Deserialize, Serialize};
 use tokio::sync::{Notify, mpsc, watch};
 
 use super::{Command, Engine, Settings, Snapshot};
@@ -71,7 +72,7 @@ pub struct Stopped {
 }
 
 /// Something that a client is to know once.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     /// The station was saved at this time, or why not.
     Saved(Result<jiff::Timestamp, String>),
@@ -84,8 +85,6 @@ pub enum Event {
 /// What a station publishes.
 #[derive(Clone)]
 pub(super) struct Published {
-    /// When.
-    pub(super) at: Instant,
     pub(super) snapshot: Arc<Snapshot>,
     /// By the place of the antenna.
     pub(super) ends: Arc<[AntennaEnds]>,
@@ -270,7 +269,7 @@ impl Handle {
     /// For how long the station has shown nothing new, from two seconds on: it does
     /// each second.
     pub fn stood_for(&self) -> Option<Duration> {
-        let shown = self.client.published.borrow().at;
+        let shown = self.client.published.borrow().snapshot.at.steady;
         let stood = self.client.now().steady.saturating_duration_since(shown);
         (stood >= STANDS).then_some(stood)
     }

@@ -3,6 +3,8 @@
 
 use std::io;
 
+use serde::{Deserialize, Serialize};
+
 use crate::job::Job;
 use crate::{
     job::Wake,
@@ -10,7 +12,7 @@ use crate::{
 };
 
 /// A host key that is not the known one.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DoubtfulKey {
     /// The host as the file of known hosts names it.
     pub address: String,

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{
     Antenna, CatalogState, Engine,
@@ -28,7 +29,7 @@ use crate::{
 const EDGE_S: f64 = 0.002;
 
 /// What was found of a unit, and by what.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Judged {
     /// How it would follow; `None` where the pass is none for its antenna.
     pub found: Option<Arc<Supervision>>,

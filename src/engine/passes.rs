@@ -11,6 +11,7 @@ mod tests;
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub use self::{
     choice::{ListChoice, SPANS_H, Scope},
@@ -36,7 +37,7 @@ const FAVOURITES_H: u32 = 48;
 pub type PassKey = (u32, Timestamp);
 
 /// The passes to come.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct PassLists {
     /// Those of the followed satellites.
     pub favourites: PassList,

@@ -4,6 +4,7 @@
 mod desk;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub(super) use desk::Desk;
 
@@ -12,7 +13,7 @@ use crate::secret::Secret;
 use crate::transfer::{ElementSource, FileProtocol, Peer, UnitView};
 
 /// What is shown of the last test.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SourceTests {
     /// What was tested; `None` before the first time.
     pub order: Option<SourceOrder>,
@@ -21,7 +22,7 @@ pub struct SourceTests {
 }
 
 /// Where a test stands.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum TestStage {
     /// There is none.
     #[default]
@@ -54,7 +55,7 @@ impl TestStage {
 }
 
 /// What is to be tested.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceOrder {
     /// Name of the antenna whose unit will fetch it.
     pub antenna: String,
@@ -65,7 +66,7 @@ pub struct SourceOrder {
 }
 
 /// Where elements are.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestedSource {
     /// An `http` or `https` address.
     Web {
@@ -108,7 +109,7 @@ impl TestedSource {
 }
 
 /// What a view asks for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestAsk {
     /// Test this. While another test is open, nothing happens.
     Begin(Box<SourceOrder>),

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::job::Job;
 use crate::{
@@ -13,7 +14,7 @@ use crate::{
 };
 
 /// The sources, as they were when they were last read.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sources {
     /// All of them, in the order of the operator.
     pub list: Vec<Source>,
@@ -29,7 +30,7 @@ pub struct Sources {
 }
 
 /// What is being done for the sources.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SourceWork {
     /// Nothing.
     #[default]

@@ -1,6 +1,7 @@
 //! A track that STOP has ended is offered again for a while.
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{Command, Engine, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
 use crate::{
@@ -14,7 +15,7 @@ use crate::{
 const OFFERED_S: f64 = 600.0;
 
 /// A track, and what begins it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackAgain {
     /// Name of the target.
     pub name: String,

@@ -102,6 +102,7 @@ impl Engine {
             return;
         }
         self.catalog = CatalogState::Ready(Arc::new(outcome.catalog));
+        self.catalog_revision += 1;
         if matches!(self.demo, Some(DemoStation::Coming)) {
             self.start_demo();
         }

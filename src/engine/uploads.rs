@@ -15,6 +15,7 @@ mod select;
 mod sessions;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub use choice::{Chosen, ChosenObject};
 pub(super) use desk::{Desk, Told};
@@ -28,7 +29,7 @@ use crate::secret::Secret;
 use crate::transfer::{FileObject, KeptFile, Progress, Uploaded};
 
 /// What is shown of uploads.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Uploads {
     /// Name of the antenna that the last order is for.
     pub antenna: String,
@@ -43,7 +44,7 @@ pub struct Uploads {
 }
 
 /// Where an order stands.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum Stage {
     /// There is none.
     #[default]
@@ -88,7 +89,7 @@ impl Stage {
 }
 
 /// What is to be typed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SecretWanted {
     /// Whose: the user, or the path of a key file.
     pub user: String,
@@ -103,7 +104,7 @@ pub struct SecretWanted {
 }
 
 /// A file on a unit, and the unit's word that it uses it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
     /// The file.
     pub uploaded: Uploaded,
@@ -114,7 +115,7 @@ pub struct Proved {
 }
 
 /// How an order ended that did not end well.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Failure {
     /// Why, and what is on the unit now.
     pub text: String,
@@ -127,7 +128,7 @@ pub struct Failure {
 }
 
 /// What the operator should know besides.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Warning {
     /// The password is the one that every unit has from its maker.
     FactoryPassword,
@@ -136,7 +137,7 @@ pub enum Warning {
 }
 
 /// The files that can be put back on a unit.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Kept {
     /// Host and port of the unit and name of the file that was asked about.
     pub of: (String, String),
@@ -145,7 +146,7 @@ pub struct Kept {
 }
 
 /// A file that can be put back.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KeptEntry {
     /// What and when.
     pub file: KeptFile,
@@ -154,7 +155,7 @@ pub struct KeptEntry {
 }
 
 /// What a view asks for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Ask {
     /// Carry this out. While another order is open, nothing happens.
     Begin(Box<Order>),

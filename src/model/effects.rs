@@ -95,7 +95,7 @@ pub struct Effect {
     /// As edited.
     pub after: Tally,
     /// Edition of the list of passes.
-    pub edition: u64,
+    pub revision: u64,
 }
 
 /// The last question and its answer.
@@ -130,10 +130,10 @@ pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[Pass
     wanted.take_while(|_| !cancelled()).map(way).collect()
 }
 
-pub fn answer(question: Question, ways: &Arc<[PassTrack]>, edition: u64) -> Effect {
+pub fn answer(question: Question, ways: &Arc<[PassTrack]>, revision: u64) -> Effect {
     let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
     let (before, after) = (tally(&question.before), tally(&question.after));
-    Effect { ways: Arc::clone(ways), before, after, edition, question }
+    Effect { ways: Arc::clone(ways), before, after, revision, question }
 }
 
 fn tally(obstacles: &Obstacles, question: &Question, ways: &[PassTrack]) -> Tally {

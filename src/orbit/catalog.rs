@@ -1,8 +1,9 @@
 //! The catalog: all elements that the operator has, the newest of every object.
 
-use std::cmp::Ordering;
+use std::{cmp::Ordering, ops::Range};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{Elements, Note, ReadReport, Refusal, RefusalReason};
 
@@ -29,7 +30,7 @@ struct Group {
 }
 
 /// The changes of a merge.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MergeSummary {
     /// Objects the catalog did not have.
     pub added: usize,
@@ -145,6 +146,12 @@ impl Catalog {
     /// All elements by catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
         self.entries.iter().map(|entry| &entry.elements)
+    }
+
+    /// Some of them, by their places in that order.
+    pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = &Elements> {
+        let entries = self.entries.iter().take(places.end).skip(places.start);
+        entries.map(|entry| &entry.elements)
     }
 
     pub fn len(&self) -> usize {

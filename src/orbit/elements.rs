@@ -1,11 +1,15 @@
 //! The elements of one orbit.
 
 use jiff::{Timestamp, civil, tz::TimeZone};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use sgp4::chrono::{DateTime, TimeDelta};
 use smol_str::SmolStr;
 
 use super::Propagator;
-use crate::astro::{Angle, time};
+use crate::{
+    astro::{Angle, time},
+    name::{self, Name},
+};
 
 /// Seconds of a sidereal day.
 const SIDEREAL_DAY_S: f64 = 86_164.090_5;
@@ -18,7 +22,8 @@ const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 /// either way, B* within 10 either way, the epoch within [`EPOCH_YEARS`], and
 /// SGP4 finds the object above the ground at its epoch. A value takes 152 bytes and, while its texts have 23
 /// bytes at most, nothing on the heap.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct Elements {
     /// Empty when the source gave none.
     pub(super) name: SmolStr,
@@ -49,7 +54,7 @@ pub struct Elements {
 }
 
 /// Classification of a set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(super) enum Classification {
     #[default]
     Unclassified,
@@ -65,7 +70,7 @@ pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
 /// Why numbers are no orbit.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum ElementsError {
     /// Made for another theory than SGP4 (4 is SGP4-XP).
     #[error("ephemeris type {0} is not SGP4")]
@@ -86,7 +91,8 @@ pub enum ElementsError {
     /// is soon rounding noise, and so are the passes.
     #[error("{name} {value:?} is not from {least} to {most}")]
     OutOfRange {
-        name: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        name: Name,
         /// Degrees, or B* per Earth radius.
         value: f64,
         least: f64,
@@ -117,6 +123,18 @@ impl Classification {
             Self::Classified => 'C',
             Self::Secret => 'S',
         }
+    }
+}
+
+impl Serialize for Elements {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Elements {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Self::deserialize(from)?.checked().map_err(D::Error::custom)
     }
 }
 

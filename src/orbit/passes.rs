@@ -17,6 +17,7 @@ use std::{
 
 use jiff::Timestamp;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 pub use self::mask::clear_stretches;
 use self::{near_circular::NearCircular, track::Track, window::Window};
@@ -27,7 +28,7 @@ use crate::astro::{Angle, AzEl, Site, time};
 const BATCH: usize = 64;
 
 /// Time and direction of one point of a pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassPoint {
     /// When, UTC.
     pub time: Timestamp,
@@ -36,7 +37,7 @@ pub struct PassPoint {
 }
 
 /// One stay above the horizon within a window.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// Acquisition of signal: where the satellite comes up, or the start of the window.
     pub aos: PassPoint,

@@ -4,6 +4,8 @@ mod near_circular;
 mod secular;
 mod waves;
 
+use serde::{Deserialize, Serialize};
+
 use glam::DVec3;
 use jiff::Timestamp;
 
@@ -32,7 +34,7 @@ pub struct State {
 }
 
 /// Why there is no state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PropagationError {
     /// SGP4 cannot start from these elements.
     #[error("the elements describe no orbit")]

@@ -80,7 +80,7 @@ pub enum FetchProblem {
 }
 
 /// The state of one source.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceReport {
     pub source: String,
     /// Its files: one, or all of a folder; none when nothing was fetched yet.
@@ -99,7 +99,7 @@ pub struct SourceReport {
 }
 
 /// The state of one file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FileReport {
     pub path: PathBuf,
     pub objects: usize,

@@ -8,6 +8,8 @@
 mod sun;
 mod way_out;
 
+use serde::{Deserialize, Serialize};
+
 use glam::DVec3;
 use jiff::Timestamp;
 use smol_str::SmolStr;
@@ -22,7 +24,7 @@ use crate::{
 const FINEST_DEG: f64 = 0.05;
 
 /// What an antenna must not point into.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
     /// Below its minimum elevation.
     MinimumElevation,

@@ -6,6 +6,7 @@ mod clear;
 mod path;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub use cause::{Cause, Ranked, Unknown};
 pub use clear::{OffLimits, Trespass, path_is_clear};
@@ -20,7 +21,7 @@ use crate::{
 use path::{Unit, spread};
 
 /// A pass for a unit to track by itself.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardPass {
     /// The target that is sent to the unit.
     pub target: TrackTarget,
@@ -32,7 +33,7 @@ pub struct OnBoardPass {
 }
 
 /// The best known orbit, and the site.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KnownOrbit {
     pub elements: Elements,
     pub site: Site,
@@ -84,7 +85,7 @@ impl Ability {
 }
 
 /// The judgement of an on-board track.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Supervision {
     /// The largest error.
     pub worst: Error,
@@ -99,7 +100,7 @@ pub struct Supervision {
 }
 
 /// A pointing error and its time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Error {
     /// Angle between beam axis and satellite.
     pub off: Angle,

@@ -11,6 +11,7 @@ mod stats;
 mod target;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub use axis::AxisNow;
 pub use drives::{Drives, SetPoint};
@@ -21,7 +22,7 @@ pub use target::{Course, Target};
 use crate::astro::Site;
 
 /// A target, its site and its passes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramTrack {
     pub target: Target,
     pub site: Site,
@@ -30,7 +31,7 @@ pub struct ProgramTrack {
 }
 
 /// The phase of a target in its passes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackPhase {
     /// Before a pass: the antenna goes to its start and waits.
     Waiting { aos: Timestamp },

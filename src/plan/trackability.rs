@@ -4,6 +4,7 @@ mod az_el;
 mod xy;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     astro::{Angle, AzEl},
@@ -11,7 +12,7 @@ use crate::{
 };
 
 /// A direction at a time.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     pub time: Timestamp,
     pub direction: AzEl,

@@ -6,13 +6,14 @@ mod keep_out;
 
 use std::ops::RangeInclusive;
 
+use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::{Antenna, AntennaId, ControllerSpec, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// Something in the file that was not taken over as it stands.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
     /// Where in the file, such as `antenna[0].beam_width_deg`.
     pub place: String,
@@ -21,7 +22,7 @@ pub struct Note {
 }
 
 /// Why a field was not taken over.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoteReason {
     /// The value cannot be used; the default stands in its place.
     Invalid(String),

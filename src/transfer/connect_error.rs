@@ -2,10 +2,12 @@
 
 use std::{fmt, io, path::PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use super::{Interruption, KnownHostsError, OfferedKey};
 
 /// Another computer.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Peer {
     /// Its name or IP address.
     pub host: String,

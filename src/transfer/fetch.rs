@@ -5,6 +5,8 @@ mod ftp;
 mod seen;
 mod web;
 
+use serde::{Deserialize, Serialize};
+
 use rustls::{RootCertStore, pki_types::CertificateDer};
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
@@ -37,7 +39,7 @@ pub enum ElementSource {
 }
 
 /// How a server of files is spoken to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FileProtocol {
     /// Plain: password and file can be read on the way.
     Ftp,

@@ -1,6 +1,7 @@
 //! A file of elements for a unit: what it carries, checked before it is sent.
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::FileHash;
 use crate::{
@@ -9,7 +10,7 @@ use crate::{
 };
 
 /// One object of a file on a unit.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileObject {
     /// Its name in the file: what the unit is told to look for.
     pub name: String,
@@ -20,7 +21,7 @@ pub struct FileObject {
 }
 
 /// A file of elements as TLE.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TleFile {
     bytes: Vec<u8>,
     objects: Vec<FileObject>,
@@ -118,7 +119,7 @@ impl TleFile {
 }
 
 /// The name of a file in the folder of a unit.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileName(String);
 
 /// Why a name is none for a file on a unit.

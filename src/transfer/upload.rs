@@ -5,6 +5,7 @@ mod error;
 mod put;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 use tokio_util::sync::CancellationToken;
 
 pub use error::{FolderState, Progress, UploadError, UploadReason, UploadStep};
@@ -25,7 +26,7 @@ pub struct Upload {
 }
 
 /// Proof that a file is on a unit: it was read back there, in its place.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Uploaded {
     pub unit: Peer,
     /// The file's name there.

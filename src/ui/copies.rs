@@ -7,7 +7,7 @@ use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
 
 use super::{format, text, theme};
 use crate::{
-    device::settings::{Difference, Field, Group, Held, SettingsCopy, Value, Verdict},
+    device::settings::{Difference, Field, Group, SettingsCopy, Value, Verdict},
     engine::{antenna::AntennaModel, copies::OpenCopy},
     model::UiCommand,
 };
@@ -56,11 +56,10 @@ pub fn show(
             state.chosen.clear();
             commands.push(UiCommand::ReadCopy { antenna: index, path });
         }
-        let held = &antenna.snapshot.state.held;
         match &open.read {
             None => {}
             Some((path, Err(why))) => problem(ui, path, why),
-            Some((_, Ok(copy))) => taken = compared(ui, copy, held, state),
+            Some((_, Ok(copy))) => taken = compared(ui, copy, antenna, state),
         }
         closed = !taken.is_empty() || ui.button("Close").clicked();
     });
@@ -109,7 +108,12 @@ fn problem(ui: &mut Ui, path: &Path, why: &str) {
     ui.label(RichText::new(words).font(text::body()).color(t.bad));
 }
 
-fn compared(ui: &mut Ui, copy: &SettingsCopy, held: &Held, state: &mut CompareState) -> Vec<Taken> {
+fn compared(
+    ui: &mut Ui,
+    copy: &SettingsCopy,
+    antenna: &AntennaModel,
+    state: &mut CompareState,
+) -> Vec<Taken> {
     let t = theme::tokens(ui);
     let head = &copy.head;
     let words = format!(
@@ -124,7 +128,7 @@ fn compared(ui: &mut Ui, copy: &SettingsCopy, held: &Held, state: &mut CompareSt
         let words = format!("Not known and left out: {}.", copy.unknown.join(", "));
         ui.label(RichText::new(words).font(text::small()).color(t.warn));
     }
-    let differences = copy.differences(held);
+    let differences = copy.differences(antenna.groups(), &antenna.snapshot.state.held);
     if differences.is_empty() {
         let words = "Every value in the file is on the unit.";
         ui.label(RichText::new(words).font(text::body()).color(t.ok));
@@ -156,8 +160,8 @@ fn compared(ui: &mut Ui, copy: &SettingsCopy, held: &Held, state: &mut CompareSt
 }
 
 fn chosen(difference: &Difference, state: &CompareState) -> Option<Taken> {
-    let (group, field) = (difference.copied.group.key, difference.copied.field.key);
-    let value = difference.copied.value.as_ref().ok()?;
+    let (group, field) = (difference.group.key, difference.field.key);
+    let value = difference.copied.as_ref().ok()?;
     (difference.verdict == Verdict::Free && state.chosen.contains(&(group, field))).then(|| Taken {
         group,
         field,
@@ -167,7 +171,7 @@ fn chosen(difference: &Difference, state: &CompareState) -> Option<Taken> {
 
 fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
     let t = theme::tokens(ui);
-    let (group, field) = (difference.copied.group, difference.copied.field);
+    let (group, field) = (difference.group, difference.field);
     let name = format!("{}, {}", group.title, field.label);
     let key = (group.key, field.key);
     let is_free = difference.verdict == Verdict::Free;
@@ -181,7 +185,7 @@ fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
         };
     }
     let words = |value: Option<&Value>| value.map_or("–".to_owned(), |it| shown(field, it));
-    let in_file = words(difference.copied.value.as_ref().ok());
+    let in_file = words(difference.copied.as_ref().ok());
     let on_unit = words(difference.held.as_ref());
     ui.label(RichText::new(in_file).font(text::body()));
     ui.label(RichText::new(on_unit).font(text::body()).color(t.t2));
@@ -194,7 +198,7 @@ fn shown(field: &Field, value: &Value) -> String {
 }
 
 fn verdict(group: &Group, difference: &Difference) -> String {
-    match (difference.verdict, &difference.copied.value) {
+    match (difference.verdict, &difference.copied) {
         (Verdict::Unfit, Err(why)) => format!("cannot be used: {why}"),
         (Verdict::Service, _) => "service setting, only shown".to_owned(),
         (Verdict::NotRead, _) => format!("{} was not read from the unit", group.title),

@@ -43,7 +43,7 @@ async fn follow_round<U: Unit>(
 ) -> [f64; 2] {
     let station = Station { site: sky::site(), keep_outs: vec![mast], ..Station::default() };
     let bounds = Bounds::of(&station, antenna);
-    rig.send(Command::Within(Box::new(bounds.clone())));
+    rig.handle().keep_within(bounds.clone());
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let propagator = Propagator::new(&scene.elements).unwrap();
     let direction = |rig: &Rig<Control<U>>| -> AzEl {

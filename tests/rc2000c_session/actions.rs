@@ -35,7 +35,7 @@ fn mast() -> Bounds {
 #[tokio::test(start_paused = true)]
 async fn counts_are_judged_by_the_way_of_the_angles_that_they_mean() {
     let mut rig = Rig::in_manual().await;
-    rig.send(Command::Within(Box::new(mast())));
+    rig.handle().keep_within(mast());
     let counts = |az, el| [("az_counts", Value::Integer(az)), ("el_counts", Value::Integer(el))];
     // From 164.75 degrees to 110, with the mast between.
     rig.act("to_counts", counts(430, 750));
@@ -90,7 +90,7 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
     let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
     let mut rig = Rig::connected(&Options::default(), &alarm_alone).await;
     rig.send(Command::Manual);
-    rig.send(Command::Within(Box::new(mast())));
+    rig.handle().keep_within(mast());
     // It is stored at 122.75 degrees, behind the mast.
     rig.act_unseen("to_satellite", to("SATCOM C3", 0));
     let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
@@ -106,12 +106,12 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
 async fn what_cannot_be_watched_is_not_started_unseen() {
     let mut rig = Rig::connected(&Options::default(), &uncalibrated()).await;
     rig.send(Command::Manual);
-    rig.send(Command::Within(Box::new(mast())));
+    rig.handle().keep_within(mast());
     rig.act_unseen("to_satellite", to("GALAXY 5", 0));
     assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
     assert!(rig.orders().is_empty());
     // Where nothing is forbidden the operator's eyes have to do.
-    rig.send(Command::Within(Box::new(Bounds::of_antenna(&uncalibrated()))));
+    rig.handle().keep_within(Bounds::of_antenna(&uncalibrated()));
     rig.act("to_satellite", to("GALAXY 5", 0));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Unseen { is_watched: false, .. }), "{told:?}");

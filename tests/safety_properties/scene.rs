@@ -46,7 +46,7 @@ impl Scene {
         let clock = TestClock::new(world.utc_origin).clock();
         let (session, handle) = session(&world.antenna, dial, clock);
         tokio::spawn(session.run());
-        handle.send(Command::Within(Box::new(world.bounds.clone()))).unwrap();
+        handle.keep_within(world.bounds.clone());
         handle.send(Command::Connect).unwrap();
         let mut scene = Self { world, handle, line, network, last_dial, events: Vec::new() };
         let end = Instant::now() + Duration::from_secs(20);

@@ -28,8 +28,8 @@ fn direction(rig: &Rig) -> AzEl {
     rig.shown().state.measured.unwrap().direction().unwrap()
 }
 
-fn within(station: &Station) -> Command {
-    Command::Within(Box::new(Bounds::of(station, &antenna())))
+fn within(station: &Station) -> Bounds {
+    Bounds::of(station, &antenna())
 }
 
 /// A site with a mast where the antenna points, 10 degrees wide and high.
@@ -64,7 +64,7 @@ async fn in_a_mast() -> Rig {
     rig.send(go_to(AzEl::from_degrees(200.0, 45.0)));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
     rig.send(Command::Manual);
-    rig.send(within(&masted(direction(&rig))));
+    rig.handle().keep_within(within(&masted(direction(&rig))));
     rig.until("inside", 5, |shown| shown.inside == Some(mast(false))).await;
     rig.events();
     rig
@@ -120,9 +120,9 @@ async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     assert_eq!(refused.len(), 4, "{refused:?}");
 
     rig.send(Command::AllowWayOut);
-    rig.send(within(&Station::default()));
+    rig.handle().keep_within(within(&Station::default()));
     rig.until("outside", 5, |shown| shown.inside.is_none()).await;
-    rig.send(within(&masted(direction(&rig))));
+    rig.handle().keep_within(within(&masted(direction(&rig))));
     rig.until("inside again", 5, |shown| shown.inside.is_some()).await;
     assert_eq!(rig.shown().inside, Some(mast(false)), "it may leave, not enter again");
 }
@@ -132,7 +132,7 @@ async fn in_the_way_of_the_sun() -> Rig {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.send(go_to(sun_moon::sun(site(), morning())));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
-    rig.send(within(&sunny()));
+    rig.handle().keep_within(within(&sunny()));
     rig.until("inside", 5, |shown| shown.inside.is_some()).await;
     rig
 }
@@ -170,7 +170,7 @@ async fn the_park_position_is_taken_where_it_is_nearer() {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &dish).await;
     rig.send(go_to(sun.towards(270.0, 1.0)));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
-    rig.send(within(&sunny()));
+    rig.handle().keep_within(within(&sunny()));
     rig.until("inside", 5, |shown| shown.inside.is_some()).await;
     rig.send(Command::MoveAway);
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
@@ -180,7 +180,7 @@ async fn the_park_position_is_taken_where_it_is_nearer() {
 #[tokio::test(start_paused = true)]
 async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_that_alone() {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
-    rig.send(within(&sunny()));
+    rig.handle().keep_within(within(&sunny()));
     let follow = || ProgramTrack { target: Target::Sun, site: site(), passes: Vec::new() };
     rig.send(Command::ProgramTrack(Box::new(follow())));
     let refused = rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;

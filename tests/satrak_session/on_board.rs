@@ -268,10 +268,10 @@ async fn auto_track_refused(rig: &mut Rig) -> Refusal {
 async fn auto_track_is_judged_by_where_the_unit_would_go_when_it_takes_over() {
     let mut rig = read().await;
     chosen_by_another(&mut rig, &iss()).await;
-    rig.send(Command::Within(Box::new(in_the_way())));
+    rig.handle().keep_within(in_the_way());
     let told = auto_track_refused(&mut rig).await;
     assert!(matches!(told, Refusal::Path(_) | Refusal::Forbidden { .. }), "{told:?}");
-    rig.send(Command::Within(Box::new(Bounds::of_antenna(&antenna()))));
+    rig.handle().keep_within(Bounds::of_antenna(&antenna()));
     rig.send(Command::AutoTrack(true));
     rig.seconds(1.0).await;
     assert_eq!(rig.sent("TRACK_AUTO_ENABLE=").len(), 1);

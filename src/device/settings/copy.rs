@@ -7,14 +7,16 @@
 use std::fmt::Write as _;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{Access, Field, Group, Guard, Held, Kind, Unfit, Value};
+use crate::name::{self, Name};
 
 /// The version that this program writes.
 const VERSION: i64 = 1;
 
 /// Whose settings a copy holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CopyHead {
     /// The antenna, as the station file names it.
     pub antenna: String,
@@ -27,7 +29,7 @@ pub struct CopyHead {
 }
 
 /// A copy that was read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SettingsCopy {
     /// Whose it is.
     pub head: CopyHead,
@@ -39,30 +41,29 @@ pub struct SettingsCopy {
 }
 
 /// A value of a copy.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CopiedValue {
-    /// Its group.
-    pub group: &'static Group,
-    /// Its field.
-    pub field: &'static Field,
+    /// Key of its group.
+    #[serde(deserialize_with = "name::one")]
+    pub group: Name,
+    /// Key of its field.
+    #[serde(deserialize_with = "name::one")]
+    pub field: Name,
     /// The value, or why it cannot be used.
     pub value: Result<Value, Unfit>,
     /// As it stands in the file.
     written: toml::Value,
 }
 
-impl PartialEq for CopiedValue {
-    fn eq(&self, other: &Self) -> bool {
-        (self.group.key, self.field.key, &self.value)
-            == (other.group.key, other.field.key, &other.value)
-    }
-}
-
 /// A setting that stands otherwise in a copy than on the device.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Difference {
-    /// What the copy says.
-    pub copied: CopiedValue,
+    /// Its group.
+    pub group: &'static Group,
+    /// Its field.
+    pub field: &'static Field,
+    /// What the copy says, or why it cannot be used.
+    pub copied: Result<Value, Unfit>,
     /// What the device holds; `None` where that is not known.
     pub held: Option<Value>,
     /// Whether it may be taken over.
@@ -175,7 +176,7 @@ impl SettingsCopy {
             for field in group.fields.iter().filter(|field| is_copied(field)) {
                 if let Some(value) = of_group.and_then(|of_group| of_group.get(field.key)) {
                     let (written, value) = (value.clone(), from_toml(field, value));
-                    values.push(CopiedValue { group, field, value, written });
+                    values.push(CopiedValue { group: group.key, field: field.key, value, written });
                 }
             }
         }
@@ -183,26 +184,28 @@ impl SettingsCopy {
     }
 
     /// What stands otherwise on the device.
-    pub fn differences(&self, held: &Held) -> Vec<Difference> {
+    pub fn differences(&self, groups: &[&'static Group], held: &Held) -> Vec<Difference> {
         let difference = |copied: &CopiedValue| {
-            let of_group = held.get(copied.group.key).and_then(|state| state.held.as_ref());
-            let held = of_group.and_then(|read| read.values.get(copied.field.key)).cloned();
+            let group = *groups.iter().find(|group| group.key == copied.group)?;
+            let field = group.field(copied.field)?;
+            let of_group = held.get(group.key).and_then(|state| state.held.as_ref());
+            let held = of_group.and_then(|read| read.values.get(field.key)).cloned();
             // What cannot be sent, such as an empty text, may be there all the same.
             let is_held = |held: &Value| match &copied.value {
-                Ok(value) => copied.field.kind.same(value, held),
-                Err(_) => as_toml(copied.field, held) == copied.written,
+                Ok(value) => field.kind.same(value, held),
+                Err(_) => as_toml(field, held) == copied.written,
             };
             if held.as_ref().is_some_and(is_held) {
                 return None;
             }
             let verdict = match &copied.value {
                 Err(_) => Verdict::Unfit,
-                Ok(_) if copied.group.is_service => Verdict::Service,
-                Ok(value) if (copied.field.guard)(value) == Guard::Service => Verdict::Service,
+                Ok(_) if group.is_service => Verdict::Service,
+                Ok(value) if (field.guard)(value) == Guard::Service => Verdict::Service,
                 Ok(_) if of_group.is_none() => Verdict::NotRead,
                 Ok(_) => Verdict::Free,
             };
-            Some(Difference { copied: copied.clone(), held, verdict })
+            Some(Difference { group, field, copied: copied.value.clone(), held, verdict })
         };
         self.values.iter().filter_map(difference).collect()
     }

@@ -3,14 +3,16 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{Hindrance, Unfit, Values};
+use crate::name::{self, Name};
 
 /// The groups of a device by their keys, each as far as it is known.
-pub type Held = BTreeMap<&'static str, GroupState>;
+pub type Held = BTreeMap<Name, GroupState>;
 
 /// What is known of a group.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GroupState {
     /// As last read.
     pub held: Option<HeldGroup>,
@@ -23,16 +25,17 @@ pub struct GroupState {
 }
 
 /// A group as it was read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeldGroup {
     /// What the device said.
+    #[serde(deserialize_with = "name::map")]
     pub values: Values,
     /// When it said so.
     pub read_at: Timestamp,
 }
 
 /// Why a group could not be read.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum ReadFailure {
     /// The device does not know the question. Its code stands as it came.
     #[error("the unit answered ERR,{0}")]
@@ -43,7 +46,7 @@ pub enum ReadFailure {
 }
 
 /// How far a change is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WriteStep {
     /// Others come first.
     Waiting,
@@ -56,23 +59,26 @@ pub enum WriteStep {
 }
 
 /// What a group of a device is to hold.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
     /// Told again with the outcome.
     pub ticket: u64,
     /// Key of the group.
-    pub group: &'static str,
+    #[serde(deserialize_with = "name::one")]
+    pub group: Name,
     /// The new values; what is not among them stays.
+    #[serde(deserialize_with = "name::map")]
     pub values: Values,
     /// What the operator saw on the device. When it holds something else by
     /// then, nothing is sent. `None` for whatever it holds.
+    #[serde(deserialize_with = "name::option_map")]
     pub seen: Option<Values>,
     /// The operator has unlocked the service functions.
     pub is_unlocked: bool,
 }
 
 /// A change that is over.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Written {
     /// What was asked for.
     pub change: Change,
@@ -83,7 +89,7 @@ pub struct Written {
 }
 
 /// Why a device does not hold what it was to hold, or is not known to.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum WriteError {
     /// There is no link.
     #[error("there is no link to the unit")]
@@ -108,7 +114,8 @@ pub enum WriteError {
     #[error("{hindrance}")]
     Hindered {
         /// Key of its field.
-        field: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        field: Name,
         /// Why not now.
         hindrance: Hindrance,
     },
@@ -122,7 +129,8 @@ pub enum WriteError {
     #[error("{field} {reason}")]
     CannotBeSent {
         /// Key of its field.
-        field: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        field: Name,
         /// Why not.
         reason: Unfit,
     },
@@ -137,7 +145,7 @@ pub enum WriteError {
     NotReadBack(ReadFailure),
     /// The read-back differs in these fields.
     #[error("the unit holds other values after it said OK")]
-    Differs(Vec<&'static str>),
+    Differs(#[serde(deserialize_with = "name::list")] Vec<Name>),
     /// The device holds the values and cannot work with them.
     #[error("{0}")]
     Useless(String),

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{
     clock::Instant,
     device::{AntennaState, Capabilities},
@@ -11,7 +13,7 @@ use crate::{
 const RECENT: Duration = Duration::from_secs(5);
 
 /// Why a setting that decides where the antenna points is not sent now.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Hindrance {
     /// A stop is under way.
     #[error("a stop is under way: wait until the antenna stands")]

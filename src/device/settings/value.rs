@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use jiff::{Timestamp, civil::DateTime, tz::TimeZone};
+use serde::{Deserialize, Serialize};
 
 use super::Kind;
-use crate::secret::Secret;
+use crate::{name::Name, secret::Secret};
 
 /// Values of a group by the keys of their fields.
-pub type Values = BTreeMap<&'static str, Value>;
+pub type Values = BTreeMap<Name, Value>;
 
 /// The value of a field.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Value {
     /// Of a [`Kind::Flag`].
     Flag(bool),
@@ -30,7 +31,7 @@ pub enum Value {
 }
 
 /// Why a value cannot be used; reads on from the name of its field.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum Unfit {
     /// No number where one is wanted.
     #[error("is not a number")]

@@ -2,16 +2,19 @@
 
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{
     astro::AzEl,
     device::{panel::Act, settings::Hindrance},
     driver::Intent,
+    name::{self, Name},
     plan::{Barrier, on_board::Trespass},
     station::LockOut,
 };
 
 /// Why a motion was not sent.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum Refusal {
     /// The unit is locked out for maintenance.
     #[error("locked out by {by}: {reason}")]
@@ -50,7 +53,8 @@ pub enum Refusal {
     #[error("the limit switch {axis}{} is set", if *plus { '+' } else { '-' })]
     Limit {
         /// Name of the axis.
-        axis: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
         /// Which end.
         plus: bool,
     },
@@ -88,7 +92,8 @@ pub enum Refusal {
     #[error("the angle of {axis} is not known")]
     AngleUnknown {
         /// Name of the axis.
-        axis: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
     },
     /// One axis at a time.
     #[error("one axis at a time")]
@@ -97,7 +102,8 @@ pub enum Refusal {
     #[error("{axis} would have to go to {asked_deg} degrees, it travels {from_deg} to {to_deg}")]
     Travel {
         /// Name of the axis.
-        axis: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
         /// Where it would have to go.
         asked_deg: f64,
         /// Lower end of its travel.
@@ -122,7 +128,7 @@ pub enum Refusal {
     NoRefuge,
     /// What is special to this controller speaks against it.
     #[error("{0}")]
-    Controller(&'static str),
+    Controller(#[serde(deserialize_with = "name::one")] Name),
     /// Where an action leads is known to the unit alone, and the operator has not
     /// answered for it.
     #[error("where {} leads is not known: {why}", act.action)]
@@ -130,7 +136,8 @@ pub enum Refusal {
         /// What was asked for.
         act: Act,
         /// Why it is not known.
-        why: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        why: Name,
         /// Whether its axes tell where they stand, so that it is stopped before what is
         /// forbidden.
         is_watched: bool,
@@ -170,7 +177,8 @@ pub enum Refusal {
     #[error("{field} is not set: {why}")]
     Setting {
         /// Its label.
-        field: &'static str,
+        #[serde(deserialize_with = "name::one")]
+        field: Name,
         /// Why not now.
         why: Hindrance,
     },

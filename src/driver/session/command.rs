@@ -1,5 +1,6 @@
 //! What the operator can ask of an antenna, and what the session makes of it.
 
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use super::{
@@ -17,13 +18,14 @@ use crate::{
         settings::{Change, WriteError},
     },
     driver::{Intent, Refusal},
-    plan::{Bounds, OnBoardPass, ProgramTrack},
+    name::{self, Name},
+    plan::{OnBoardPass, ProgramTrack},
     station::LockOut,
 };
 
 /// What the operator can ask of an antenna. STOP is no command: it goes past
 /// this queue.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Nothing is to move: ends whatever runs.
     Standby,
@@ -66,8 +68,6 @@ pub enum Command {
     ProgramTrackIntoSun(Box<ProgramTrack>),
     /// Follow on, where that waits for the operator's word.
     Resume,
-    /// Keep within these bounds from now on.
-    Within(Box<Bounds>),
     /// The operator has seen that the antenna stands: no STOP is owed any more.
     SeenStanding,
     /// To the park position.
@@ -85,7 +85,7 @@ pub enum Command {
     /// The device may start to follow by itself.
     AutoTrack(bool),
     /// Read the group of settings with this key anew.
-    ReadGroup(&'static str),
+    ReadGroup(#[serde(deserialize_with = "name::one")] Name),
     /// Put new values of a group of settings on the device. The outcome stands
     /// in the snapshot.
     WriteSettings(Change),
@@ -110,7 +110,6 @@ impl Session {
                 | Command::ProgramTrack(_)
                 | Command::ProgramTrackIntoSun(_)
                 | Command::Track(_)
-                | Command::Within(_)
         );
         let line = (!quiet && tracing::enabled!(tracing::Level::INFO)).then(|| command.clone());
         if self.lock_out_forbids(&command) {
@@ -125,7 +124,6 @@ impl Session {
             Command::AllowWayOut => self.allow_way_out(now),
             Command::MoveAway => self.move_away(now),
             Command::SeenStanding => self.take_word_for_standstill(),
-            Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::Manual => self.leave_for(Activity::Manual, now),
@@ -286,7 +284,6 @@ impl Session {
             Command::AllowUnguarded => self.allow_unguarded(now),
             Command::AllowWayOut => self.allow_way_out(now),
             Command::SeenStanding => self.take_word_for_standstill(),
-            Command::Within(bounds) => self.keep_within(*bounds),
             Command::Resume => self.resume(),
             Command::Standby => self.activity = Activity::Standby,
             _ => {

@@ -2,13 +2,17 @@
 
 use std::{io, time::Duration};
 
-use tokio::io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf};
+use tokio::{
+    io::{AsyncReadExt, AsyncWriteExt, ReadHalf, WriteHalf},
+    sync::{Mutex as AsyncMutex, mpsc, watch},
+};
 
 use super::{Command, Numbered, Session, Wires, wanted::Wanted};
 use crate::{
     clock::{Clock, Moment},
     device::Extent,
-    driver::{LinkLoss, LinkState, Stream, before_sleep::Awake},
+    driver::{LinkLoss, LinkState, Stopper, Stream, before_sleep::Awake},
+    plan::Bounds,
 };
 
 /// A connection that does not come up in this time is given up.
@@ -34,6 +38,8 @@ pub(super) enum Input {
     Bytes(usize),
     Lost(LinkLoss),
     Command(Command),
+    /// Other bounds hold for the antenna from now on.
+    Bounds(Box<Bounds>),
     Stop,
     /// This computer is about to sleep.
     Sleep(Awake),
@@ -105,7 +111,7 @@ impl Session {
         loop {
             tokio::select! {
                 biased;
-                turn = next_input(&self.wires) => {
+                turn = next_input(&mut self.wires) => {
                     if !self.take_offline(turn) {
                         return Ok(None);
                     }
@@ -153,7 +159,7 @@ impl Session {
             let until = self.halt_due().into_iter().chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
-                turn = next_input(&self.wires) => {
+                turn = next_input(&mut self.wires) => {
                     if !self.take_offline(turn) {
                         return None;
                     }
@@ -171,6 +177,7 @@ impl Session {
             Input::Stop => self.stop_and_void(now),
             Input::Command(Command::Disconnect) => return !self.disconnect(),
             Input::Command(command) => self.carry_out_offline(command, now),
+            Input::Bounds(bounds) => self.keep_within(*bounds),
             Input::Sleep(awake) => self.before_sleep(awake, now),
             Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
         }
@@ -259,6 +266,7 @@ impl Session {
                         return None;
                     }
                 }
+                Input::Bounds(bounds) => self.keep_within(*bounds),
                 Input::Command(command) => {
                     let now = self.now();
                     self.carry_out(command, now);
@@ -311,7 +319,7 @@ impl Session {
         let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
-            turn = next_input(&self.wires) => turn,
+            turn = next_input(&mut self.wires) => turn,
             read = reader.read(buffer) => match read {
                 Ok(0) => Input::Lost(LinkLoss::Closed),
                 Ok(count) => Input::Bytes(count),
@@ -323,17 +331,18 @@ impl Session {
 }
 
 /// The next word from the window, a stop before anything else.
-pub(super) async fn next_input(wires: &Wires) -> Input {
+pub(super) async fn next_input(wires: &mut Wires) -> Input {
     tokio::select! {
         biased;
         () = wires.stopper.stop.notified() => Input::Stop,
-        awake = next_sleep(wires) => Input::Sleep(awake),
-        command = next_command(wires) => command.map_or(Input::Over, Input::Command),
+        awake = next_sleep(wires.before_sleep.as_deref()) => Input::Sleep(awake),
+        bounds = next_bounds(&mut wires.bounds) => Input::Bounds(Box::new(bounds)),
+        command = next_command(&wires.commands, &wires.stopper) => command.map_or(Input::Over, Input::Command),
     }
 }
 
-async fn next_sleep(wires: &Wires) -> Awake {
-    if let Some(before_sleep) = &wires.before_sleep
+async fn next_sleep(before_sleep: Option<&AsyncMutex<mpsc::Receiver<Awake>>>) -> Awake {
+    if let Some(before_sleep) = before_sleep
         && let Some(awake) = before_sleep.lock().await.recv().await
     {
         return awake;
@@ -341,18 +350,28 @@ async fn next_sleep(wires: &Wires) -> Awake {
     std::future::pending().await
 }
 
+async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
+    if bounds.changed().await.is_err() {
+        // The end comes as the end of the commands.
+        std::future::pending::<()>().await;
+    }
+    bounds.borrow_and_update().clone()
+}
+
 /// `None` when the station is gone: what was asked for just before the end is not
 /// begun any more.
-async fn next_command(wires: &Wires) -> Option<Command> {
-    let mut commands = wires.commands.lock().await;
+async fn next_command(
+    commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
+    stopper: &Stopper,
+) -> Option<Command> {
+    let mut commands = commands.lock().await;
     loop {
         let Numbered { command, number } = commands.recv().await?;
         if commands.is_closed() {
             return None;
         }
-        // Another station and a lock-out forbid; a stop does not take that back.
-        let forbids = matches!(command, Command::Within(_) | Command::LockOut(_));
-        if forbids || !wires.stopper.is_void(number) {
+        // A lock-out forbids; a stop does not take that back.
+        if matches!(command, Command::LockOut(_)) || !stopper.is_void(number) {
             return Some(command);
         }
     }

@@ -127,7 +127,6 @@ impl Session {
             | Command::AllowWayOut
             | Command::SeenStanding
             | Command::Resume
-            | Command::Within(_)
             | Command::WriteSettings(_)
             | Command::Disconnect
             | Command::ReadGroup(_)

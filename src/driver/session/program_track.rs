@@ -259,7 +259,6 @@ impl Session {
 
     /// Other bounds hold for the antenna from now on.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
-        self.wires.keep(&bounds);
         self.gate.keep_within(bounds);
         if let Some(following) = self.activity.program_mut() {
             following.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());

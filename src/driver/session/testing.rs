@@ -37,11 +37,11 @@ pub(in crate::driver) fn start(
         Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
     });
     let clock = Clock::at_speed(START, NonZeroU32::MIN);
-    let (wires, handle) =
-        Wires::new(&antenna, clock.now().steady, Arc::new(|| {}), &Orders::default());
-    let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
     let bounds = Bounds::of_antenna(&antenna);
-    let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts, bounds);
+    let (wires, handle) =
+        Wires::new(&antenna, bounds, clock.now().steady, Arc::new(|| {}), &Orders::default());
+    let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
+    let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts);
     tokio::spawn(session.run());
     (control, handle)
 }

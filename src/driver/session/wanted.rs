@@ -31,7 +31,7 @@ impl Session {
             self.forget_old_stop(now);
             self.publish(now);
             let due = self.halt_due();
-            let word = next_input(&self.wires);
+            let word = next_input(&mut self.wires);
             let turn = match due {
                 None => word.await,
                 Some(due) => tokio::select! {
@@ -48,6 +48,7 @@ impl Session {
                     self.contact.wanted = Wanted::ForStop;
                 }
                 Input::Command(command) => self.carry_out_offline(command, now),
+                Input::Bounds(bounds) => self.keep_within(*bounds),
                 Input::Sleep(_) | Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
             }
         }

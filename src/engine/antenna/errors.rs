@@ -3,6 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::astro::{Angle, time::seconds_between};
 
@@ -12,7 +13,7 @@ const KEPT_S: f64 = 3600.0;
 const CHUNK: usize = 256;
 
 /// How far a measured direction was from the predicted one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ErrorSample {
     /// When.
     pub time: Timestamp,
@@ -26,7 +27,7 @@ pub struct ErrorSample {
 
 /// The errors of the present track, oldest first. A copy shares all but the newest few
 /// hundred with what it was copied from.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Errors {
     chunks: VecDeque<Arc<Vec<ErrorSample>>>,
 }

@@ -18,7 +18,7 @@ pub enum Scope {
 
 /// Which passes the list shows. Each scope has its own span: a day of the whole
 /// catalog is a hundred thousand passes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListChoice {
     pub scope: Scope,
     /// How far ahead for the favourites, hours; one of [`SPANS_H`].

@@ -1,9 +1,13 @@
 //! The list of passes of some satellites, and the search for the next one in the
 //! background. A list stays until the next one is complete.
 
-use std::sync::{Arc, atomic::Ordering};
+use std::{
+    ops::Range,
+    sync::{Arc, atomic::Ordering},
+};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::{
     PassKey,
@@ -13,6 +17,7 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     job::{Job, Wake},
+    orbit::Pass,
 };
 
 /// A list older than this is made anew.
@@ -21,15 +26,17 @@ const STALE_S: f64 = 600.0;
 const SAME_AOS_S: f64 = 60.0;
 
 /// Passes of some satellites. A copy shares them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PassList {
     /// The satellites, in the order of the station or by catalog number.
+    #[serde(skip)]
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
     /// Passes by AOS, then by catalog number. In a list of all satellites those that
     /// are always up come last. Some of them may be over.
+    #[serde(skip)]
     pub passes: Arc<Vec<PredictedPass>>,
     /// Another number whenever the passes are others.
-    pub edition: u64,
+    pub revision: u64,
     /// When the search for this list began; `None` before the first list.
     pub made_at: Option<Timestamp>,
     /// What is being done for the next list.
@@ -41,7 +48,7 @@ impl Default for PassList {
         Self {
             satellites: Arc::default(),
             passes: Arc::default(),
-            edition: 0,
+            revision: 0,
             made_at: None,
             work: Work::Nothing,
         }
@@ -66,7 +73,7 @@ struct Running {
 }
 
 /// What is being done for the next list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
     /// Nothing: the list is the wanted one.
     Nothing,
@@ -132,7 +139,7 @@ impl Search {
     pub(super) fn keep_only_from(&mut self, key: &SearchKey) {
         self.running = None;
         if self.made_of.as_ref().is_some_and(|made_of| made_of.observer != key.observer) {
-            let list = PassList { edition: self.list.edition + 1, ..PassList::default() };
+            let list = PassList { revision: self.list.revision + 1, ..PassList::default() };
             *self = Self { list, ..Self::default() };
         }
     }
@@ -175,7 +182,7 @@ impl Search {
         self.list = PassList {
             satellites: found.satellites,
             passes: Arc::new(found.passes),
-            edition: self.list.edition + 1,
+            revision: self.list.revision + 1,
             made_at: Some(at),
             work: Work::Nothing,
         };
@@ -183,6 +190,12 @@ impl Search {
 }
 
 impl PassList {
+    /// Some of the passes by their places, each with the catalog number of its satellite.
+    pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = (u32, Pass)> {
+        let passes = self.passes.iter().take(places.end).skip(places.start);
+        passes.map(|predicted| (predicted.number(), predicted.pass))
+    }
+
     /// The passes that are not over at `now`.
     pub fn upcoming(&self, now: Timestamp) -> UpcomingPasses<'_> {
         UpcomingPasses::of(self, &self.passes, now)
@@ -254,7 +267,7 @@ impl<'a> UpcomingPasses<'a> {
         self.passes.len() - self.over.len()
     }
 
-    /// Another value whenever the rows of one edition of the list are others.
+    /// Another value whenever the rows of one revision of the list are others.
     pub fn version(&self) -> (usize, usize) {
         (self.passes.len(), self.over.len())
     }

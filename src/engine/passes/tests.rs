@@ -117,13 +117,13 @@ fn another_floor_span_or_site_searches_again_and_keeps_what_is_prepared() {
         |desk| desk.station.site = Site::new(60.0, 10.0, 0.0).unwrap(),
     ];
     for change in changes {
-        let (edition, before) = (desk.all().edition, desk.all().passes.len());
+        let (revision, before) = (desk.all().revision, desk.all().passes.len());
         change(&mut desk);
         desk.refresh();
         assert!(matches!(desk.all().work, Work::UnderWay { .. }));
         assert_eq!(desk.all().passes.len(), before, "the old list stays");
         desk.finish();
-        assert!(desk.all().edition > edition);
+        assert!(desk.all().revision > revision);
         assert!(Arc::ptr_eq(&prepared, &desk.all().satellites[0]));
     }
     assert!(desk.all().passes.iter().all(|pass| pass.pass.max_elevation().degrees() >= 30.0));

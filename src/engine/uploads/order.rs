@@ -2,17 +2,22 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
+
+use crate::engine::written;
 use crate::{
     device::ElementFiles,
     transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 
 /// A file of elements for a unit, and the way there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct Order {
     /// Name of the antenna whose unit it is.
     pub antenna: String,
     /// How the unit takes files.
+    #[serde(with = "written::element_files")]
     pub takes: &'static ElementFiles,
     /// Where the unit's files are served.
     pub unit: Peer,
@@ -32,12 +37,27 @@ pub struct Order {
 }
 
 /// What is to be in a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cargo {
     /// These elements.
     New(TleFile),
     /// What was there before.
     Kept(KeptFile),
+}
+
+impl Serialize for Order {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        Self::serialize(self, to)
+    }
+}
+
+/// Refuses a file that would not be in its folder.
+impl<'de> Deserialize<'de> for Order {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let order = Self::deserialize(from)?;
+        FileName::new(order.file.as_str(), order.takes).map_err(D::Error::custom)?;
+        Ok(order)
+    }
 }
 
 impl Order {

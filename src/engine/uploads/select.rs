@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     clock::Instant,
@@ -20,7 +21,7 @@ use crate::{
 pub(super) const TICKETS: u64 = 1 << 63;
 
 /// Why the operator has to agree before a unit is told to use a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Busy {
     /// It tracks. It is stopped.
     Tracks,

@@ -1,6 +1,11 @@
 //! The result of reading a text: elements, refusals, notes.
 
-use crate::orbit::{Elements, elements::ElementsError};
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    name::{self, Name},
+    orbit::{Elements, elements::ElementsError},
+};
 
 /// Most refusals and notes that are listed one by one. A text that is all wrong says the same
 /// thing over and over, and must not fill the memory with it.
@@ -24,7 +29,7 @@ pub struct ReadReport {
 }
 
 /// A refused object.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
@@ -34,7 +39,7 @@ pub struct Refusal {
 }
 
 /// An oddity of an accepted object.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
     /// The line of the text where the object starts, from 1.
     pub line: usize,
@@ -44,7 +49,7 @@ pub struct Note {
 }
 
 /// Oddities of objects that are still accepted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum NoteKind {
     /// Nothing guards the line of a TLE against wrong characters.
     #[error("line {line} has no checksum")]
@@ -54,7 +59,7 @@ pub enum NoteKind {
     },
 }
 
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum RefusalReason {
     /// A TLE line 1 without its line 2, or the other way about.
     #[error("line {missing} of the element set is missing")]
@@ -106,10 +111,10 @@ pub enum RefusalReason {
     TwoObjects,
     /// A field is missing; the name is the one of the OMM.
     #[error("{0} is missing")]
-    MissingField(&'static str),
+    MissingField(#[serde(deserialize_with = "name::one")] Name),
     /// A field does not hold what belongs there; the name is the one of the OMM.
     #[error("{0} cannot be read")]
-    Field(&'static str),
+    Field(#[serde(deserialize_with = "name::one")] Name),
     /// What stands between the braces is no JSON.
     #[error("no JSON")]
     Json,

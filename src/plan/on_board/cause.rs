@@ -1,5 +1,7 @@
 //! Causes of the error of an on-board track.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     Judge,
     path::{Unit, site, turned},
@@ -16,7 +18,7 @@ const WORTH_NAMING_DEG: f64 = 0.02;
 const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
 /// A cause of the error.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cause {
     /// The unit believes to be at another place.
     Place {
@@ -63,7 +65,7 @@ pub enum Cause {
 }
 
 /// A cause with the error that it alone makes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ranked {
     pub cause: Cause,
     /// The largest error by this cause alone; `None` where unknown.
@@ -71,7 +73,7 @@ pub struct Ranked {
 }
 
 /// A value that a unit does not report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unknown {
     /// Its place.
     Place,

@@ -1,6 +1,7 @@
 //! Checks a path against the limits of an antenna.
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::Ability;
 use crate::{
@@ -14,14 +15,14 @@ use crate::{
 const ALONG_DEG: f64 = 0.5;
 
 /// The first place where a path leaves the limits.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trespass {
     pub at: Timestamp,
     pub direction: AzEl,
     pub limit: OffLimits,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum OffLimits {
     /// Below the minimum elevation, degrees.
     Elevation {

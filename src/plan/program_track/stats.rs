@@ -1,9 +1,11 @@
 //! Statistics of the pointing error.
 
+use serde::{Deserialize, Serialize};
+
 use crate::astro::Angle;
 
 /// Pointing error while tracking, and the number of commands.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct TrackStats {
     /// Positions that were sent.
     pub commands: u32,

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     astro::{AzEl, Site, sun_moon},
@@ -10,7 +11,7 @@ use crate::{
 };
 
 /// A target to track.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
     /// A satellite, by its elements.
     Satellite(Box<Elements>),

@@ -1,6 +1,7 @@
 //! What a unit will find in a file of elements.
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     orbit::{Elements, Refusal, read_element_bytes},
@@ -13,7 +14,7 @@ const TLE_COLUMNS: usize = 68;
 const MAX_SIMILAR: usize = 5;
 
 /// What a unit will make of a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitView {
     /// Size of the file.
     pub bytes: u64,
@@ -31,7 +32,7 @@ pub struct UnitView {
 }
 
 /// What a unit finds of one satellite.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Seen {
     /// One object with just that name.
     Found(FileObject),

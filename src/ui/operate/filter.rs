@@ -21,8 +21,8 @@ impl Found {
             return None;
         }
         let (scope, listed) = (model.list.scope, model.upcoming());
-        let edition = model.pass_lists.of(scope).edition;
-        let made_of = Some((text.to_lowercase(), scope, edition, listed.version()));
+        let revision = model.pass_lists.of(scope).revision;
+        let made_of = Some((text.to_lowercase(), scope, revision, listed.version()));
         if self.made_of != made_of {
             let text = text.to_lowercase();
             let is_found = |predicted: &PredictedPass| {

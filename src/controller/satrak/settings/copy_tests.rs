@@ -59,9 +59,9 @@ fn a_copy_of_a_unit_differs_from_it_in_nothing() {
     let copy = SettingsCopy::read(&written, "satrak", GROUPS).unwrap();
     assert_eq!(copy.head, head());
     assert_eq!(copy.unknown, Vec::<String>::new());
-    let names: Vec<_> = copy.values.iter().map(|value| value.field.key).collect();
+    let names: Vec<_> = copy.values.iter().map(|value| value.field).collect();
     assert!(!names.contains(&"tle_source") && !names.contains(&"password"), "{names:?}");
-    assert_eq!(copy.differences(&held()), []);
+    assert_eq!(copy.differences(GROUPS, &held()).len(), 0);
 }
 
 #[test]
@@ -73,9 +73,9 @@ fn what_differs_is_told_and_service_is_only_shown() {
     let copy = SettingsCopy::read(text, "satrak", GROUPS).unwrap();
     assert_eq!(copy.unknown, ["general.minimum", "other.z"]);
     let found: Vec<_> = copy
-        .differences(&held())
+        .differences(GROUPS, &held())
         .into_iter()
-        .map(|one| (one.copied.field.key, one.verdict))
+        .map(|one| (one.field.key, one.verdict))
         .collect();
     let expected = [
         ("azimuth_offset_deg", Verdict::Unfit),

@@ -1,0 +1,79 @@
+//! How parts of snapshots and commands are written down whose types are only complete with
+//! the makes that this program knows.
+
+/// A station, as in its file.
+pub(super) mod station {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
+
+    use crate::{
+        makes,
+        station::{Station, from_toml},
+    };
+
+    pub(in crate::engine) fn serialize<S: Serializer>(
+        station: &Station,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        station.serialize(to)
+    }
+
+    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>, T: From<Station>>(
+        from: D,
+    ) -> Result<T, D::Error> {
+        let (station, notes) = from_toml(toml::Table::deserialize(from)?, makes::SPECS);
+        match notes.first() {
+            None => Ok(station.into()),
+            Some(note) => Err(D::Error::custom(format!("{note:?}"))),
+        }
+    }
+}
+
+/// An antenna, as in the file of a station.
+pub(super) mod antenna {
+    use serde::{Deserializer, Serialize, Serializer, de::Error as _};
+
+    use crate::station::{Antenna, Station};
+
+    #[derive(Serialize)]
+    struct Alone<'a> {
+        antenna: [&'a Antenna; 1],
+    }
+
+    pub(in crate::engine) fn serialize<S: Serializer>(
+        antenna: &Antenna,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        Alone { antenna: [antenna] }.serialize(to)
+    }
+
+    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Antenna, D::Error> {
+        let mut station: Station = super::station::deserialize(from)?;
+        station.antennas.pop().ok_or_else(|| D::Error::custom("there is no antenna"))
+    }
+}
+
+/// How the units of a make take files of elements: the key of the make.
+pub(super) mod element_files {
+    use serde::{Deserialize, Deserializer, Serializer, de::Error as _, ser::Error as _};
+
+    use crate::{device::ElementFiles, makes};
+
+    pub(in crate::engine) fn serialize<S: Serializer>(
+        takes: &'static ElementFiles,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        let make = makes::SPECS.iter().find(|make| make.element_files == Some(takes));
+        to.serialize_str(make.ok_or_else(|| S::Error::custom("no make takes files so"))?.key)
+    }
+
+    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<&'static ElementFiles, D::Error> {
+        let key = String::deserialize(from)?;
+        let make = makes::SPECS.iter().find(|make| make.key == key);
+        make.and_then(|make| make.element_files)
+            .ok_or_else(|| D::Error::custom(format!("{key} takes no files of elements")))
+    }
+}

@@ -1,0 +1,126 @@
+//! Names that the program itself gives: keys of settings and actions, axes, set sentences.
+//! They are constants, and still come back from a written form.
+
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use serde::{Deserialize, Deserializer, de};
+
+/// A constant of the program. The alias keeps serde from borrowing it out of its input:
+/// a field of it, or of a container of it, names one of the functions below as its
+/// `deserialize_with`.
+pub type Name = &'static str;
+
+/// Names that were read are kept for good. The program has a few hundred.
+const MAX_NAMES: usize = 4096;
+/// The longest sentence has some 200 bytes.
+const MAX_BYTES: usize = 1024;
+
+static KEPT: Mutex<BTreeSet<Name>> = Mutex::new(BTreeSet::new());
+
+fn keep(text: &str) -> Result<Name, &'static str> {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = kept.get(text) {
+        return Ok(known);
+    }
+    if kept.len() >= MAX_NAMES || text.len() > MAX_BYTES {
+        return Err("more or longer names than this program has");
+    }
+    let name: Name = Box::leak(text.into());
+    kept.insert(name);
+    Ok(name)
+}
+
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Kept(Name);
+
+impl<'de> Deserialize<'de> for Kept {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Text;
+
+        impl de::Visitor<'_> for Text {
+            type Value = Kept;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a name")
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Kept, E> {
+                keep(text).map(Kept).map_err(E::custom)
+            }
+        }
+
+        from.deserialize_str(Text)
+    }
+}
+
+pub fn one<'de, D: Deserializer<'de>>(from: D) -> Result<Name, D::Error> {
+    Kept::deserialize(from).map(|name| name.0)
+}
+
+pub fn option<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Name>, D::Error> {
+    Ok(Option::<Kept>::deserialize(from)?.map(|name| name.0))
+}
+
+pub fn list<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Name>, D::Error> {
+    Ok(Vec::<Kept>::deserialize(from)?.into_iter().map(|name| name.0).collect())
+}
+
+pub fn map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<BTreeMap<Name, T>, D::Error> {
+    let read = BTreeMap::<Kept, T>::deserialize(from)?;
+    Ok(read.into_iter().map(|(name, value)| (name.0, value)).collect())
+}
+
+pub fn option_map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<Option<BTreeMap<Name, T>>, D::Error> {
+    let read = Option::<BTreeMap<Kept, T>>::deserialize(from)?;
+    Ok(read.map(|read| read.into_iter().map(|(name, value)| (name.0, value)).collect()))
+}
+
+pub fn shared_map<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    from: D,
+) -> Result<Arc<BTreeMap<Name, T>>, D::Error> {
+    map(from).map(Arc::new)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, PartialEq, serde::Serialize, Deserialize)]
+    struct Written {
+        #[serde(deserialize_with = "one")]
+        one: Name,
+        #[serde(deserialize_with = "option")]
+        option: Option<Name>,
+        #[serde(deserialize_with = "list")]
+        list: Vec<Name>,
+        #[serde(deserialize_with = "map")]
+        map: BTreeMap<Name, u8>,
+    }
+
+    #[test]
+    fn names_come_back_and_are_kept_once() {
+        let written = Written {
+            one: "azimuth",
+            option: Some("a sentence, with \"quotes\""),
+            list: vec!["a", "b"],
+            map: [("azimuth", 1)].into(),
+        };
+        let text = serde_json::to_string(&written).unwrap();
+        let read: Written = serde_json::from_str(&text).unwrap();
+        assert_eq!(read, written);
+        assert!(std::ptr::eq(keep("azimuth").unwrap(), read.one));
+    }
+
+    #[test]
+    fn a_name_longer_than_any_is_refused() {
+        let text = serde_json::to_string(&"x".repeat(MAX_BYTES + 1)).unwrap();
+        assert!(one(&mut serde_json::Deserializer::from_str(&text)).is_err());
+    }
+}
