@@ -154,12 +154,11 @@ fn every_test_file_is_part_of_a_test_binary() {
 
 /// Whether a file may name a make: its own folders, the lists of makes, and what starts
 /// the simulators.
-fn may_name_a_make(path: &str) -> bool {
-    let own = ["satrak", "rotator_genius", "rc2000c"];
+fn may_name_a_make(path: &str, makes: &BTreeSet<String>) -> bool {
     let mut parts = path.split('/').map(|part| part.trim_end_matches(".rs"));
     let lists =
         ["controller.rs", "protocol.rs", "sim.rs", "engine/demo.rs", "ui/antennas/makes.rs"];
-    parts.any(|part| own.contains(&part))
+    parts.any(|part| makes.contains(part))
         || path.starts_with("makes")
         || path.starts_with("sim/")
         || lists.contains(&path)
@@ -171,16 +170,24 @@ fn no_make_is_named_outside_of_its_folders() {
     let mut files = Vec::new();
     sources(&top, &mut files);
     let below = format!("{}/", top.display()).replace('\\', "/");
+    let folders = fs::read_dir(top.join("controller")).unwrap().map(|entry| entry.unwrap());
+    let folders = folders.filter(|entry| entry.file_type().unwrap().is_dir());
+    let makes: BTreeSet<String> =
+        folders.map(|entry| entry.file_name().into_string().unwrap()).collect();
+    assert_eq!(makes.len(), azel::makes::SPECS.len(), "{makes:?}");
+    // As a folder, as a type, and in the station file.
+    let mut words: BTreeSet<String> = makes.iter().map(|make| make.replace('_', "")).collect();
+    words.extend(azel::makes::SPECS.iter().map(|make| make.key.to_owned()));
     let mut named = BTreeSet::new();
     for (path, text) in &files {
         let path = path.replace('\\', "/").strip_prefix(&below).unwrap().to_owned();
         let is_test = ["tests", "stories", "testing"].iter().any(|word| path.contains(word));
-        if is_test || may_name_a_make(&path) {
+        if is_test || may_name_a_make(&path, &makes) {
             continue;
         }
         let code = product(text).lines().map(|line| line.split("//").next().unwrap_or_default());
         let code = code.collect::<Vec<_>>().join("\n").to_lowercase();
-        if ["satrak", "genius", "rc2000"].iter().any(|make| code.contains(make)) {
+        if words.iter().any(|make| code.contains(make)) {
             named.insert(path);
         }
     }

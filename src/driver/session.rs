@@ -259,7 +259,7 @@ pub struct Session {
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
     /// Bytes of a halt, written before anything else.
-    urgent: Vec<u8>,
+    stop_bytes: Vec<u8>,
 }
 
 impl Session {
@@ -342,7 +342,7 @@ impl Session {
             stop: Stop::Ready,
             locking: None,
             doubt: None,
-            urgent: Vec::new(),
+            stop_bytes: Vec::new(),
         }
     }
 

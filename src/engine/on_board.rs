@@ -268,7 +268,7 @@ mod tests {
         let propagator = Propagator::new(&elements).unwrap();
         let observer = Observer::of(station);
         let search = PassSearch {
-            aos_elevation: observer.horizon,
+            aos_elevation: observer.aos_elevation,
             ..PassSearch::new(station.site, now(), add_seconds(now(), 5.0 * 86_400.0))
         };
         let high = |pass: &Pass| pass.max_elevation().degrees() > 60.0;

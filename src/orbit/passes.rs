@@ -1,4 +1,7 @@
-//! When a satellite stands above the horizon of a site.
+//! Passes: when a satellite stands above the AOS elevation of a site.
+//!
+//! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits
+//! and by [`sampled`] (`reach`) for all others; both end in `LocalSeries::crossing`.
 
 mod geosynchronous;
 mod local_series;
@@ -188,9 +191,9 @@ mod tests {
     }
 
     /// Passes over Istanbul in `hours` from the start.
-    fn search(propagator: &Propagator, hours: f64, horizon_deg: f64) -> Vec<Pass> {
+    fn search(propagator: &Propagator, hours: f64, aos_deg: f64) -> Vec<Pass> {
         let to = time::add_seconds(start(), hours * 3600.0);
-        let aos_elevation = Angle::from_degrees(horizon_deg);
+        let aos_elevation = Angle::from_degrees(aos_deg);
         let search = PassSearch { aos_elevation, ..PassSearch::new(istanbul(), start(), to) };
         passes(propagator, &search, &|| false)
     }

@@ -92,7 +92,7 @@ pub(crate) fn predicted_passes(
     let observer = Arc::new(Observer::of(&station));
     let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));
     let search = PassSearch {
-        aos_elevation: observer.horizon,
+        aos_elevation: observer.aos_elevation,
         floor: station.elevation_floor(),
         ..PassSearch::new(station.site, from, to)
     };

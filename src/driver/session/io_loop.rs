@@ -213,9 +213,9 @@ impl Session {
         let start = self.now();
         self.gate.device().link_up(start);
         if self.stop.is_under_way() {
-            self.urgent = self.gate.device().halt(Extent::Everything, start);
+            self.stop_bytes = self.gate.device().halt(Extent::Everything, start);
         } else {
-            self.urgent.clear();
+            self.stop_bytes.clear();
         }
         self.contact.unread = true;
         let mut hurries = false;
@@ -243,7 +243,7 @@ impl Session {
             // What the last look has brought about goes out without a wait. A
             // controller that is due for ever must not keep out the next word.
             hurries = !hurries && self.gate.device().due(now) <= now.steady;
-            if hurries || !self.urgent.is_empty() {
+            if hurries || !self.stop_bytes.is_empty() {
                 continue;
             }
             match self.wait(&mut reader, &mut buffer).await {
@@ -286,12 +286,12 @@ impl Session {
         &mut self,
         writer: &mut WriteHalf<Box<dyn Stream>>,
     ) -> Result<(), LinkLoss> {
-        let urgent = std::mem::take(&mut self.urgent);
-        if !urgent.is_empty() {
-            write(&self.clock, writer, &urgent).await?;
+        let bytes = std::mem::take(&mut self.stop_bytes);
+        if !bytes.is_empty() {
+            write(&self.clock, writer, &bytes).await?;
             let now = self.now();
             self.wrote(now);
-            self.gate.device().sent(&urgent, now);
+            self.gate.device().sent(&bytes, now);
         }
         let now = self.now();
         while let Some(bytes) = self.gate.device().poll(now) {

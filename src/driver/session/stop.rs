@@ -108,7 +108,7 @@ impl Session {
         self.doubt = None;
         self.activity.halt();
         let extent = if pressed { Extent::Everything } else { Extent::Motion };
-        self.urgent = self.gate.device().halt(extent, now);
+        self.stop_bytes = self.gate.device().halt(extent, now);
         self.owed.debts.owe(&self.owed.unit);
         let again_at = now.steady + self.gate.device().halt_patience();
         match &mut self.stop {
@@ -153,7 +153,7 @@ impl Session {
         // Without a link the first thing sent on the next one is the halt.
         if again && self.contact.link.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
-            self.urgent = self.gate.device().halt(Extent::Everything, now);
+            self.stop_bytes = self.gate.device().halt(Extent::Everything, now);
         }
         if looks_again {
             self.gate.device().look(now);
@@ -189,7 +189,7 @@ impl Session {
             self.stop = Stop::Ready;
         }
         self.forget_silence();
-        self.urgent.clear();
+        self.stop_bytes.clear();
         self.settle_debt();
         self.prove_still();
     }

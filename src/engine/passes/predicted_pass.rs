@@ -44,7 +44,7 @@ pub struct Observer {
     /// The place.
     pub site: Site,
     /// Elevation of AOS and LOS.
-    pub horizon: Angle,
+    pub aos_elevation: Angle,
     /// Limits of the mount of each antenna, in their order.
     pub antennas: Vec<MountLimits>,
 }
@@ -55,7 +55,7 @@ impl Observer {
         let antenna = station.antennas.first();
         Self {
             site: station.site,
-            horizon: Angle::from_degrees(
+            aos_elevation: Angle::from_degrees(
                 antenna.map_or(0.0, |antenna| antenna.limits.minimum_elevation_deg),
             ),
             antennas: station.antennas.iter().map(mount_limits).collect(),
@@ -101,7 +101,7 @@ impl PredictedPass {
         // The end of the search has cut it: it goes on.
         let from = if self.pass.ends_after { self.pass.tca.time } else { los };
         let search = PassSearch {
-            aos_elevation: self.observer.horizon,
+            aos_elevation: self.observer.aos_elevation,
             floor,
             ..PassSearch::new(self.observer.site, from, add_seconds(from, LATER_S))
         };

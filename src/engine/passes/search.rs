@@ -111,7 +111,7 @@ pub(super) fn search(
     let span_s = f64::from(key.span_h) * 3600.0;
     let (from, to) = (add_seconds(now, -LOOK_BACK_S), add_seconds(now, span_s));
     let window = PassSearch {
-        aos_elevation: observer.horizon,
+        aos_elevation: observer.aos_elevation,
         floor: key.floor,
         ..PassSearch::new(observer.site, from, to)
     };

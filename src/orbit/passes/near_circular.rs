@@ -71,7 +71,7 @@ impl<'a> NearCircular<'a> {
             angle + MARGIN + 1.5 * angle * turning * turning
         };
         let Plane { sin_inclination, cos_inclination, .. } = secular.plane;
-        let visible = reach(window.horizon);
+        let visible = reach(window.aos_elevation);
         let possible = (0.0..FARTHEST_REACH).contains(&visible) && sin_inclination >= 0.0;
         possible.then(|| Self {
             index,

@@ -110,7 +110,7 @@ impl Finder<'_> {
     }
 
     fn is_up(&self, sine: f64) -> bool {
-        sine >= self.track.window.sin_horizon
+        sine >= self.track.window.sin_aos_elevation
     }
 
     fn begin(&mut self, first: LocalState) {
@@ -153,7 +153,7 @@ impl Finder<'_> {
     }
 
     fn note_crossing(&mut self, a: Look, b: Look) {
-        let spare = |look: &Look| look.height.sine - self.track.window.sin_horizon;
+        let spare = |look: &Look| look.height.sine - self.track.window.sin_aos_elevation;
         let (before, after) = (spare(&a), spare(&b));
         if (before >= 0.0) != (after >= 0.0) {
             self.guess_s = Some(a.at_s + (b.at_s - a.at_s) * before / (before - after));
@@ -162,7 +162,7 @@ impl Finder<'_> {
 
     /// Takes in an extreme of the polynomial.
     fn turn(&mut self, look: Look, bend: Bend) {
-        let spare = look.height.sine - self.track.window.sin_horizon;
+        let spare = look.height.sine - self.track.window.sin_aos_elevation;
         let is_far = spare.abs() > HEIGHT_MARGIN;
         if is_far && (spare < 0.0 || bend == Bend::Trough) {
             self.reach(Extreme { at_s: look.at_s, is_up: spare > 0.0 });

@@ -182,7 +182,7 @@ impl<'a> Track<'a> {
     /// and `above_s`, where it is more; from `guess_s` in between. `None` only
     /// where there are no states.
     pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<LocalState> {
-        let sine = self.window.sin_horizon;
+        let sine = self.window.sin_aos_elevation;
         let (mut below_s, mut above_s) = (below_s, above_s);
         let mut at_s = guess_s;
         for round in 0.. {

@@ -40,8 +40,8 @@ impl<N: Number> TwoBody<N> {
         let range_curve = (series.velocity.length_squared()
             + crest.enu_km.dot(series.acceleration))
             / crest.range_km;
-        let above_km = (crest.height.sine - window.sin_horizon) * crest.range_km;
-        let falling_km_s2 = range_curve * window.sin_horizon - series.acceleration.z;
+        let above_km = (crest.height.sine - window.sin_aos_elevation) * crest.range_km;
+        let falling_km_s2 = range_curve * window.sin_aos_elevation - series.acceleration.z;
         // The angle whose cosine is less than 1 by this share.
         let share = above_km * rad_s * rad_s / falling_km_s2;
         let half = (share * 2.0).sqrt() * (share * (share * 0.03 + 1.0 / 12.0) + 1.0);

@@ -35,8 +35,8 @@ pub(super) struct Window {
     axes: [DVec3; 3],
     site_enu_km: DVec3,
     /// Elevation of AOS and LOS, and its sine.
-    pub(super) horizon: f64,
-    pub(super) sin_horizon: f64,
+    pub(super) aos_elevation: f64,
+    pub(super) sin_aos_elevation: f64,
     /// A pass has to reach this elevation; never below the horizon's.
     pub(super) floor: f64,
     pub(super) sin_floor: f64,
@@ -46,10 +46,10 @@ impl Window {
     /// `None` when the span is empty or no elevation can be reached.
     pub(super) fn new(search: &PassSearch) -> Option<Self> {
         let length_s = time::seconds_between(search.from, search.to);
-        let horizon = search.aos_elevation.radians();
-        let floor = search.floor.radians().max(horizon);
+        let aos_elevation = search.aos_elevation.radians();
+        let floor = search.floor.radians().max(aos_elevation);
         // Written so that NaN falls out as well.
-        if !(length_s > 0.0 && horizon >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
+        if !(length_s > 0.0 && aos_elevation >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
             return None;
         }
         let site_ecef_km = frames::site_ecef_km(search.site);
@@ -66,8 +66,8 @@ impl Window {
             site_ecef_km,
             axes: [0, 1, 2].map(|axis| to_enu.row(axis)),
             site_enu_km: to_enu * site_ecef_km,
-            horizon,
-            sin_horizon: horizon.sin(),
+            aos_elevation,
+            sin_aos_elevation: aos_elevation.sin(),
             floor,
             sin_floor: floor.sin(),
         })

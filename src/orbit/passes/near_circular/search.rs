@@ -124,11 +124,11 @@ fn edges(
 ) -> Edges {
     let guess_tau = ellipse.crossing_tau(side);
     let from_s = series.at_s + guess_tau;
-    let sine = window.sin_horizon;
+    let sine = window.sin_aos_elevation;
     let places = batch.series(window, from_s).crossing(sine, Lanes::ZERO);
     let are_settled = is_beside(batch.half_pass_s, crests, &places, side)
         & batch.exactness.is_crossing(sine, places.at_s - from_s, &places);
-    let sightings = Sighting::at_elevation(&places, window.horizon);
+    let sightings = Sighting::at_elevation(&places, window.aos_elevation);
     Edges { side, guess_tau, places, are_settled, sightings }
 }
 
