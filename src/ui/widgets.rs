@@ -1,5 +1,5 @@
-//! The small components. Each takes plain data and a rectangle, paints, and
-//! says what the operator did; none of them calls anything else.
+//! Widgets. Each takes plain data and a rectangle, paints itself and returns the
+//! operator's action; no widget calls into the rest of the program.
 
 pub mod alarm_list;
 pub mod angle_field;

@@ -25,55 +25,49 @@ use crate::{
 
 const RADIUS: u8 = 6;
 const LIST_WIDTH: f32 = 360.0;
-/// A row whose text has one line; a longer text makes it higher.
+/// Height of a row with one line of text; more lines make it higher.
 const ROW_HEIGHT: f32 = 52.0;
-/// Between the text and its time.
+/// Gap between the text and its time.
 const TIME_GAP: f32 = 1.0;
 /// Height of the line with the time.
 const TIME_HEIGHT: f32 = 16.0;
 /// Width of a button.
 const BUTTON: f32 = 100.0;
-/// Left of the text, for the mark.
+/// Room for the mark at the left of the text.
 const TEXT_LEFT: f32 = 32.0;
-/// Above the text and below the time.
+/// Padding above the text and below the time.
 const ROW_PADDING: f32 = 9.0;
 /// The bell goes on and off once a second until the list was opened.
 const HALF_BLINK_S: f64 = 0.5;
 
-/// Where an alarm stands in its life.
+/// State of an alarm in its life cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AlarmState {
-    /// Nobody has acknowledged it.
     New,
-    /// Acknowledged, the cause is still there.
+    /// Acknowledged, but the cause persists.
     Seen,
     /// The cause is gone.
     Cleared,
 }
 
-/// One alarm.
 #[derive(Debug, Clone, Copy)]
 pub struct AlarmRow<'a> {
-    /// What the answer of the operator names it by.
+    /// Identifies the alarm in the operator's answer.
     pub id: u64,
-    /// How much it matters.
     pub priority: Priority,
-    /// Where it stands.
     pub state: AlarmState,
-    /// What is wrong.
     pub text: &'a str,
-    /// When it came, as it is shown.
+    /// Time of the alarm, formatted.
     pub time: &'a str,
-    /// The antenna, by its index, that may be moved away from where it stands.
+    /// Index of the antenna that the alarm offers to move away from its position.
     pub moves_away: Option<usize>,
 }
 
-/// All alarms.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AlarmModel<'a> {
-    /// The newest first.
+    /// Newest first.
     pub rows: &'a [AlarmRow<'a>],
-    /// The bell blinks: there is a new alarm since the list was last opened.
+    /// An alarm is newer than the last opening of the list; the bell blinks.
     pub unopened: bool,
 }
 
@@ -186,7 +180,6 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
     });
 }
 
-/// The text of a row, in as many lines as it needs.
 fn words_of(ui: &Ui, row: &AlarmRow<'_>) -> Arc<Galley> {
     let t = theme::tokens(ui);
     let (weight, ink) = match row.state {
@@ -206,7 +199,7 @@ fn right_of_text(row: &AlarmRow<'_>) -> f32 {
     }
 }
 
-/// At least: for two buttons, one above the other.
+/// Minimum height of a row with two buttons, one above the other.
 fn row_height(row: &AlarmRow<'_>) -> f32 {
     if row.moves_away.is_some() { 2.0 * SMALL_HEIGHT + 3.0 * ROW_PADDING } else { ROW_HEIGHT }
 }
@@ -294,7 +287,7 @@ mod tests {
         },
     ];
 
-    /// The height of the row of one alarm with this text.
+    /// The height of the row of an alarm with this text.
     fn row_height(text: &str) -> f32 {
         let row = AlarmRow { text, ..ROWS[0] };
         let mut window = testing::window([500.0, 300.0], (), move |ui, ()| {

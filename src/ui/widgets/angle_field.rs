@@ -1,20 +1,19 @@
-//! A field for an angle that is typed.
+//! A text field for an angle.
 
 use egui::{Align2, Frame, Id, Margin, Rect, Response, RichText, Stroke, TextEdit, Ui};
 
 use crate::ui::{text, theme};
 
-/// Corner of a field.
+/// Corner radius of a field.
 pub const RADIUS: f32 = 4.0;
 
-/// A field at a fixed place.
 #[derive(Debug, Clone, Copy)]
 pub struct AngleField<'a> {
-    /// What is typed was refused. The reason has to stand below.
+    /// The typed angle was refused; the caller shows the reason below.
     pub refused: bool,
-    /// Stands in the field while it is empty.
+    /// Shown while the field is empty.
     pub hint: &'a str,
-    /// What the field is called, with its unit.
+    /// Name of the field, with its unit.
     pub name: &'a str,
 }
 

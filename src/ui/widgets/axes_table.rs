@@ -10,20 +10,20 @@ use crate::ui::{
     tokens::Tokens,
 };
 
-/// What a value is shown as when it is not known.
+/// Stands for an unknown value.
 pub const UNKNOWN: &str = "–";
 const HEAD_HEIGHT: f32 = 18.0;
 const ROW_HEIGHT: f32 = 26.0;
 /// Right ends of the columns as parts of the width: command, actual, error, rate.
 const COLUMNS: [f32; 4] = [0.325, 0.55, 0.77, 1.0];
 
-/// What the second column holds.
+/// Content of the second column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum WantedColumn {
-    /// What the unit was told.
+    /// The position commanded to the unit.
     #[default]
     Command,
-    /// Where the satellite is predicted, for a unit that tracks by itself.
+    /// The predicted position of the satellite, for on-board track.
     Predicted,
 }
 
@@ -35,7 +35,7 @@ impl WantedColumn {
         }
     }
 
-    /// Of what it holds, for a unit whose angles have `of_unit`.
+    /// Decimals of this column, for a unit whose angles have `of_unit` decimals.
     pub fn decimals(self, of_unit: usize) -> usize {
         match self {
             Self::Command => of_unit,
@@ -44,18 +44,14 @@ impl WantedColumn {
     }
 }
 
-/// One axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AxisRow<'a> {
     /// Short name, such as Az.
     pub name: &'a str,
-    /// Wanted, in degrees.
     pub wanted_deg: Option<f64>,
-    /// Measured, in degrees.
     pub actual_deg: Option<f64>,
-    /// Measured minus wanted, in degrees.
+    /// Measured minus wanted.
     pub error_deg: Option<f64>,
-    /// Measured, in degrees per second.
     pub rate_deg_s: Option<f64>,
 }
 
@@ -64,8 +60,8 @@ pub fn height(axes: usize) -> f32 {
     HEAD_HEIGHT + ROW_HEIGHT * axes as f32
 }
 
-/// Shows the table in `rect`. What was measured and commanded has `decimals`, what
-/// is predicted has two. Every column keeps its place whatever it holds.
+/// Shows the table in `rect`. Measured and commanded values have `decimals` decimals,
+/// predicted values two. Every column keeps its place, also when it is empty.
 pub fn show(ui: &Ui, rect: Rect, wanted: WantedColumn, decimals: usize, axes: &[AxisRow<'_>]) {
     let t = theme::tokens(ui);
     let wanted_word = wanted.word();
@@ -124,12 +120,12 @@ fn show_row(
     paint::name_text(ui, ("axis", axis.name), row, &name);
 }
 
-/// A number with a true minus sign, or a dash.
+/// An angle with a typographic minus sign, or a dash.
 pub fn angle(degrees: Option<f64>, decimals: usize) -> String {
     degrees.map_or_else(|| UNKNOWN.to_owned(), |value| format::number(value, decimals))
 }
 
-/// The same with its sign.
+/// A number that always shows its sign, or a dash.
 fn signed(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), |value| format::signed(value, decimals))
 }

@@ -1,4 +1,4 @@
-//! How far the antenna is off the satellite, against its beam.
+//! A bar that compares the pointing error with the beam width.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
@@ -11,21 +11,20 @@ use crate::ui::{
 
 /// Height of the line.
 pub const HEIGHT: f32 = 22.0;
-/// The tick of half the beam stands here, as a part of the bar.
+/// Position of the half-beam tick, as a part of the bar.
 const TICK_PART: f64 = 0.727;
-/// From this part of half the beam on, the error is near the edge.
+/// An error from this part of half the beam on is near the edge.
 const NEAR_EDGE: f64 = 0.8;
 
-/// The error against the beam.
+/// Pointing error and beam width.
 #[derive(Debug, Clone, Copy)]
 pub struct BeamModel {
     /// Angle between the beam axis and the satellite, in degrees.
     pub error_deg: Option<f64>,
-    /// Half the beam width, in degrees.
+    /// Half the beam width.
     pub half_beam_deg: f64,
 }
 
-/// Where the error lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     Inside,
@@ -52,7 +51,7 @@ fn filled_part(error_deg: f64, half_beam_deg: f64) -> f32 {
     }
 }
 
-/// Shows the line in `rect`: words, bar, number.
+/// Shows words, bar and number in `rect`.
 pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
     let t = theme::tokens(ui);
     let y = rect.center().y;

@@ -8,25 +8,21 @@ use crate::ui::{
     text, theme,
 };
 
-/// Height of a button.
 pub const HEIGHT: f32 = 32.0;
-/// Height of a small button.
 pub const SMALL_HEIGHT: f32 = 24.0;
-/// Corner of buttons and jog keys.
+/// Corner radius of buttons and jog keys.
 pub const RADIUS: u8 = 5;
 
-/// How much a button stands out.
+/// Emphasis of a button.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// The one thing to do here.
+    /// The main action of its place.
     Primary,
-    /// The usual button.
     Normal,
-    /// A button that stays in the background.
+    /// An unobtrusive button.
     Quiet,
 }
 
-/// A button at a fixed place.
 #[derive(Debug, Clone, Copy)]
 pub struct Button<'a> {
     text: &'a str,
@@ -36,41 +32,38 @@ pub struct Button<'a> {
 }
 
 impl<'a> Button<'a> {
-    /// The usual button.
     pub fn normal(text: &'a str) -> Self {
         Self { text, weight: Weight::Normal, locked: false, chevron: false }
     }
 
-    /// The one thing to do here.
+    /// The main action of its place.
     pub fn primary(text: &'a str) -> Self {
         Self { weight: Weight::Primary, ..Self::normal(text) }
     }
 
-    /// A button that stays in the background.
+    /// An unobtrusive button.
     pub fn quiet(text: &'a str) -> Self {
         Self { weight: Weight::Quiet, ..Self::normal(text) }
     }
 
-    /// Refused for now: dashed, and not to be clicked. The reason has to stand
-    /// beside it.
+    /// Draws the button dashed and ignores clicks; the caller shows the reason beside it.
     #[must_use]
     pub fn locked(self, locked: bool) -> Self {
         Self { locked, ..self }
     }
 
-    /// With a mark that it opens something below.
+    /// Adds a chevron, for a button that opens something below it.
     #[must_use]
     pub fn chevron(self) -> Self {
         Self { chevron: true, ..self }
     }
 
-    /// The width that the text wants, with the space around it.
+    /// The width of the text with its padding.
     pub fn width(&self, ui: &Ui) -> f32 {
         let chevron = if self.chevron { 20.0 } else { 0.0 };
         (paint::text_width(ui, self.text, text::body_medium()) + 24.0 + chevron).ceil()
     }
 
-    /// Shows the button in `rect`.
     pub fn show(self, ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect) -> Response {
         let response = paint::control(ui, salt, rect, Role::Button, !self.locked, self.text);
         let t = theme::tokens(ui);

@@ -1,10 +1,10 @@
-//! A card on the ground of a form.
+//! A card on the background of a form.
 
 use egui::{Frame, Margin, Stroke, Ui};
 
 use crate::ui::theme;
 
-/// Shows `content` in a card that is not wider than `most`.
+/// Shows `content` in a card at most `most` points wide.
 pub fn show<R>(ui: &mut Ui, most: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
     let t = theme::tokens(ui);
     Frame::new()

@@ -1,10 +1,10 @@
-//! The key that closes a popup: Esc is STOP besides, and must not be the only way.
+//! The button that closes a popup: Esc is also STOP, so it must not be the only way.
 
 use egui::{Align, Layout, Ui, vec2};
 
 use super::button::SMALL_HEIGHT;
 
-/// Shows the key below what stands in a popup, which gets no wider by it.
+/// Shows the button below the content of a popup without widening it.
 pub fn show(ui: &mut Ui) {
     ui.add_space(4.0);
     let size = vec2(ui.min_rect().width(), SMALL_HEIGHT);

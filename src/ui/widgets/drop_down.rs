@@ -1,25 +1,24 @@
-//! A button that opens choices below it.
+//! A button that opens a list of choices below it.
 
 use egui::{Popup, Rect, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 
 use super::button::Button;
 
-/// Higher lists scroll.
+/// A higher list scrolls.
 const MAX_HEIGHT: f32 = 400.0;
 
-/// What shows the choice that was made, and offers the others.
+/// A button that shows the current choice and offers the others.
 #[derive(Debug, Clone, Copy)]
 pub struct DropDown<'a> {
-    /// With what is chosen on it.
+    /// Shows the current choice.
     pub button: Button<'a>,
-    /// Tells it from others.
+    /// Distinguishes the drop-down from others.
     pub salt: &'static str,
-    /// What is chosen here, and what it is now, as it is read aloud.
+    /// Subject and current choice, for screen readers.
     pub name: &'a str,
 }
 
 impl DropDown<'_> {
-    /// The width that the button wants.
     pub fn width(&self, ui: &Ui) -> f32 {
         self.button.chevron().width(ui)
     }

@@ -1,4 +1,4 @@
-//! A section on one line that opens on a click.
+//! The heading line of a section that opens on a click.
 
 use egui::{Align2, Color32, Rect, Role, Ui, pos2};
 
@@ -8,22 +8,20 @@ use crate::ui::{
     text, theme,
 };
 
-/// Height of the line.
 pub const HEIGHT: f32 = 28.0;
 
-/// The line of a section.
+/// The heading line.
 #[derive(Debug, Clone, Copy)]
 pub struct FoldModel<'a> {
-    /// Its name.
     pub title: &'a str,
-    /// What matters most in it, so that it need not be opened.
+    /// The most important content of the section, shown while it is closed.
     pub value: &'a str,
-    /// A mark behind the value.
+    /// Icon after the value.
     pub mark: Option<(Icon, Color32)>,
 }
 
-/// Shows the line in `rect` and flips `open` on a click. Whether it was opened by
-/// that: the caller then brings what stands below into sight.
+/// Shows the line in `rect` and flips `open` on a click. Returns `true` if the click
+/// opened the section; the caller then scrolls its content into sight.
 pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) -> bool {
     let t = theme::tokens(ui);
     let name = format!("{}: {}", model.title, model.value);

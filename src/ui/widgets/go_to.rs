@@ -16,26 +16,26 @@ pub use parse::Field;
 
 /// Height of the two fields and the button.
 pub const HEIGHT: f32 = 104.0;
-/// The same in a small window.
+/// [`HEIGHT`] in a small window.
 pub const SMALL_HEIGHT: f32 = 94.0;
 const LABEL: f32 = 40.0;
 
-/// What the fields accept.
+/// Limits and hints of the fields.
 #[derive(Debug, Clone, Copy)]
 pub struct GoToModel {
-    /// Going to a direction is refused now. The reason has to stand below.
+    /// Sending a direction is refused now; the caller shows the reason below.
     pub locked: bool,
-    /// Azimuths that are taken, in degrees.
+    /// Accepted azimuths.
     pub azimuth_range_deg: (f64, f64),
-    /// Elevations that are taken, in degrees; none for a rotator with one axis.
+    /// Accepted elevations; none for a rotator with one axis.
     pub elevation_range_deg: Option<(f64, f64)>,
-    /// Where the antenna was told to be, shown in fields that are empty.
+    /// The commanded direction, shown in empty fields.
     pub commanded_deg: (Option<f64>, Option<f64>),
-    /// Of the numbers that are shown for it.
+    /// Decimals of the commanded direction.
     pub decimals: usize,
 }
 
-/// A direction, in degrees.
+/// A typed direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
     /// From north over east.
@@ -44,21 +44,19 @@ pub struct Target {
     pub elevation_deg: Option<f64>,
 }
 
-/// What the operator asked for.
+/// The operator's request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GoToAction {
-    /// Show where it leads, move nothing.
+    /// Show the direction in the sky plot without moving the antenna.
     Preview(Target),
-    /// Go there.
+    /// Move the antenna to the direction.
     Send(Target),
 }
 
-/// What the operator typed, kept from frame to frame.
+/// Contents of the fields, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub struct GoToState {
-    /// Azimuth as typed.
     pub azimuth: String,
-    /// Elevation as typed.
     pub elevation: String,
     refusal: Option<(Field, String)>,
     previewed: Option<Target>,
@@ -66,17 +64,17 @@ pub struct GoToState {
 }
 
 impl GoToState {
-    /// Puts the keyboard into the first field, in the next frame.
+    /// Gives the first field the keyboard focus in the next frame.
     pub fn focus(&mut self) {
         self.wants_focus = true;
     }
 
-    /// Why the last input was not taken.
+    /// The reason why the last input was refused.
     pub fn refusal(&self) -> Option<&str> {
         self.refusal.as_ref().map(|(_, sentence)| sentence.as_str())
     }
 
-    /// The direction in preview, as long as the typing stays as it is.
+    /// The previewed direction, until the fields change.
     pub fn previewed(&self) -> Option<Target> {
         self.previewed
     }
@@ -101,7 +99,7 @@ impl GoToState {
         }
     }
 
-    /// Enter: the first shows the way, the second goes it.
+    /// Handles Enter: the first press previews the direction, the second sends it.
     fn enter(&mut self, model: &GoToModel) -> Option<GoToAction> {
         let target = self.read(model)?;
         if self.previewed.take() == Some(target) {
@@ -112,8 +110,8 @@ impl GoToState {
     }
 }
 
-/// Shows the fields and the button in `rect`. What was typed stays, whatever
-/// becomes of it; [`GoToState::refusal`] has to stand below.
+/// Shows the fields and the button in `rect`. The typed text stays also after a refusal;
+/// the caller shows [`GoToState::refusal`] below.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -144,7 +142,7 @@ pub fn show(
     }
     let action = entered.then(|| state.enter(model)).flatten();
     if matches!(action, Some(GoToAction::Send(_))) {
-        // What is typed next is a key of the window again.
+        // The next key press is a shortcut of the window again.
         ui.memory_mut(egui::Memory::stop_text_input);
     }
     action

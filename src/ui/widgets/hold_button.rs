@@ -1,4 +1,4 @@
-//! A button that has to be held for a second: Park, Unlock, SSPA on.
+//! A button that must be held for a second: Park, Unlock, SSPA on.
 
 use std::time::Duration;
 
@@ -7,24 +7,23 @@ use egui::{Align2, Key, Rect, Stroke, StrokeKind, Ui, ViewportId, pos2, vec2};
 use super::{button::RADIUS, paint};
 use crate::ui::{text, theme};
 
-/// So long it has to be held, in seconds.
+/// Time that the button must be held.
 pub const HOLD_S: f64 = 1.0;
 const FRAME: Duration = Duration::from_millis(33);
 
-/// How far the operator is.
+/// Progress of the hold.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum HoldState {
-    /// Not held.
     #[default]
     Released,
-    /// Held since a time, in seconds of the window.
+    /// Held since this time, in seconds of the window's clock.
     Since(f64),
-    /// Held to the end and not released yet.
+    /// Held to the end, but not released yet.
     Done,
 }
 
 impl HoldState {
-    /// One frame later. Returns true once, when it was held to the end.
+    /// Advances by one frame. Returns `true` once, when the button was held to the end.
     fn step(&mut self, held: bool, now_s: f64) -> bool {
         *self = match (*self, held) {
             (_, false) => Self::Released,
@@ -38,7 +37,7 @@ impl HoldState {
         false
     }
 
-    /// The part of the second that is over.
+    /// Elapsed part of the hold, 0 to 1.
     fn part(self, now_s: f64) -> f32 {
         match self {
             Self::Released => 0.0,
@@ -48,9 +47,8 @@ impl HoldState {
     }
 }
 
-/// Shows the button in `rect`. Returns true once, when it was held for the
-/// whole second; releasing it earlier does nothing. `text` has to say that it
-/// is held, such as "Hold 1 s to park".
+/// Shows the button in `rect`. Returns `true` once, when it was held for the whole second;
+/// an earlier release does nothing. `text` must mention the hold, such as "Hold 1 s to park".
 pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     let t = theme::tokens(ui);
     let response = paint::held_control(ui, ("hold", text), rect, true, text);

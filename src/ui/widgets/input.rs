@@ -1,4 +1,4 @@
-//! The fields into which a new value goes.
+//! Input fields for settings.
 
 use egui::{
     Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2,
@@ -13,17 +13,16 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 4;
-/// Between the border and the text.
+/// Padding between border and text.
 const INSET: f32 = 6.0;
 
-/// A field at its place.
+/// An input field.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Where it stands.
     pub rect: Rect,
-    /// What it is called.
+    /// Name for screen readers.
     pub name: &'a str,
-    /// The border of a field that is not as the unit holds it.
+    /// Border colour of a field that differs from the unit's value.
     pub border: Option<Color32>,
 }
 
@@ -42,7 +41,7 @@ impl Input<'_> {
         text::sized(12.0, weight)
     }
 
-    /// Shows a text to type; `true` when it was changed.
+    /// Shows a text field; returns `true` when the text was changed.
     pub fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
         let t = theme::tokens(ui);
         let id = ui.make_persistent_id(("input", self.name));
@@ -68,7 +67,7 @@ impl Input<'_> {
         response.changed()
     }
 
-    /// Shows one of a few; returns another one that was chosen.
+    /// Shows a choice from a few; returns a newly chosen one.
     pub fn choice(&self, ui: &Ui, chosen: &str, offered: &[&str]) -> Option<String> {
         let t = theme::tokens(ui);
         let salt = ("input", self.name);
@@ -94,7 +93,7 @@ impl Input<'_> {
         other
     }
 
-    /// Shows what cannot be changed here.
+    /// Shows a value that cannot be changed here.
     pub fn inert(&self, ui: &Ui, words: &str) {
         let t = theme::tokens(ui);
         paint::dashed_border(ui, self.rect, f32::from(RADIUS), (1.0, t.edge));
@@ -105,8 +104,8 @@ impl Input<'_> {
     }
 }
 
-/// Leaves nothing to undo: what was typed as a password would come back by Ctrl Z
-/// after it was sent or dropped.
+/// Clears the undo history: otherwise Ctrl Z would bring back a password that was sent
+/// or dropped.
 fn forget_typing(ui: &Ui, id: egui::Id) {
     if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
         state.clear_undoer();

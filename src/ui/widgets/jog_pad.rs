@@ -1,4 +1,4 @@
-//! Four keys that move an antenna as long as one of them is held.
+//! Four keys that move an antenna while one of them is held.
 
 mod hold;
 mod keys;
@@ -21,31 +21,29 @@ pub use hold::JogState;
 use hold::{Focus, Frame};
 pub use keys::{JogDirection, JogKeys, KeyLabel};
 
-/// A held key is reported at least so often.
+/// Longest time between two reports of a held key.
 const WHILE_HELD: Duration = Duration::from_millis(100);
 
-/// What the pad shows.
+/// Content of the pad.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct JogModel<'a> {
-    /// Names of the keys.
     pub keys: JogKeys,
-    /// Jogging is refused now. The reason has to stand below the pad.
+    /// Jogging is refused now; the caller shows the reason below the pad.
     pub locked: bool,
     /// Directions in which a limit stops the antenna.
     pub blocked: &'a [JogDirection],
-    /// How fast it is asked for, in a word or a number; empty where there is no
-    /// choice.
+    /// The chosen speed as a word or a number; empty where there is no choice.
     pub asked: &'a str,
-    /// The measured rate of the axis that moves, in degrees per second.
+    /// The measured rate of the moving axis.
     pub real_deg_s: Option<f64>,
 }
 
-/// Shows the pad in `rect`, a square. Returns the direction that is held, in
-/// every frame in which it is held; the first frame with `None` is the release.
-/// A key is held with the pointer, or with the arrow keys, Space or Enter while
-/// one of them has the focus, or with the arrow keys alone while the pad as a
-/// whole has it ([`JogState::focus`]). Losing the window, the pointer or the focus releases
-/// it, and only a new press holds it again.
+/// Shows the pad in `rect`, a square. Returns the held direction in every frame of the
+/// hold; the first frame with `None` is the release.
+/// The pointer holds a key; so do the arrow keys, Space or Enter while a key of the pad
+/// has the focus, and the arrow keys alone while the pad as a whole has it
+/// ([`JogState::focus`]). Losing the window, the pointer or the focus releases the key,
+/// and only a new press holds it again.
 pub fn show(
     ui: &Ui,
     rect: Rect,
@@ -81,7 +79,7 @@ pub fn show(
     }
     let held = state.step(&frame);
     if held.is_some() {
-        // Without a frame nobody would hear that the key is still held.
+        // Without a frame nothing would report that the key is still held.
         ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
     }
     for (direction, label, free, response) in &keys {
@@ -92,7 +90,8 @@ pub fn show(
     held
 }
 
-/// What can have the focus in place of a single key. The pointer goes through it.
+/// The pad as a whole, which can have the focus in place of a single key. The pointer
+/// passes through to the keys.
 fn whole(ui: &Ui, rect: Rect, free: bool) -> Response {
     let sense = if free { Sense::focusable_noninteractive() } else { Sense::hover() };
     let response = ui.interact(rect, ui.make_persistent_id("jog pad"), sense);
@@ -100,7 +99,7 @@ fn whole(ui: &Ui, rect: Rect, free: bool) -> Response {
     response
 }
 
-/// Takes pointer and focus of one key into the frame.
+/// Adds pointer and focus of one key to the frame.
 fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Response) {
     if response.is_pointer_button_down_on() {
         frame.pointer_on = Some(direction);
@@ -111,10 +110,10 @@ fn look_at(ui: &Ui, frame: &mut Frame, direction: JogDirection, response: &Respo
     }
 }
 
-/// Whether it has the focus. The arrows then do not lead elsewhere.
+/// Returns `true` if the control has the focus, and keeps the arrow keys from moving it.
 fn keeps_arrows(ui: &Ui, response: &Response) -> bool {
     if ui.input(|input| !input.focused) {
-        // Coming back to the window must not bring the keys back to life.
+        // Returning to the window must not press the keys again.
         response.surrender_focus();
     }
     if !response.has_focus() {

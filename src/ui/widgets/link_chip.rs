@@ -1,4 +1,4 @@
-//! One antenna in the top bar: its link, and what it does.
+//! An antenna in the top bar: its link and its activity.
 
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -11,13 +11,12 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 6;
-/// Width of a chip with two lines.
 pub const TWO_LINES_WIDTH: f32 = 144.0;
 
-/// How the link to a unit stands. Each has its own shape.
+/// State of the link to a unit. Each has its own shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LinkGlyph {
-    /// Replies in time.
+    /// The unit replies in time.
     Live,
     /// The last reply is older than two poll periods.
     Late,
@@ -39,7 +38,7 @@ impl LinkGlyph {
         }
     }
 
-    /// The word for those who do not see the shape.
+    /// The word for screen readers.
     pub fn word(self) -> &'static str {
         match self {
             Self::Live => "live",
@@ -50,7 +49,7 @@ impl LinkGlyph {
     }
 }
 
-/// How much of a chip is shown.
+/// Level of detail of a chip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChipForm {
     /// Name over activity and age.
@@ -61,20 +60,17 @@ pub enum ChipForm {
     Name,
 }
 
-/// One antenna.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ChipModel<'a> {
-    /// Name of the antenna.
     pub name: &'a str,
-    /// How its link stands.
     pub link: LinkGlyph,
-    /// What it does, in one or two words.
+    /// One or two words.
     pub activity: &'a str,
-    /// Age of the last good reply with its unit, or nothing.
+    /// Age of the last good reply with its unit, or empty.
     pub age: &'a str,
-    /// Its card is shown.
+    /// The card of the antenna is shown.
     pub selected: bool,
-    /// It is locked out for maintenance.
+    /// The antenna is locked out for maintenance.
     pub maintenance: bool,
 }
 
@@ -87,7 +83,6 @@ impl ChipModel<'_> {
         }
     }
 
-    /// Width of a form.
     pub fn width(&self, ui: &Ui, form: ChipForm) -> f32 {
         let name = paint::text_width(ui, self.name, text::sized(13.0, Weight::SemiBold));
         match form {
@@ -104,7 +99,6 @@ impl ChipModel<'_> {
     }
 }
 
-/// Shows the chip in `rect`.
 pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Response {
     let t = theme::tokens(ui);
     let second = model.second_line();

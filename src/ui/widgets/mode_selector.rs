@@ -9,7 +9,6 @@ use crate::driver::Intent;
 pub const ALL: [Intent; 5] =
     [Intent::Standby, Intent::Manual, Intent::Position, Intent::Track, Intent::Park];
 
-/// The word on the segment.
 fn word(mode: Intent) -> &'static str {
     match mode {
         Intent::Standby => "Standby",
@@ -20,18 +19,17 @@ fn word(mode: Intent) -> &'static str {
     }
 }
 
-/// The modes of one unit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ModeModel<'a> {
-    /// The modes that the unit has; the others are left out.
+    /// The modes that the controller offers; the others are left out.
     pub offered: &'a [Intent],
     /// The mode that the unit reports.
     pub current: Option<Intent>,
-    /// The mode that was asked for and is not reported yet.
+    /// The requested mode, until the unit reports it.
     pub pending: Option<Intent>,
 }
 
-/// Shows the modes in `rect` and returns the one that was clicked.
+/// Shows the modes in `rect` and returns a clicked one.
 pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
     let modes: Vec<Intent> = ALL.into_iter().filter(|mode| model.offered.contains(mode)).collect();
     let segments: Vec<(&str, Segment)> = modes

@@ -1,4 +1,4 @@
-//! Text, borders and accessible names for what the painter draws.
+//! Text, borders and accessible names for painted content.
 
 use egui::{
     Align2, Color32, CornerRadius, FontId, Pos2, Rect, Response, Role, Sense, Shape, Stroke,
@@ -8,12 +8,12 @@ use egui::{
 
 use crate::ui::theme;
 
-/// Dash and gap of the border of a control that is locked or blocked.
+/// Dash and gap of the border of a locked or blocked control.
 const DASH: (f32, f32) = (3.0, 2.0);
-/// Distance and width of the ring around the control that has the focus.
+/// Distance and width of the focus ring.
 const FOCUS: f32 = 2.0;
 
-/// One line of text with its `anchor` at `at`, as long as it wants to be.
+/// Paints one line of text with its `anchor` at `at`, never cut.
 pub fn text(
     ui: &Ui,
     at: Pos2,
@@ -25,7 +25,7 @@ pub fn text(
     ui.painter().text(at, anchor, text, font, colour)
 }
 
-/// One line of text, anchored in `rect` and cut with an ellipsis at its width.
+/// Paints one line of text, anchored in `rect` and cut with an ellipsis at its width.
 pub fn text_in(
     ui: &Ui,
     rect: Rect,
@@ -42,8 +42,7 @@ pub fn text_in(
     place
 }
 
-/// Text that wraps at the width of `rect`, from its upper left corner.
-/// Returns the rectangle it took.
+/// Paints text from `at` on, wrapped at `width`. Returns the painted rectangle.
 pub fn paragraph(ui: &Ui, at: Pos2, width: f32, text: &str, font: FontId, colour: Color32) -> Rect {
     let galley = ui.painter().layout(text.to_owned(), font, colour, width);
     let rect = Rect::from_min_size(at, galley.size());
@@ -61,7 +60,7 @@ pub fn square(centre: Pos2, side: f32) -> Rect {
     Rect::from_center_size(centre, Vec2::splat(side))
 }
 
-/// A dashed border just inside `rect`, for what is locked or blocked.
+/// Paints a dashed border just inside `rect`, for a locked or blocked control.
 pub fn dashed_border(ui: &Ui, rect: Rect, radius: f32, stroke: impl Into<Stroke>) {
     let stroke = stroke.into();
     let rect = rect.shrink(stroke.width / 2.0);
@@ -81,8 +80,8 @@ pub fn dashed_border(ui: &Ui, rect: Rect, radius: f32, stroke: impl Into<Stroke>
     ui.painter().extend(Shape::dashed_line(&path, stroke, DASH.0, DASH.1));
 }
 
-/// The ring around the control that has the focus of the keyboard. One that
-/// comes to it by the keyboard is brought into sight.
+/// Paints the ring around the control that has the keyboard focus. A control that gains the
+/// focus by a key is scrolled into sight.
 pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
     if response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
         response.scroll_to_me(None);
@@ -94,8 +93,8 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
     }
 }
 
-/// A control at a fixed place with its role and name. A control that is not
-/// enabled cannot be clicked and is not reached with Tab.
+/// Adds a control with its role and name in a given rectangle. A disabled control ignores
+/// clicks and Tab skips it.
 pub fn control(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -110,7 +109,7 @@ pub fn control(
     response
 }
 
-/// A button that does something as long as it is held down.
+/// Adds a button that acts while it is held down.
 pub fn held_control(
     ui: &Ui,
     salt: impl egui::AsIdSalt,
@@ -118,7 +117,7 @@ pub fn held_control(
     enabled: bool,
     name: &str,
 ) -> Response {
-    // A press on what senses clicks counts as over after 0.8 s, or when the
+    // egui ends a press on a click-sensing control after 0.8 s, or when the
     // pointer moves a little; a drag lasts until the release.
     let sense = if enabled { Sense::drag() } else { Sense::hover() };
     let response = ui.interact(rect, ui.make_persistent_id(salt), sense);
@@ -126,7 +125,7 @@ pub fn held_control(
     response
 }
 
-/// A node for painted text, so that it can be read aloud and be found.
+/// Adds an accessibility node for painted text, for screen readers and tests.
 pub fn name_text(ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect, name: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id(salt), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));

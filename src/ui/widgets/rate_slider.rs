@@ -1,4 +1,4 @@
-//! How fast a jog key moves the antenna.
+//! The slider for the jog rate.
 
 use egui::{
     Align2, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, WidgetInfo,
@@ -10,8 +10,8 @@ use crate::ui::{text, theme};
 
 const KNOB: f32 = 6.0;
 
-/// Rates that can be chosen, in degrees per second: 1, 2, 5, 10 and so on from
-/// 0.01 up, and the most that the unit does.
+/// Selectable rates, in degrees per second: 1, 2, 5, 10 and so on from 0.01 up, and the
+/// max rate of the unit.
 pub fn steps(max_deg_s: f64) -> Vec<f64> {
     let mut rates = Vec::new();
     for decade in [0.01, 0.1, 1.0, 10.0] {
@@ -26,7 +26,7 @@ pub fn steps(max_deg_s: f64) -> Vec<f64> {
     rates
 }
 
-/// The rate `by` steps away, at most the last or first one.
+/// The rate `by` steps away, clamped to the first and the last.
 pub fn stepped(rate_deg_s: f64, by: i32, max_deg_s: f64) -> f64 {
     let rates = steps(max_deg_s);
     let now = nearest(&rates, rate_deg_s);
@@ -46,8 +46,8 @@ fn nearest(rates: &[f64], rate: f64) -> usize {
     best.0
 }
 
-/// Shows name, slider and value in `rect`; changes `rate_deg_s`, which is kept
-/// within what the unit does.
+/// Shows name, slider and value in `rect`; changes `rate_deg_s` and keeps it within the
+/// rates of the unit.
 pub fn show(ui: &Ui, rect: Rect, max_deg_s: f64, locked: bool, rate_deg_s: &mut f64) {
     let t = theme::tokens(ui);
     *rate_deg_s = rate_deg_s.min(max_deg_s);

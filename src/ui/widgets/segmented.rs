@@ -1,11 +1,11 @@
-//! One of a few, side by side.
+//! A choice among a few segments side by side.
 
 use egui::{Align2, CornerRadius, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{text, theme};
 
-/// How one segment stands.
+/// State of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Segment {
     /// Can be chosen.
@@ -13,12 +13,12 @@ pub enum Segment {
     Free,
     /// Is in force.
     Chosen,
-    /// Was asked for and is not confirmed yet.
+    /// Requested, but not confirmed yet.
     Pending,
 }
 
-/// Shows segments in `rect`, each as wide as its text needs and the rest shared
-/// out evenly. Returns the index of the segment that was clicked.
+/// Shows segments in `rect`, each as wide as its text needs, with the remaining width shared
+/// evenly. Returns the index of a clicked segment.
 pub fn show(
     ui: &Ui,
     salt: &str,

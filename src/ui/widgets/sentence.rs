@@ -1,4 +1,4 @@
-//! The state sentence: what an antenna does, why, and what comes next.
+//! The state sentence: the activity of an antenna, its reason, and the next step.
 
 use egui::{
     Color32, CornerRadius, Pos2, Rect, Role, Sense, Ui, WidgetInfo,
@@ -17,24 +17,24 @@ use crate::ui::{
 const RADIUS: u8 = 6;
 const BAR: f32 = 3.0;
 const LINE: f32 = 20.0;
-/// Where the lines would need more than the room.
+/// Line height for a sentence that does not fit at the usual height.
 const DENSE_LINE: f32 = 16.0;
-/// This room is always kept, so that what stands below does not move under the hand of
-/// the operator when the sentence changes: for four lines, or six dense ones.
+/// Height reserved for the sentence, so that the controls below do not move under the
+/// operator's hand when it changes: four lines, or six dense ones.
 const ROOM: f32 = 96.0;
-/// In a small window: for four lines, or five dense ones.
+/// [`ROOM`] in a small window: four lines, or five dense ones.
 const SMALL_ROOM: f32 = 88.0;
-/// Narrower blocks are those of a small window.
+/// A narrower block belongs to a small window.
 const SMALL: f32 = 300.0;
 
-/// What kind of thing the sentence says; it colours the bar.
+/// Kind of the sentence; gives the colour of the bar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SentenceKind {
     /// Tracking as wanted.
     Tracking,
-    /// Moving or waiting by command.
+    /// Moving or waiting on command.
     Commanded,
-    /// Holding, or not known.
+    /// Holding, or state unknown.
     #[default]
     Holding,
     /// Outside the beam, or late.
@@ -58,31 +58,28 @@ impl SentenceKind {
 /// Part of a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Span<'a> {
-    /// Its words, with the spaces around them.
+    /// Words, with the spaces around them.
     pub text: &'a str,
-    /// A name that has to be found at one glance.
+    /// For a name that must be found at a glance.
     pub bold: bool,
 }
 
-/// A whole sentence.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Sentence<'a> {
-    /// What it is about.
     pub kind: SentenceKind,
-    /// Its parts in order.
     pub spans: &'a [Span<'a>],
 }
 
 impl Sentence<'_> {
-    /// The words without weights.
+    /// The words without their weights.
     pub fn plain_text(&self) -> String {
         self.spans.iter().map(|span| span.text).collect()
     }
 }
 
-/// Shows the sentence from `at` on with `width`, wrapped, with `foot` points of
-/// room below it. Returns the rectangle of the block. Screen readers read it
-/// again whenever it changes.
+/// Shows the sentence at `at`, wrapped at `width`, with `foot` points of room below it.
+/// Returns the rectangle of the block. Screen readers read the sentence again whenever it
+/// changes.
 pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
     let t = theme::tokens(ui);
     let (padding, room) =

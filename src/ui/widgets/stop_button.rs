@@ -1,4 +1,4 @@
-//! STOP. It can be clicked in every state, on every view.
+//! The STOP button, clickable in every state and on every view.
 
 use egui::{
     Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2,
@@ -18,26 +18,26 @@ pub const SIZE: Vec2 = Vec2::new(144.0, 40.0);
 pub const SMALL_SIZE: Vec2 = Vec2::new(120.0, 32.0);
 const RADIUS: u8 = 6;
 
-/// What became of the last STOP.
+/// Outcome of the last STOP.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StopLook<'a> {
     /// Nothing to report.
     #[default]
     Ready,
-    /// It went out and rate zero is not seen yet.
+    /// Sent, but rate zero is not measured yet.
     Stopping,
-    /// Every antenna stands. Shown for 10 s.
+    /// Every antenna has stopped. Shown for 10 s.
     AllStopped,
-    /// Something still moves, or does not answer.
+    /// An antenna still moves, or does not answer.
     NotConfirmed {
-        /// What still moves, and what to do.
+        /// The antennas that still move, and what to do.
         text: &'a str,
     },
 }
 
-/// Shows STOP in `rect`; it says `clicked` in every state. The sentence of
-/// [`StopLook::NotConfirmed`] is part of its name and has to stand beside it.
-/// `about` says what it stops to whoever points at it or has it read aloud.
+/// Shows STOP in `rect`; the response reports `clicked` in every state. The sentence of
+/// [`StopLook::NotConfirmed`] is part of the accessible name; the caller shows it beside
+/// the button. `about` tells what it stops, as hover text and for screen readers.
 pub fn show(ui: &Ui, rect: Rect, state: StopLook<'_>, about: &str) -> Response {
     let response = ui.interact(rect, ui.make_persistent_id("stop"), Sense::click());
     // In the frame of the click the model does not know of it yet.

@@ -1,4 +1,4 @@
-//! A window without a display for the stories of the widgets.
+//! A headless window for the tests of the widgets.
 
 use egui::{Ui, Vec2};
 use egui_kittest::Harness;

@@ -1,4 +1,4 @@
-//! Sentences and facts, one below the other.
+//! Sentences with a mark, and lines of name and value.
 
 use egui::{Label, RichText, Sense, Ui, vec2};
 
@@ -8,26 +8,24 @@ use crate::ui::{
     text, theme,
 };
 
-/// Side of the mark before a sentence, and height of a line.
+/// Side of the mark before a sentence.
 const MARK: f32 = 12.0;
 const LINE: f32 = 16.0;
 
-/// How words are to be taken.
+/// Tone of a sentence, which gives its mark and colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
-    /// As they are.
     Plain,
-    /// This is what happens now.
+    /// Describes the present activity.
     Now,
-    /// All is well.
     Good,
-    /// To be looked at.
+    /// Needs a look.
     Caution,
-    /// Something is wrong.
     Bad,
 }
 
-/// A sentence behind the mark of its tone: a theme may have one hue only.
+/// Shows a sentence after the mark of its tone; colour alone would not do, as a theme may
+/// have one hue only.
 pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
     let t = theme::tokens(ui);
     let (mark, colour) = match tone {
@@ -47,11 +45,11 @@ pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
     });
 }
 
-/// A value that is read letter by letter, behind its name.
+/// Shows a name and its value, in a font that is read letter by letter.
 pub fn fact(ui: &mut Ui, name: &str, value: &str) {
     let t = theme::tokens(ui);
     ui.scope(|ui| {
-        // A row is else as high as a button.
+        // By default a row is as high as a button.
         ui.spacing_mut().interact_size.y = LINE;
         ui.horizontal_wrapped(|ui| {
             ui.label(RichText::new(name).font(text::small()).color(t.t3));

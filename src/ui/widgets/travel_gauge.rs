@@ -1,4 +1,4 @@
-//! Where an axis stands in its travel.
+//! A gauge for the position of an axis in its travel.
 
 use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
@@ -12,34 +12,31 @@ use crate::ui::{
 
 /// Height of one gauge.
 pub const HEIGHT: f32 = 28.0;
-/// So close to an end of the travel the gauge is hatched.
+/// Within this distance of an end of the travel the gauge is hatched.
 const NEAR_END_DEG: f64 = 10.0;
 const TAG: Vec2 = Vec2::new(25.0, 17.0);
 const TRACK: f32 = 4.0;
 
-/// One axis.
 #[derive(Debug, Clone, Copy)]
 pub struct TravelModel<'a> {
-    /// Name of the axis.
     pub name: &'a str,
-    /// What the gauge spans, in degrees; the parts outside of the travel are red.
+    /// Range of the gauge; the parts outside the travel are red.
     pub scale_deg: (f64, f64),
-    /// What the unit may reach, in degrees.
+    /// Travel that the unit may use.
     pub travel_deg: (f64, f64),
-    /// Measured, in degrees.
     pub position_deg: Option<f64>,
-    /// Of the number that is shown for it.
+    /// Decimals of the shown position.
     pub decimals: usize,
     /// The limit switch at the lower end is set.
     pub lower_limit: bool,
     /// The limit switch at the upper end is set.
     pub upper_limit: bool,
-    /// A tick for each full turn, for mounts that wrap their cables.
+    /// Shows a tick for each full turn, for mounts that wrap their cables.
     pub turns: bool,
 }
 
 impl TravelModel<'_> {
-    /// The position as it is shown.
+    /// The position, formatted.
     pub fn number(&self) -> String {
         self.position_deg.map_or_else(
             || super::axes_table::UNKNOWN.to_owned(),
@@ -57,7 +54,7 @@ fn part(value_deg: f64, (low, high): (f64, f64)) -> f32 {
     }
 }
 
-/// Which end of the travel is so near that it is hatched.
+/// The hatched stretch at an end of the travel, if the position is near one.
 fn near_end(position_deg: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     if position_deg >= high - NEAR_END_DEG {
         Some((high - NEAR_END_DEG, high))

@@ -1,16 +1,13 @@
-//! Reads an angle that an operator typed.
+//! Parses an angle that the operator typed.
 
-/// Which field was typed into.
+/// A field of the go-to form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
-    /// Azimuth.
     Azimuth,
-    /// Elevation.
     Elevation,
 }
 
 impl Field {
-    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Azimuth => "Azimuth",
@@ -19,18 +16,18 @@ impl Field {
     }
 }
 
-/// The angle called `name`, in degrees within `range_deg`, both ends included. Takes a decimal
-/// point or a decimal comma, a minus sign of either kind and a degree sign.
+/// Parses the angle called `name`, in degrees within `range_deg`, both ends included. Accepts
+/// a decimal point or comma, either kind of minus sign and a degree sign.
 ///
 /// # Errors
-/// The sentence that stands under the field.
+/// The sentence to show under the field.
 pub fn angle(text: &str, name: &str, range_deg: (f64, f64)) -> Result<f64, String> {
     let typed = text.trim();
     if typed.is_empty() {
         return Err(format!("{name} is empty. Write an angle, such as 85.5."));
     }
     let plain = typed.trim_end_matches('°').trim_end().replace('−', "-").replace(',', ".");
-    // Words that stand for numbers, and powers of ten, are slips of the finger here.
+    // `inf`, `nan` and exponents would parse, but are slips of the finger here.
     let only_digits = plain.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
     let value = if only_digits { plain.parse::<f64>().ok() } else { None };
     let Some(value) = value else {

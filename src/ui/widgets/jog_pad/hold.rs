@@ -4,14 +4,14 @@ use egui::{Event, InputState, Key};
 
 use super::JogDirection;
 
-/// What keeps a key held.
+/// The input that holds a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
     Pointer,
     Keyboard(Key),
 }
 
-/// What has the focus of the keyboard.
+/// The part of the pad that has the keyboard focus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Focus {
     /// The pad as a whole: the arrows are its keys.
@@ -20,7 +20,7 @@ pub(super) enum Focus {
     Key(JogDirection),
 }
 
-/// Which key is held, kept from frame to frame.
+/// The held key, kept from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JogState {
     held: Option<(JogDirection, Source)>,
@@ -28,21 +28,21 @@ pub struct JogState {
     wish: Wish,
 }
 
-/// Whether the pad is to be given the keyboard.
+/// A request to give the pad the keyboard focus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Wish {
     #[default]
     None,
-    /// Since this frame, by a key that may be among its events.
+    /// Requested in this frame, by a key that may be among its events.
     New,
-    /// As soon as the pad is free.
+    /// Waits until the pad is free.
     Waiting,
 }
 
-/// What one frame says about the pad.
+/// The input of one frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Frame {
-    /// The pad is refused.
+    /// Jogging is refused.
     locked: bool,
     /// Directions without a usable key, in the order of [`JogDirection::ALL`].
     pub(super) blocked: [bool; 4],
@@ -67,14 +67,14 @@ impl Frame {
         Self { locked, ..Self::default() }
     }
 
-    /// Takes in the window, the pointer and the keys.
+    /// Reads the state of the window, the pointer and the keys.
     pub(super) fn read(&mut self, input: &InputState) {
         self.window_lost = !input.focused;
         self.pointer_lost = !input.pointer.has_pointer() || !input.pointer.primary_down();
         self.pointer_pressed = input.pointer.primary_pressed();
         self.escape = input.key_pressed(Key::Escape);
         self.down = USED.into_iter().filter(|key| input.key_down(*key)).collect();
-        // The raw ones: those too that another control has taken.
+        // Raw events include those that another control has consumed.
         self.anything_pressed = input.raw.events.iter().any(|event| {
             matches!(
                 event,
@@ -108,7 +108,7 @@ impl Frame {
         }
     }
 
-    /// A key that went down in this very frame.
+    /// A key that went down in this frame.
     fn new_press(&self) -> Option<(JogDirection, Source)> {
         if self.pointer_pressed
             && !self.pointer_lost
@@ -131,7 +131,7 @@ impl Frame {
 }
 
 impl JogState {
-    /// The direction that is held in this frame.
+    /// Advances by one frame and returns the held direction.
     pub(super) fn step(&mut self, frame: &Frame) -> Option<JogDirection> {
         self.focus = frame.focus.is_some() && !frame.window_lost;
         if frame.locked || frame.window_lost || frame.escape {
@@ -148,13 +148,13 @@ impl JogState {
         self.held.map(|(direction, _)| direction)
     }
 
-    /// Puts the keyboard on the pad as soon as it is free. Nothing moves by that.
+    /// Gives the pad the keyboard focus as soon as the pad is free. Moves nothing.
     pub fn focus(&mut self) {
         self.wish = Wish::New;
     }
 
-    /// Whether the pad is to take the keyboard in this frame. Whoever presses
-    /// anything else before it is free does not wait for it any more.
+    /// Returns `true` when the pad takes the keyboard focus in this frame. Any other press
+    /// before the pad is free cancels the request.
     pub(super) fn takes_focus(&mut self, frame: &Frame) -> bool {
         let wish = std::mem::take(&mut self.wish);
         let is_over = wish == Wish::Waiting && frame.anything_pressed;
@@ -168,12 +168,11 @@ impl JogState {
         frame.focus.is_none()
     }
 
-    /// The pad or one of its keys has the focus of the keyboard.
+    /// The pad or one of its keys has the keyboard focus.
     pub fn has_focus(self) -> bool {
         self.focus
     }
 
-    /// One of the keys is held.
     pub fn is_held(self) -> bool {
         self.held.is_some()
     }

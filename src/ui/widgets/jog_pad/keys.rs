@@ -1,23 +1,18 @@
-//! What the jog keys are called.
+//! Directions and labels of the jog keys.
 
 use egui::Key;
 
-/// Where a key moves the antenna. On an az/el mount X is the azimuth and Y the
-/// elevation.
+/// Direction of a jog key. On an az/el mount X is azimuth and Y is elevation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum JogDirection {
-    /// Up the first axis.
     XPlus,
-    /// Down the first axis.
     XMinus,
-    /// Up the second axis.
     YPlus,
-    /// Down the second axis.
     YMinus,
 }
 
 impl JogDirection {
-    /// All directions in the order of Tab.
+    /// All directions in Tab order.
     pub const ALL: [Self; 4] = [Self::YPlus, Self::XMinus, Self::XPlus, Self::YMinus];
 
     /// Signs of the two axes.
@@ -45,7 +40,7 @@ impl JogDirection {
     }
 }
 
-/// What the keys are called, by what they turn.
+/// The pair of axes that the keys turn, which gives their labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JogKeys {
     /// The axes of an X/Y mount.
@@ -53,23 +48,22 @@ pub enum JogKeys {
     Xy,
     /// Azimuth and elevation.
     AzEl,
-    /// The azimuth, and another rotator that turns something else.
+    /// Azimuth, and a second rotator that turns something else.
     AzOther,
 }
 
-/// What stands on a key.
+/// Label of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct KeyLabel {
     /// An arrow or a sign above the word; empty for a word alone.
     pub mark: &'static str,
-    /// In the words of the front panels.
+    /// The word of the front panels.
     pub word: &'static str,
-    /// What it turns, for those who do not see where it stands.
+    /// The axis and direction, for screen readers.
     pub name: &'static str,
 }
 
 impl JogKeys {
-    /// What stands on the key of a direction.
     pub fn label(self, direction: JogDirection) -> KeyLabel {
         use JogDirection::{XMinus, XPlus, YMinus, YPlus};
         let (mark, word, name) = match (self, direction) {

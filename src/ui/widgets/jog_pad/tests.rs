@@ -38,7 +38,7 @@ fn a_pointer_holds_a_key_until_it_is_released() {
     window.drag_at(at);
     window.step();
     assert_eq!(window.state().held, Some(JogDirection::XPlus));
-    // Ten seconds, and a hand that is not quite still.
+    // Ten seconds with a slightly moving pointer.
     for _ in 0..40 {
         window.hover_at(at + vec2(9.0, 3.0));
         window.step();
