@@ -173,7 +173,7 @@ mod tests {
     use std::cell::Cell;
 
     use super::*;
-    use crate::orbit::{bundled, read_elements};
+    use crate::orbit::{PropagationError, bundled, read_elements};
 
     const ISS: u32 = 25_544;
     const METEOSAT_12: u32 = 54_743;
@@ -254,5 +254,36 @@ mod tests {
         // One pass a revolution of 87 minutes, the first 20 minutes after the epoch.
         assert_eq!(found.len(), 5);
         assert!(found.iter().all(|pass| pass.los.time < end));
+        // The mathematics goes on and brings it up again.
+        for days in [1.0, 3.0, 9.0] {
+            let from = time::add_seconds(elements.epoch(), days * time::DAY_S);
+            let later = PassSearch::new(pole, from, time::add_seconds(from, 10.0 * time::DAY_S));
+            assert_eq!(passes(&propagator, &later, &|| false), []);
+            assert_eq!(propagator.state_at(from), Err(PropagationError::Decayed));
+        }
+    }
+
+    #[test]
+    fn what_has_come_down_before_the_window_has_no_pass() {
+        // Near-earth orbits that drag brings down within weeks, and two of twelve hours whose
+        // perigee lies in the air.
+        let numbers = [43_881, 46_582, 48_924, 49_176, 52_445, 53_500, 57_956, 26_410, 26_464];
+        for number in numbers {
+            let propagator = propagator(number);
+            for days in [60.0, 100.0, 140.0] {
+                let at =
+                    |hours: f64| time::add_seconds(start(), days * time::DAY_S + hours * 3600.0);
+                // In the steps of one who only asks for states.
+                let mut before = (0..)
+                    .map(|step| time::add_seconds(propagator.epoch(), f64::from(step) * 600.0));
+                let is_down = before
+                    .by_ref()
+                    .take_while(|time| *time < at(0.0))
+                    .any(|time| propagator.state_at(time).is_err());
+                let search = PassSearch::new(istanbul(), at(0.0), at(24.0));
+                let found = passes(&propagator, &search, &|| false);
+                assert!(!is_down || found.is_empty(), "{number} +{days} d: {found:?}");
+            }
+        }
     }
 }

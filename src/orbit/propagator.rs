@@ -4,10 +4,11 @@ mod near_circular;
 mod secular;
 mod waves;
 
-use serde::{Deserialize, Serialize};
+use std::{f64::consts::TAU, sync::OnceLock};
 
 use glam::DVec3;
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 pub(super) use self::secular::{Plane, Secular, expand};
 use super::Elements;
@@ -23,6 +24,13 @@ const FARTHEST_DAYS: f64 = 36_525.0;
 /// drag. Measured over the bundled catalog, in km/s.
 const DRIFT_KM_S: f64 = 3e-5;
 const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
+
+/// A deep-space orbit comes down within weeks only from a perigee below this height, in km.
+const LOW_PERIGEE_KM: f64 = 120.0;
+/// The first state that is missing is looked for in these steps, a sixteenth of a low
+/// revolution, and for ten weeks: a near-earth orbit that touches the air is down in days.
+const DOWN_STEP_MIN: f64 = 5.0;
+const MAX_DOWN_LOOKS: u32 = 20_000;
 
 /// Position and velocity of a satellite in TEME.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +62,11 @@ pub struct Propagator {
     epoch: Timestamp,
     secular: Option<Secular>,
     drift_km_s: f64,
+    /// From then on the orbit may have met the ground, minutes after the epoch.
+    low_after_min: f64,
+    /// When it has, minutes after the epoch. Looked for by the first question that is later
+    /// than `low_after_min`.
+    down_min: OnceLock<f64>,
 }
 
 /// Where the integration of a resonant orbit has come to, so that the next state
@@ -69,8 +82,16 @@ impl Propagator {
         let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&numbers)
             .map_err(|_| PropagationError::Elements)?;
         let secular = Secular::new(&numbers);
-        let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * elements.eccentricity();
-        Ok(Self { constants, epoch: elements.epoch(), secular, drift_km_s })
+        let eccentricity = elements.eccentricity();
+        let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * eccentricity;
+        let low_after_min = match &secular {
+            Some(secular) => secular.low_after_min(),
+            // Drag that brings such an orbit down needs a perigee in the air.
+            None if lowest_km(&numbers) < LOW_PERIGEE_KM => 0.0,
+            None => f64::INFINITY,
+        };
+        let (epoch, down_min) = (elements.epoch(), OnceLock::new());
+        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, down_min })
     }
 
     /// The state at `at`, in TEME.
@@ -107,6 +128,35 @@ impl Propagator {
             return Err(PropagationError::TooFarFromEpoch);
         }
         let since_epoch_min = since_epoch_s / 60.0;
+        if self.may_be_down_at(since_epoch_s)
+            && since_epoch_min >= *self.down_min.get_or_init(|| self.find_down_min())
+        {
+            return Err(PropagationError::Decayed);
+        }
+        self.sgp4_state(since_epoch_min, resumable)
+    }
+
+    /// Whether the orbit may have met the ground by then.
+    pub(super) fn may_be_down_at(&self, since_epoch_s: f64) -> bool {
+        since_epoch_s > self.low_after_min * 60.0
+    }
+
+    /// When SGP4 first brings the object down: later its mathematics goes on below the ground
+    /// and may bring it up again. Infinity where it does not in the time that is looked at.
+    fn find_down_min(&self) -> f64 {
+        let mut resumable = Resumable::default();
+        (1..=MAX_DOWN_LOOKS)
+            .map(|look| self.low_after_min + f64::from(look) * DOWN_STEP_MIN)
+            .find(|at_min| self.sgp4_state(*at_min, &mut resumable).is_err())
+            .unwrap_or(f64::INFINITY)
+    }
+
+    /// The state by SGP4, whatever became of the object before.
+    fn sgp4_state(
+        &self,
+        since_epoch_min: f64,
+        resumable: &mut Resumable,
+    ) -> Result<State, PropagationError> {
         // The library ends the program when the time goes back towards or over
         // the epoch.
         let resumed = resumable.0.take().filter(|state| {
@@ -131,6 +181,13 @@ impl Propagator {
             Err(PropagationError::Decayed)
         }
     }
+}
+
+/// Height of the perigee at the epoch.
+fn lowest_km(elements: &sgp4::Elements) -> f64 {
+    let rate_rad_min = elements.mean_motion * (TAU / 1440.0);
+    let axis = (sgp4::WGS72.ke / rate_rad_min).powf(2.0 / 3.0);
+    (axis * (1.0 - elements.eccentricity) - 1.0) * WGS72_RADIUS_KM
 }
 
 #[cfg(test)]

@@ -49,6 +49,9 @@ impl<'a> NearCircular<'a> {
     pub(super) fn new(index: usize, track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
+        if track.propagator.may_be_down_at(track.start_since_epoch_s + window.length_s) {
+            return None;
+        }
         let minutes = |at_s: f64| (track.start_since_epoch_s + at_s) / 60.0;
         let mut highest = 0.0_f64;
         let (first_axis, _) = secular.size(0.0);

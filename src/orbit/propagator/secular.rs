@@ -26,6 +26,9 @@ const LOWEST_PERIGEE: f64 = 1.012;
 const MAX_WAVE: f64 = 0.005;
 /// The waves of perigee and anomaly need an orbit that is not rounder than this.
 const MIN_ECCENTRICITY: f64 = 1e-4;
+/// An hour: as finely as it is known when an orbit is low.
+const FIRST_LOOK_MIN: f64 = 60.0;
+const CENTURY_MIN: f64 = 36_525.0 * 1440.0;
 /// Perigees below this height, in Earth radii, get the shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
@@ -76,6 +79,38 @@ impl Secular {
     pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
         let root_axis = series(&self.root_axis, minutes);
         (root_axis * root_axis, series(&self.plane.eccentricity, minutes))
+    }
+
+    /// From when on, in minutes after the epoch, the orbit may come as low as one that is about
+    /// to decay; infinity where it does not for a century.
+    pub(super) fn low_after_min(&self) -> f64 {
+        let is_low = |minutes: f64| {
+            let root_axis = series(&self.root_axis, minutes);
+            // As eccentric as it has been until then.
+            let eccentricity =
+                series(&self.plane.eccentricity, minutes).max(self.plane.eccentricity[0]);
+            let lowest = root_axis * root_axis * (1.0 - eccentricity - self.eccentricity_wave());
+            // Below zero the polynomial has passed the centre of the Earth.
+            root_axis <= 0.0 || lowest < LOWEST_PERIGEE
+        };
+        let mut high = 0.0;
+        let mut low = FIRST_LOOK_MIN;
+        while !is_low(low) {
+            high = low;
+            low *= 2.0;
+            if low > CENTURY_MIN {
+                return f64::INFINITY;
+            }
+        }
+        while low - high > FIRST_LOOK_MIN {
+            let middle = f64::midpoint(high, low);
+            if is_low(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
     }
 
     /// The eccentricity swings around its polynomial by this much, once a
