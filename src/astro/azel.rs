@@ -1,8 +1,7 @@
 //! A direction in the sky of a site.
 
-use serde::{Deserialize, Serialize};
-
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::Angle;
 

@@ -8,10 +8,9 @@
 mod sun;
 mod way_out;
 
-use serde::{Deserialize, Serialize};
-
 use glam::DVec3;
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use crate::{

@@ -169,6 +169,7 @@ impl Finder<'_> {
             return;
         }
         let exact = self.track.extreme(look.at_s, look.spacing_s, bend).map(|(_, place)| place);
+        let exact = exact.or_else(|| self.track.extreme_by_halves(look.at_s, look.spacing_s, bend));
         if let Some(place) = exact.or_else(|| self.track.place(look.at_s)) {
             self.reach(Extreme { at_s: place.at_s, is_up: self.is_up(place.height.sine) });
             self.raise(place);
@@ -307,5 +308,69 @@ impl Quintic {
             }
         }
         middle
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::Timestamp;
+
+    use crate::{
+        astro::{Angle, Site, time},
+        orbit::{PassSearch, Propagator, passes, read_elements},
+    };
+
+    /// Orbits whose perigee flies by closer over a site than their states are apart, and the
+    /// passes there: the greatest elevation is that of states a tenth of a second apart.
+    #[test]
+    fn the_greatest_elevation_of_a_close_fly_by_is_exact() {
+        let epoch: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let mut dice = 12_345_u32;
+        let mut roll = |least: f64, most: f64| {
+            dice = dice.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            least + f64::from(dice >> 8) / f64::from(1_u32 << 24) * (most - least)
+        };
+        let mut nearest_km = f64::MAX;
+        for _ in 0..60 {
+            let (eccentricity, perigee_km) = (roll(0.1, 0.7), roll(85.0, 140.0));
+            let axis_km = (6378.135 + perigee_km) / (1.0 - eccentricity);
+            let motion = (398_600.8 / axis_km.powi(3)).sqrt() * 86_400.0 / std::f64::consts::TAU;
+            let text = serde_json::json!([{
+                "NORAD_CAT_ID": 1, "EPOCH": "2026-08-12T00:00:00", "MEAN_MOTION": motion,
+                "ECCENTRICITY": eccentricity, "INCLINATION": roll(5.0, 80.0),
+                "RA_OF_ASC_NODE": roll(0.0, 360.0), "ARG_OF_PERICENTER": roll(0.0, 360.0),
+                "MEAN_ANOMALY": 330.0, "BSTAR": 0
+            }]);
+            let elements = read_elements(&text.to_string()).elements.remove(0);
+            let propagator = Propagator::new(&elements).unwrap();
+            // Perigee comes when 30 degrees of mean anomaly have gone by.
+            let perigee = time::add_seconds(epoch, elements.period_s() / 12.0);
+            let below = |offset_s: f64| {
+                let at = time::add_seconds(perigee, offset_s);
+                let state = propagator.state_at(at).unwrap();
+                let p = state.position_km;
+                let longitude = p.y.atan2(p.x) - time::gmst(at).radians();
+                let latitude = (p.z / p.length()).asin().to_degrees();
+                Site::new(latitude, Angle::from_radians(longitude).wrapped_180().degrees(), 0.0)
+            };
+            let site = below(roll(-60.0, 60.0)).unwrap();
+            let to = time::add_seconds(perigee, 1500.0);
+            let search = PassSearch::new(site, epoch, to);
+            let found = passes(&propagator, &search, &|| false);
+            let look = |offset_s: f64| {
+                let at = time::add_seconds(perigee, offset_s);
+                propagator.look_from(site, at).unwrap()
+            };
+            let looks: Vec<_> = (-3000..3000).map(|tenth| look(f64::from(tenth) / 10.0)).collect();
+            let highest =
+                looks.iter().map(|look| look.direction.elevation_deg()).fold(f64::MIN, f64::max);
+            nearest_km = looks.iter().map(|look| look.range_km).fold(nearest_km, f64::min);
+            let said =
+                found.iter().map(|pass| pass.max_elevation().degrees()).fold(f64::MIN, f64::max);
+            // A tenth of a second off the crest a satellite at 100 km has moved by 0.4 degrees,
+            // and is below the crest by the square of that.
+            assert!(said > highest - 2e-5 && said < highest + 0.5, "{said} {highest} {text}");
+        }
+        assert!(nearest_km < 120.0, "{nearest_km}");
     }
 }

@@ -170,6 +170,31 @@ impl<'a> Track<'a> {
         None
     }
 
+    /// The extreme within `max_s` of the guess by halving, for a satellite that goes by so near
+    /// that the method of Newton does not settle; `None` where the height does not turn there.
+    pub(super) fn extreme_by_halves(
+        &self,
+        guess_s: f64,
+        max_s: f64,
+        bend: Bend,
+    ) -> Option<LocalState> {
+        let rises =
+            |at_s: f64| Some((self.place(at_s)?.height.rate > 0.0) == (bend == Bend::Crest));
+        let (mut before_s, mut after_s) = (guess_s - max_s, guess_s + max_s);
+        if !rises(before_s)? || rises(after_s)? {
+            return None;
+        }
+        while after_s - before_s > CREST_TIME_TOLERANCE_S {
+            let middle_s = f64::midpoint(before_s, after_s);
+            if rises(middle_s)? {
+                before_s = middle_s;
+            } else {
+                after_s = middle_s;
+            }
+        }
+        self.place(f64::midpoint(before_s, after_s))
+    }
+
     /// The extreme near a series, with the speed that a second state shows.
     fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, LocalState)> {
         let second = self.series(series.at_s + MENDING_STEP_S)?;
