@@ -14,46 +14,44 @@ use super::{text, theme, widgets::paint};
 use crate::{astro::HorizonMask, plan::Sample};
 use scale::TimeAxis;
 
-/// Space at the left and the right of everything.
+/// Padding at the left and the right edge.
 const PADDING: f32 = 16.0;
 /// Centre of the line with the title, from the top.
 const HEAD_Y: f32 = 19.0;
 /// Top of the plots, from the top.
 const PLOTS_TOP: f32 = 45.0;
-/// For the numbers of the left scale, from the left.
+/// Width of the left scale.
 const LEFT_SCALE: f32 = 42.0;
-/// For the numbers of the right scale, from the right.
+/// Width of the right scale.
 const RIGHT_SCALE: f32 = 44.0;
-/// Between the two plots.
+/// Gap between the two plots.
 const PLOT_GAP: f32 = 10.0;
-/// Below the plots, for the times.
+/// Height below the plots for the times.
 const TIMES: f32 = 25.0;
-/// Less room than this for the upper plot shows nothing.
+/// Minimum height of the upper plot; with less room nothing is shown.
 const MIN_PLOT: f32 = 24.0;
 
 /// The selected pass. Samples are oldest first.
 #[derive(Debug, Clone, Copy)]
 pub struct ProfileModel<'a> {
-    /// The present.
     pub now: Timestamp,
-    /// Name of the satellite.
     pub name: &'a str,
-    /// The predicted path from the begin to the end of the pass.
+    /// The predicted path from the beginning to the end of the pass.
     pub track: &'a [Sample],
-    /// Where the satellite is highest.
+    /// The highest point of the pass.
     pub tca: Sample,
     /// The pass goes on beyond the first or the last sample.
     pub cut: bool,
-    /// What blocks the sky of the site.
+    /// The horizon mask of the site.
     pub mask: Option<&'a HorizonMask>,
-    /// When and how far the satellite was off the beam axis, in degrees. A
-    /// value that is not finite breaks the line.
+    /// Time and angle between satellite and beam axis, in degrees. A value that is not finite
+    /// breaks the line.
     pub errors: &'a [(Timestamp, f32)],
-    /// Half the beam width, in degrees.
+    /// Half the beam width.
     pub half_beam_deg: f64,
 }
 
-/// Shows the profile in `rect`, made for 392 by 208 points.
+/// Shows the profile in `rect`; designed for 392 by 208 points.
 pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
     let response = ui.interact(rect, ui.make_persistent_id("pass profile"), Sense::hover());
     let Some(model) = model else {
@@ -98,7 +96,7 @@ fn empty(ui: &Ui, rect: Rect, sentence: &str) {
     paint::text_in(ui, room, Align2::CENTER_CENTER, sentence, text::body(), colour);
 }
 
-/// The present, through both plots.
+/// Paints the line of the present through both plots.
 fn now_line(ui: &Ui, rect: Rect, axis: &TimeAxis, now: Timestamp) {
     if !axis.contains(now) {
         return;

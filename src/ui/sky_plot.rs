@@ -1,5 +1,5 @@
-//! The sky over the station: the disc from zenith to horizon with the selected
-//! pass, other satellites, and where the antenna is told to point and points.
+//! The sky plot: a disc from zenith to horizon with the selected pass, other
+//! satellites, and the commanded and measured directions of the antenna.
 
 mod antenna;
 mod beam_view;
@@ -36,30 +36,28 @@ use super::{text, theme, tokens::Tokens};
 
 pub use scene::{Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
 
-/// What the plot remembers from frame to frame.
+/// State of the plot, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub struct SkyPlotState {
-    /// Which layers are shown.
     pub layers: Layers,
     labels: HashMap<Key, Memory>,
 }
 
-/// Which layers are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 // Independent check boxes.
 #[allow(clippy::struct_excessive_bools)]
 pub struct Layers {
     /// Satellites that are not selected.
     pub others: bool,
-    /// Their names.
+    /// Names of the satellites that are not selected.
     pub names: bool,
     /// The Sun and the Moon.
     pub sun_and_moon: bool,
-    /// Where the mount cannot point.
+    /// Directions that the mount cannot reach.
     pub keyholes: bool,
-    /// What the horizon mask blocks.
+    /// The sky blocked by the horizon mask.
     pub mask: bool,
-    /// Where antennas must not point.
+    /// Zones into which antennas must not point.
     pub keep_outs: bool,
 }
 
@@ -76,8 +74,8 @@ impl Default for Layers {
     }
 }
 
-/// Shows the plot in `rect`. Returns the catalog number of a satellite that
-/// was clicked, or chosen with Enter.
+/// Shows the plot in `rect`. Returns the catalog number of a satellite chosen with a click
+/// or with Enter.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -93,7 +91,7 @@ pub fn show(
     let dome = Dome::fitted(rect);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
 
-    // Before the buttons of the corners, which lie above it.
+    // Added before the buttons in the corners, which lie above the canvas.
     let canvas = nodes::canvas(ui, rect, scene);
     paint_sky(ui, rect, dome, scene, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);

@@ -1,5 +1,5 @@
 //! The strip "Next 12 hours": the passes of one antenna as bars over time,
-//! with day and night below. In a low place it shrinks to one lane.
+//! with day and night below. A low strip has a single lane.
 
 mod axis;
 mod bars;
@@ -20,70 +20,62 @@ use super::{format, text, theme, widgets::paint};
 use scale::Scale;
 pub use zoom::Zoom;
 
-/// One pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bar<'a> {
-    /// What names the pass: catalog number and a time that stays.
+    /// Identifies the pass: catalog number and a time that does not change.
     pub key: (u32, Timestamp),
-    /// Name of the satellite.
     pub name: &'a str,
-    /// Rise.
     pub aos: Timestamp,
-    /// Set.
     pub los: Timestamp,
-    /// Highest elevation, 0 to 90.
+    /// Maximum elevation, 0 to 90.
     pub max_elevation_deg: f64,
-    /// The mount is late somewhere, such as at its keyhole.
+    /// The mount loses part of the pass, such as at its keyhole.
     pub loses: bool,
-    /// The mount can follow.
+    /// The mount can track the pass.
     pub possible: bool,
 }
 
-/// What the strip shows.
 #[derive(Debug, Clone, Copy)]
 pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
-    /// How long, in hours.
     pub hours: f64,
-    /// Name of the antenna.
     pub lane: &'a str,
-    /// The passes in any order, without satellites that never set.
+    /// Passes in any order, without satellites that never set.
     pub bars: &'a [Bar<'a>],
     /// The pass that is selected in the window.
     pub selected: Option<(u32, Timestamp)>,
-    /// Day and night, the earliest first.
+    /// Day and night, earliest first.
     pub sun: &'a [SunSpan],
 }
 
 /// Below this height the strip has its small form, in points.
 pub const SMALL_BELOW: f32 = 120.0;
-/// In less room than this nothing can be told apart, in points.
+/// Minimum size, in points; in less room nothing would be legible.
 const MIN: Vec2 = vec2(160.0, 60.0);
 /// Below this height all passes share one lane, in points.
 const TWO_LANES_FROM: f32 = 190.0;
 const MARGIN: f32 = 16.0;
 const SMALL_MARGIN: f32 = 12.0;
-/// Room at the left for the names of the lanes, in points.
+/// Width at the left for the names of the lanes, in points.
 const NAMES: f32 = 96.0;
 const SMALL_NAMES: f32 = 84.0;
-/// Between the name of a lane and the lane; the name of a bar may reach into it.
+/// Gap between the name of a lane and the lane; the name of a bar may reach into it.
 const NAMES_GAP: f32 = 8.0;
 const HEAD: f32 = 32.0;
 const AXIS: f32 = 24.0;
 const SMALL_AXIS: f32 = 21.0;
-/// Height of the lane of passes that the mount cannot follow.
+/// Height of the lane of passes that the mount cannot track.
 const OUT_LANE: f32 = 34.0;
 const SUN_LANE: f32 = 9.0;
 const SUN_WORDS: f32 = 20.0;
 const LANE_GAP: f32 = 4.0;
 const BOTTOM: f32 = 6.0;
-/// Heights of the bars for 0 and 90 degrees (the design's "Pass bars").
+/// Heights of the bars for 0° and 90° of maximum elevation.
 const HEIGHTS: RangeInclusive<f32> = 14.0..=44.0;
 const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
 
-/// Shows the strip in `rect`. Returns the key of the bar that was clicked or
-/// chosen with Enter.
+/// Shows the strip in `rect`. Returns the key of a bar chosen with a click or with Enter.
 pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, Timestamp)> {
     let is_small = rect.height() < SMALL_BELOW;
     let hours = model.hours;
@@ -161,7 +153,7 @@ fn small(
     clicked
 }
 
-/// Writes the name of a lane to its left, cut where it does not fit.
+/// Paints the name of a lane at its left, cut if it does not fit.
 fn lane_name(ui: &Ui, left: f32, lane: Rect, name: &str, main: bool) {
     let t = theme::tokens(ui);
     let room = Rect::from_x_y_ranges(left..=lane.left() - NAMES_GAP, lane.y_range());

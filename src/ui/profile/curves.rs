@@ -12,13 +12,13 @@ use crate::{
     ui::{format, text, theme, widgets::paint},
 };
 
-/// Dash and gap of the planned part.
+/// Dash and gap of the part of the path ahead.
 const DASH: (f32, f32) = (6.0, 4.5);
 /// Dash and gap of the azimuth.
 pub(super) const DOTS: (f32, f32) = (1.5, 3.5);
-/// From the centre of the diamond to its corners.
+/// Distance from the centre of the diamond to its corners.
 const DIAMOND: f32 = 6.5;
-/// Between a plot and the numbers of its scales.
+/// Gap between a plot and the numbers of its scales.
 const SCALE_GAP: f32 = 6.0;
 
 /// Shows the plot in `rect`; the numbers of the scales stand beside it.
@@ -64,7 +64,7 @@ fn skyline(rect: Rect, axis: &TimeAxis, track: &[Sample], mask: &HorizonMask) ->
     finite.map(height).collect()
 }
 
-/// From the bottom of the plot up to the skyline.
+/// The filled area from the bottom of the plot to the skyline.
 fn ground(rect: Rect, skyline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, at) in (0_u32..).zip(skyline) {
@@ -94,7 +94,7 @@ fn grid(ui: &Ui, rect: Rect) {
     }
 }
 
-/// The diamond where the pass is highest, with the elevation beside it.
+/// Paints the diamond at TCA with the elevation beside it.
 fn highest(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let elevation_deg = model.tca.direction.elevation_deg();
     if !axis.contains(model.tca.time) || !elevation_deg.is_finite() {
@@ -109,7 +109,7 @@ fn highest(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let size = vec2(paint::text_width(ui, &words, text::caption()), 14.0);
     let now_x = axis.x(model.now);
     let place = label_place(rect, centre, size, now_x);
-    // A curve that runs behind the number must not make it hard to read.
+    // Keeps the number readable over a curve.
     ui.painter().rect_filled(place.shrink2(vec2(-1.0, 1.0)), 2.0, t.bg0.gamma_multiply(0.8));
     paint::text(ui, place.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t1);
 }
@@ -121,8 +121,8 @@ fn diamond(painter: &Painter, centre: Pos2, fill: Color32, stroke: Stroke) {
     painter.add(Shape::convex_polygon(points, fill, stroke));
 }
 
-/// Beside the diamond: at its left, or at its right where the left has no room
-/// or the line of the present runs through it.
+/// The rectangle of the label: at the left of the diamond, or at its right if the left has
+/// no room or the line of the present runs through it.
 fn label_place(rect: Rect, centre: Pos2, size: Vec2, now_x: f32) -> Rect {
     let distance = DIAMOND + 4.0;
     let y = (centre.y - 7.0).max(rect.top() + size.y / 2.0 + 1.0);

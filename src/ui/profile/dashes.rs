@@ -2,11 +2,11 @@
 
 use egui::{Painter, Pos2, Stroke};
 
-/// Paints `path` in dashes. Each dash is one line, also where it goes round a
-/// bend; pieced together from segments, its ends would run into the gaps.
+/// Paints `path` in dashes. Each dash is one line, also around a bend; in a dash pieced
+/// together from segments, the ends would run into the gaps.
 pub(super) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pattern: (f32, f32)) {
     for dash in along(path, pattern) {
-        // Only a segment is put on whole pixels where it is level.
+        // egui aligns only a level line segment with whole pixels.
         if let [start, end] = dash[..] {
             painter.line_segment([start, end], stroke);
         } else {
@@ -19,7 +19,7 @@ pub(super) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pattern: (
 fn along(path: &[Pos2], (dash, gap): (f32, f32)) -> Vec<Vec<Pos2>> {
     let mut dashes: Vec<Vec<Pos2>> = Vec::new();
     let mut drawing = false;
-    // What is left of the dash or the gap.
+    // Remaining length of the dash or the gap.
     let mut left = 0.0;
     for pair in path.windows(2) {
         let &[start, end] = pair else { continue };

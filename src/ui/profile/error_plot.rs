@@ -1,4 +1,4 @@
-//! How far the antenna was off the satellite along the pass.
+//! The plot of the pointing error along the pass.
 
 use egui::{Align2, Rect, Stroke, Ui, pos2};
 
@@ -12,7 +12,7 @@ use crate::ui::{format, text, theme, widgets::paint};
 pub(super) const HEIGHT: f32 = 32.0;
 /// Dash and gap of the line at half the beam.
 const DASH: (f32, f32) = (4.0, 4.0);
-/// Between the plot and the words beside it.
+/// Gap between the plot and the words beside it.
 const GAP: f32 = 6.0;
 
 /// Shows the plot in `rect`; its name and the half beam stand beside it.

@@ -1,15 +1,15 @@
-//! The line above the plots: whose profile, and what the lines mean.
+//! The line above the plots: title and legend.
 
 use egui::{Align2, Color32, Pos2, Rect, Stroke, Ui, pos2};
 
 use super::{curves::DOTS, dashes};
 use crate::ui::{text, theme, widgets::paint};
 
-/// Length of the line before its word.
+/// Length of the sample line before its word.
 const SAMPLE_LENGTH: f32 = 18.0;
-/// Between the line and its word.
+/// Gap between a sample line and its word.
 const SAMPLE_GAP: f32 = 6.0;
-/// Between two entries.
+/// Gap between two entries.
 const ENTRY_GAP: f32 = 16.0;
 
 /// Shows the line, with the title cut where the legend begins.

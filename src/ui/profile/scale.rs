@@ -1,17 +1,17 @@
-//! Where times and values lie in the plots.
+//! The scales of the plots: times to x, values to y.
 
 use egui::{Pos2, Rect, pos2};
 use jiff::Timestamp;
 
 use crate::{astro::time::seconds_between, plan::Sample};
 
-/// Top of the elevation scale, in degrees.
+/// Top of the elevation scale.
 pub(super) const ELEVATION_TOP_DEG: f64 = 90.0;
-/// Top of the azimuth scale, in degrees.
+/// Top of the azimuth scale.
 pub(super) const AZIMUTH_TOP_DEG: f64 = 360.0;
-/// The error plot reaches at least this many half beams.
+/// Minimum top of the error plot, in half beams.
 const MIN_ERROR_HALF_BEAMS: f64 = 1.4;
-/// Beyond this many half beams an error lies at the top edge.
+/// Maximum top of the error plot, in half beams; larger errors lie at the top edge.
 const MAX_ERROR_HALF_BEAMS: f64 = 3.0;
 
 /// The time axis that both plots share.
@@ -24,38 +24,35 @@ pub(super) struct TimeAxis {
 }
 
 impl TimeAxis {
-    /// From the first to the last sample, across the width of `rect`. None if
-    /// no time lies between them.
+    /// The axis from the first to the last sample, across the width of `rect`. `None` if no
+    /// time lies between them.
     pub(super) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
         let start = track.first()?.time;
         let end = track.last()?.time;
         (end > start).then(|| Self { start, end, left: rect.left(), width: rect.width() })
     }
 
-    /// Where the axis begins.
     pub(super) fn start(&self) -> Timestamp {
         self.start
     }
 
-    /// Where the axis ends.
     pub(super) fn end(&self) -> Timestamp {
         self.end
     }
 
-    /// Whether `time` lies on the axis.
     pub(super) fn contains(&self, time: Timestamp) -> bool {
         (self.start..=self.end).contains(&time)
     }
 
-    /// The place of `time`; it can lie outside of the axis.
+    /// The x of `time`, which may lie outside the axis.
     pub(super) fn x(&self, time: Timestamp) -> f32 {
         let part = seconds_between(self.start, time) / seconds_between(self.start, self.end);
         self.left + part as f32 * self.width
     }
 }
 
-/// The height of `value` in `rect`, whose bottom is 0 and whose top is `top`.
-/// What lies beyond is drawn at the edge.
+/// The y of `value` in `rect`, whose bottom is 0 and whose top is `top`. A value beyond them
+/// lies at the edge.
 pub(super) fn y(rect: Rect, value: f64, top: f64) -> f32 {
     rect.bottom() - (value / top).clamp(0.0, 1.0) as f32 * rect.height()
 }
@@ -73,12 +70,11 @@ pub(super) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f6
     }
 }
 
-/// Whether the width of the beam is known.
 pub(super) fn has_beam(half_beam_deg: f64) -> bool {
     half_beam_deg.is_finite() && half_beam_deg > 0.0
 }
 
-/// The points of a curve, in pieces: a value that is not finite ends a piece.
+/// The points of a curve, cut into pieces at values that are not finite.
 pub(super) fn pieces(
     points: impl Iterator<Item = (f32, f64)>,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! The times under the plots, and the pass in a sentence.
+//! The times under the plots, and the description of the pass for screen readers.
 
 use std::fmt::Write as _;
 
@@ -12,17 +12,16 @@ use crate::{
 
 /// Centre of the times below the plots.
 const BELOW: f32 = 12.0;
-/// Between two of the times.
+/// Gap between two of the times.
 const GAP: f32 = 8.0;
 
-/// What the ends of the axis are called. The ends of a pass that goes on are
-/// not its rise and set.
+/// Names of the ends of the axis. The ends of a cut pass are not its AOS and LOS.
 fn ends(cut: bool) -> (&'static str, &'static str) {
     if cut { ("from", "to") } else { ("AOS", "LOS") }
 }
 
-/// The times of begin, maximum and end under `plot`. The maximum is left out
-/// where it has no room.
+/// Paints the times of begin, maximum and end under `plot`. The maximum is left out if it
+/// has no room.
 pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
     let colour = theme::tokens(ui).t2;
     let y = plot.bottom() + BELOW;
@@ -43,13 +42,13 @@ pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'
     }
 }
 
-/// The centre nearest to `x` of what reaches `half` to both sides and lies
-/// between `left` and `right`. None if that is too narrow.
+/// The centre nearest to `x` of a span that reaches `half` to both sides and lies between
+/// `left` and `right`. `None` if the room is too narrow.
 fn centre(x: f32, half: f32, left: f32, right: f32) -> Option<f32> {
     (left + half <= right - half).then(|| x.clamp(left + half, right - half))
 }
 
-/// The pass for those who do not see the plot.
+/// The pass in a sentence, for screen readers.
 pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
     let (begin, end) = ends(model.cut);
     let azimuth = |sample: Option<&Sample>| match sample.map(|s| s.direction.azimuth_deg()) {
@@ -72,7 +71,7 @@ pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
         axis.contains(*time) && *time <= model.now && error_deg.is_finite()
     });
     if let Some((_, error_deg)) = last {
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = write!(
             sentence,
             " Last error {}, half the beam is {}.",

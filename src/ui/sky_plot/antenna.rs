@@ -1,4 +1,4 @@
-//! Where the antenna is told to point and where it points.
+//! Marks of the commanded and the measured direction.
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
@@ -10,20 +10,20 @@ use super::{
 };
 use crate::ui::{text, tokens::Tokens, widgets::paint};
 
-/// The smallest ring that can be seen around a satellite, points.
+/// Diameter of the smallest ring that is visible around a satellite, points.
 const SMALLEST_RING: f32 = 22.0;
 /// Side of the box of the cross-hair that labels keep clear, points.
 const CROSS_HAIR: f32 = 56.0;
-/// Distance of the notes on a lost link from the middle, points.
+/// Distance of the notes on a lost link from the centre, points.
 const NOTE: f32 = 14.0;
 
-/// Diameter of the commanded ring: the beam, but never too small to be seen.
+/// Diameter of the commanded ring: the beam width, but always large enough to see.
 fn ring(dome: Dome, scene: &SkyScene<'_>) -> f32 {
-    // A width that is not a number gives the smallest ring.
+    // NaN gives the smallest ring.
     dome.length(scene.beam_width).max(SMALLEST_RING)
 }
 
-/// The circles that the antenna takes in the plot: middle and radius.
+/// The circles that the marks of the antenna occupy: centre and radius.
 fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)> {
     let ring = ring(dome, scene) / 2.0;
     let measured = scene.measured.map(|measured| (measured.direction, CROSS_HAIR / 2.0));
@@ -45,8 +45,8 @@ pub(super) fn reserve(dome: Dome, scene: &SkyScene<'_>, labels: &mut Labels<'_>)
     }
 }
 
-/// How far a label must stand from its mark to clear the antenna, when the
-/// mark lies within one of its circles; else `usual`. All in points.
+/// Distance of a label from its mark, in points. Clears the antenna if `mark` lies in one of
+/// the antenna's circles; otherwise `usual`.
 pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32) -> f32 {
     circles(dome, scene)
         .map(|(at, radius)| (at.distance(mark), radius))

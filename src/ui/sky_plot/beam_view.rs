@@ -1,4 +1,4 @@
-//! The magnified sky around the satellite, where the beam can be judged.
+//! A magnified view of the sky around the satellite, for judging the beam.
 
 use egui::{Align2, Painter, Pos2, Rect, Stroke, Vec2, pos2, vec2};
 
@@ -21,8 +21,8 @@ pub(super) fn place(rect: Rect) -> Rect {
     Rect::from_min_size(corner - Vec2::splat(DIAMETER), Vec2::splat(DIAMETER))
 }
 
-/// Half the width of the view in degrees: 1, or one and a half beams once a
-/// beam would fill more than half of that.
+/// Half the width of the view: 1°, or one and a half beam widths for a beam that would
+/// fill more than half of that.
 pub(super) fn half_view_deg(beam_width_deg: f64) -> f64 {
     if beam_width_deg.is_finite() && beam_width_deg > 1.0 { 1.5 * beam_width_deg } else { 1.0 }
 }
@@ -35,7 +35,7 @@ pub(super) fn error_deg(measured: AzEl, predicted: AzEl) -> (f64, f64) {
     (across, measured.elevation_deg() - predicted.elevation_deg())
 }
 
-/// Paints the view around the predicted direction. Nothing without one.
+/// Paints the view around the predicted direction, if there is one.
 pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tokens) {
     let Some(predicted) = scene.predicted.filter(is_finite) else { return };
     let view = place(rect);
@@ -49,7 +49,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Tok
         painter.line_segment([centre - arm, centre + arm], Stroke::new(1.0, t.grid));
     }
 
-    // Elevation is up. What lies outside stays at the edge of the view.
+    // Elevation is up. Points outside the view are drawn at its edge.
     let point = |across: f32, up: f32| -> Option<Pos2> {
         let offset = vec2(across, -up) * scale;
         let shown = if offset.length() > radius { offset.normalized() * radius } else { offset };

@@ -1,5 +1,5 @@
-//! An antenna of which only the azimuth is known: a line from the zenith to the
-//! rim instead of a point.
+//! The mark of an antenna with unknown elevation: a line from the zenith to the rim
+//! in place of a point.
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2};
 
@@ -35,13 +35,13 @@ fn triangle(dome: Dome, azimuth: Angle) -> Option<(Pos2, Vec<Pos2>)> {
     Some((rim - towards * (SIDE / 2.0), vec![rim, base + aside, base - aside]))
 }
 
-/// What is said of it, such as "Genius 043°".
+/// Label, such as "Genius 043°".
 pub(super) fn words(bearing: &Bearing<'_>, azimuth: Angle) -> String {
     let lost = bearing.lost.map_or_else(String::new, |age| format!(" ? {age}"));
     format!("{} {}{lost}", bearing.name, format::azimuth(azimuth.degrees()))
 }
 
-/// The middle of the mark of what was measured.
+/// The centre of the mark of the measured azimuth.
 pub(super) fn mark(dome: Dome, bearing: &Bearing<'_>) -> Option<Pos2> {
     triangle(dome, bearing.measured?).map(|(middle, _)| middle)
 }
@@ -66,7 +66,7 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
     });
 }
 
-/// Paints the preview, the command and what was measured, in this order.
+/// Paints the previewed, the commanded and the measured azimuth, in this order.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     let Some(bearing) = &scene.bearing else { return };
     let line = |azimuth: Option<Angle>, dash: (f32, f32), stroke: Stroke| {

@@ -15,9 +15,9 @@ use crate::{
     ui::{format, text, tokens::Tokens, widgets::paint},
 };
 
-/// Names of other satellites below this elevation are left out, degrees.
+/// Other satellites below this elevation have no name, degrees.
 const LOWEST_NAME_DEG: f64 = 5.0;
-/// Below this distance from the beam the Sun's label says it, degrees.
+/// Below this distance from the beam the Sun's label shows the distance, degrees.
 const NEAR_BEAM_DEG: f64 = 5.0;
 
 /// Paints the Sun and the Moon and keeps labels away from them.
@@ -39,7 +39,7 @@ pub(super) fn sun_and_moon(
     }
 }
 
-/// The names of the Sun and the Moon; near the beam with the distance.
+/// Labels the Sun and the Moon, near the beam with the distance from it.
 pub(super) fn label_sun_and_moon(
     labels: &mut Labels<'_>,
     dome: Dome,
@@ -70,7 +70,7 @@ pub(super) fn label_sun_and_moon(
     }
 }
 
-/// Paints the other satellites and their paths, and keeps labels away.
+/// Paints the other satellites and their paths, and keeps labels away from them.
 pub(super) fn others(
     painter: &Painter,
     dome: Dome,
@@ -88,7 +88,7 @@ pub(super) fn others(
     }
 }
 
-/// The names of the other satellites, as far as there is room.
+/// Labels the other satellites as far as there is room.
 pub(super) fn label_others(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for satellite in scene.others {
         if satellite.direction.elevation_deg() < LOWEST_NAME_DEG {

@@ -1,4 +1,4 @@
-//! The corners of the plot: layers and legend.
+//! The buttons and the legend in the corners of the plot.
 
 use egui::{Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui, vec2};
 
@@ -10,13 +10,13 @@ use crate::ui::{
     widgets::{close_key, paint},
 };
 
-/// Below this height of the plot the legend is a button, points.
+/// In a plot below this height a button opens the legend, points.
 const LEGEND_HEIGHT: f32 = 520.0;
 /// Distance of the texts from the edges of the plot, points.
 pub(super) const EDGE: f32 = 16.0;
 
-/// The orientation, the button of the layers and, in a low plot, the button of
-/// the legend, in the upper right corner.
+/// Shows the orientation, the layers button and, in a low plot, the legend button, in the
+/// upper right corner.
 pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) {
     let corner = rect.right_top() + vec2(-EDGE, 12.0);
     let button = Rect::from_min_size(corner - vec2(28.0, 0.0), vec2(28.0, 24.0));
@@ -43,7 +43,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
     paint::text(ui, beside, Align2::RIGHT_CENTER, "N up, E right", text::small(), t.t2);
 }
 
-/// The place of the legend, if the plot is high and it does not meet the disc.
+/// The rectangle of the legend, if the plot is high enough and the legend clears the disc.
 fn legend_place(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Option<Rect> {
     let size = vec2(legend::WIDTH, legend::height(scene));
     let corner = rect.left_bottom() + vec2(EDGE, -12.0);
@@ -53,7 +53,7 @@ fn legend_place(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Option<Rect> {
     (is_free && rect.height() >= LEGEND_HEIGHT).then_some(place)
 }
 
-/// The legend in the lower left corner, or the button that opens it.
+/// Shows the legend in the lower left corner, or the button that opens it.
 pub(super) fn lower_left(ui: &Ui, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     if let Some(place) = legend_place(rect, dome, scene) {
         legend::paint(ui.painter(), place.min, scene, t);
@@ -88,7 +88,7 @@ fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Respo
     response
 }
 
-/// The boxes of the corners, for labels to keep clear of.
+/// The boxes in the corners that labels avoid.
 pub(super) fn reserved(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Vec<Rect> {
     let right =
         Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));

@@ -1,16 +1,15 @@
-//! From directions to points, and lines cut into dashes and hatches.
+//! The projection from directions to points; dashes and hatches.
 
 use egui::{Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 use crate::astro::{Angle, AzEl};
 
-/// Room around the disc for the names of the azimuths, points.
+/// Room around the disc for the azimuth names, points.
 const MARGIN: f32 = 26.0;
 /// Largest radius of the disc, points.
 const MAX_RADIUS: f32 = 420.0;
 
-/// The disc of the sky: zenith in the middle, horizon at the rim, north up
-/// and east right.
+/// The disc of the sky: zenith at the centre, horizon at the rim, north up and east right.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Dome {
     /// The zenith.
@@ -26,21 +25,20 @@ impl Dome {
         Self { centre: rect.center(), radius: radius.clamp(1.0, MAX_RADIUS) }
     }
 
-    /// The point of a direction; none when it is not finite. What is below
-    /// the horizon lies outside the rim.
+    /// The point of a direction; none if the direction is not finite. A direction below the
+    /// horizon lies outside the rim.
     pub(in crate::ui) fn point(&self, direction: AzEl) -> Option<Pos2> {
         let finite = direction.azimuth.is_finite() && direction.elevation.is_finite();
         finite
             .then(|| self.at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32))
     }
 
-    /// The point of a direction, and none below the horizon.
+    /// The point of a direction; none below the horizon.
     pub(in crate::ui) fn visible(&self, direction: AzEl) -> Option<Pos2> {
         self.point(direction).filter(|_| direction.elevation_deg() >= 0.0)
     }
 
-    /// The points of a path. What is not finite or below the horizon is left
-    /// out.
+    /// The points of a path, without directions that are not finite or below the horizon.
     pub(in crate::ui) fn path(&self, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
         directions.into_iter().filter_map(|direction| self.visible(direction)).collect()
     }
@@ -60,10 +58,9 @@ impl Dome {
         self.radius * angle.degrees() as f32 / 90.0
     }
 
-    /// A rectangle with its corners pulled inside the rim; none when its
-    /// middle lies outside.
+    /// A rectangle with its corners pulled inside the rim; none if its centre lies outside.
     pub(in crate::ui) fn clipped(&self, rect: Rect) -> Option<Vec<Pos2>> {
-        // Inside of the line of the rim.
+        // Inside the line of the rim.
         let limit = self.radius - 1.0;
         let inside = |point: Pos2| {
             let from_centre = point - self.centre;
@@ -74,7 +71,7 @@ impl Dome {
         (rect.center().distance(self.centre) < limit).then(|| corners.map(inside).to_vec())
     }
 
-    /// The circle of a given radius as a closed path, points.
+    /// The circle of `radius` points around the zenith, as a closed path.
     pub(in crate::ui) fn circle(&self, radius: f32) -> Vec<Pos2> {
         circle(self.centre, radius)
     }
@@ -85,7 +82,7 @@ pub(in crate::ui) fn outward(azimuth_rad: f32) -> Vec2 {
     vec2(azimuth_rad.sin(), -azimuth_rad.cos())
 }
 
-/// A circle as a closed path with a point at least each 3 points of length.
+/// A circle as a closed path with vertices at most 3 points apart.
 pub(in crate::ui) fn circle(centre: Pos2, radius: f32) -> Vec<Pos2> {
     let steps = (std::f32::consts::TAU * radius / 3.0).ceil().clamp(24.0, 720.0) as u16;
     (0..=steps)
@@ -140,8 +137,8 @@ pub(in crate::ui) fn dashed(
     dashes(path, dash, gap).into_iter().map(|piece| Shape::line(piece, stroke)).collect()
 }
 
-/// Parallel lines that fall to the right by 45 degrees, or rise when `rising`,
-/// clipped to a polygon of any form. `spacing` is in points, across the lines.
+/// Parallel lines at 45°, falling to the right, or rising if `rising`, clipped to a polygon
+/// of any form. `spacing` is in points, across the lines.
 pub(in crate::ui) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<[Pos2; 2]> {
     let side = if rising { 1.0 } else { -1.0 };
     // Constant along each line of the hatch.
@@ -166,12 +163,12 @@ pub(in crate::ui) fn hatch(polygon: &[Pos2], spacing: f32, rising: bool) -> Vec<
     lines
 }
 
-/// Whether the points of a rectangle can be used for painting.
+/// Returns `true` if a rectangle can be painted.
 pub(in crate::ui) fn usable(rect: Rect) -> bool {
     rect.is_finite() && rect.width() > 2.0 * MARGIN && rect.height() > 2.0 * MARGIN
 }
 
-/// A point moved to the middle of its pixel, for lines that must be sharp.
+/// A point moved to the centre of its pixel, for sharp lines.
 pub(in crate::ui) fn sharp(point: Pos2) -> Pos2 {
     pos2(point.x.floor() + 0.5, point.y.floor() + 0.5)
 }
@@ -194,7 +191,7 @@ mod tests {
             (180.0, 60.0, 100.0, 230.0),
             (270.0, 30.0, 40.0, 200.0),
             (-90.0, 30.0, 40.0, 200.0),
-            // A mount that goes over the top points at the other side.
+            // A flipped mount points at the other side.
             (90.0, 100.0, 90.0, 200.0),
         ] {
             let point = dome.point(AzEl::from_degrees(az, el)).unwrap();

@@ -1,4 +1,4 @@
-//! The disc with its rings, spokes and rim, and what the mount cannot reach.
+//! The disc with its rings, spokes and rim, and the keyholes of the mount.
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
@@ -14,16 +14,16 @@ use crate::{
     },
 };
 
-/// Elevation down from which the spokes are drawn, degrees.
+/// Elevation at which the spokes begin, degrees.
 const SPOKE_TOP_DEG: f32 = 87.0;
-/// Distance of the names of the azimuths from the rim, points.
+/// Distance of the azimuth names from the rim, points.
 const NAMES: f32 = 15.0;
-/// A name of three digits.
+/// Size of a name of three digits.
 const NAME_SIZE: Vec2 = vec2(22.0, 14.0);
 /// Spacing of the hatch of a keyhole, points.
 const HATCH: f32 = 5.0;
 
-/// Paints the ground of the disc.
+/// Paints the background of the disc.
 pub(in crate::ui) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
     painter.circle_filled(dome.centre, dome.radius, t.sky);
 }
@@ -82,8 +82,7 @@ pub(in crate::ui) fn rim(painter: &Painter, dome: Dome, minimum: Angle, t: &Toke
     (0..360).step_by(30).map(name_at).collect()
 }
 
-/// Where the names of the azimuths stand, as far as their size is known
-/// without painting them.
+/// The boxes of the azimuth names, as far as their size is known without painting them.
 pub(in crate::ui) fn name_boxes(dome: Dome) -> Vec<Rect> {
     let box_at = |azimuth_deg: u16| {
         let towards = outward(f32::from(azimuth_deg).to_radians());
@@ -116,8 +115,8 @@ pub(in crate::ui) fn keyholes(
     caps
 }
 
-/// The half of a circle on the sphere that lies above the horizon, around a
-/// point of the horizon. Empty when it is not finite or has no size.
+/// The upper half of a circle on the sphere around a point of the horizon. Empty if the
+/// circle is not finite or has no size.
 pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2> {
     if !(azimuth.is_finite() && radius.degrees() > 0.0 && radius.degrees() < 90.0) {
         return Vec::new();
@@ -126,7 +125,7 @@ pub(in crate::ui) fn cap(dome: Dome, azimuth: Angle, radius: Angle) -> Vec<Pos2>
     let along =
         AzEl { azimuth: azimuth + Angle::from_degrees(90.0), elevation: Angle::ZERO }.to_enu();
     let (sin, cos) = radius.radians().sin_cos();
-    // Inwards of the ends, so that rounding does not put them below the rim.
+    // Without the ends, which rounding could put below the rim.
     let arc = (1..30_u8).filter_map(|step| {
         let (up, side) = (f64::from(step) * 6.0).to_radians().sin_cos();
         let towards = along * side + glam::DVec3::Z * up;

@@ -1,4 +1,4 @@
-//! Where metal must not point: the keep-outs and the margin around them.
+//! The keep-outs and the margin around them.
 
 use egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
@@ -14,16 +14,16 @@ use crate::{
     },
 };
 
-/// Points of an edge are this far apart.
+/// Distance between the points of an edge.
 const STEP: Angle = Angle::from_degrees(1.0);
 /// Spacing of the hatch of the margin, points.
 const HATCH: f32 = 5.0;
 /// Height of the strips that fill an area, points.
 const STRIP: f32 = 1.0;
-/// Around the words, points.
+/// Padding around the name, points.
 const PADDING: f32 = 3.0;
 
-/// Paints the keep-outs without their words.
+/// Paints the keep-outs without their names.
 pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'_>], t: &Tokens) {
     for mark in marks {
         let area = outline(dome, mark.zone);
@@ -32,7 +32,7 @@ pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'
             continue;
         }
         if around.len() > 2 {
-            // Even-odd: what both hold is left out.
+            // Even-odd rule: an area in both outlines is left out.
             let closed = around.iter().chain(around.first());
             let both: Vec<Pos2> = closed.chain(&area).chain(area.first()).copied().collect();
             let thin = Stroke::new(0.75, t.bad);
@@ -46,7 +46,7 @@ pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, marks: &[KeepOutMark<'
     }
 }
 
-/// Paints the words of the keep-outs. Returns their boxes.
+/// Paints the names of the keep-outs. Returns their boxes.
 pub(in crate::ui) fn words(
     painter: &Painter,
     dome: Dome,
@@ -63,12 +63,13 @@ pub(in crate::ui) fn outline(dome: Dome, zone: &Zone) -> Vec<Pos2> {
     above_horizon(dome, zone.edges_sampled(STEP))
 }
 
-/// The line around a zone at the distance of its margin, above the horizon.
+/// The line around a zone at the distance `margin`, above the horizon.
 fn margin(dome: Dome, zone: &Zone, margin: Angle) -> Vec<Pos2> {
     above_horizon(dome, zone.margin_sampled(margin, STEP))
 }
 
-/// What lies below the horizon runs along the rim. Empty where all of it does.
+/// The points of `directions`, those below the horizon moved to the rim. Empty if all are
+/// below it.
 fn above_horizon(dome: Dome, directions: impl IntoIterator<Item = AzEl>) -> Vec<Pos2> {
     let mut is_seen = false;
     let raised = directions.into_iter().filter_map(|direction| {
@@ -81,7 +82,7 @@ fn above_horizon(dome: Dome, directions: impl IntoIterator<Item = AzEl>) -> Vec<
     if is_seen { points } else { Vec::new() }
 }
 
-/// A filled area of any form, in strips: its edges lie under a line.
+/// A filled area of any form, in strips: a line covers its rough edges.
 pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     let (low, high) = outline
@@ -106,8 +107,8 @@ pub(in crate::ui) fn filled(outline: &[Pos2], colour: Color32) -> Mesh {
     mesh
 }
 
-/// The words of a keep-out, inside where they have room, otherwise beside it
-/// towards the zenith.
+/// Paints the name of a keep-out, inside if it has room, otherwise beside the area towards
+/// the zenith.
 fn label(painter: &Painter, dome: Dome, area: &[Pos2], name: &str, t: &Tokens) -> Rect {
     let bounds = Rect::from_points(area);
     let head = painter.layout_no_wrap("KEEP-OUT".to_owned(), text::sized(11.0, Weight::Bold), t.t1);

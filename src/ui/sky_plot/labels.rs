@@ -1,4 +1,4 @@
-//! Texts beside marks, placed one after the other around what is already there.
+//! Labels beside marks, placed one after the other without covering earlier ones.
 
 use std::collections::HashMap;
 
@@ -13,45 +13,38 @@ use super::{
 };
 use crate::ui::tokens::Tokens;
 
-/// Room between a text and the edge of the ground under it, points.
+/// Padding between a text and the edge of its background, points.
 const PADDING: f32 = 2.0;
 
-/// Which label it is, from frame to frame.
+/// Identifies a label from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     /// Name of the selected satellite.
     Selected(u32),
-    /// Rise.
     Aos,
-    /// Highest point.
     Tca,
-    /// Set.
     Los,
-    /// A full minute of the pass, in minutes since 1970.
+    /// A full minute of the pass, as minutes since 1970.
     Minute(i64),
-    /// The Sun.
     Sun,
-    /// The Moon.
     Moon,
-    /// The antenna of which only the azimuth is known.
+    /// The antenna with unknown elevation.
     Bearing,
     /// Name of a satellite that is not selected, by its catalog number.
     Other(u32),
 }
 
-/// A label that wants a place.
+/// A label to place.
 pub(super) struct Label<'a> {
-    /// Which label it is.
     pub(super) key: Key,
-    /// Its lines.
     pub(super) lines: &'a [(&'a str, FontId, Color32)],
-    /// Its mark.
+    /// Position of the mark.
     pub(super) mark: Pos2,
-    /// Distance from the middle of the mark, points.
+    /// Distance from the centre of the mark, points.
     pub(super) clearance: f32,
     /// The sides to try, best first.
     pub(super) order: &'a [Side],
-    /// Dropped when more than this share would be covered, 0 to 1.
+    /// The label is dropped if more than this share of it would be covered, 0 to 1.
     pub(super) tolerance: f32,
 }
 
@@ -61,16 +54,16 @@ pub(super) struct Labels<'a> {
     tokens: &'a Tokens,
     dome: Dome,
     bounds: Rect,
-    /// What a label had better not cover.
+    /// Boxes that a label should not cover.
     reserved: Vec<Rect>,
-    /// The labels that were painted: none lies on another one.
+    /// The painted labels; no label may overlap another.
     texts: Vec<Rect>,
     before: HashMap<Key, Memory>,
     memory: HashMap<Key, Memory>,
 }
 
 impl<'a> Labels<'a> {
-    /// Starts a frame with what is known of the one before.
+    /// Starts a frame with the memory of the previous one.
     pub(super) fn new(
         painter: &'a Painter,
         tokens: &'a Tokens,
@@ -95,12 +88,12 @@ impl<'a> Labels<'a> {
         self.reserved.push(rect);
     }
 
-    /// Keeps labels away from a line of a given width, points.
+    /// Keeps labels away from a line of `width` points.
     pub(super) fn reserve_path(&mut self, path: &[Pos2], width: f32) {
         for pair in path.windows(2) {
             let &[from, to] = pair else { continue };
             let steps = (from.distance(to) / width).ceil().clamp(1.0, 500.0) as u16;
-            // The last point of a segment is the first one of the next.
+            // The last point of a segment is the first one of the next segment.
             for step in 0..steps {
                 let at = from.lerp(to, f32::from(step) / f32::from(steps));
                 self.reserved.push(Rect::from_center_size(at, Vec2::splat(width)));
@@ -108,8 +101,8 @@ impl<'a> Labels<'a> {
         }
     }
 
-    /// Paints a label at the best place and keeps later ones away from it.
-    /// None when it was dropped: what comes first goes before what comes later.
+    /// Paints a label at the best place and keeps later ones away from it. Returns `None` for
+    /// a dropped label; earlier labels have priority.
     pub(super) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
         let measure = job(label, Align::LEFT);
         let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
@@ -127,8 +120,8 @@ impl<'a> Labels<'a> {
             &self.reserved,
             self.before.get(&label.key).copied(),
         )?;
-        // The memory of the first choice stays, or many small steps would
-        // add up unseen.
+        // Keep the memory of the first choice: otherwise many small steps would add up
+        // unnoticed.
         let chosen = Memory { side: place.side, covered: place.covered };
         let kept = self.before.get(&label.key).filter(|memory| memory.side == place.side);
         self.memory.insert(label.key, kept.copied().unwrap_or(chosen));
@@ -140,7 +133,7 @@ impl<'a> Labels<'a> {
         Some(place)
     }
 
-    /// What the next frame should know.
+    /// The memory for the next frame.
     pub(super) fn into_memory(self) -> HashMap<Key, Memory> {
         self.memory
     }
@@ -182,8 +175,7 @@ mod tests {
     };
     use egui::{pos2, vec2};
 
-    /// Whose labels there are when the pass is drawn on a disc of this radius. None
-    /// lies on another one.
+    /// The keys of the labels of the pass on a disc of this radius; asserts that none overlap.
     fn labelled(radius: f32) -> Vec<Key> {
         let dome = Dome { centre: pos2(200.0, 200.0), radius };
         let bounds = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0));

@@ -1,4 +1,4 @@
-//! What the marks of the plot mean.
+//! The legend of the plot.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
@@ -16,15 +16,15 @@ const ROW: f32 = 18.0;
 /// Half the width of a sample, points.
 const HALF: f32 = 10.0;
 
-/// Paints the sample of a row around its middle.
+/// Paints the sample of a row around its centre.
 type Sample = fn(&Painter, Pos2, &Tokens);
 
-/// Height of the legend, points. What is not in the plot is not in the legend.
+/// Height of the legend, points. The legend lists only marks that are in the plot.
 pub(super) fn height(scene: &SkyScene<'_>) -> f32 {
     rows(scene).count() as f32 * ROW
 }
 
-/// Paints the legend from its upper left corner.
+/// Paints the legend with its upper left corner at `at`.
 pub(super) fn paint(painter: &Painter, at: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
     for (index, (name, sample)) in rows(scene).enumerate() {
         let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
@@ -87,7 +87,7 @@ pub(in crate::ui) fn keyhole(painter: &Painter, at: Pos2, t: &Tokens) {
     hatched(painter, at, (t.warnbg, t.warn), false);
 }
 
-/// A sample of an area, with its fill and the colour of its lines.
+/// Paints a sample of an area, with its fill and the colour of its lines.
 fn hatched(painter: &Painter, at: Pos2, (fill, ink): (Color32, Color32), rising: bool) {
     let area = Rect::from_center_size(at, vec2(2.0 * HALF, 11.0));
     let outline = vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()];

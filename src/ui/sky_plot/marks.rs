@@ -1,29 +1,29 @@
-//! The shapes of the things in the sky. Each meaning has its own.
+//! The shapes of the marks in the sky. Each meaning has its own shape.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::geometry::{circle, dashed};
 use crate::ui::tokens::Tokens;
 
-/// Width of the outline that keeps a mark apart from lines under it, points.
+/// Width of the outline that sets a mark off from lines under it, points.
 const OUTLINE: f32 = 1.25;
 /// Half the size of an event mark, points.
 const EVENT: f32 = 6.5;
-/// From the middle of the cross-hair to where its arms begin and end, points.
+/// Distance from the centre of the cross-hair to the begin and end of its arms, points.
 const ARM: (f32, f32) = (11.0, 26.0);
 
-/// The form of an event of a pass.
+/// The shape of an event of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::ui) enum EventForm {
-    /// Rise: a triangle that points up.
+    /// AOS: a triangle that points up.
     Up,
-    /// Highest point: a diamond.
+    /// TCA: a diamond.
     Diamond,
-    /// Set: a triangle that points down.
+    /// LOS: a triangle that points down.
     Down,
 }
 
-/// AOS, TCA or LOS.
+/// Paints AOS, TCA or LOS.
 pub(in crate::ui) fn event(
     painter: &Painter,
     at: Pos2,
@@ -42,7 +42,7 @@ pub(in crate::ui) fn event(
     painter.add(Shape::convex_polygon(corners, ground, Stroke::new(2.0, colour)));
 }
 
-/// The Sun: a circle with eight rays.
+/// Paints the Sun: a circle with eight rays.
 pub(in crate::ui) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
     let stroke = Stroke::new(1.5, t.sun);
     painter.circle(at, 5.0, t.sky, stroke);
@@ -52,10 +52,10 @@ pub(in crate::ui) fn sun(painter: &Painter, at: Pos2, t: &Tokens) {
     }
 }
 
-/// The Moon: a crescent, open to the right.
+/// Paints the Moon: a crescent, open to the right.
 pub(in crate::ui) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
     const RADIUS: f32 = 7.0;
-    // Both arcs meet in the two horns; the inner one has its middle aside.
+    // Both arcs meet in the two horns; the centre of the inner one is shifted aside.
     let horn: f32 = 50.0_f32.to_radians();
     let inner_middle = at + vec2(RADIUS * 0.72, 0.0);
     let (up, side) = (RADIUS * horn.sin(), RADIUS * horn.cos() - RADIUS * 0.72);
@@ -73,7 +73,7 @@ pub(in crate::ui) fn moon(painter: &Painter, at: Pos2, t: &Tokens) {
     painter.add(Shape::closed_line(outline, Stroke::new(1.5, t.moon)));
 }
 
-/// A satellite that is not selected; a square stands still in the sky.
+/// Paints a satellite that is not selected; a geostationary one as a square.
 pub(in crate::ui) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: &Tokens) {
     if geostationary {
         painter.rect_filled(Rect::from_center_size(at, Vec2::splat(7.0)), 0.0, t.other);
@@ -82,27 +82,27 @@ pub(in crate::ui) fn other(painter: &Painter, at: Pos2, geostationary: bool, t: 
     }
 }
 
-/// The selected satellite.
+/// Paints the selected satellite.
 pub(in crate::ui) fn selected(painter: &Painter, at: Pos2, t: &Tokens) {
     painter.circle(at, 5.0, t.sat, Stroke::new(OUTLINE, t.sky));
 }
 
-/// The commanded direction: a ring with the diameter of the beam.
+/// Paints the commanded direction: a ring with the diameter of the beam.
 pub(in crate::ui) fn commanded(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
     painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25 + 2.0 * OUTLINE, t.sky));
     painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25, t.cmd));
 }
 
-/// The preview of a commanded direction.
+/// Paints the preview of a commanded direction.
 pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
     let ring = circle(at, diameter / 2.0);
     painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(2.25, t.cmd)));
 }
 
-/// The measured direction: a cross-hair, scaled; 1 is its size in the plot.
+/// Paints the measured direction: a cross-hair; `scale` 1 is its size in the plot.
 pub(in crate::ui) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
     for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.ant)] {
-        // The outline goes around the ends of the arms as well.
+        // The outline also surrounds the ends of the arms.
         let more = (stroke.width - 2.0) / 2.0;
         for arm in arms() {
             let ends = [at + arm * (ARM.0 * scale - more), at + arm * (ARM.1 * scale + more)];
@@ -111,7 +111,7 @@ pub(in crate::ui) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Token
     }
 }
 
-/// The last known direction of an antenna whose link is lost.
+/// Paints the last known direction of an antenna with a lost link.
 pub(in crate::ui) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
     for arm in arms() {
         let line = [at + arm * ARM.0, at + arm * ARM.1];

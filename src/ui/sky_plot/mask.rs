@@ -1,4 +1,4 @@
-//! The part of the sky that hills and walls block.
+//! The horizon mask: the part of the sky blocked by hills and walls.
 
 use egui::{Mesh, Painter, Pos2, Shape, Stroke};
 
@@ -8,7 +8,7 @@ use crate::{
     ui::tokens::Tokens,
 };
 
-/// Steps around the horizon, each half a degree: some 2 points at the rim.
+/// Steps around the horizon, half a degree each: about 2 points at the rim.
 const STEPS: u16 = 720;
 /// Spacing of the hatch, points.
 const HATCH: f32 = 6.0;
@@ -17,10 +17,10 @@ const HATCH_LINE: f32 = 1.3;
 /// Width of the skyline, points.
 const SKYLINE: f32 = 1.25;
 
-/// Paints what lies between the skyline and the rim.
+/// Paints the area between the skyline and the rim.
 pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t: &Tokens) {
     let rim = dome_line(dome, |_| 0.0);
-    // What lies below the horizon blocks nothing that is drawn.
+    // A skyline below the horizon blocks nothing that is drawn.
     let skyline = dome_line(dome, |azimuth| mask.elevation_at(azimuth).degrees().max(0.0) as f32);
     painter.add(ribbon(&rim, &skyline, t));
     let outline: Vec<Pos2> = rim.iter().chain(skyline.iter().rev()).copied().collect();
@@ -30,7 +30,7 @@ pub(in crate::ui) fn paint(painter: &Painter, dome: Dome, mask: &HorizonMask, t:
     painter.add(Shape::line(skyline, Stroke::new(SKYLINE, t.hatch)));
 }
 
-/// Once around, from north to north.
+/// A line once around the dome, from north to north.
 fn dome_line(dome: Dome, elevation_deg: impl Fn(Angle) -> f32) -> Vec<Pos2> {
     let azimuths = (0..=STEPS).map(|step| f64::from(step) * 360.0 / f64::from(STEPS));
     azimuths
@@ -39,8 +39,8 @@ fn dome_line(dome: Dome, elevation_deg: impl Fn(Angle) -> f32) -> Vec<Pos2> {
         .collect()
 }
 
-/// The ground of the mask. A mesh, because what is not convex has no other
-/// filled shape; its edges lie under the rim and the skyline.
+/// The fill of the mask. A mesh, as egui fills only convex shapes; the rim and the skyline
+/// cover its edges.
 fn ribbon(rim: &[Pos2], skyline: &[Pos2], t: &Tokens) -> Mesh {
     let mut mesh = Mesh::default();
     for (index, (outer, inner)) in (0_u32..).zip(rim.iter().zip(skyline)) {

@@ -1,4 +1,4 @@
-//! What can be pointed at, reached with Tab and read aloud.
+//! Interactive nodes of the plot, for the pointer, Tab and screen readers.
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
@@ -8,11 +8,11 @@ use crate::{
     ui::{format, tokens::Tokens},
 };
 
-/// Side of the square that takes the pointer around a mark, points.
+/// Side of the square around a mark that reacts to the pointer, points.
 const TARGET: f32 = 20.0;
 
-/// The plot as one focusable node. Returns it; it is the parent of the ids of
-/// all others.
+/// Adds the plot as one focusable node and returns it; the ids of all other nodes derive
+/// from its id.
 pub(super) fn canvas(ui: &Ui, rect: Rect, scene: &SkyScene<'_>) -> Response {
     let id = ui.make_persistent_id("sky plot");
     let response = ui.interact(rect, id, Sense::focusable_noninteractive());
@@ -20,7 +20,7 @@ pub(super) fn canvas(ui: &Ui, rect: Rect, scene: &SkyScene<'_>) -> Response {
     response
 }
 
-/// The nodes of the satellites. Returns the one that was chosen.
+/// Adds the nodes of the satellites. Returns the chosen one.
 pub(super) fn satellites(
     ui: &Ui,
     canvas: Id,
@@ -35,7 +35,7 @@ pub(super) fn satellites(
     let others = scene.others.iter().filter(|_| show_others);
     let others = others.map(|other| (other.catalog_number, other.name, other.direction, false));
     let mut chosen = None;
-    // The selected one last, so that it takes the pointer where two meet.
+    // The selected satellite comes last, so that it takes the pointer where two overlap.
     for (number, name, direction, is_selected) in others.chain(selected) {
         let Some(at) = dome.visible(direction) else { continue };
         let place = Rect::from_center_size(at, Vec2::splat(TARGET));
@@ -56,7 +56,7 @@ pub(super) fn satellites(
     chosen
 }
 
-/// The nodes of the events and of the antenna.
+/// Adds the nodes of the events and of the antenna.
 pub(super) fn events_and_antenna(
     ui: &Ui,
     canvas: Id,
@@ -92,7 +92,7 @@ pub(super) fn events_and_antenna(
 }
 
 fn name_mark(ui: &Ui, id: Id, at: Pos2, name: &str) {
-    // Small, so that the satellites around it keep the pointer.
+    // Small, so that satellites around the node keep the pointer.
     let place = Rect::from_center_size(at, Vec2::splat(2.0));
     let response = ui.interact(place, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));

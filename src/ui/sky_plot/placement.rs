@@ -1,29 +1,21 @@
-//! Where a label stands beside its mark.
+//! The placement of a label beside its mark.
 
 use egui::{Pos2, Rect, Vec2, vec2};
 
-/// How much more of a label, as a share of its area, must be covered before
-/// it leaves its side of the mark.
+/// A label leaves its side of the mark when the covered share of its area has grown by more
+/// than this.
 const PATIENCE: f32 = 0.3;
 
 /// A side of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Side {
-    /// Right.
     East,
-    /// Left.
     West,
-    /// Above.
     North,
-    /// Below.
     South,
-    /// Right above.
     NorthEast,
-    /// Right below.
     SouthEast,
-    /// Left above.
     NorthWest,
-    /// Left below.
     SouthWest,
 }
 
@@ -40,7 +32,7 @@ impl Side {
         Self::SouthWest,
     ];
 
-    /// The direction on the screen, each part -1, 0 or 1.
+    /// The direction on the screen, each component -1, 0 or 1.
     pub(super) fn direction(self) -> Vec2 {
         match self {
             Self::East => vec2(1.0, 0.0),
@@ -54,8 +46,8 @@ impl Side {
         }
     }
 
-    /// All sides, those nearest to a direction on the screen first; in the
-    /// usual order for a direction without length.
+    /// All sides, those nearest to a direction on the screen first; in [`Self::ORDER`] for a
+    /// direction without length.
     pub(super) fn towards(direction: Vec2) -> [Self; 8] {
         let wanted = direction.normalized();
         let away = |side: &Self| 1.0 - side.direction().normalized().dot(wanted);
@@ -70,8 +62,7 @@ impl Side {
         nearest
     }
 
-    /// The rectangle of a label of `size` at a distance of `clearance` from
-    /// its mark, points.
+    /// The rectangle of a label of `size`, `clearance` points from its mark.
     pub(super) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
         let towards = self.direction();
         let diagonal = towards.x != 0.0 && towards.y != 0.0;
@@ -80,27 +71,25 @@ impl Side {
     }
 }
 
-/// Where a label stands.
+/// The place of a label.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placement {
-    /// The side of the mark.
     pub(super) side: Side,
     /// The rectangle of the text.
     pub(super) rect: Rect,
-    /// How much of it is covered, 0 to 1.
+    /// Covered share of the label, 0 to 1.
     pub(super) covered: f32,
 }
 
-/// Where a label stood before.
+/// The place of a label in the previous frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Memory {
-    /// The side of the mark.
     pub(super) side: Side,
-    /// How much of it was covered when the side was chosen, 0 to 1.
+    /// Covered share of the label when its side was chosen, 0 to 1.
     pub(super) covered: f32,
 }
 
-/// The share of `rect` that lies under other boxes or outside of `bounds`.
+/// The share of `rect` that lies under other boxes or outside `bounds`.
 pub(super) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
@@ -111,9 +100,9 @@ pub(super) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
     ((under + area - shared(bounds)) / area).min(1.0)
 }
 
-/// Chooses the first free side in the given order, else the one that is
-/// covered least. A label stays on its side until clearly more of it is
-/// covered than when the side was chosen. None when `order` is empty.
+/// Chooses the first free side in the given order, otherwise the least covered one. A label
+/// stays on its side until clearly more of it is covered than when the side was chosen.
+/// Returns `None` if `order` is empty.
 pub(super) fn place(
     mark: Pos2,
     size: Vec2,
@@ -133,7 +122,7 @@ pub(super) fn place(
             return Some(now);
         }
     }
-    // The first of equals wins, so the order decides between free sides.
+    // The first of equals wins: `order` decides between free sides.
     order
         .iter()
         .map(|side| on(*side))

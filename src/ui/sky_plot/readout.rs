@@ -9,27 +9,27 @@ use crate::ui::{text, tokens::Tokens};
 
 /// Width of the labels in the left corner, points.
 const LABELS: f32 = 54.0;
-/// Between a label and its value in the right corner, points.
+/// Gap between a label and its value in the right corner, points.
 const LABEL_GAP: f32 = 8.0;
-/// Above the first line in the left corner, points.
+/// Room above the first line in the left corner, points.
 const LEFT_TOP: f32 = 12.0;
-/// Above the first line in the right corner, below the orientation, points.
+/// Room above the first line in the right corner, for the orientation, points.
 const RIGHT_TOP: f32 = 44.0;
-/// Between two lines, points.
+/// Gap between two lines, points.
 const LINE_GAP: f32 = 3.0;
-/// Between a line and the disc with the names around it, points.
+/// Gap between a line and the disc with the names around it, points.
 const CLEARANCE: f32 = 4.0;
-/// This many lines are large.
+/// Number of large lines, from the first.
 const LARGE: usize = 2;
 
-/// One line with its place.
+/// A line with its place.
 struct Line {
     rect: Rect,
     label: (Pos2, Arc<Galley>),
     value: (Pos2, Arc<Galley>),
 }
 
-/// Paints what has room.
+/// Paints the lines that have room.
 pub(super) fn paint(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for line in lines(painter, rect, dome, scene, t) {
         painter.galley(line.label.0, line.label.1, t.t2);
@@ -37,7 +37,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<
     }
 }
 
-/// The boxes of the lines, for labels to keep clear of.
+/// The boxes of the lines, which labels avoid.
 pub(super) fn reserved(
     painter: &Painter,
     rect: Rect,
@@ -48,8 +48,8 @@ pub(super) fn reserved(
     lines(painter, rect, dome, scene, t).iter().map(|line| line.rect.expand(4.0)).collect()
 }
 
-/// From the left corner downwards as long as nothing meets the disc, then in
-/// the right corner. What has no room there either is left out.
+/// Lays the lines out from the left corner downwards until one would meet the disc, then in
+/// the right corner. Lines without room in either corner are left out.
 fn lines(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) -> Vec<Line> {
     let names = grid::name_boxes(dome);
     let is_free = |line: &Line| {
@@ -77,8 +77,8 @@ fn lines(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &To
     placed
 }
 
-/// A line in the left corner, where the values stand below each other, or in
-/// the right one, where each stands at the edge with its label before it.
+/// Lays out a line: in the left corner with the values aligned in a column, in the right
+/// corner with the value at the edge and its label before it.
 fn line(rect: Rect, top: f32, on_left: bool, label: &Arc<Galley>, value: &Arc<Galley>) -> Line {
     let label_width = if on_left { LABELS } else { label.size().x + LABEL_GAP };
     let size = vec2(label_width + value.size().x, value.size().y);

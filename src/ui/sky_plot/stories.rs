@@ -1,4 +1,4 @@
-//! What an operator does with the sky plot.
+//! Tests of the sky plot from the operator's view.
 
 use egui::{Key as Press, Role, Vec2, vec2};
 use egui_kittest::{

@@ -1,4 +1,4 @@
-//! An invented pass for the stories of the sky plot.
+//! An invented pass for the tests of the sky plot.
 
 use glam::DVec3;
 use jiff::{SignedDuration, Timestamp};
@@ -14,7 +14,7 @@ pub(super) fn now() -> Timestamp {
     "2026-11-14T11:06:12Z".parse().unwrap()
 }
 
-/// From south to north over the west, 11:01:53Z to 11:14:45Z, each 4 s.
+/// From south to north over the west, 11:01:53Z to 11:14:45Z, every 4 s.
 pub(super) fn pass() -> Vec<Sample> {
     let aos: Timestamp = "2026-11-14T11:01:53Z".parse().unwrap();
     let station_km = DVec3::Z * 6371.0;
@@ -31,7 +31,7 @@ pub(super) fn pass() -> Vec<Sample> {
         .collect()
 }
 
-/// The pass of these samples, seen at [`now`].
+/// The pass with these samples, at [`now`].
 pub(super) fn track(samples: &[Sample]) -> Track<'_> {
     let (first, last) = (*samples.first().unwrap(), *samples.last().unwrap());
     let top = samples

@@ -1,4 +1,4 @@
-//! The selected pass: the path, its minutes and its events.
+//! The path of the selected pass, with its minutes and events.
 
 use egui::{Painter, Pos2, Shape, Stroke, Vec2};
 use jiff::Timestamp;
@@ -15,49 +15,44 @@ use crate::{
     ui::{format, text, tokens::Tokens},
 };
 
-/// No time is written closer than this to an event, seconds.
+/// Labels of minutes keep this far from an event.
 const CLEAR_OF_EVENT_S: i64 = 45;
-/// No time is written closer than this to now, seconds.
+/// Labels of minutes keep this far from the present.
 const CLEAR_OF_NOW_S: i64 = 30;
-/// Ticks nearer to each other than this are left out, points.
+/// Minimum distance between ticks, points.
 const TICK_DISTANCE: f32 = 6.0;
 
-/// The points of the path before and after now.
+/// The path, split at the present.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Parts {
-    /// What was flown, in order of time.
+    /// Past points, in order of time.
     pub(super) flown: Vec<Pos2>,
-    /// What is left, in order of time.
+    /// Future points, in order of time.
     pub(super) planned: Vec<Pos2>,
 }
 
-/// A full minute on the path.
+/// The tick of a full minute on the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tick {
-    /// Its minute, since 1970.
+    /// Minutes since 1970.
     pub(super) minute: i64,
-    /// Its place.
     pub(super) at: Pos2,
     /// Unit vector across the path, away from the zenith.
     pub(super) across: Vec2,
-    /// Whether it is long and may have its time beside it.
+    /// The tick is long and may have its time beside it.
     pub(super) even: bool,
 }
 
-/// An event that is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Event {
-    /// Rise, highest point or set, as its label.
+    /// AOS, TCA or LOS.
     pub(super) key: Key,
-    /// The word.
     pub(super) word: &'static str,
-    /// When and where.
     pub(super) sample: Sample,
-    /// Its shape.
     pub(super) form: EventForm,
 }
 
-/// The events of a pass that are not cut off by the window of the prediction.
+/// The events of a pass that the prediction window does not cut off.
 pub(super) fn events(track: &Track<'_>) -> Vec<Event> {
     let rise = track.show_aos.then_some((Key::Aos, "AOS", track.aos, EventForm::Up));
     let top = Some((Key::Tca, "TCA", track.tca, EventForm::Diamond))
@@ -70,7 +65,6 @@ pub(super) fn events(track: &Track<'_>) -> Vec<Event> {
         .collect()
 }
 
-/// Splits the path at now.
 pub(super) fn parts(dome: Dome, track: &Track<'_>, now: Timestamp) -> Parts {
     let split = track.samples.partition_point(|sample| sample.time <= now);
     let (before, after) = track.samples.split_at_checked(split).unwrap_or_default();
@@ -86,8 +80,7 @@ pub(super) fn parts(dome: Dome, track: &Track<'_>, now: Timestamp) -> Parts {
     Parts { flown, planned }
 }
 
-/// The full minutes of the path; each tenth minute or each hour when the path
-/// takes very long.
+/// The full minutes of the path; every tenth minute or every hour of a very long path.
 pub(super) fn ticks(dome: Dome, track: &Track<'_>) -> Vec<Tick> {
     let seconds = track.los.time.as_second().saturating_sub(track.aos.time.as_second());
     let step = match seconds {
@@ -125,7 +118,7 @@ pub(super) fn paint(painter: &Painter, parts: &Parts, ticks: &[Tick], t: &Tokens
     if parts.flown.len() > 1 {
         painter.add(Shape::line(parts.flown.clone(), Stroke::new(2.5, t.sat)));
     }
-    // From the end, so that the dashes stand still while the rest gets shorter.
+    // From the end, so that the dashes stand still while the path ahead gets shorter.
     let backwards: Vec<Pos2> = parts.planned.iter().rev().copied().collect();
     painter.extend(dashed(&backwards, 7.0, 5.0, Stroke::new(2.0, t.sat)));
     for tick in ticks {
@@ -143,8 +136,7 @@ pub(super) fn paint_events(painter: &Painter, dome: Dome, events: &[Event], t: &
     }
 }
 
-/// The labels of the events; where there is no room for all, those of the ends
-/// come before the one of the highest point.
+/// Labels the events; where there is no room for all, AOS and LOS come before TCA.
 pub(super) fn label_events(labels: &mut Labels<'_>, dome: Dome, events: &[Event], t: &Tokens) {
     let is_top = |event: &&Event| event.form == EventForm::Diamond;
     let (top, ends): (Vec<&Event>, Vec<&Event>) = events.iter().partition(is_top);
@@ -158,7 +150,7 @@ pub(super) fn label_events(labels: &mut Labels<'_>, dome: Dome, events: &[Event]
         } else {
             format!("az {azimuth}")
         };
-        // The inside of the disc first.
+        // Sides towards the inside of the disc first.
         labels.add(&Label {
             key: event.key,
             lines: &[(&first, text::small_strong(), t.t1), (&second, text::caption(), t.t2)],
@@ -170,7 +162,7 @@ pub(super) fn label_events(labels: &mut Labels<'_>, dome: Dome, events: &[Event]
     }
 }
 
-/// The times of the even minutes, on the side away from the zenith.
+/// Labels the even minutes with their times, on the side away from the zenith.
 pub(super) fn label_minutes(
     labels: &mut Labels<'_>,
     ticks: &[Tick],

@@ -8,13 +8,13 @@ use crate::ui::{format, text, theme, widgets::paint};
 
 const NOW_WIDTH: f32 = 1.75;
 const NOW_TRIANGLE: egui::Vec2 = vec2(10.0, 7.0);
-/// Narrower hours are not named one by one, in points.
+/// Minimum width of an hour for a name of its own, in points.
 const NARROW_HOUR: f32 = 40.0;
-/// From this width on, half hours have a line of their own, in points.
+/// Minimum width of an hour for lines at half hours, in points.
 const WIDE_HOUR: f32 = 100.0;
 const HOUR_S: i64 = 3600;
 
-/// Hours between two names, so that they do not touch.
+/// Hours from one name to the next, so that names do not touch.
 fn named_every_hours(hour_width: f32) -> i64 {
     [1, 2, 3, 6, 12]
         .into_iter()
@@ -22,8 +22,8 @@ fn named_every_hours(hour_width: f32) -> i64 {
         .unwrap_or(24)
 }
 
-/// Paints the ground of the lanes and a line for each full hour in `lanes`,
-/// and the names of the hours in `names`, the band above.
+/// Paints the background of the lanes and a line for each full hour in `lanes`, and the
+/// names of the hours in `names`, the band above.
 pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(lanes, 0, t.bg0);
@@ -37,8 +37,8 @@ pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
     }
 }
 
-/// The hours that are named, each with its middle. One that would reach beyond the
-/// end of the lane is left out.
+/// The names of hours, each with the x of its centre. A name that would reach beyond the end
+/// of the lane is left out.
 fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
     let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
     let hours = scale.multiples(every_s).filter(|at| is_full_hour(*at));
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn no_name_of_an_hour_reaches_beyond_the_lane() {
         let names = Rect::from_min_size(pos2(100.0, 0.0), vec2(504.0, 24.0));
-        // The end of the strip comes nearer to the last hour from one to the next.
+        // From each time to the next, the end of the strip comes nearer to the last hour.
         let ends = ["22:56", "22:20", "22:12", "22:11", "22:10"];
         let last = ends.map(|end| {
             let now = format!("2026-11-14T{end}:00Z").parse::<Timestamp>().unwrap();

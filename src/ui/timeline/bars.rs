@@ -13,33 +13,33 @@ use super::{
 use crate::ui::{format, text, theme, widgets::paint};
 
 const OUTLINE: f32 = 1.0;
-/// Frame of the selected bar: its width and the gap to the bar.
+/// Frame of the selected bar: width of its line and gap to the bar.
 const FRAME: f32 = 1.5;
 const FRAME_GAP: f32 = 1.5;
-/// A bar stays visible however low its lane is.
+/// Minimum height of a bar, so that it stays visible in a low lane.
 const LOWEST: f32 = 8.0;
 const TRIANGLE: egui::Vec2 = vec2(9.0, 7.0);
-/// Left and right of a name, in points.
+/// Gap at the left and the right of a name, in points.
 const GAP: f32 = 1.0;
-/// Bars stand this far above the lower edge of the lane, so that the frame fits.
+/// Gap between the bars and the lower edge of the lane, for the frame.
 const FLOOR: f32 = 4.0;
-/// A name, a sign for lost seconds and the frame above the highest bar.
+/// Room above the highest bar for a name, the sign for lost seconds and the frame.
 const ABOVE: f32 = 25.0;
 
-/// The heights in a lane that is too low for `wanted`: less for the high bars.
+/// The bar heights that fit `lane`; in a low lane the high bars shrink below `wanted`.
 pub(super) fn fitting(wanted: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
     let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *wanted.end());
     wanted.start().min(highest)..=highest
 }
 
-/// A bar and where it stands.
+/// A bar and its place.
 pub(super) struct Standing<'a> {
     bar: &'a Bar<'a>,
     rect: Rect,
 }
 
-/// Stands the wanted bars of the window into `lane`, in the order of their
-/// rise, with heights that grow from 0 to 90 degrees of elevation.
+/// Places the wanted bars of the window in `lane`, in the order of AOS, with heights that
+/// grow with the maximum elevation from 0° to 90°.
 pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
     wanted: impl Fn(&Bar<'_>) -> bool,
@@ -61,8 +61,7 @@ pub(super) fn stand<'a>(
     standing
 }
 
-/// Paints the bars, a later one above an earlier one. Returns the bar that was
-/// clicked.
+/// Paints the bars, later ones above earlier ones. Returns a clicked bar.
 pub(super) fn show(
     ui: &Ui,
     standing: &[Standing<'_>],
@@ -74,7 +73,7 @@ pub(super) fn show(
     for Standing { bar, rect } in standing {
         let response = node(ui, bar, *rect, selected == Some(bar.key));
         if bar.possible {
-            // The rim parts bars that overlap.
+            // The rim separates overlapping bars.
             ui.painter().rect(*rect, 0, t.sat, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
         } else {
             let stroke = Stroke::new(OUTLINE, t.other);
@@ -107,8 +106,8 @@ pub(super) fn show(
     clicked
 }
 
-/// Writes the names that fit above the bars: the selected one first, then those
-/// of the passes that can be tracked.
+/// Paints the names that fit above the bars: the selected one first, then those of
+/// trackable passes.
 pub(super) fn show_names(
     ui: &Ui,
     standing: &[Standing<'_>],
@@ -136,7 +135,7 @@ pub(super) fn show_names(
             Placed::Short(rect) => (short.as_str(), rect),
             Placed::Full(rect) => (one.bar.name, rect),
         };
-        // Keeps the now-line and the grid out of the letters.
+        // Covers the now-line and the grid behind the letters.
         ui.painter().rect_filled(rect, 0, t.bg0);
         let colour = if one.bar.possible { t.t1 } else { t.other };
         paint::text(ui, rect.center(), Align2::CENTER_CENTER, name, text::caption(), colour);
@@ -144,14 +143,14 @@ pub(super) fn show_names(
 }
 
 impl Standing<'_> {
-    /// Where the sign for lost seconds stands.
+    /// The rectangle of the sign for lost seconds.
     fn triangle(&self) -> Option<Rect> {
         let shown = self.bar.loses && self.bar.possible;
         let low = pos2(self.rect.center().x, self.rect.top() - FRAME - FRAME_GAP);
         shown.then(|| Align2::CENTER_BOTTOM.anchor_size(low, TRIANGLE))
     }
 
-    /// Where `name` would stand: above the bar, moved aside at the ends of `room`.
+    /// The rectangle of `name`: above the bar, moved aside at the ends of `room`.
     fn name_rect(&self, ui: &Ui, name: &str, room: Rect) -> Rect {
         let galley =
             ui.painter().layout_no_wrap(name.to_owned(), text::caption(), theme::tokens(ui).t1);

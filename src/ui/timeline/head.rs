@@ -1,4 +1,4 @@
-//! The title of the strip and what its marks mean.
+//! The title and the legend of the strip.
 
 use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, pos2};
 
@@ -20,8 +20,8 @@ enum Mark {
     Triangle,
 }
 
-/// From the right end to the left: what has no room beside the title is left
-/// out from the left.
+/// Entries from right to left; those without room beside the title are left out, from the
+/// left.
 const LEGEND: [(Mark, &str); 3] = [
     (Mark::Triangle, "seconds lost"),
     (Mark::Outline, "not possible"),
@@ -64,7 +64,7 @@ fn sign(ui: &Ui, rect: Rect, mark: Mark) {
     }
 }
 
-/// The sign for lost seconds: a triangle that stands on the floor of `rect`.
+/// Paints the sign for lost seconds: a triangle on the floor of `rect`.
 pub(super) fn triangle(ui: &Ui, rect: Rect, colour: Color32) {
     let points = vec![rect.center_top(), rect.right_bottom(), rect.left_bottom()];
     ui.painter().add(Shape::convex_polygon(points, colour, Stroke::NONE));

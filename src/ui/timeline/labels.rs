@@ -1,8 +1,8 @@
-//! Which bars get a name above them.
+//! The placement of names above the bars.
 
 use egui::{Rect, vec2};
 
-/// A name that would like to stand somewhere, in its two lengths.
+/// The wanted place of a name, in its two lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wish {
     /// Room for the short name.
@@ -11,26 +11,26 @@ pub(super) struct Wish {
     pub full: Rect,
 }
 
-/// What came of a wish.
+/// Outcome of a wish.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Placed {
-    /// Nothing fits.
+    /// No name fits.
     Out,
-    /// The short name, here.
+    /// The short name and its place.
     Short(Rect),
-    /// The full name, here.
+    /// The full name and its place.
     Full(Rect),
 }
 
-/// How far a short name may step aside, in points, the best place first.
+/// Shifts of a short name to try, in points, best first.
 const ASIDE: [f32; 5] = [0.0, 3.0, -3.0, 6.0, -6.0];
 
-/// What a full name leaves free on both sides, in points.
+/// Free room on both sides of a full name, in points.
 const AIR: f32 = 4.0;
 
-/// Shares out the room above the bars: first as many short names as fit, the
-/// earlier wish first, then the full name wherever there is room left. No two
-/// names overlap, and none covers an obstacle or leaves `room`.
+/// Assigns the room above the bars: first as many short names as fit, earlier wishes first,
+/// then full names where room remains. No two names overlap, and none covers an obstacle or
+/// leaves `room`.
 pub(super) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
     let clear = |rect: Rect| !obstacles.iter().any(|obstacle| overlap(*obstacle, rect));
     let open = |rect: Rect| room.contains_rect(rect) && clear(rect);
@@ -55,7 +55,7 @@ pub(super) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Plac
 }
 
 impl Placed {
-    /// Whether this name leaves `rect` free.
+    /// Returns `true` if the placed name leaves `rect` free.
     fn leaves(&self, rect: Rect) -> bool {
         match self {
             Self::Out => true,
@@ -64,14 +64,14 @@ impl Placed {
     }
 }
 
-/// Whether two rectangles share an area; a common edge is no overlap.
+/// Returns `true` if two rectangles share an area; a common edge is no overlap.
 fn overlap(a: Rect, b: Rect) -> bool {
     a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y
 }
 
-/// A name in two to five signs: "NOAA 20" is N20, "METOP-B" is MB, "TERRA" is
-/// TE. Short words and figures stay whole, the M of "METEOR-M2" is said once, and
-/// what stands in brackets is dropped.
+/// Shortens a name to two to five characters: "NOAA 20" to N20, "METOP-B" to MB, "TERRA" to
+/// TE. Short words and digits stay whole, the M of "METEOR-M2" appears once, and text in
+/// brackets is dropped.
 pub(super) fn short_name(name: &str) -> String {
     let before_brackets = name.split('(').next().unwrap_or(name);
     let words: Vec<&str> =

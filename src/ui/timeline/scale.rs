@@ -1,4 +1,4 @@
-//! Where times and elevations lie in the strip.
+//! The scales of the strip: times to x, elevations to bar heights.
 
 use std::ops::RangeInclusive;
 
@@ -7,14 +7,14 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use crate::astro::time::{add_seconds, seconds_between};
 
-/// How much of the past is shown, so that a pass in progress keeps its bar.
+/// Past time in the strip, so that a pass in progress keeps its bar.
 const PAST_S: f64 = 600.0;
 const MINUTE_S: i64 = 60;
 const HOUR_S: f64 = 3600.0;
-/// A bar stays visible however short its pass is, in points.
+/// Minimum width of a bar, in points, so that a short pass stays visible.
 const MIN_BAR_WIDTH: f32 = 3.0;
 
-/// A stretch of time laid over a stretch of x.
+/// A linear map from a span of time to a span of x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     from: Timestamp,
@@ -23,8 +23,8 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The window of `hours` around `now`. It begins at a whole minute, so that
-    /// it stands still between two minutes.
+    /// The window of `hours` around `now`. It begins at a whole minute, so that it stands still
+    /// for a minute.
     pub(super) fn new(now: Timestamp, hours: f64, x: Rangef) -> Self {
         let second = now.as_second();
         let minute = second - second.rem_euclid(MINUTE_S);
@@ -43,7 +43,7 @@ impl Scale {
         add_seconds(self.from, self.seconds)
     }
 
-    /// Where a time lies, also outside of the window.
+    /// The x of a time, which may lie outside the window.
     pub(super) fn x(&self, at: Timestamp) -> f32 {
         let share = seconds_between(self.from, at) / self.seconds;
         lerp(self.x.min..=self.x.max, share as f32)
@@ -54,8 +54,8 @@ impl Scale {
         self.x.span() * (HOUR_S / self.seconds) as f32
     }
 
-    /// The x of what lasts `from` to `to`, cut at the window and at least as
-    /// wide as can be seen. `None` when it lies outside.
+    /// The x range of the time `from` to `to`, cut at the window and never narrower than
+    /// visible. `None` if it lies outside the window.
     pub(super) fn span(&self, from: Timestamp, to: Timestamp) -> Option<Rangef> {
         if to <= self.from || from >= self.to() || to < from {
             return None;
@@ -80,13 +80,12 @@ impl Scale {
     }
 }
 
-/// Whether a time is a full hour.
 pub(super) fn is_full_hour(at: Timestamp) -> bool {
     let civil = at.to_zoned(TimeZone::UTC);
     civil.minute() == 0 && civil.second() == 0
 }
 
-/// How high a bar is for its highest elevation, in points.
+/// Height of a bar for a maximum elevation, in points.
 pub(super) fn bar_height(max_elevation_deg: f64, heights: &RangeInclusive<f32>) -> f32 {
     let share = (max_elevation_deg / 90.0).clamp(0.0, 1.0) as f32;
     if share.is_nan() { *heights.start() } else { lerp(heights.clone(), share) }

@@ -1,4 +1,4 @@
-//! Stories of the strip.
+//! Tests of the strip from the operator's view.
 
 use egui::{Key, Rect, Role, vec2};
 use egui_kittest::{
@@ -42,7 +42,7 @@ fn bars() -> Vec<Bar<'static>> {
 
 type Picked = Option<(u32, Timestamp)>;
 
-/// A window that shows only the strip and remembers the bar that was picked.
+/// A window that shows only the strip and remembers the picked bar.
 fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked> {
     testing::window(size, None, move |ui, picked: &mut Picked| {
         let model = TimelineModel {

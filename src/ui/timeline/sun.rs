@@ -5,10 +5,10 @@ use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2};
 use super::{SunSpan, scale::Scale};
 use crate::ui::{format, text, theme, widgets::paint};
 
-/// Between two words below the lane, in points.
+/// Gap between two captions below the lane, in points.
 const GAP: f32 = 8.0;
 
-/// Shows the spans in `bar`, and what begins when in `words`, the band below.
+/// Shows the spans in `bar`, and their captions in `words`, the band below.
 pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: Rect) {
     let t = theme::tokens(ui);
     let mut free_from = words.left();
@@ -33,7 +33,8 @@ pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: 
     }
 }
 
-/// A state that was there before the window, or the change that begins it.
+/// The caption of a span: the state at the start of the window, or the change that begins
+/// the span.
 fn caption(span: &SunSpan, scale: &Scale) -> String {
     let began = format::hours_minutes(span.from);
     match (span.from > scale.from(), span.up) {

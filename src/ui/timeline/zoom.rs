@@ -1,10 +1,10 @@
-//! How many hours the strip shows.
+//! The number of hours in the strip.
 
-/// What can be chosen, in hours.
+/// Selectable values.
 const HOURS: [u32; 6] = [1, 2, 4, 8, 12, 24];
 
-/// How many hours the strip shows: as many as are usual for its form, until
-/// the operator wants more or fewer.
+/// Number of hours in the strip: the default of its form, until the operator chooses more
+/// or fewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Zoom {
     wanted: Option<u32>,
@@ -18,17 +18,17 @@ impl Default for Zoom {
 }
 
 impl Zoom {
-    /// As it was chosen before, in hours.
+    /// A zoom with an earlier choice, in hours.
     pub fn of(wanted: Option<u32>) -> Self {
         Self { wanted: wanted.filter(|hours| HOURS.contains(hours)), ..Self::default() }
     }
 
-    /// What the operator chose, in hours; `None` for the usual.
+    /// The operator's choice, in hours; `None` for the default.
     pub fn wanted(&self) -> Option<u32> {
         self.wanted
     }
 
-    /// The hours to show in a form where `usual` hours are.
+    /// The hours to show in a form with the default `usual`.
     pub fn hours(&mut self, usual: u32) -> u32 {
         self.shown = self.wanted.unwrap_or(usual);
         self.shown
@@ -42,7 +42,7 @@ impl Zoom {
         self.shown = self.wanted.unwrap_or(self.shown);
     }
 
-    /// Back to the usual.
+    /// Returns to the default.
     pub fn reset(&mut self) {
         self.wanted = None;
     }
