@@ -1,5 +1,4 @@
-//! The card of the selected antenna: what it does, where it is, and what it
-//! can be told.
+//! The card of the selected antenna: its activity, its position and its controls.
 
 mod again;
 mod drive;
@@ -54,56 +53,54 @@ pub use track::{TrackModel, TrackState};
 pub const WIDTH: f32 = 344.0;
 /// Width of the card in a small window.
 pub const SMALL_WIDTH: f32 = 304.0;
-/// Below this height travel and faults fold to one line each.
+/// In a card below this height travel and faults fold to one line each.
 pub const FULL_HEIGHT: f32 = 740.0;
 
-/// All that the card shows. A number that is not known is `None` and shown as
-/// a dash.
+/// Content of the card. An unknown number is `None` and shown as a dash.
 #[derive(Debug, Clone, Copy)]
 pub struct CardModel<'a> {
-    /// Name, kind, and whether it can be reached.
+    /// Name, kind and link.
     pub header: HeaderModel<'a>,
-    /// What the antenna does, why, and what comes next.
+    /// The state sentence.
     pub sentence: Sentence<'a>,
-    /// What it tracked until STOP, to be tracked again in one step.
+    /// The target tracked until STOP, offered to be tracked again.
     pub track_again: Option<&'a str>,
-    /// What the second column of the axes table holds.
+    /// Content of the second column of the axes table.
     pub wanted: WantedColumn,
-    /// Of the angles that the unit is told and tells, at most two.
+    /// Decimals of commanded and measured angles, at most two.
     pub decimals: usize,
-    /// The axes in which the unit is commanded.
+    /// The axes in which the unit takes commands.
     pub axes: &'a [AxisRow<'a>],
-    /// The error against the beam; none if the antenna has no wanted direction.
+    /// Pointing error and beam; none if the antenna has no demanded direction.
     pub beam: Option<BeamModel>,
     /// The axes of the mount; empty for a unit that does not report them.
     pub travel: &'a [TravelModel<'a>],
-    /// Modes of the unit.
+    /// Modes of the antenna.
     pub modes: ModeModel<'a>,
-    /// What the unit tracks; none for a unit that cannot track.
+    /// Target of the tracking; none for a unit that cannot track.
     pub track: Option<TrackModel<'a>>,
     /// Jogging and going to a direction.
     pub drive: DriveModel<'a>,
-    /// What the unit tells of itself.
+    /// Readings that the unit reports about itself.
     pub readings: &'a [Reading],
-    /// Checks of the unit; none for a unit that has none.
+    /// Checks of the unit; none for a unit without checks.
     pub faults: Option<FaultsModel<'a>>,
-    /// What only this make can do.
+    /// Actions of this make.
     pub more: MoreModel<'a>,
-    /// The unit is locked out for maintenance.
+    /// The lock-out for maintenance, if any.
     pub lock_out: Option<LockOutModel<'a>>,
-    /// Why the operator is asked whether the antenna stands.
+    /// The reason for asking the operator to confirm that the antenna stands still.
     pub asks_standing: Option<&'a str>,
-    /// What an action does that was refused because nobody here knows where it leads:
-    /// the operator may answer for it.
+    /// Description of an action that was refused because Azel cannot know where it ends; the
+    /// operator may start it on their own responsibility.
     pub asks_unseen: Option<&'a str>,
-    /// It stands where it must not point.
+    /// The antenna points where it must not; the way out of there.
     pub way_out: Option<WayOutModel<'a>>,
-    /// The antennas that have no card now.
+    /// The other antennas, which have no card now.
     pub others: &'a [OtherAntenna],
 }
 
-/// What the operator typed, held and folded. It has no `Debug`: a password may
-/// be in it.
+/// Input, held keys and open folds. No `Debug`: it may contain a password.
 #[derive(Clone, Default)]
 pub struct CardState {
     /// Jog and go-to.
@@ -114,11 +111,11 @@ pub struct CardState {
     pub travel_open: bool,
     /// The faults are unfolded in a small window.
     pub faults_open: bool,
-    /// What the unit tells is unfolded in a small window.
+    /// The readings are unfolded in a small window.
     pub readings_open: bool,
     /// The actions are unfolded.
     pub more_open: bool,
-    /// The dialog about a lock-out is open.
+    /// The open lock-out dialog.
     pub maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
     unseen: HoldState,
@@ -128,8 +125,8 @@ pub struct CardState {
 }
 
 impl CardState {
-    /// To be called when the card shows another antenna: what was typed is not
-    /// for that one. What is unfolded stays so.
+    /// Call when the card shows another antenna. Clears the input, which was not meant for that
+    /// antenna; folds stay as they are.
     pub fn change_antenna(&mut self) {
         self.drive = DriveState::default();
         self.track = TrackState::default();
@@ -141,45 +138,41 @@ impl CardState {
         self.unguarded = HoldState::default();
     }
 
-    /// To be called when the card is not shown any more: a jog key that was
-    /// held is released.
+    /// Call when the card disappears. Releases a held jog key.
     pub fn hide(&mut self) -> Option<CardAction> {
         self.maintenance = None;
         self.drive.let_go().then_some(CardAction::JogReleased)
     }
 }
 
-/// What the operator did.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CardAction {
-    /// Open the link.
     Connect,
-    /// Close the link.
     Disconnect,
-    /// Stop this antenna, which takes a connection.
+    /// Connect to this antenna and stop it.
     Stop,
-    /// Lock the unit out for maintenance, or take that off.
+    /// Lock the unit out for maintenance, or end the lock-out.
     Maintenance,
-    /// Wants another mode.
+    /// Request another mode.
     SetMode(Intent),
-    /// Holds a jog key. Comes in every frame in which it is held.
+    /// A jog key is held. Sent in every frame of the hold.
     Jog {
         /// Sign of the first axis, −1 to 1.
         x: i8,
         /// Sign of the second axis, −1 to 1.
         y: i8,
-        /// Wanted rate, in degrees per second.
+        /// Demanded rate.
         rate_deg_s: f64,
     },
-    /// The jog key is not held any more. Comes once.
+    /// The jog key was released. Sent once.
     JogReleased,
-    /// It may be moved by hand without a dead-man, for a minute.
+    /// Allow moving the antenna by hand without a dead-man, for a minute.
     AllowUnguarded,
-    /// It may be moved by hand out of where it must not point, for a minute.
+    /// Allow moving the antenna by hand out of the zone into which it must not point, for a minute.
     AllowWayOut,
-    /// The operator has seen that it stands.
+    /// The operator has seen that the antenna stands still.
     SeenStanding,
-    /// Start the action that was refused because nobody here knows where it leads.
+    /// Start the action that was refused because Azel cannot know where it ends.
     ActUnseen,
     /// Turn an axis by an amount, once.
     Step {
@@ -187,30 +180,30 @@ pub enum CardAction {
         x: i8,
         /// Sign of the second axis, −1 to 1.
         y: i8,
-        /// The amount, in degrees.
+        /// Amount.
         step_deg: f64,
     },
-    /// Shows where a direction leads, moves nothing.
+    /// Show a direction in the sky plot without moving the antenna.
     PreviewGoTo(Target),
-    /// Go to a direction.
+    /// Move to a direction.
     GoTo(Target),
     /// Track the selected satellite.
     TrackSelected,
-    /// Track what STOP has ended.
+    /// Track again the target whose tracking STOP ended.
     TrackAgain,
     /// Track the selected satellite although the unit would miss it.
     TrackAnyway,
-    /// Follow this position by position.
+    /// Program-track this target.
     Follow(FollowChoice),
-    /// Let the unit start passes by itself, or not.
+    /// Switch automatic starting of passes by the unit.
     SetAutoTrack(bool),
-    /// Do what only this make can do.
+    /// Start an action of this make.
     Act(Act),
-    /// Show the card of the antenna at this place.
+    /// Show the card of the antenna with this index.
     Select(usize),
 }
 
-/// A place that moves down the card.
+/// The layout position, which moves down the card.
 struct Cursor {
     left: f32,
     right: f32,
@@ -237,8 +230,8 @@ impl Cursor {
     }
 }
 
-/// Shows the card in `rect`. State sentence, axes table and mode always stay in
-/// sight; what does not fit below them scrolls.
+/// Shows the card in `rect`. State sentence, axes table and mode always stay in sight; the
+/// rest scrolls if it does not fit.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -314,7 +307,7 @@ fn fill(
     });
 }
 
-/// The shape of a verdict.
+/// The icon of a check.
 const fn verdict_icon(state: CheckState) -> Icon {
     match state {
         CheckState::Good => Icon::Check,

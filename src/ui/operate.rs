@@ -1,4 +1,4 @@
-//! The Operate view: is it safe, what does it do, why, what comes next.
+//! The Operate view, for watching and driving the antennas.
 
 mod card;
 mod divider;
@@ -25,34 +25,33 @@ use crate::{
 };
 use layout::Areas;
 
-/// What the operator typed, opened and folded in this view.
+/// Input, open parts and folds of this view.
 #[derive(Default)]
 pub struct OperateState {
     /// The antenna card.
     pub card: CardState,
-    /// The pass list is drawn over the plot, in a small window.
+    /// The pass list lies over the plot, in a small window.
     pub drawer_open: bool,
-    /// How many hours the strip of passes shows.
+    /// Number of hours in the timeline.
     pub zoom: Zoom,
-    /// The width of the list as the operator has drawn it, points.
+    /// The operator's width of the list, points.
     pub list_width: Option<u32>,
     /// The sky plot.
     pub sky: SkyPlotState,
     passes: PassListState,
     found: filter::Found,
-    /// The antenna whose card was shown last.
+    /// Index of the antenna whose card was shown last.
     shown_antenna: usize,
 }
 
 impl OperateState {
-    /// The next text that is typed filters the list, which is opened for it.
+    /// Opens the list and its filter, and gives the filter the keyboard focus.
     pub fn filter_list(&mut self) {
         self.drawer_open = true;
         self.passes.filter.open();
     }
 
-    /// The pass so many places below the selected one in the list as it is
-    /// filtered.
+    /// The pass `down` places below the selected one in the filtered list.
     pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
         let listed = model.upcoming();
         let found = self.found.places(model, self.passes.filter.text());
@@ -66,7 +65,7 @@ impl OperateState {
         listed.get(place).map(PredictedPass::key)
     }
 
-    /// The card goes out of sight: a key that is held there must not go on.
+    /// Call when the card disappears. Releases a key that is held there.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
         if self.card.hide().is_some() {
             let end = crate::driver::Command::EndJog;
@@ -108,7 +107,7 @@ pub fn show(
     }
     if let Some(list) = areas.list {
         if areas.small {
-            // The drawer lies over the plot; elsewhere the list stands on the ground.
+            // The drawer lies over the plot and needs a background of its own.
             ui.painter().rect_filled(list, 0.0, t.bg1);
         }
         let (list_state, found) = (&mut state.passes, &mut state.found);

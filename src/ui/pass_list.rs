@@ -1,4 +1,4 @@
-//! The passes to come, one row each, with the pass in progress on top.
+//! The list of passes, one row each, with the pass in progress on top.
 
 mod filter;
 mod header;
@@ -26,57 +26,52 @@ use crate::{
 
 pub use filter::Filter;
 
-/// The lowest maximum elevations that can be chosen, in degrees.
+/// Selectable elevation floors.
 pub const FLOORS_DEG: [f64; 6] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0];
 
-/// One pass.
 #[derive(Debug, Clone, Copy)]
 pub struct PassRow<'a> {
-    /// Names the pass as long as it is listed.
+    /// Identifies the pass while it is listed.
     pub key: PassKey,
-    /// Name of the satellite.
     pub name: &'a str,
-    /// When it rises, or the start of the list.
+    /// AOS, or the start of the list.
     pub aos: Timestamp,
-    /// When it sets, or the end of the list.
+    /// LOS, or the end of the list.
     pub los: Timestamp,
-    /// The satellite is up already where the list starts.
+    /// The satellite is up already at the start of the list.
     pub starts_before: bool,
-    /// The satellite is still up where the list ends.
+    /// The satellite is still up at the end of the list.
     pub ends_after: bool,
-    /// The highest elevation, degrees.
     pub max_elevation_deg: f64,
-    /// Azimuth of AOS, degrees.
     pub aos_azimuth_deg: f64,
-    /// Azimuth of LOS, degrees.
     pub los_azimuth_deg: f64,
-    /// What the mount can follow; None while that is not known.
+    /// Trackability; `None` while unknown.
     pub verdict: Option<Verdict<'a>>,
-    /// The way over the sky, oldest first.
+    /// The path over the sky, oldest first.
     pub path: &'a [Sample],
 }
 
-/// What the mount can follow.
+/// Trackability of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict<'a> {
-    /// All of the pass.
+    /// The mount tracks the whole pass.
     Trackable,
-    /// All but some of it.
+    /// The mount loses part of the pass.
     Loses {
-        /// How much, seconds.
+        /// Lost time.
         seconds: f64,
-        /// Where that begins.
+        /// Place where the loss begins.
         at: Loss,
     },
-    /// The mount follows, but the unit would miss by what it tells of itself.
+    /// The mount can follow, but the unit would miss according to its own settings.
     Misses,
-    /// Nothing: a sentence such as "Not possible: stays below the travel".
+    /// Not trackable: a sentence such as "Not possible: stays below the travel".
     NotPossible(&'a str),
-    /// Nothing for now: the unit is worked on.
+    /// Not trackable now: the unit is in maintenance.
     InMaintenance,
 }
 
-/// Where something is lost, such as "at keyhole N".
+/// The place of a loss, such as "at keyhole N".
 fn place(loss: Loss) -> Cow<'static, str> {
     match loss {
         Loss::Keyhole(azimuth) => {
@@ -110,28 +105,26 @@ impl<'a> Verdict<'a> {
     }
 }
 
-/// What the column shows.
+/// Content of the column.
 #[derive(Clone, Copy)]
 pub struct PassListModel<'a> {
-    /// The time.
     pub now: Timestamp,
-    /// How many passes there are.
+    /// Number of passes.
     pub rows: usize,
-    /// The pass at an index. Asked for only where a row is in view.
+    /// The pass at an index. Called only for rows in view.
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
-    /// The place of a pass in the list, quickly.
+    /// The index of a pass in the list; must be fast.
     pub place: &'a dyn Fn(PassKey) -> Option<usize>,
-    /// The selected pass.
     pub selected: Option<PassKey>,
-    /// Whose passes are listed.
+    /// The satellites whose passes are listed.
     pub scope: Scope,
-    /// How far ahead, hours.
+    /// Span of the list.
     pub span_h: u32,
-    /// The lowest maximum elevation that is listed, degrees.
+    /// The elevation floor.
     pub floor_deg: f64,
-    /// What is being done for the list.
+    /// State of the search for the list.
     pub work: Work,
-    /// How many satellites the list was made of, and when; None before the first.
+    /// Number of satellites searched, and time of the search; `None` before the first search.
     pub made: Option<(usize, Timestamp)>,
     /// Rows have thumbnails.
     pub thumbnails: bool,
@@ -139,22 +132,21 @@ pub struct PassListModel<'a> {
     pub empty: &'a str,
 }
 
-/// What the column remembers from frame to frame.
+/// State of the column, kept from frame to frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PassListState {
-    /// What the operator looks for in the list.
     pub filter: Filter,
-    /// The pass that was selected when the rows were shown last.
+    /// The selected pass in the last frame.
     shown: Option<PassKey>,
-    /// How far the rows were scrolled down, points.
+    /// Scroll offset, points.
     offset: f32,
     /// The row at the upper edge and its pass.
     top: Option<(usize, PassKey)>,
 }
 
 impl PassListState {
-    /// Whether another pass is selected than in the last frame. A new list has
-    /// the same pass with an AOS that differs by a little.
+    /// Returns `true` if the selection has changed since the last frame. In a new list the AOS of
+    /// the same pass may differ slightly.
     fn is_news(&mut self, selected: Option<PassKey>) -> bool {
         let before = std::mem::replace(&mut self.shown, selected);
         match (before, selected) {
@@ -166,9 +158,9 @@ impl PassListState {
         }
     }
 
-    /// How many rows above the one at the upper edge have gone since the last
-    /// frame; negative when some were added. What the operator reads stays
-    /// where it is when passes end; at the very top the list moves up.
+    /// Number of rows above the upper edge that have gone since the last frame; negative if rows
+    /// were added. Keeps the visible rows in place when passes end; at the very top the list
+    /// moves up.
     fn rows_gone_above(&self, model: &PassListModel<'_>) -> f32 {
         let Some((before, key)) = self.top.filter(|_| self.offset > 0.0) else { return 0.0 };
         (model.place)(key).map_or(0.0, |place| before as f32 - place as f32)
@@ -181,8 +173,8 @@ impl PassListState {
     }
 }
 
-/// Shows the column in `rect`: its head and the rows, which scroll.
-/// A pass that was selected elsewhere is scrolled to.
+/// Shows the column in `rect`: its head and the scrolling rows.
+/// Scrolls to a pass that was selected elsewhere.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -192,7 +184,7 @@ pub fn show(
     let mut commands = Vec::new();
     let (head, mut body) = rect.split_top_bottom_at_y(rect.top() + header::HEIGHT);
     header::show(ui, head, model, &mut state.filter, &mut commands);
-    // Those few that the operator follows are found before anyone could look.
+    // The search for the few favourites is over before anyone could read a status.
     if model.scope == Scope::All {
         let (strip, rest) = body.split_top_bottom_at_y(body.top() + status::HEIGHT);
         status::show(ui, strip, model, &mut commands);

@@ -1,4 +1,4 @@
-//! What the antenna tracked until STOP, at the foot of the sentence.
+//! The line below the sentence that offers to track again after STOP.
 
 use egui::{Align2, Rect, Ui, vec2};
 

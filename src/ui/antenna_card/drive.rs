@@ -1,4 +1,4 @@
-//! Jog keys beside the go-to fields, and why one of them is refused.
+//! Jog keys beside the go-to fields, and the reasons of refusals.
 
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
@@ -19,52 +19,52 @@ use crate::{
     },
 };
 
-/// Rate of the first jog, in degrees per second.
+/// Initial jog rate.
 const FIRST_RATE_DEG_S: f64 = 0.5;
-/// Below the row of steps.
+/// Gap below the row of steps.
 const STEPS_GAP: f32 = 4.0;
-/// A sentence of one line.
+/// Height of a sentence of one line.
 const MESSAGE: f32 = 17.0;
 
-/// What moving by hand needs to know.
+/// Content of the controls for moving by hand.
 #[derive(Debug, Clone, Copy)]
 pub struct DriveModel<'a> {
     /// Names of the jog keys.
     pub keys: JogKeys,
-    /// Why jogging is refused now.
+    /// The reason why jogging is refused now.
     pub jog_locked: Option<&'a str>,
-    /// Why a jog waits until the operator allows it.
+    /// The reason why jogging waits for the operator's permission.
     pub unguarded: Option<&'a str>,
-    /// Why some of the keys do nothing.
+    /// The reason why some keys do nothing.
     pub jog_note: Option<&'a str>,
-    /// Directions in which a limit stops the antenna, or that are not turned.
+    /// Directions in which a limit stops the antenna, or whose axis must not turn.
     pub blocked: &'a [JogDirection],
-    /// The measured rate of the axis that moves, in degrees per second.
+    /// The measured rate of the moving axis.
     pub real_deg_s: Option<f64>,
-    /// How fast it jogs.
+    /// Selectable jog speeds.
     pub speeds: JogSpeeds,
-    /// The most that the unit does, in degrees per second.
+    /// Max rate of the unit.
     pub max_deg_s: f64,
-    /// The largest step of an axis, in degrees; none for a unit without steps.
+    /// The largest step of an axis; none for a unit without steps.
     pub max_step_deg: Option<f64>,
-    /// Why going to a direction is refused now.
+    /// The reason why moving to a direction is refused now.
     pub go_to_locked: Option<&'a str>,
-    /// Azimuths that are taken, in degrees.
+    /// Accepted azimuths.
     pub azimuth_range_deg: (f64, f64),
-    /// Elevations that are taken, in degrees; none for a rotator with one axis.
+    /// Accepted elevations; none for a rotator with one axis.
     pub elevation_range_deg: Option<(f64, f64)>,
-    /// Where the antenna was told to be, in degrees.
+    /// The commanded direction.
     pub commanded_deg: (Option<f64>, Option<f64>),
-    /// Of the numbers that are shown for it.
+    /// Decimals of the commanded direction.
     pub commanded_decimals: usize,
-    /// What STOP does beyond stopping this antenna.
+    /// Effects of STOP beyond stopping this antenna.
     pub stop_note: Option<&'a str>,
 }
 
-/// What the operator holds and typed.
+/// Held keys and input.
 #[derive(Debug, Clone)]
 pub struct DriveState {
-    /// Wanted jog rate, in degrees per second.
+    /// Demanded jog rate.
     pub rate_deg_s: f64,
     /// The go-to fields.
     pub go_to: GoToState,
@@ -74,17 +74,17 @@ pub struct DriveState {
 }
 
 impl DriveState {
-    /// Takes the next rate up (`by` positive) or down.
+    /// Selects the next rate up (`by` positive) or down.
     pub fn change_rate(&mut self, by: i32, speeds: JogSpeeds, max_deg_s: f64) {
         self.rate_deg_s = speed::stepped(self.rate_deg_s, by, speeds, max_deg_s);
     }
 
-    /// Puts the keyboard on the jog pad as soon as it is free.
+    /// Gives the jog pad the keyboard focus as soon as it is free.
     pub fn focus_pad(&mut self) {
         self.jog.focus();
     }
 
-    /// Lets go of the jog key. Returns true if one was held.
+    /// Releases the jog key. Returns `true` if one was held.
     pub(super) fn let_go(&mut self) -> bool {
         self.jog = JogState::default();
         std::mem::take(&mut self.jogging)
@@ -171,10 +171,10 @@ fn jog(
     state.jogging = held.is_some();
 }
 
-/// Says why something is refused, below the controls that it is about.
+/// Shows the reasons of refusals below the controls that they are about.
 pub(super) fn messages(ui: &Ui, at: &mut Cursor, model: &DriveModel<'_>, state: &DriveState) {
     let t = theme::tokens(ui);
-    // So that little moves when a sentence comes.
+    // Reserved, so that little moves when a sentence appears.
     let end = at.y + MESSAGE;
     let refusal = state.go_to.refusal();
     let step = model.max_step_deg.and_then(|max_deg| state.steps.size_deg(max_deg).err());

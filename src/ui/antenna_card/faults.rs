@@ -1,4 +1,4 @@
-//! Checks of a unit: one line, and a list with what to do.
+//! Checks of a unit: a summary line and a list with remedies.
 
 use egui::{Align2, Color32, Popup, PopupCloseBehavior, Rect, Sense, Ui, pos2, vec2};
 
@@ -43,7 +43,7 @@ fn colour(state: CheckState, t: &Tokens) -> Color32 {
 pub struct FaultsModel<'a> {
     /// In the order of the list.
     pub checks: &'a [Check],
-    /// When the unit last reported them, as it is shown.
+    /// Time of the unit's last report, formatted.
     pub checked_at: &'a str,
 }
 
@@ -52,7 +52,7 @@ impl FaultsModel<'_> {
         self.checks.iter().filter(|check| check.state == state).count()
     }
 
-    /// The worst finding. A fault weighs most; not knowing weighs more than good.
+    /// The worst result. A fault weighs most; unknown weighs more than good.
     fn worst(&self) -> CheckState {
         [CheckState::Fault, CheckState::Caution, CheckState::Unknown]
             .into_iter()
@@ -60,7 +60,7 @@ impl FaultsModel<'_> {
             .unwrap_or(if self.checks.is_empty() { CheckState::Unknown } else { CheckState::Good })
     }
 
-    /// The finding in a few words, and the sentence below it.
+    /// The result in a few words, and the sentence below it.
     fn summary(&self) -> (String, String) {
         let (all, worst) = (self.checks.len(), self.worst());
         let named = || {
@@ -86,7 +86,7 @@ impl FaultsModel<'_> {
     }
 }
 
-/// The finding for the folded line.
+/// The result for the folded line.
 pub(super) fn in_words(ui: &Ui, model: &FaultsModel<'_>) -> (String, (Icon, Color32)) {
     let worst = model.worst();
     let (good, all) = (model.count(CheckState::Good), model.checks.len());

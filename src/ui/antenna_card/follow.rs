@@ -1,4 +1,4 @@
-//! The key beside Track, with what else this program can follow.
+//! The button beside Track, with other targets for program track.
 
 use egui::{Popup, Rect, Role, Ui};
 
@@ -10,39 +10,39 @@ use crate::ui::{
     widgets::{go_to::Target, paint},
 };
 
-/// Width of the key.
+/// Width of the button.
 pub(super) const WIDTH: f32 = 28.0;
 
-/// What can be followed beside the selected satellite.
+/// The targets offered.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FollowModel<'a> {
-    /// The selected satellite, where the unit would else track it by itself.
+    /// The selected satellite, if Track would use the unit's on-board track.
     pub by_positions: Option<&'a str>,
-    /// Where the antenna points.
+    /// The direction in which the antenna points.
     pub here: Option<Target>,
-    /// Of the numbers that are shown for it.
+    /// Decimals of that direction.
     pub here_decimals: usize,
-    /// What following the Sun lifts; it is followed only by holding then.
+    /// The Sun avoidance that following the Sun lifts; this then takes a hold.
     pub sun_avoidance: Option<&'a str>,
 }
 
-/// What this program is to follow.
+/// Target of a program track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FollowChoice {
-    /// The selected satellite, position by position.
+    /// The selected satellite.
     Selected,
     /// The Sun.
     Sun,
-    /// The Sun, with the avoidance of it lifted.
+    /// The Sun, with Sun avoidance lifted.
     IntoSun,
     /// The Moon.
     Moon,
-    /// A direction that does not move.
+    /// A fixed direction.
     Direction(Target),
 }
 
-/// Shows the key in `rect`. `typed` is a direction that stands in the fields;
-/// `asks_sun` is set where the Sun was chosen and has to be held for.
+/// Shows the button in `rect`. `typed` is the direction in the go-to fields; `asks_sun`
+/// becomes `true` when the Sun was chosen and takes a hold.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -87,7 +87,7 @@ pub(super) fn show(
     });
 }
 
-/// As the fields say it: azimuth, and elevation where there is one.
+/// A target in the format of the fields: azimuth, and elevation if there is one.
 fn in_words(target: Target, decimals: usize) -> String {
     let angles = [Some(target.azimuth_deg), target.elevation_deg];
     let known = angles.into_iter().flatten().map(|angle_deg| format::degrees(angle_deg, decimals));

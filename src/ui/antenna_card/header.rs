@@ -1,4 +1,4 @@
-//! Name of the antenna, whether it can be reached, and the key that lets go of it.
+//! The head of the card: name, link, and the menu to connect or disconnect.
 
 use egui::{Align2, Popup, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -10,39 +10,35 @@ use crate::ui::{
     widgets::{link_chip::LinkGlyph, paint},
 };
 
-/// Side of the key that opens the menu of the link.
+/// Side of the button that opens the link menu.
 const MENU: f32 = 24.0;
 
-/// The link of the antenna, in the words of the card.
+/// Status of the link, as the card names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LinkStatus {
-    /// Its link is up.
     Connected,
-    /// It is locked out for maintenance.
+    /// The unit is locked out for maintenance.
     InMaintenance,
-    /// It is being dialled.
     Connecting,
-    /// Its replies are missing, or its link is lost.
+    /// Replies are missing, or the link is lost.
     NoAnswer,
-    /// This console has no link and wants none.
+    /// This console has no link and is not trying to connect.
     NotConnected,
-    /// Another Azel drives it.
+    /// Another Azel drives the unit.
     Elsewhere,
 }
 
 /// The head of the card.
 #[derive(Debug, Clone, Copy)]
 pub struct HeaderModel<'a> {
-    /// Name of the antenna.
     pub name: &'a str,
-    /// What it is: size, mount, ability.
+    /// Size, mount and abilities.
     pub second_line: &'a str,
-    /// How its link stands.
     pub link: LinkGlyph,
     pub status: LinkStatus,
-    /// A connection takes the panel from whoever stands in front of the unit.
+    /// A connection takes the front panel from a person at the unit.
     pub takes_panel: bool,
-    /// It is locked out for maintenance.
+    /// The unit is locked out for maintenance.
     pub in_maintenance: bool,
 }
 
@@ -84,7 +80,7 @@ pub(super) fn show(
     named.on_hover_text(format!("{}\n{}", model.name, model.second_line));
 }
 
-/// A key with the menu of the link.
+/// Shows the button with the link menu.
 fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let name = format!("Link of {}", model.name);
@@ -108,7 +104,7 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     });
 }
 
-/// Paints whether it can be reached and returns the left end of it.
+/// Paints the status and returns its left end.
 fn status_tag(ui: &Ui, row: Rect, status: LinkStatus) -> f32 {
     let t = theme::tokens(ui);
     let (words, colour) = match status {

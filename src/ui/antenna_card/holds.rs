@@ -1,5 +1,5 @@
-//! What the operator answers for by a hold: that the antenna stands, that it may move
-//! without a dead-man, and that it may be moved out of where it must not point.
+//! Buttons that the operator holds to take responsibility: the antenna stands still, it
+//! may move without a dead-man, or it may leave a zone into which it must not point.
 
 use egui::Ui;
 
@@ -13,19 +13,19 @@ use crate::ui::{
     },
 };
 
-/// That the antenna stands.
+/// Confirms that the antenna stands still.
 pub(super) const SEEN_STANDING: &str = "Hold 1 s: I have seen that it stands";
 
-/// An antenna that stands where it must not point.
+/// An antenna that points where it must not.
 #[derive(Debug, Clone, Copy)]
 pub struct WayOutModel<'a> {
-    /// Where, and what it may do.
+    /// The zone, and the motions that are allowed.
     pub words: &'a str,
-    /// The operator has allowed it.
+    /// The operator has allowed moving out.
     pub is_allowed: bool,
 }
 
-/// Shows `why` and the button below it. Returns true once, when it was held.
+/// Shows `why` and the button below it. Returns `true` once, when the hold is complete.
 pub(super) fn show(
     ui: &Ui,
     at: &mut Cursor,
@@ -39,7 +39,6 @@ pub(super) fn show(
     done
 }
 
-/// Shows `words` alone.
 pub(super) fn note(ui: &Ui, at: &mut Cursor, words: &str) {
     let t = theme::tokens(ui);
     let taken = paint::paragraph(ui, at.at(), at.width(), words, text::small(), t.warn);

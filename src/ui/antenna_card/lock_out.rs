@@ -1,4 +1,4 @@
-//! That the unit is worked on.
+//! The band that shows a lock-out for maintenance.
 
 use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2};
 
@@ -12,13 +12,13 @@ use crate::ui::{
 /// A lock-out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LockOutModel<'a> {
-    /// Who has locked the unit out.
+    /// Name of the person who locked the unit out.
     pub by: &'a str,
-    /// It is not proved yet.
+    /// The lock-out is not proved yet.
     pub locking: bool,
 }
 
-/// The band below the sentence, with the key that takes the lock-out off.
+/// Shows the band below the sentence, with the button that ends the lock-out.
 pub(super) fn band(ui: &Ui, rect: Rect, model: &LockOutModel<'_>, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     ui.painter().rect(rect, 5.0, t.warnbg, Stroke::new(1.0, t.warn), StrokeKind::Inside);

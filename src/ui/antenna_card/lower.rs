@@ -1,6 +1,6 @@
-//! What stands below the mode, and scrolls where there is no room: what is
-//! tracked, moving by hand, the other antennas, and what the unit tells. In a
-//! low window each part folds to one line with what matters most in it.
+//! The lower part of the card, which scrolls if there is no room: tracking, moving by
+//! hand, the other antennas and the readings. In a low window each section folds to one
+//! line with its most important content.
 
 use egui::{Align2, Rect, Ui};
 
@@ -18,7 +18,7 @@ use crate::ui::{
     words,
 };
 
-/// Everything below the mode.
+/// Shows everything below the mode.
 pub(super) fn show(
     ui: &mut Ui,
     card: Rect,
@@ -28,7 +28,7 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
     short: bool,
 ) {
-    // What comes and goes stands below the jog keys: they have a fixed place.
+    // Sections that come and go are below the jog keys, which keep a fixed place.
     let typed = state.drive.go_to.previewed();
     track::row(ui, at, model.track.as_ref(), typed, &mut state.track, actions);
     at.skip(if short { 6.0 } else { 12.0 });
@@ -87,7 +87,7 @@ pub(super) fn show(
     }
 }
 
-/// What the operator is asked to answer for.
+/// Shows the hold buttons that the operator is asked to press.
 fn asked(
     ui: &Ui,
     at: &mut Cursor,
@@ -122,7 +122,7 @@ fn asked(
     }
 }
 
-/// The line of a section. Gives the line if the section was opened just now.
+/// Shows the line of a section. Returns its rectangle if the section was opened just now.
 fn fold_line(
     ui: &Ui,
     at: &mut Cursor,
@@ -134,7 +134,7 @@ fn fold_line(
     fold::show(ui, line, model, open).then_some(line)
 }
 
-/// What was opened may stand below the lower end of the card. The line itself
+/// Scrolls to an opened section, which may lie below the lower end of the card. Its line
 /// stays in sight.
 fn bring_into_sight(ui: &Ui, at: &Cursor, opened: Option<Rect>) {
     if let Some(line) = opened {
@@ -164,7 +164,7 @@ pub(super) fn travel(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>], with_he
     }
 }
 
-/// The travel in words, if all axes have the same.
+/// The travel in words, if it is the same for all axes.
 fn common_range(axes: &[TravelModel<'_>]) -> Option<String> {
     let (low, high) = axes.first()?.travel_deg;
     let same = |deg: f64, other: f64| (deg - other).abs() < 0.05;

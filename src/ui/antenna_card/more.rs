@@ -1,5 +1,4 @@
-//! What only this make can do: a key for each action, with what it has to be
-//! told.
+//! Actions of the make: a button for each, with its input fields.
 
 use std::collections::BTreeMap;
 
@@ -23,17 +22,17 @@ use crate::{
 };
 
 const GAP: f32 = 8.0;
-/// The label of a field may take this part of the width.
+/// Maximum part of the width for the label of a field.
 const LABEL: f32 = 0.42;
 
 /// The actions of a unit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MoreModel<'a> {
-    /// All of them.
+    /// All actions of the unit.
     pub actions: &'static [Action],
-    /// Why none can be asked for now.
+    /// The reason why no action is available now.
     pub locked: Option<&'a str>,
-    /// Why none that moves metal can be asked for now.
+    /// The reason why no action that moves metal is available now.
     pub moves_locked: Option<&'a str>,
 }
 
@@ -43,12 +42,12 @@ impl<'a> MoreModel<'a> {
     }
 }
 
-/// What was typed for the actions. It has no `Debug`: a password may be in it.
+/// Input for the actions. No `Debug`: it may contain a password.
 #[derive(Clone, Default)]
 pub(super) struct MoreState {
-    /// By the keys of action and field.
+    /// Input by the keys of action and field.
     typed: BTreeMap<(&'static str, &'static str), String>,
-    /// The action that was not taken, and why.
+    /// The refused action and the reason.
     refused: Option<(&'static str, String)>,
 }
 
@@ -67,7 +66,7 @@ impl MoreState {
         self.typed.insert((action.key, field.key), text);
     }
 
-    /// The action with what was typed; a sentence where that cannot be used.
+    /// The action with its input; a sentence if the input is invalid.
     fn read(&self, action: &'static Action) -> Result<Act, String> {
         let read = |field: &'static Field| match field.kind.read(&self.text(action, field)) {
             Ok(value) => Ok((field.key, value)),
@@ -84,7 +83,7 @@ pub(super) fn in_words(model: &MoreModel<'_>) -> String {
     labels.join(", ")
 }
 
-/// Shows the actions, those with nothing to be told side by side.
+/// Shows the actions, those without input side by side.
 pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
@@ -103,7 +102,7 @@ pub(super) fn show(
         let button = Button::normal(action.label).locked(model.lock(action).is_some());
         let width = button.width(ui).min(at.width());
         if action.fields.is_empty() {
-            // Beside the last one, where there is room.
+            // Beside the previous one, if there is room.
             if right_end + GAP + width > at.right {
                 at.skip(SMALL_HEIGHT + GAP);
                 right_end = at.left - GAP;
@@ -130,7 +129,7 @@ pub(super) fn show(
     }
 }
 
-/// A sentence with its mark.
+/// Shows a sentence with its mark.
 fn say(ui: &Ui, at: &mut Cursor, salt: &str, icon: Icon, words: &str, colour: egui::Color32) {
     let mark = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
     icons::paint(ui.painter(), mark, icon, colour);

@@ -12,22 +12,20 @@ use crate::ui::{
 /// Height of a line with its sentence.
 const HEIGHT: f32 = 48.0;
 
-/// Another antenna, in short.
+/// Summary of another antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OtherAntenna {
-    /// Its place among all antennas.
+    /// Index among all antennas.
     pub index: usize,
-    /// Its name.
     pub name: String,
-    /// How its link stands.
     pub link: LinkGlyph,
-    /// Where it points, or pointed last; empty when that is not known.
+    /// Last known direction; empty if unknown.
     pub pointing: String,
-    /// What it does.
+    /// The state sentence.
     pub sentence: String,
 }
 
-/// Shows the lines. In a low window they have no sentences.
+/// Shows the lines, in a low window without sentences.
 pub(super) fn show(
     ui: &Ui,
     at: &mut Cursor,

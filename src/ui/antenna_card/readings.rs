@@ -1,4 +1,4 @@
-//! What a unit tells of itself, line by line.
+//! Readings that a unit reports about itself, line by line.
 
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
@@ -14,9 +14,9 @@ use crate::{
 };
 
 const LINE: f32 = 22.0;
-/// Below a line with a bar.
+/// Room for the bar below a line.
 const BAR: f32 = 6.0;
-/// The label may take this part of the width.
+/// Maximum part of the width for the label.
 const LABEL: f32 = 0.45;
 
 /// The mark and the colour of a value.
@@ -29,7 +29,7 @@ fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     }
 }
 
-/// The line that matters most, for the fold: the gravest, else the first.
+/// The most important reading, for the fold: the gravest, otherwise the first.
 pub(super) fn in_words(ui: &Ui, readings: &[Reading]) -> (String, Option<(Icon, Color32)>) {
     let of = |tone: Tone| readings.iter().find(|reading| reading.tone == tone);
     let Some(reading) = of(Tone::Bad).or_else(|| of(Tone::Caution)).or(readings.first()) else {
@@ -39,7 +39,6 @@ pub(super) fn in_words(ui: &Ui, readings: &[Reading]) -> (String, Option<(Icon, 
     (format!("{} {}", reading.label, reading.text), icon.map(|icon| (icon, colour)))
 }
 
-/// Shows the lines.
 pub(super) fn show(ui: &Ui, at: &mut Cursor, readings: &[Reading], with_head: bool) {
     let t = theme::tokens(ui);
     if with_head {

@@ -1,4 +1,4 @@
-//! What a unit that nobody is connected to can be told.
+//! The controls for a unit without a connection.
 
 use egui::{Align2, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -13,7 +13,7 @@ use crate::ui::{
     },
 };
 
-/// Connect, and a STOP of its own: the one of the bar leaves this unit alone.
+/// Shows Connect and a separate STOP: the one in the top bar leaves this unit alone.
 pub(super) fn show(
     ui: &Ui,
     at: &mut Cursor,

@@ -1,5 +1,4 @@
-//! How fast the jog keys move the antenna: any rate on a slider, one of a few by
-//! name, or nothing to choose.
+//! The jog speed: any rate on a slider, a choice of named speeds, or no choice.
 
 use egui::{Rect, Ui};
 
@@ -15,14 +14,14 @@ use crate::{
     },
 };
 
-/// The rate that is sent for the one that was chosen, degrees a second. Where
-/// the speeds have names it is the one that stands for the nearest of them.
+/// The rate to send for the chosen one, degrees per second. With named speeds, the rate of
+/// the nearest of them.
 pub(super) fn rate_deg_s(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let named = speeds.nearest(chosen_deg_s, max_deg_s);
     named.map_or(chosen_deg_s.min(max_deg_s), |speed| speed.share * max_deg_s)
 }
 
-/// The rate, or the name of the speed; nothing where there is no choice.
+/// The rate or the name of the speed; empty if there is no choice.
 pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> String {
     match speeds {
         JogSpeeds::AnyRate => format::number(chosen_deg_s, 2),
@@ -34,7 +33,7 @@ pub(super) fn in_words(chosen_deg_s: f64, speeds: JogSpeeds, max_deg_s: f64) -> 
     }
 }
 
-/// The rate `by` steps up, degrees a second.
+/// The rate `by` steps up, degrees per second.
 pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: f64) -> f64 {
     let JogSpeeds::Named(named) = speeds else {
         return rate_slider::stepped(chosen_deg_s, by, max_deg_s);
@@ -46,7 +45,7 @@ pub(super) fn stepped(chosen_deg_s: f64, by: i32, speeds: JogSpeeds, max_deg_s: 
     named.get(wanted).map_or(chosen_deg_s, |speed| speed.share * max_deg_s)
 }
 
-/// Shows what there is to choose in `rect`; changes `chosen_deg_s`.
+/// Shows the choice in `rect`; changes `chosen_deg_s`.
 pub(super) fn show(ui: &Ui, rect: Rect, model: &DriveModel<'_>, chosen_deg_s: &mut f64) {
     let max_deg_s = model.max_deg_s;
     match model.speeds {

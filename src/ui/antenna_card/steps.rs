@@ -1,4 +1,4 @@
-//! Turning an axis by a set amount: the size, and a key for each direction.
+//! Turning an axis by a step: its size, and a key for each direction.
 
 use egui::{Align2, Event, EventFilter, Rect, Response, Ui, pos2, vec2};
 
@@ -14,7 +14,7 @@ use crate::ui::{
     },
 };
 
-/// Size of the first step, in degrees.
+/// Initial size of a step.
 const FIRST_DEG: f64 = 0.5;
 /// The unit reports hundredths: a smaller step would not show.
 const MIN_DEG: f64 = 0.01;
@@ -38,13 +38,13 @@ impl Default for StepState {
 }
 
 impl StepState {
-    /// The size in degrees, or why what was typed is none.
+    /// The size in degrees, or the reason why the input is invalid.
     pub(super) fn size_deg(&self, max_deg: f64) -> Result<f64, String> {
         parse::angle(&self.typed, "Step", (MIN_DEG, max_deg))
     }
 }
 
-/// Shows the row. It stands there only while the keys may be used.
+/// Shows the row. Call only while the keys may be used.
 pub(super) fn show(
     ui: &mut Ui,
     at: &mut Cursor,
@@ -99,7 +99,7 @@ pub(super) fn show(
     }
 }
 
-/// The arrows of a key that has the focus step; they do not lead elsewhere.
+/// Returns `true` if the key has the focus, and keeps the arrow keys from moving it: they step.
 fn keeps_arrows(ui: &Ui, key: &Response) -> bool {
     if key.has_focus() {
         let filter = EventFilter {
@@ -112,8 +112,7 @@ fn keeps_arrows(ui: &Ui, key: &Response) -> bool {
     key.has_focus()
 }
 
-/// The direction of an arrow that went down with Shift in this frame. A key
-/// that repeats by itself asks for nothing.
+/// The direction of an arrow key pressed with Shift in this frame. Key repeat is ignored.
 fn arrow(ui: &Ui) -> Option<JogDirection> {
     ui.input(|input| {
         input.events.iter().find_map(|event| match event {

@@ -1,5 +1,4 @@
-//! What the unit tracks, what it could track, and the questions before it
-//! parks.
+//! The tracked and the selected satellite, and the holds before tracking.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -21,41 +20,40 @@ use crate::{
     },
 };
 
-/// Satellites of a unit that can track.
+/// Content for a unit that can track.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrackModel<'a> {
-    /// What is said of the satellite on the left.
+    /// Caption of the satellite on the left.
     pub head: &'a str,
-    /// The satellite whose elements the unit holds, or that is followed.
+    /// The satellite whose elements the unit holds, or that program track follows.
     pub held: Option<&'a str>,
     /// The satellite that is selected in the window.
     pub selected: Option<&'a str>,
-    /// The unit tracks the selected satellite now.
+    /// The antenna tracks the selected satellite now.
     pub tracks_selected: bool,
-    /// Why the selected satellite cannot be tracked.
+    /// The reason why the selected satellite cannot be tracked.
     pub refusal: Option<&'a str>,
-    /// Why the unit would miss the selected satellite; it is tracked all the same
-    /// only by holding.
+    /// The reason why the unit would miss the selected satellite; tracking then takes a hold.
     pub misses: Option<&'a str>,
-    /// What else is to be known of how the unit tracks.
+    /// A further note on how the unit tracks.
     pub note: Option<&'a str>,
-    /// Whether the unit starts passes by itself; none if it cannot.
+    /// The unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
-    /// What else can be followed position by position; none if nothing can.
+    /// Other targets for program track, if any.
     pub follow: Option<FollowModel<'a>>,
 }
 
-/// Questions that are open.
+/// Open questions.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrackState {
     parking: bool,
-    /// The Sun was chosen, and has to be held for.
+    /// The Sun was chosen and waits for a hold.
     asks_sun: bool,
     hold: HoldState,
     tracking: HoldState,
 }
 
-/// A mode goes out at once, except for Park, which has to be held.
+/// Requests a mode at once, except for Park, which takes a hold.
 pub(super) fn mode_clicked(mode: Intent, state: &mut TrackState, actions: &mut Vec<CardAction>) {
     state.parking = mode == Intent::Park;
     state.asks_sun = false;
@@ -65,7 +63,7 @@ pub(super) fn mode_clicked(mode: Intent, state: &mut TrackState, actions: &mut V
     }
 }
 
-/// What is tracked and what could be, or a question in its place.
+/// Shows the tracked and the selected satellite, or a question in their place.
 pub(super) fn row(
     ui: &Ui,
     at: &mut Cursor,
@@ -88,8 +86,8 @@ pub(super) fn row(
     satellite_row(ui, row, model, &mut state.tracking, actions);
 }
 
-/// What is to be known before something is tracked, and whether the unit begins by
-/// itself. `said` stands above already.
+/// Shows the notes on tracking, and the switch for automatic starting. A refusal equal to
+/// `said` is left out, as it is shown above.
 pub(super) fn notes(
     ui: &Ui,
     at: &mut Cursor,
@@ -98,7 +96,7 @@ pub(super) fn notes(
     state: &TrackState,
     actions: &mut Vec<CardAction>,
 ) {
-    // What is asked is about something else.
+    // An open question is about something else.
     let Some(model) = model.filter(|model| state.question(model).is_none()) else { return };
     if let Some(refusal) = model.refusal.filter(|refusal| Some(*refusal) != said) {
         caution_row(ui, at, "track refusal", refusal);
@@ -114,7 +112,7 @@ pub(super) fn notes(
     }
 }
 
-/// What has to be held for.
+/// A request that takes a hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Question {
     Park,
@@ -128,7 +126,7 @@ impl TrackModel<'_> {
 }
 
 impl TrackState {
-    /// What is to be known before the Sun is followed, while that is asked.
+    /// The note on following the Sun, while that question is open.
     pub(super) fn about_the_sun<'a>(&self, model: &'a TrackModel<'_>) -> Option<&'a str> {
         model.sun_avoidance().filter(|_| self.question(model) == Some(Question::Sun))
     }
@@ -162,7 +160,8 @@ fn question_row(
     }
 }
 
-/// Left what the unit holds, right what is selected or the button to track it.
+/// Shows the unit's satellite on the left, and on the right the selected one or the button
+/// to track it.
 fn satellite_row(
     ui: &Ui,
     row: Rect,
@@ -171,7 +170,7 @@ fn satellite_row(
     actions: &mut Vec<CardAction>,
 ) {
     let misses = model.misses.is_some() && model.refusal.is_none();
-    // The words on the button that is held are long.
+    // The text on the hold button is long.
     let share = if misses { 0.36 } else { 0.45 };
     let held = row.with_max_x(row.left() + share * row.width() - 8.0);
     two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
@@ -197,7 +196,7 @@ fn satellite_row(
     }
 }
 
-/// A small head over a name.
+/// Shows a small caption over a name.
 fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: &str) {
     let t = theme::tokens(ui);
     let up = room.translate(vec2(0.0, -8.0));
@@ -207,7 +206,7 @@ fn two_lines(ui: &Ui, salt: &str, room: Rect, anchor: Align2, head: &str, name: 
     paint::name_text(ui, salt, room, &format!("{head}: {name}")).on_hover_text(name);
 }
 
-/// Says why the selected satellite cannot be tracked, or what is to be known.
+/// Shows a refusal or a note.
 fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
     let t = theme::tokens(ui);
     let start = at.at() + vec2(20.0, 2.0);

@@ -1,4 +1,4 @@
-//! Fills the antenna card from the model and hands on what was asked there.
+//! Fills the antenna card from the model and passes its actions on.
 
 mod asked;
 mod axes;
@@ -93,7 +93,7 @@ pub(super) fn show(
             wanted,
             decimals,
             axes: &table,
-            // Kept without a prediction too: the keys below must not jump.
+            // Kept also without a prediction: the keys below must not jump.
             beam: Some(BeamModel {
                 error_deg: antenna.error().map(|error| error.off_beam.degrees()),
                 half_beam_deg: antenna.config.beam_width_deg / 2.0,
@@ -144,7 +144,7 @@ pub(super) fn show(
     MaintenanceDialog::show(&mut state.maintenance, ui, model, question, commands);
 }
 
-/// The place of the card while there is no antenna.
+/// Draws the place of the card while there is no antenna.
 pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let inner = rect.shrink(16.0);
@@ -187,7 +187,7 @@ fn link_status(antenna: &AntennaModel) -> LinkStatus {
     }
 }
 
-/// Moving by hand and to a direction.
+/// The controls for moving by hand and to a direction.
 fn drive<'a>(
     antenna: &'a AntennaModel,
     locks: &Locks,
@@ -214,8 +214,8 @@ fn drive<'a>(
     }
 }
 
-/// What an antenna may do that stands where it must not point, and whether it may by
-/// the operator's word.
+/// For an antenna that points where it must not: the allowed motions in words, and `true` if
+/// the operator has allowed them.
 fn way_out(antenna: &AntennaModel) -> Option<(String, bool)> {
     let snapshot = &antenna.snapshot;
     let can_be_asked =
@@ -224,7 +224,7 @@ fn way_out(antenna: &AntennaModel) -> Option<(String, bool)> {
     Some((words::way_out(&antenna.config.name, inside), inside.may_leave))
 }
 
-/// What is tracked, and what could be.
+/// The tracked and the selected satellite.
 fn track<'a>(
     model: &'a Model,
     antenna: &'a AntennaModel,
@@ -241,7 +241,7 @@ fn track<'a>(
         let of_it = followed.and_then(|followed| followed.catalog_number);
         ("Followed by Azel", name, of_it.is_some() && of_it == number)
     } else {
-        // A fresh unit names no satellite at all, and what cannot be read may pass for a name.
+        // A fresh unit names no satellite, and an unreadable reply may pass for a name.
         let names_one = |held: &&HeldSatellite| !held.name.is_empty() && state.unreadable.is_none();
         let held = state.on_board.satellite.as_ref().filter(names_one);
         let of_it = held.map(|held| held.catalog_number);
@@ -271,8 +271,8 @@ fn track<'a>(
     }
 }
 
-/// Why the unit would miss the selected satellite, and what else is to be known of
-/// how it tracks by itself.
+/// The reason why the unit would miss the selected satellite, and a further note on its
+/// on-board track.
 fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let Some(found) = antenna.supervision() else { return [None, None] };
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
@@ -314,7 +314,7 @@ fn others(model: &Model) -> Vec<OtherAntenna> {
     others.map(in_short).collect()
 }
 
-/// Where the antenna points, as it would be typed.
+/// The direction of the antenna, as a go-to target.
 fn target(pointing: Pointing) -> Option<Target> {
     Some(Target {
         azimuth_deg: pointing.azimuth?.wrapped_360().degrees(),
@@ -332,8 +332,8 @@ fn modes(can: Capabilities) -> Vec<Intent> {
     mode_selector::ALL.into_iter().filter(offers).collect()
 }
 
-/// The azimuths that are taken, degrees: any of the sky, and those beyond it that
-/// the axis has.
+/// The accepted azimuths, degrees: all of the sky, and those beyond that are in the travel
+/// of the axis.
 fn azimuth_range_deg(mount: Mount) -> (f64, f64) {
     match mount {
         Mount::Xy { .. } => (0.0, 360.0),
@@ -343,7 +343,7 @@ fn azimuth_range_deg(mount: Mount) -> (f64, f64) {
     }
 }
 
-/// The elevations that are taken, degrees.
+/// The accepted elevations, degrees.
 fn elevation_range_deg(antenna: &AntennaModel) -> (f64, f64) {
     let lowest = antenna.config.limits.minimum_elevation_deg;
     match antenna.config.mount {

@@ -1,18 +1,17 @@
-//! The line between the list of passes and the plot, which can be drawn aside.
+//! The divider between pass list and plot, which the operator can drag.
 
 use egui::{CursorIcon, Rangef, Rect, Role, Sense, Ui, WidgetInfo};
 
 use crate::ui::theme;
 
-/// To each side of the line, points.
+/// Reach of the handle to each side of the line, points.
 const REACH: f32 = 4.0;
 
-/// Shows the handle at the right edge of `list`. A double click brings back the
-/// usual width.
+/// Shows the handle at the right edge of `list`. A double click restores the default width.
 pub(super) fn show(ui: &Ui, list: Rect, widths: Rangef, width: &mut Option<u32>) {
     let line = list.with_min_x(list.right() - 1.0);
     let handle = line.expand2(egui::vec2(REACH, 0.0));
-    // For the pointer alone: Tab leads to what the operator works with.
+    // For the pointer alone: Tab skips the divider.
     let id = ui.make_persistent_id("width of the pass list");
     let response = ui.interact(handle, id, Sense::CLICK | Sense::DRAG);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Width of the pass list"));

@@ -1,12 +1,11 @@
-//! The passes of the list whose satellite has the name or number that is
-//! looked for.
+//! The filter of the pass list by name or number of the satellite.
 
 use crate::{
     engine::passes::{PredictedPass, Scope},
     model::Model,
 };
 
-/// The passes that were found, kept until the list or the text changes.
+/// The found passes, kept until the list or the text changes.
 #[derive(Default)]
 pub(super) struct Found {
     made_of: Option<(String, Scope, u64, (usize, usize))>,
@@ -14,8 +13,8 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// The places of the passes in the list of `model` that `text` finds, in
-    /// order; `None` when nothing is looked for.
+    /// The indexes of the passes in the list of `model` that match `text`, in order; `None`
+    /// without a filter.
     pub(super) fn places(&mut self, model: &Model, text: &str) -> Option<&[usize]> {
         if text.is_empty() {
             return None;

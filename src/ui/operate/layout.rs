@@ -1,4 +1,4 @@
-//! Where each part of the view stands in windows of every size.
+//! The layout of the view in windows of every size.
 
 use egui::{Rangef, Rect, pos2, vec2};
 
@@ -7,21 +7,20 @@ use crate::ui::{banner, top_bar};
 
 const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
-/// The operator draws the list no wider than this, and only as long as the sky
-/// plot keeps its least width.
+/// Maximum width of the list; the sky plot always keeps its minimum width.
 const MAX_LIST: f32 = 480.0;
 const MIN_SKY: f32 = 480.0;
 const STRIP: f32 = 208.0;
 const SMALL_STRIP: f32 = 80.0;
 const PROFILE: f32 = 392.0;
-/// The disc never grows beyond this; the strip below gets the rest.
+/// Maximum size of the sky plot; the strip below gets the rest.
 const MAX_SKY: f32 = 2.0 * (420.0 + 36.0);
 
-/// Below this width of the window the list becomes a drawer.
+/// In a window below this width the list is a drawer.
 const DRAWER_BELOW: f32 = 1200.0;
-/// Below this width of the window the rows lose their thumbnails.
+/// Minimum width of a window for thumbnails in the rows.
 const THUMBNAILS_FROM: f32 = 1360.0;
-/// Below this height of the window there is one short strip.
+/// In a window below this height there is one short strip.
 const TALL_FROM: f32 = 800.0;
 
 /// The parts of the view.
@@ -30,10 +29,10 @@ pub(super) struct Areas {
     pub(super) header: Rect,
     pub(super) sky: Rect,
     pub(super) card: Rect,
-    /// The strip of the demo station, where it stands beside the card.
+    /// The strip of the demo station, if it is beside the card.
     pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
-    /// Least and greatest width of a list beside the plot; none for a drawer.
+    /// Min and max width of a list beside the plot; none for a drawer.
     pub(super) list_widths: Option<Rangef>,
     pub(super) timeline: Option<Rect>,
     pub(super) profile: Option<Rect>,
@@ -42,7 +41,7 @@ pub(super) struct Areas {
 }
 
 impl Areas {
-    /// `list_width` is the one that the operator has drawn, if any.
+    /// `list_width` is the operator's choice, if any.
     pub(super) fn of(
         window: Rect,
         rect: Rect,

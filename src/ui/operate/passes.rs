@@ -24,7 +24,6 @@ use crate::{
     },
 };
 
-/// Shows the list of passes.
 pub(super) fn list(
     ui: &mut Ui,
     rect: Rect,
@@ -102,8 +101,7 @@ fn selected_key(model: &Model) -> Option<PassKey> {
     model.selected_pass().map(PredictedPass::key)
 }
 
-/// Shows the header of the selected pass; `true` when its drawer button was
-/// clicked.
+/// Shows the header of the selected pass; returns `true` when its drawer button was clicked.
 pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> bool {
     let Some(predicted) = model.selected_pass() else {
         let empty = PassHeaderModel {
@@ -148,7 +146,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     )
 }
 
-/// What matters most comes first: the end has no room in a small window.
+/// The second line of the header, most important first: the end is cut in a small window.
 fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
     let mask = model.sky.mask_cut.cut().map(clear_of_mask);
     let elements = Some(format!("elements {} old", format::age(age_s)));
@@ -172,7 +170,7 @@ fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
     words::capitalised(&parts.join(" · "))
 }
 
-/// When a pass that the horizon mask cuts is clear of it.
+/// The times in which a pass is clear of the horizon mask.
 fn clear_of_mask(stretches: &[Pass]) -> String {
     let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else {
         return "never clear of the mask".to_owned();
@@ -183,7 +181,6 @@ fn clear_of_mask(stretches: &[Pass]) -> String {
     format!("clear of the mask{parts} {from} to {to}")
 }
 
-/// Shows the strip of the next hours.
 pub(super) fn timeline(
     ui: &mut Ui,
     rect: Rect,
@@ -222,7 +219,6 @@ pub(super) fn timeline(
     commands.extend(timeline::show(ui, rect, &strip).map(UiCommand::SelectPass));
 }
 
-/// Shows the profile of the selected pass.
 pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
     let Some(predicted) = model.selected_pass() else {
         return profile::show(ui, rect, None);

@@ -19,14 +19,13 @@ use crate::{
     },
 };
 
-/// Doppler is shown for this carrier.
+/// Carrier for the shown Doppler shift.
 const CARRIER_HZ: f64 = 437.0e6;
-/// A lower plot shows the direction only.
+/// Minimum height of a plot for the full readout.
 const FULL_READOUT_FROM: f32 = 520.0;
-/// The beam view shows the errors of this long.
+/// Span of the errors in the beam view.
 const RECENT_S: f64 = 60.0;
 
-/// Shows the plot.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -97,7 +96,7 @@ pub(super) fn show(
     commands.extend(clicked.map(UiCommand::SelectSatellite));
 }
 
-/// The numbers in the corners; a low plot has room for the direction only.
+/// The readout; a low plot has room for the direction only.
 fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
     let Some(selected) = model.sky.selected else { return Vec::new() };
     let look = selected.look;
@@ -116,18 +115,18 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
     direction.into_iter().chain(motion.into_iter().filter(|_| full)).collect()
 }
 
-/// Where the antenna was sent: by the operator, or for what is followed.
+/// The commanded direction: from the operator or from program track.
 fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
     let snapshot = &antenna.snapshot;
     let follows = snapshot.program_track.as_ref().filter(|_| antenna.follows());
     snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 
-/// How long the antenna has not been heard, if that is so.
+/// Time since the last report of an antenna with a lost link.
 fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let since = match antenna.snapshot.link {
         LinkState::Lost { since, .. } => since,
-        // It is left to others, who may have turned it since then.
+        // The antenna is left to others, who may have turned it since.
         LinkState::Off => antenna.snapshot.state.measured?.received,
         LinkState::Connecting { .. } | LinkState::Up { .. } | LinkState::Stale { .. } => {
             return None;
@@ -148,7 +147,7 @@ fn keep_outs<'a>(model: &'a Model, antenna: &AntennaModel) -> Vec<KeepOutMark<'a
     .collect()
 }
 
-/// The antenna while its azimuth is known, and its elevation is not.
+/// The bearing of an antenna with known azimuth and unknown elevation.
 fn bearing<'a>(
     antenna: &'a AntennaModel,
     state: &OperateState,
@@ -168,7 +167,7 @@ fn bearing<'a>(
     })
 }
 
-/// The way of a go-to that is typed but not sent.
+/// The preview of a typed but unsent go-to: from, to.
 fn ghost(antenna: &AntennaModel, state: &OperateState) -> Option<(AzEl, AzEl)> {
     if matches!(antenna.snapshot.stop, StopState::Stopping { .. }) {
         return None;
@@ -179,7 +178,7 @@ fn ghost(antenna: &AntennaModel, state: &OperateState) -> Option<(AzEl, AzEl)> {
     Some((from, AzEl::from_degrees(target.azimuth_deg, elevation_deg)))
 }
 
-/// Across and upwards, degrees; across is seen on the sky, not on the horizon.
+/// Errors across and upwards, degrees; across is measured on the sky, not on the horizon.
 fn recent_errors(antenna: &AntennaModel) -> Vec<(f32, f32)> {
     let Some(newest) = antenna.errors.back() else { return Vec::new() };
     let elevation =

@@ -1,4 +1,4 @@
-//! A name or a number that the listed passes must have.
+//! The filter of the list by name or number.
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, UiBuilder, WidgetInfo, vec2};
 
@@ -13,7 +13,7 @@ pub(super) const HEIGHT: f32 = 36.0;
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
 
-/// What the operator looks for in the list.
+/// The filter text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Filter {
     pub(super) is_open: bool,
@@ -22,12 +22,12 @@ pub struct Filter {
 }
 
 impl Filter {
-    /// The next text that is typed goes here.
+    /// Opens the filter and gives it the keyboard focus.
     pub fn open(&mut self) {
         (self.is_open, self.wants_focus) = (true, true);
     }
 
-    /// What is looked for; empty for all.
+    /// The filter text; empty for all passes.
     pub fn text(&self) -> &str {
         if self.is_open { self.typed.trim() } else { "" }
     }

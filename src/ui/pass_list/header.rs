@@ -1,5 +1,4 @@
-//! Title and count, and the choice of satellites, span and lowest maximum
-//! elevation.
+//! Title and count, and the choice of satellites, span and elevation floor.
 
 use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -29,7 +28,7 @@ const GAP: f32 = 8.0;
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
 const SCOPES: f32 = 116.0;
-/// Floors closer than this are the same.
+/// Floors closer than this count as equal.
 const SAME_DEG: f64 = 0.05;
 
 pub(super) fn show(
@@ -97,7 +96,7 @@ fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
     })
 }
 
-/// The button that opens the filter.
+/// Shows the button that opens the filter.
 fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
     let t = theme::tokens(ui);
     let response = paint::control(ui, "open filter", place, Role::Button, true, "Filter the list");
@@ -112,7 +111,7 @@ fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
     }
 }
 
-/// A button at the right end of a line that opens choices below it.
+/// A drop-down button at the right end of a line.
 struct Menu {
     salt: &'static str,
     name: &'static str,

@@ -1,14 +1,13 @@
-//! Where a pass stands now, in words.
+//! The phase of a pass, in words.
 
 use jiff::Timestamp;
 
 use super::PassRow;
 use crate::{astro::time::seconds_between, ui::format};
 
-/// Where a pass stands now.
+/// Phase of a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Phase {
-    /// It has not begun.
     Upcoming,
     /// The satellite is up and sets within the list.
     InProgress,
@@ -16,12 +15,11 @@ pub(super) enum Phase {
     NoLos,
     /// The satellite neither rises nor sets within the list.
     AllTheTime,
-    /// It is over.
     Over,
 }
 
 impl Phase {
-    /// Whether the satellite is up now and the pass has an end to wait for.
+    /// Returns `true` if the satellite is up now and the pass has a LOS.
     pub(super) fn is_in_progress(self) -> bool {
         matches!(self, Self::InProgress | Self::NoLos)
     }
@@ -41,8 +39,7 @@ impl Phase {
     }
 }
 
-/// What the row counts to: a word before the time, which may be empty, and the
-/// time.
+/// The countdown of the row: a word before the time, which may be empty, and the time.
 pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'static str, String) {
     match phase {
         Phase::Upcoming => ("", format::countdown(seconds_between(now, row.aos))),
@@ -53,7 +50,7 @@ pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'s
     }
 }
 
-/// How much of the pass is over, 0 to 1. None when an end of it is not known.
+/// Elapsed part of the pass, 0 to 1. `None` if one of its ends is unknown.
 pub(super) fn progress(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> Option<f32> {
     if phase != Phase::InProgress || row.starts_before {
         return None;
@@ -63,8 +60,7 @@ pub(super) fn progress(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> Optio
     (whole_s > 0.0).then(|| (done_s / whole_s).clamp(0.0, 1.0) as f32)
 }
 
-/// Azimuth of AOS and LOS; an end that is outside the list is an ellipsis.
-/// Empty without either.
+/// Azimuths of AOS and LOS; an ellipsis for an end outside the list. Empty if both are.
 pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     if row.starts_before && row.ends_after {
         return String::new();
@@ -77,8 +73,7 @@ pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     format!("{from} → {to}")
 }
 
-/// How long the pass lasts; a pass that reaches out of the list lasts longer.
-/// Empty without AOS and LOS.
+/// Duration of the pass, with ">" if one end is outside the list. Empty if both are.
 pub(super) fn duration(row: &PassRow<'_>) -> String {
     let known = format::duration(seconds_between(row.aos, row.los));
     match (row.starts_before, row.ends_after) {
@@ -88,7 +83,7 @@ pub(super) fn duration(row: &PassRow<'_>) -> String {
     }
 }
 
-/// Time of AOS; a dash when it was before the list, empty without AOS and LOS.
+/// Time of AOS; a dash if it lies before the list, empty if LOS also lies after the list.
 pub(super) fn aos_time(row: &PassRow<'_>) -> String {
     match (row.starts_before, row.ends_after) {
         (false, _) => format::time_z(row.aos),
@@ -97,7 +92,7 @@ pub(super) fn aos_time(row: &PassRow<'_>) -> String {
     }
 }
 
-/// The name for those who do not see the row.
+/// The row for screen readers.
 pub(super) fn spoken(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> String {
     let (word, time) = countdown(row, phase, now);
     let word = match phase {

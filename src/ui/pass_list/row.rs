@@ -1,4 +1,4 @@
-//! One pass: thumbnail, three lines, progress.
+//! A row of the list: thumbnail, three lines, progress.
 
 use egui::{Align2, Color32, FontId, Rect, Stroke, StrokeKind, Ui, pos2};
 use jiff::Timestamp;
@@ -21,20 +21,20 @@ use crate::ui::{
 pub(super) const HEIGHT: f32 = 74.0;
 
 const PADDING: f32 = 16.0;
-/// From the thumbnail to the text.
+/// Gap between thumbnail and text.
 const GAP: f32 = 12.0;
 /// Centres of the three lines from the top of the row.
 const LINES: [f32; 3] = [20.0, 38.5, 56.0];
-/// From the maximum elevation to the azimuths.
+/// Distance from the maximum elevation to the azimuths.
 const AZIMUTHS: f32 = 62.0;
 /// Width kept for the duration.
 const DURATION: f32 = 80.0;
-/// Between columns.
+/// Gap between columns.
 const COLUMN_GAP: f32 = 8.0;
-/// The bar of the selected row and the line of progress.
+/// Thickness of the bar of the selected row and of the progress line.
 const BAR: f32 = 3.0;
 
-/// How a row is shown beside its own content.
+/// Appearance of a row, apart from its content.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Look {
     pub(super) selected: bool,
@@ -43,7 +43,7 @@ pub(super) struct Look {
     pub(super) thumbnail: bool,
 }
 
-/// Paints the row into `rect`. Returns whether a text in it had to be cut.
+/// Paints the row in `rect`. Returns `true` if a text was cut.
 pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look: Look) -> bool {
     let t = theme::tokens(ui);
     let phase = Phase::of(row, now);
@@ -89,7 +89,7 @@ fn ground(ui: &Ui, rect: Rect, phase: Phase, look: Look, t: &Tokens) {
     }
 }
 
-/// Name and countdown. Returns whether the name was cut.
+/// Paints name and countdown. Returns `true` if the name was cut.
 fn name_line(
     ui: &Ui,
     rect: Rect,
@@ -113,7 +113,7 @@ fn name_line(
     elided(ui, room, row.name, text::sized(13.0, Weight::SemiBold), t.t1)
 }
 
-/// Maximum elevation, azimuths and duration.
+/// Paints maximum elevation, azimuths and duration.
 fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     let small = text::small;
     let maximum = format!("max {}", format::degrees(row.max_elevation_deg, 0));
@@ -125,7 +125,7 @@ fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &phase::duration(row), small(), t.t2);
 }
 
-/// Verdict and time of AOS. Returns whether the verdict was cut.
+/// Paints verdict and time of AOS. Returns `true` if the verdict was cut.
 fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     let at = rect.right_center();
     let time = phase::aos_time(row);
@@ -143,7 +143,7 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     elided(ui, room, &verdict.sentence(), text::small(), colour)
 }
 
-/// A text from the left that gives way. Returns whether it was cut.
+/// Paints a text from the left, cut with an ellipsis. Returns `true` if it was cut.
 fn elided(ui: &Ui, room: Rect, text: &str, font: FontId, colour: Color32) -> bool {
     let cut = paint::text_width(ui, text, font.clone()) > room.width();
     paint::text_in(ui, room, Align2::LEFT_CENTER, text, font, colour);

@@ -22,8 +22,8 @@ pub(super) fn show(
     let is_news = state.is_news(model.selected);
     let selected = model.selected.filter(|_| is_news).and_then(model.place);
     let gone = state.rows_gone_above(model);
-    // Of this column and not of the scrolled part, so that a row keeps its id
-    // wherever it stands.
+    // An id of this column and not of the scroll area, so that a row keeps its id at any
+    // scroll position.
     let list = ui.make_persistent_id("passes");
     ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
@@ -43,8 +43,8 @@ pub(super) fn show(
             if let Some(index) = selected {
                 into_view(ui, place(index));
             }
-            // One row above those in view, so that the focus finds it; below, there is
-            // one already.
+            // One more row above those in view, so that the focus can reach it; below there is one
+            // already.
             for index in range.start.saturating_sub(1)..range.end {
                 let Some(pass) = (model.row)(index) else { continue };
                 let response = one(ui, list, place(index), &pass, model);
@@ -101,7 +101,7 @@ fn step(ui: &Ui, index: usize, rows: usize) -> Option<usize> {
     if up == 0 && down == 0 {
         return None;
     }
-    // The keys would also move the focus to whatever stands above or below.
+    // The arrow keys would also move the focus to a control above or below.
     ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
     let target = (index + down).saturating_sub(up).min(rows.saturating_sub(1));
     (target != index).then_some(target)
@@ -112,8 +112,8 @@ fn focus(ui: &Ui, id: Id, rect: Rect) {
     into_view(ui, rect);
 }
 
-/// At once, because nothing slides; and a row that is still on its way would
-/// not be there to take the focus.
+/// Scrolls to `rect` without animation: a row that is still sliding in could not take the
+/// focus.
 fn into_view(ui: &Ui, rect: Rect) {
     ui.scroll_to_rect_animation(rect, None, ScrollAnimation::none());
 }

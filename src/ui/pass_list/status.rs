@@ -1,5 +1,4 @@
-//! What is being done for a long list: how far the search has come, and the
-//! buttons that end it or begin it again.
+//! The status of a long search: its progress, and the buttons that end or resume it.
 
 use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
@@ -21,7 +20,7 @@ pub(super) const HEIGHT: f32 = 36.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
-/// Thickness of the bar.
+/// Thickness of the progress bar.
 const BAR: f32 = 3.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {

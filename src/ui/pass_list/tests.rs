@@ -20,10 +20,10 @@ fn now() -> Timestamp {
     "2026-11-14T11:06:12Z".parse().unwrap()
 }
 
-/// What the window holds from frame to frame.
+/// State of the test window, kept from frame to frame.
 struct Desk {
     rows: usize,
-    /// So many passes are over and gone.
+    /// Number of passes that are over and gone.
     gone: usize,
     scope: Scope,
     span_h: u32,
@@ -34,7 +34,7 @@ struct Desk {
     thumbnails: bool,
     actions: Vec<UiCommand>,
     state: PassListState,
-    /// The highest index that was asked for.
+    /// The highest requested index.
     highest: Rc<Cell<usize>>,
 }
 

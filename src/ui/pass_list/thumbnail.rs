@@ -1,4 +1,4 @@
-//! The path of a pass over the sky, small.
+//! A small picture of the path of a pass over the sky.
 
 use egui::{Pos2, Rect, Shape, Stroke, Ui, Vec2, pos2};
 
@@ -7,9 +7,9 @@ use crate::{astro::AzEl, plan::Sample, ui::theme};
 /// Width and height, in points.
 pub(super) const SIDE: f32 = 48.0;
 
-/// Points shorter than this apart would only roughen the line.
+/// Minimum distance between points; closer ones would only roughen the line.
 const STEP: f32 = 0.75;
-/// Room for the marks that stand on the rim.
+/// Room for the marks on the rim.
 const MARGIN: f32 = 2.0;
 
 /// Paints the path in the middle of `rect`: north up, east right, a dot where
@@ -42,7 +42,7 @@ fn arrow(tip: Pos2, along: Vec2, stroke: Stroke) -> Shape {
     Shape::convex_polygon(vec![tip, foot + side, foot - side], stroke.color, stroke)
 }
 
-/// The path on the screen, without points that stand on each other.
+/// The path on the screen, without coinciding points.
 fn points(path: &[Sample], centre: Pos2, radius: f32) -> Vec<Pos2> {
     let mut points: Vec<Pos2> = Vec::new();
     for sample in path {
@@ -54,7 +54,7 @@ fn points(path: &[Sample], centre: Pos2, radius: f32) -> Vec<Pos2> {
     points
 }
 
-/// Where a direction stands; what is below the horizon stands on the rim.
+/// The point of a direction; on the rim for one below the horizon.
 fn project(direction: AzEl, centre: Pos2, radius: f32) -> Option<Pos2> {
     let (azimuth, elevation_deg) = (direction.azimuth.radians(), direction.elevation_deg());
     if !azimuth.is_finite() || !elevation_deg.is_finite() {

@@ -1,4 +1,4 @@
-//! What was asked for on the card.
+//! Turns the actions of the card into commands.
 
 use crate::{
     astro::{Angle, AzEl},
@@ -14,10 +14,9 @@ use crate::{
     },
 };
 
-/// Takes what was asked for.
+/// Turns actions of the card into commands.
 pub(super) struct Desk<'a> {
     pub(super) model: &'a Model,
-    /// The antenna whose card is shown.
     pub(super) antenna: &'a AntennaModel,
     pub(super) question: &'a mut Option<Question>,
     pub(super) commands: &'a mut Vec<UiCommand>,
@@ -108,7 +107,7 @@ impl Desk<'_> {
         self.commands.push(self.for_antenna(command));
     }
 
-    /// Asked about while something would go on unwatched.
+    /// Disconnects, after a question if something would go on unwatched.
     fn disconnect(&mut self) {
         let command = self.for_antenna(Command::Disconnect);
         let snapshot = &self.antenna.snapshot;

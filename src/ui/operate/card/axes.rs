@@ -17,7 +17,7 @@ use crate::{
 
 pub(super) type Row = AxisRow<'static>;
 
-/// The angles of the sky that the antenna turns, wanted and measured.
+/// Rows of the axes table.
 pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
     let snapshot = &antenna.snapshot;
     let actual = snapshot.state.measured.map(|measured| measured.pointing);
@@ -49,7 +49,7 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
     std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
 }
 
-/// The axes in their travel. What turns something else has none of its own.
+/// Travel gauges. A rotator that turns something else gets none.
 pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured;
@@ -76,7 +76,7 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     axes.enumerate().map(gauge).collect()
 }
 
-/// What the jog keys turn.
+/// The pair of axes that the jog keys turn.
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     match antenna.config.mount {
         Mount::Xy { .. } => JogKeys::Xy,
@@ -85,8 +85,7 @@ pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     }
 }
 
-/// Directions in which a limit switch is set, or in which nobody would see the
-/// axis turn.
+/// Directions in which a limit switch is set, or whose axis has no known angle.
 pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection> {
     let unseen = measured.axes.map(|axis| axis.angle_deg.is_none() && !can.ends_jogs);
     let [x, y] = measured.axes;
@@ -102,7 +101,7 @@ pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection
     .collect()
 }
 
-/// Which axes are not turned because nobody would see it.
+/// A sentence about the axes that are not jogged because their angle is unknown.
 pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
@@ -117,8 +116,8 @@ pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
     }
 }
 
-/// How fast the axis turns that is jogged, degrees a second, signed. Where the
-/// speeds have names it is measured, else it is what the unit was told.
+/// The signed rate of the jogged axis, degrees per second: measured for named speeds,
+/// otherwise as commanded.
 pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     let can = antenna.variant().capabilities;
     let jog = antenna.snapshot.jog?;

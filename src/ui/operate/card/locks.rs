@@ -1,23 +1,23 @@
-//! Why something cannot be asked for now.
+//! The reasons why controls of the card are locked.
 
 use crate::{
     driver::{Intent, LinkState},
     engine::antenna::AntennaModel,
 };
 
-/// Why something cannot be asked for now, each in a sentence.
+/// The reasons why controls are locked, each in a sentence.
 pub(super) struct Locks {
-    /// Anything at all.
+    /// For all controls.
     pub(super) link: Option<&'static str>,
     pub(super) jog: Option<&'static str>,
     pub(super) go_to: Option<&'static str>,
     pub(super) track: Option<&'static str>,
-    /// What only this make can do, where metal moves by it.
+    /// For actions of the make that move metal.
     pub(super) action: Option<&'static str>,
 }
 
 impl Locks {
-    /// `has_checks` says whether the card has a place where faults are named.
+    /// `has_checks`: the card has a section that names faults.
     pub(super) fn of(antenna: &AntennaModel, has_checks: bool) -> Self {
         let snapshot = &antenna.snapshot;
         let intent = snapshot.intent;
@@ -65,8 +65,7 @@ impl Locks {
     }
 }
 
-/// Why the antenna cannot be sent to a direction, whatever the operator does
-/// here.
+/// The reason why the antenna cannot be sent to a direction at all.
 fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
     let can = antenna.variant().capabilities;
     if !can.takes_positions {
