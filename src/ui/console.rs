@@ -1,5 +1,5 @@
-//! The Console view: what goes over the links, line by line, with its meaning,
-//! and a line from which questions can be sent.
+//! The Console view: the traffic on the links, line by line with its meaning, and a line
+//! for sending questions.
 
 mod bar;
 mod inspector;
@@ -21,12 +21,12 @@ use crate::model::{Line, Model, UiCommand};
 use log::{Filter, Log};
 use selection::Selection;
 
-/// Below this width of the window the inspector is there when asked for.
+/// In a window below this width the inspector is a drawer.
 const DRAWER_BELOW: f32 = 1100.0;
 const INSPECTOR: f32 = 344.0;
 const PADDING: f32 = 16.0;
 
-/// What the operator sees, typed and selected.
+/// Shown lines, input and selection.
 #[derive(Default)]
 pub struct ConsoleState {
     log: Log,
@@ -38,17 +38,17 @@ pub struct ConsoleState {
     is_paused: bool,
     inspector_is_open: bool,
     typed: String,
-    /// What came of the last saving.
+    /// Outcome of the last saving.
     saved: Option<Result<PathBuf, String>>,
 }
 
 impl ConsoleState {
-    /// The next text that is typed is a filter.
+    /// Gives the filter field the keyboard focus.
     pub fn focus_filter(&mut self) {
         self.filter_wants_focus = true;
     }
 
-    /// The shown lines were saved here, or not, and why.
+    /// Takes the outcome of saving the shown lines: the path or the error.
     pub fn saved(&mut self, result: Result<PathBuf, String>) {
         self.saved = Some(result);
     }
@@ -57,7 +57,7 @@ impl ConsoleState {
         self.log.line(self.selection.cursor()?)
     }
 
-    /// The selected lines as text; nothing when none is selected.
+    /// Copies the selected lines as text, if any.
     fn copy(&self, ui: &Ui) {
         let chosen = self.selection.among(self.log.shown());
         let lines: Vec<String> =
@@ -68,7 +68,7 @@ impl ConsoleState {
     }
 }
 
-/// Draws the view. `window` decides whether there is room for the inspector.
+/// Draws the view. The inspector has room beside the log if `window` is wide enough.
 pub fn show(
     ui: &mut Ui,
     window: Rect,
@@ -109,7 +109,7 @@ pub fn show(
     }
 }
 
-/// While it is paused nothing is taken; it is recorded all the same.
+/// Takes new lines into the view, except while it is paused; recording goes on.
 fn take_new_lines(ui: &Ui, model: &Model, state: &mut ConsoleState) {
     state.log.set_filter(&state.filter);
     if state.is_paused {

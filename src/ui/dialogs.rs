@@ -1,5 +1,4 @@
-//! Questions that stand before everything else until they are answered. Esc
-//! says no, and is STOP besides, as everywhere.
+//! Modal questions. Esc says no, and is also STOP, as everywhere.
 
 pub mod closing;
 mod maintenance;
@@ -19,24 +18,22 @@ use crate::{engine::host_keys::DoubtfulKey, model::UiCommand};
 
 const WIDTH: f32 = 400.0;
 
-/// What the operator said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answer {
-    /// Yes.
     Yes,
     /// No, or Esc.
     No,
 }
 
-/// Asks `words`; `yes` is the word of the button that agrees, and Enter.
+/// Asks `words`; `yes` is the text of the button that agrees, as does Enter.
 pub fn question(ui: &Ui, words: &str, yes: &str) -> Option<Answer> {
     ask(ui, "question", yes, true, |ui| {
         ui.label(RichText::new(words).font(text::body()));
     })
 }
 
-/// Asks about a host key that was never seen before. Enter says nothing here:
-/// the fingerprint is to be compared first.
+/// Asks about a host key that was never seen before. Enter does nothing here, as the operator
+/// must compare the fingerprint first.
 pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
     ask(ui, "host key", "It is the right key", false, |ui| {
         let t = theme::tokens(ui);
@@ -51,8 +48,8 @@ pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
     })
 }
 
-/// Says that a host key was refused, with both fingerprints and what to do.
-/// `forget` is what forgets the known key; it is asked about once more.
+/// Reports a refused host key, with both fingerprints and what to do. `forget` is the command
+/// that forgets the known key; it takes a second confirmation.
 pub fn changed_key(
     ui: &mut Ui,
     key: &DoubtfulKey,

@@ -1,5 +1,5 @@
-//! The Elements view: where elements come from and how old they are, and the
-//! catalog to search and to follow satellites from.
+//! The Elements view: the sources of elements with their ages, and the catalog, where
+//! the operator searches and marks favourites.
 
 mod add;
 mod search;
@@ -25,7 +25,7 @@ const NARROW_CATALOG_WIDTH: f32 = 360.0;
 const SMALL_BELOW: f32 = 1100.0;
 const PADDING: f32 = 16.0;
 
-/// What was typed and found.
+/// Input and search results.
 #[derive(Default)]
 pub struct ElementsState {
     add: add::AddState,
@@ -34,15 +34,15 @@ pub struct ElementsState {
 }
 
 impl ElementsState {
-    /// The next text that is typed is a search.
+    /// Gives the search field the keyboard focus.
     pub fn focus_search(&mut self) {
         self.search.focus();
     }
 }
 
-/// Draws the view. `settings_are_edited`: the station's settings are typed and
-/// not saved, so that they must not change. Returns the place of what is sent to
-/// the selected unit, when that is open in place of the catalog.
+/// Draws the view. `settings_are_edited`: the station's settings have unsaved edits and must
+/// not change. Returns the place for the upload to the selected unit, when it is open in
+/// place of the catalog.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,

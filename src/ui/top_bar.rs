@@ -22,31 +22,29 @@ pub use clock::{ClockHealth, ClockModel, ClockMood};
 pub const HEIGHT: f32 = 56.0;
 /// Height of the bar in a low window.
 pub const SMALL_HEIGHT: f32 = 48.0;
-/// Below this height of the window the bar is small.
+/// In a window below this height the bar is small.
 pub const SMALL_BELOW: f32 = 800.0;
-/// Below this width local time and date move to a tool-tip.
+/// Minimum width for date and local time; below it they move to a tool-tip.
 const DATE_FROM: f32 = 1360.0;
-/// Below this width the chips have one line.
+/// Minimum width for chips with two lines.
 const TWO_LINES_FROM: f32 = 1200.0;
 
-/// All that the bar shows.
+/// Content of the bar.
 #[derive(Debug, Clone, Copy)]
 pub struct TopBarModel<'a> {
-    /// Name of the station.
     pub station: &'a str,
-    /// Where it is.
+    /// Coordinates of the station.
     pub coordinates: &'a str,
     /// Times and date.
     pub clock: ClockModel<'a>,
     /// One chip for each antenna, in the order of the keys F1 to F4.
     pub chips: &'a [ChipModel<'a>],
-    /// Alarms.
     pub alarms: AlarmModel<'a>,
-    /// What became of the last STOP.
+    /// Outcome of the last STOP.
     pub stop: StopLook<'a>,
-    /// What STOP does, in a sentence or more.
+    /// Effect of STOP, in a sentence or more.
     pub stop_about: &'a str,
-    /// Which antennas STOP leaves alone, and why; empty if none.
+    /// The antennas that STOP leaves alone, and why; empty if none.
     pub stop_left_out: &'a str,
 }
 
@@ -55,8 +53,8 @@ pub fn height(window_height: f32) -> f32 {
     if window_height < SMALL_BELOW { SMALL_HEIGHT } else { HEIGHT }
 }
 
-/// Shows the bar in `rect`. Draw it before anything else: STOP is the first
-/// control in the order of Tab.
+/// Shows the bar in `rect`. Call before anything else is drawn, so that STOP is first in Tab
+/// order.
 pub fn show(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>) -> Vec<UiCommand> {
     let mut commands = Vec::new();
     let builder = UiBuilder::new().id_salt("top bar").max_rect(rect);
@@ -139,7 +137,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     alarm_list::show(ui, alarms, &model.alarms, !wide, commands);
 }
 
-/// A mark between the alarms and STOP: not every antenna is stopped from here.
+/// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
 fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
     let t = theme::tokens(ui);
     let place = paint::square(rect.center(), rect.width().min(12.0));
@@ -147,8 +145,8 @@ fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
     paint::name_text(ui, "left out of stop", rect, words).on_hover_text(words);
 }
 
-/// STOP has a layer of its own above everything, so that it works while a
-/// dialog is open.
+/// Shows STOP in a layer of its own above everything, so that it works while a dialog is
+/// open. Returns `true` when it was clicked.
 fn stop_clicked(ui: &Ui, rect: Rect, model: &TopBarModel<'_>) -> bool {
     Area::new(Id::unique("stop layer"))
         .order(Order::Tooltip)

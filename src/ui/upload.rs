@@ -1,5 +1,5 @@
-//! Elements to a unit: the choice of satellites, the way to the unit, how far
-//! it is, what came of it, and what can be put back.
+//! The upload of elements to a unit: choice of satellites, connection, progress, outcome,
+//! and earlier files to restore.
 
 mod chosen;
 mod form;
@@ -32,20 +32,18 @@ use crate::{
 };
 use form::Form;
 
-/// What was typed and chosen, for every antenna by its name. No failure takes
-/// anything of it.
+/// Input and choices for every antenna, by its name. A failure leaves them as they are.
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
-    /// The stage that was shown last: a new one is brought into sight.
+    /// The stage that was shown last; a new one is scrolled into sight.
     stage: Option<Discriminant<Stage>>,
     questions: questions::Questions,
     question: Option<Question>,
 }
 
-/// Draws the part for the antenna with the index `antenna`, as wide as the
-/// place in `ui` and as high as it gets; made for 300 to 560 points. Its
-/// questions stand before everything else.
+/// Draws the upload for the antenna with the index `antenna`, as wide as `ui` and as high as
+/// needed; designed for 300 to 560 points. Its questions are modal.
 pub fn show(
     ui: &mut Ui,
     model: &Model,
@@ -96,7 +94,7 @@ pub fn show(
     Question::show(&mut state.question, ui, commands);
 }
 
-/// The button, and why it cannot be pressed.
+/// Shows the send button, and below it the reason why nothing can be sent.
 fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut Vec<UiCommand>) {
     let can = order.is_ok() && !model.uploads.stage.is_open();
     let button = Button::primary("Upload and prove").locked(!can);

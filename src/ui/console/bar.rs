@@ -1,4 +1,4 @@
-//! The controls above the log, and what is said below it.
+//! The controls above the log, and the status line below it.
 
 use egui::{
     Align, Align2, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder, WidgetInfo, pos2,
@@ -26,10 +26,10 @@ const GAP: f32 = 8.0;
 const TITLE: f32 = 88.0;
 const ANTENNA: f32 = 128.0;
 const POLLS: f32 = 100.0;
-/// The chosen antenna is none in particular.
+/// The choice without a particular antenna.
 const ALL: &str = "All antennas";
 
-/// Draws the controls. `has_drawer`: the inspector opens with a button.
+/// Draws the controls. `has_drawer`: a button opens the inspector.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -78,7 +78,7 @@ fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
     });
 }
 
-/// Draws the buttons from the right end and returns where they begin.
+/// Draws the buttons from the right end and returns their left end.
 fn buttons(
     ui: &Ui,
     inner: Rect,
@@ -119,7 +119,7 @@ fn buttons(
     right
 }
 
-/// Says how many lines there are, and what came of the last saving.
+/// Shows the number of lines and the outcome of the last saving.
 pub(super) fn show_strip(ui: &Ui, rect: Rect, state: &ConsoleState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);

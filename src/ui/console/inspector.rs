@@ -1,5 +1,5 @@
-//! Everything about the selected line: its values by their number in the
-//! document, and its bytes.
+//! Details of the selected line: its values by their number in the make's document,
+//! and its bytes.
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
@@ -23,7 +23,7 @@ const NUMBER: f32 = 24.0;
 /// Bytes in a line of the dump.
 const BYTES: usize = 8;
 
-/// Draws the panel. In a drawer it can be closed.
+/// Draws the panel, in a drawer with a close button.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -87,7 +87,7 @@ fn details(ui: &mut Ui, line: &Line, explained: Option<&Explained>) {
     });
 }
 
-/// The line as the make of its antenna takes it apart.
+/// The line as parsed by the make of its antenna.
 fn explained(model: &Model, line: &Line) -> Option<Explained> {
     let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
     let explain = antenna.and_then(|antenna| antenna.spec().explain);

@@ -1,4 +1,4 @@
-//! A small table of how each link did lately.
+//! A table with recent statistics of each link.
 
 use egui::{Align2, Color32, Rect, Ui, vec2};
 
@@ -6,17 +6,16 @@ use super::{PADDING, tally::Tally};
 use crate::ui::{format, text, theme, widgets::paint};
 
 const ROW: f32 = 22.0;
-/// Beyond so many antennas the rest is left out.
+/// Maximum number of antennas in the table.
 const MAX: usize = 6;
 /// Width of a column with a number.
 const NUMBER: f32 = 58.0;
 
-/// The height that the table of so many antennas takes.
+/// The height of the table for a number of antennas.
 pub(super) fn height(antennas: usize) -> f32 {
     (antennas.min(MAX) + 1) as f32 * ROW + 2.0 * PADDING
 }
 
-/// Draws the table.
 pub(super) fn show(ui: &Ui, rect: Rect, tallies: &[Tally]) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);

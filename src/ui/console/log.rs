@@ -1,19 +1,18 @@
-//! The lines of all antennas in the order of time, and those of them that are
-//! shown.
+//! The lines of all antennas in the order of time, and the filter for those shown.
 
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::driver::{MAX_LINES, WireLog};
 use crate::model::Line;
 
-/// What is shown of the log.
+/// The filter of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Filter {
     /// Only this antenna.
     pub(super) antenna: Option<String>,
     /// Only lines with this text.
     pub(super) needle: String,
-    /// Without the questions that are asked again and again.
+    /// Hides routine polls.
     pub(super) hides_polls: bool,
 }
 
@@ -24,7 +23,7 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Whether the line is shown, and whether it is left out only as a poll.
+    /// Decides whether the line is shown, left out, or left out only as a poll.
     fn judge(&self, line: &Line, needle: &str) -> Verdict {
         let is_other = self.antenna.as_ref().is_some_and(|name| **name != *line.antenna);
         if is_other || !(needle.is_empty() || line.has(needle)) {
@@ -43,23 +42,23 @@ enum Verdict {
     Other,
 }
 
-/// All lines, and those that are shown.
+/// All lines, and the positions of those shown.
 #[derive(Debug, Default)]
 pub(super) struct Log {
     lines: VecDeque<Arc<Line>>,
-    /// Position of the first line that is kept.
+    /// Position of the oldest kept line.
     first: u64,
     sources: Vec<Source>,
     filter: Filter,
-    /// Positions of the lines that are shown, in order.
+    /// Positions of the shown lines, in order.
     shown: VecDeque<u64>,
-    /// Positions of the polls that are left out, in order.
+    /// Positions of the hidden polls, in order.
     polls: VecDeque<u64>,
-    /// How many shown lines have gone from the front.
+    /// Number of shown lines dropped from the front.
     gone: u64,
 }
 
-/// The log of one antenna and how far it was read.
+/// The log of one antenna and the reading position in it.
 #[derive(Debug)]
 struct Source {
     antenna: Arc<str>,
@@ -68,8 +67,8 @@ struct Source {
 }
 
 impl Log {
-    /// Takes what is new in the logs of the antennas with these names. True
-    /// when there may be more.
+    /// Takes new lines from the logs of the antennas with these names. Returns `true` if there
+    /// may be more.
     pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
         self.take_up(logs);
         let mut batch = Vec::new();
@@ -79,8 +78,8 @@ impl Log {
                 batch.push((Arc::clone(&source.antenna), recorded));
             }
         }
-        // Each antenna's lines are in order; a clock that was set back keeps
-        // them so.
+        // The sort is stable and keeps each antenna's lines in order, also after the clock was
+        // set back.
         batch.sort_by_key(|(_, recorded)| recorded.line.at);
         for (antenna, recorded) in batch {
             let position = self.first + self.lines.len() as u64;
@@ -92,7 +91,7 @@ impl Log {
         self.waiting() > 0
     }
 
-    /// Follows the antennas that there are; lines of former ones stay.
+    /// Follows the present antennas; lines of former ones stay.
     fn take_up<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) {
         let mut before = std::mem::take(&mut self.sources);
         for (antenna, log) in logs {
@@ -123,13 +122,12 @@ impl Log {
         }
     }
 
-    /// How many lines have come since the last [`Self::pull`].
+    /// Number of lines received since the last [`Self::pull`].
     pub(super) fn waiting(&self) -> u64 {
         let ahead = |source: &Source| source.log.next_number().saturating_sub(source.next);
         self.sources.iter().map(ahead).sum()
     }
 
-    /// Shows other lines.
     pub(super) fn set_filter(&mut self, filter: &Filter) {
         if self.filter == *filter {
             return;
@@ -145,38 +143,37 @@ impl Log {
         self.lines = lines;
     }
 
-    /// The lines that are shown, by position.
+    /// Positions of the shown lines.
     pub(super) fn shown(&self) -> &VecDeque<u64> {
         &self.shown
     }
 
-    /// How many polls are left out.
+    /// Number of hidden polls.
     pub(super) fn hidden_polls(&self) -> usize {
         self.polls.len()
     }
 
-    /// How many shown lines have gone from the front since the last call.
+    /// Number of shown lines dropped from the front since the last call.
     pub(super) fn take_gone(&mut self) -> u64 {
         std::mem::take(&mut self.gone)
     }
 
-    /// The line at a position, as long as it is kept.
+    /// The line at a position, while it is kept.
     pub(super) fn line(&self, position: u64) -> Option<&Arc<Line>> {
         let at = usize::try_from(position.checked_sub(self.first)?).ok()?;
         self.lines.get(at)
     }
 
-    /// The names of the antennas that are followed.
+    /// Names of the followed antennas.
     pub(super) fn antennas(&self) -> impl Iterator<Item = &Arc<str>> {
         self.sources.iter().map(|source| &source.antenna)
     }
 
-    /// All lines, shown or not, the newest first.
+    /// All lines, shown or not, newest first.
     pub(super) fn newest_first(&self) -> impl Iterator<Item = &Arc<Line>> {
         self.lines.iter().rev()
     }
 
-    /// All lines that are shown.
     pub(super) fn all_shown(&self) -> impl Iterator<Item = &Arc<Line>> {
         self.shown.iter().filter_map(|position| self.line(*position))
     }

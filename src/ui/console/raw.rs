@@ -8,10 +8,10 @@ use egui::{
 use crate::model::{Piece, pieces};
 use crate::ui::{text, theme};
 
-/// Size of the names of bytes that cannot be printed.
+/// Font size for the names of unprintable bytes.
 const CODE_POINTS: f32 = 10.0;
 
-/// One line of bytes in `rect`, cut with an ellipsis at its width.
+/// Shows one line of bytes in `rect`, cut with an ellipsis at its width.
 pub(super) fn show(ui: &Ui, rect: Rect, bytes: &[u8], colour: Color32) {
     let mut job = job(ui, bytes, colour);
     job.wrap = TextWrapping::truncate_at_width(rect.width());
@@ -20,7 +20,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, bytes: &[u8], colour: Color32) {
     ui.painter().galley(at, galley, colour);
 }
 
-/// Text with the bytes that cannot be printed as small tags.
+/// The text layout, with unprintable bytes as small tags.
 fn job(ui: &Ui, bytes: &[u8], colour: Color32) -> LayoutJob {
     let t = theme::tokens(ui);
     let mut job = LayoutJob::default();

@@ -19,7 +19,7 @@ const ANTENNA: f32 = 92.0;
 const ARROW: f32 = 24.0;
 const ROUND_TRIP: f32 = 64.0;
 const GAP: f32 = 8.0;
-/// Part of the rest for the bytes; the meaning has the other.
+/// The bytes' part of the remaining width; the meaning has the rest.
 const RAW_PART: f32 = 0.56;
 
 /// The columns of a row.
@@ -53,7 +53,7 @@ impl Columns {
     }
 }
 
-/// The names of the columns.
+/// Paints the names of the columns.
 pub(super) fn head(ui: &Ui, rect: Rect, names_antenna: bool) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);
@@ -130,7 +130,7 @@ fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
     }
 }
 
-/// The row for those who do not see it.
+/// The row for screen readers.
 pub(super) fn spoken(line: &Line) -> String {
     let raw = line.raw.trim_end_matches("<CR><LF>");
     let went = match line.direction() {

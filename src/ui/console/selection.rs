@@ -1,4 +1,4 @@
-//! Which lines are selected, by mouse and keys.
+//! The selection of lines, by mouse and keys.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -6,25 +6,25 @@ use std::collections::{BTreeSet, VecDeque};
 #[derive(Debug, Default)]
 pub(super) struct Selection {
     chosen: BTreeSet<u64>,
-    /// Where a range begins.
+    /// Start of a range.
     anchor: Option<u64>,
-    /// The line that was chosen last.
+    /// The last chosen line.
     cursor: Option<u64>,
 }
 
-/// How a line is chosen.
+/// Mode of a selection step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Way {
-    /// Alone.
+    /// Selects only this line.
     Alone,
-    /// With all from the first one on.
+    /// Selects the range from the anchor to this line.
     Range,
-    /// Beside the others, or no longer.
+    /// Adds or removes this line.
     Toggle,
 }
 
 impl Selection {
-    /// The line that was chosen last.
+    /// The last chosen line.
     pub(super) fn cursor(&self) -> Option<u64> {
         self.cursor
     }
@@ -33,13 +33,13 @@ impl Selection {
         self.chosen.contains(&position)
     }
 
-    /// The selected ones of the lines in `shown`.
+    /// The selected lines in `shown`.
     pub(super) fn among<'a>(&'a self, shown: &'a VecDeque<u64>) -> impl Iterator<Item = u64> + 'a {
         let is_shown = |position: &&u64| shown.binary_search(position).is_ok();
         self.chosen.iter().filter(is_shown).copied()
     }
 
-    /// A line of those in `shown` is chosen.
+    /// Chooses a line of `shown`.
     pub(super) fn choose(&mut self, position: u64, way: Way, shown: &VecDeque<u64>) {
         self.cursor = Some(position);
         let anchor = self.anchor.filter(|anchor| shown.binary_search(anchor).is_ok());
@@ -63,8 +63,8 @@ impl Selection {
         }
     }
 
-    /// Goes so many shown lines down from the last one; from nothing to the
-    /// newest. Returns where that is among the shown lines.
+    /// Moves `down` lines from the last chosen one, or to the newest line if there is none.
+    /// Returns the index of the new line in `shown`.
     pub(super) fn go(&mut self, down: isize, way: Way, shown: &VecDeque<u64>) -> Option<usize> {
         let last = shown.len().checked_sub(1)?;
         let place = match self.cursor {
@@ -78,7 +78,7 @@ impl Selection {
         Some(place)
     }
 
-    /// All lines of `shown`.
+    /// Chooses all lines of `shown`.
     pub(super) fn choose_all(&mut self, shown: &VecDeque<u64>) {
         self.chosen = shown.iter().copied().collect();
         self.anchor = shown.front().copied();

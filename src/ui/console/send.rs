@@ -1,5 +1,5 @@
-//! The line from which questions are sent: the finished frame stands there
-//! before anything goes out, and nothing but questions goes out.
+//! The line for sending questions: it shows the finished frame before anything is sent,
+//! and sends nothing but questions.
 
 use egui::{
     Align, Align2, Color32, Key, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder,
@@ -24,7 +24,7 @@ use crate::{
     },
 };
 
-/// Height of the line with what is said below it.
+/// Height of the line with the note below it.
 pub(super) const HEIGHT: f32 = 88.0;
 const GAP: f32 = 8.0;
 const ANTENNA: f32 = 112.0;
@@ -84,8 +84,8 @@ pub(super) fn show(
     }
 }
 
-/// The question that was typed, in any case and with or without its sign, or why it is
-/// none. `None` when nothing is typed.
+/// Parses the typed question, case-insensitive and with or without the question sign; an
+/// error says why the input is no question. `None` without input.
 fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Question, String>> {
     let text = typed.trim().to_uppercase();
     if text.is_empty() {
@@ -99,12 +99,12 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     }))
 }
 
-/// Without the sign of a question.
+/// The text without the question sign.
 fn bare(text: &str) -> &str {
     text.strip_suffix('?').unwrap_or(text).trim_end()
 }
 
-/// What is said below the line.
+/// Shows the note below the line.
 fn say(ui: &Ui, below: Rect, icon: Icon, words: &str, colour: Color32) {
     let at = pos2(below.left() + 7.0, below.bottom() - 10.0);
     icons::paint(ui.painter(), paint::square(at, 14.0), icon, colour);
@@ -113,7 +113,7 @@ fn say(ui: &Ui, below: Rect, icon: Icon, words: &str, colour: Color32) {
     paint::name_text(ui, "send line", room, words);
 }
 
-/// Which antenna is asked: the one that is selected everywhere.
+/// Shows the antenna to ask: the one selected in the window.
 fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let Some(antenna) = model.antenna() else {
@@ -131,7 +131,7 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     paint::name_text(ui, "asked antenna", rect, &words).on_hover_text(words);
 }
 
-/// The list of questions and the field. True when Enter was pressed in it.
+/// Shows the list of questions and the field. Returns `true` when Enter was pressed in it.
 fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], typed: &mut String) -> bool {
     let t = theme::tokens(ui);
     let layout = Layout::left_to_right(Align::Center);
@@ -158,7 +158,7 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], typed: &mut String) -
     shown.inner
 }
 
-/// The frame as it will go out.
+/// Shows the frame as it will be sent.
 fn finished(ui: &Ui, rect: Rect, question: &Question) {
     let t = theme::tokens(ui);
     let word = paint::text_in(ui, rect, Align2::LEFT_CENTER, "sends", text::small(), t.t3);

@@ -11,12 +11,12 @@ use crate::ui::{text, theme, widgets::paint};
 const HEAD: f32 = 26.0;
 const ROW: f32 = 25.0;
 
-/// Where the table stands.
+/// Scroll state of the table.
 #[derive(Debug)]
 pub(super) struct TableState {
     follows: bool,
     offset: f32,
-    /// A row to bring into view.
+    /// A row to scroll to.
     wanted: Option<usize>,
 }
 
@@ -27,12 +27,12 @@ impl Default for TableState {
 }
 
 impl TableState {
-    /// The newest line is in view, and stays so.
+    /// The table follows the newest line.
     pub(super) fn follows(&self) -> bool {
         self.follows
     }
 
-    /// From now on the newest line is in view.
+    /// Makes the table follow the newest line.
     pub(super) fn follow(&mut self) {
         self.follows = true;
     }
@@ -61,8 +61,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut Con
     ui.scope_builder(UiBuilder::new().id_salt("log rows").max_rect(body), |ui| {
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
-        // A new line lies beyond the end of the last frame; the area would
-        // spring back from it.
+        // A new line lies beyond the end of the last frame, from which the area would spring
+        // back.
         ui.spacing_mut().scroll.kinetic.rubber_band = false;
         let area = ScrollArea::vertical().id_salt("log").auto_shrink(false);
         let area = area.vertical_scroll_offset(offset);
@@ -114,7 +114,7 @@ fn show_row(
         return;
     };
     let is_selected = state.selection.holds(line.position);
-    // The whole list is one stop of the Tab key.
+    // The whole list is one Tab stop.
     let response = ui.interact(rect, id.with(line.position), Sense::CLICK);
     response.widget_info(|| {
         WidgetInfo::selected(Role::ListBoxOption, true, is_selected, row::spoken(line))
@@ -137,12 +137,12 @@ fn way(modifiers: Modifiers) -> Way {
     }
 }
 
-/// The keys of the list while it has the focus.
+/// Handles the keys of the list while it has the focus.
 fn keys(ui: &Ui, list: &Response, height: f32, state: &mut ConsoleState) {
     if list.clicked() {
         list.request_focus();
     }
-    // What is selected can be copied unless a text has its own selection.
+    // Copies the selected lines unless a text has a selection of its own.
     let copies = |event: &Event| matches!(event, Event::Copy);
     if !ui.text_edit_focused() && ui.input(|input| input.events.iter().any(copies)) {
         state.copy(ui);

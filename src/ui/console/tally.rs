@@ -1,4 +1,4 @@
-//! How each link did lately: lines, damaged ones, missing replies, round trips.
+//! Recent statistics of each link: lines, bad lines, missing replies, round trips.
 
 use std::{sync::Arc, time::Duration};
 
@@ -8,25 +8,24 @@ use super::log::Log;
 use crate::device::{Finding, panel::Tone};
 use crate::model::Line;
 
-/// How far back it is counted.
+/// Span of the statistics.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);
 
-/// What went over the link of one antenna.
+/// Statistics of the link of one antenna.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Tally {
-    /// Name of the antenna.
     pub(super) antenna: Arc<str>,
     /// Lines of both directions.
     pub(super) lines: usize,
-    /// Lines that were damaged, could not be read, or refused something.
+    /// Lines that were damaged or unreadable, or refused something.
     pub(super) bad: usize,
     /// Replies that did not come in time.
     pub(super) missing: usize,
-    /// Half of the replies took longer.
+    /// Median round trip.
     pub(super) median: Option<Duration>,
 }
 
-/// The tallies of all antennas, made anew each second.
+/// Tallies of all antennas, recomputed each second.
 #[derive(Debug, Default)]
 pub(super) struct Tallies {
     second: Option<i64>,
@@ -43,7 +42,7 @@ impl Tallies {
         }
     }
 
-    /// One of each antenna, in their order.
+    /// The tally of each antenna, in their order.
     pub(super) fn all(&self) -> &[Tally] {
         &self.all
     }

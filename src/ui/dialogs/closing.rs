@@ -1,4 +1,4 @@
-//! Asks what becomes of antennas that move when the window closes.
+//! The question what happens to moving antennas when the window closes.
 
 use egui::{Button, Id, Modal, RichText, Ui, vec2};
 
@@ -17,14 +17,14 @@ use crate::{
 
 const WIDTH: f32 = 440.0;
 
-/// The question, with what else is lost.
+/// The question, with other losses.
 #[derive(Debug, Clone, Default)]
 pub struct ClosingDialog {
-    /// In sentences.
+    /// Other losses, as sentences.
     pub lost: Vec<String>,
 }
 
-/// What goes on with the antennas, each in a sentence.
+/// Sentences about ongoing activities of the antennas.
 pub fn stakes(model: &Model) -> Vec<String> {
     let told = |antenna: &AntennaModel| {
         antenna.stake().map(|stake| words::stake(&antenna.config.name, &stake))
@@ -33,7 +33,7 @@ pub fn stakes(model: &Model) -> Vec<String> {
 }
 
 impl ClosingDialog {
-    /// Shows the question until it is answered. Esc, or a click outside, stays.
+    /// Shows the question until it is answered. Esc or a click outside keeps the window open.
     pub fn show(dialog: &mut Option<Self>, ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let Some(open) = dialog else { return };
         let modal = Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
@@ -66,7 +66,7 @@ impl ClosingDialog {
     }
 }
 
-/// What may be answered, and what each answer does.
+/// The offered answers, and the effect of each.
 fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     let staked = || model.antennas.iter().filter_map(|of| Some((of, of.stake()?)));
     let names = |of: Vec<&str>| format::list(&of);
@@ -106,7 +106,7 @@ fn answer_key(ui: &mut Ui, word: &str, about: &str) -> bool {
     .inner
 }
 
-/// Says what the end of the window waits for.
+/// Shows what the closing of the window waits for.
 pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     let Some(closing) = &model.closing else { return };
     let names = |wanted: Wanted| -> Vec<&str> {

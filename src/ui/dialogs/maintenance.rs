@@ -1,4 +1,4 @@
-//! Locks a unit out for maintenance, and takes the lock-out off.
+//! The dialog that locks a unit out for maintenance, or ends the lock-out.
 
 use egui::{Frame, Id, Modal, RichText, Sense, TextEdit, Ui, vec2};
 
@@ -23,7 +23,7 @@ const WIDTH: f32 = 380.0;
 const LOCK: &str = "Hold 1 s to lock out";
 const TAKE_OFF: &str = "Hold 1 s to take off the lock-out";
 
-/// What was typed into the dialog.
+/// Input of the dialog.
 #[derive(Debug, Clone, Default)]
 pub struct MaintenanceDialog {
     by: String,
@@ -32,7 +32,6 @@ pub struct MaintenanceDialog {
     hold: HoldState,
 }
 
-/// What the operator said.
 enum Answer {
     Open,
     Closed,
@@ -40,7 +39,7 @@ enum Answer {
 }
 
 impl MaintenanceDialog {
-    /// Shows the dialog, if it is open, in the middle of the window.
+    /// Shows the dialog, if it is open, at the centre of the window.
     pub fn show(
         dialog: &mut Option<Self>,
         ui: &Ui,
@@ -66,7 +65,7 @@ impl MaintenanceDialog {
             (Answer::Held, Some(_)) => commands.push(for_antenna(Command::Unlock)),
             (Answer::Held, None) => {
                 let command = for_antenna(Command::LockOut(open.typed(model)));
-                // What runs is ended only after it was named once more.
+                // A running activity is named once more before the lock-out ends it.
                 match what_ends(antenna) {
                     None => commands.push(command),
                     Some(what_ends) => {
@@ -153,7 +152,7 @@ impl MaintenanceDialog {
     }
 }
 
-/// What a lock-out ends; `None` where nothing goes on.
+/// The activity that a lock-out ends; `None` if there is none.
 fn what_ends(antenna: &AntennaModel) -> Option<String> {
     let name = &antenna.config.name;
     let program = antenna.snapshot.state.program;

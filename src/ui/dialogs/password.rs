@@ -1,4 +1,4 @@
-//! Asks for a password or a passphrase.
+//! The dialog for a password or a passphrase.
 
 use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
 
@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// What is typed. It leaves here only as a [`Secret`].
+/// The typed password, which leaves the dialog only as a [`Secret`].
 #[derive(Default)]
 pub struct PasswordDialog {
     typed: String,
@@ -21,22 +21,20 @@ pub struct PasswordDialog {
     is_open: bool,
 }
 
-/// What the operator said.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SecretAnswer {
-    /// This.
+    /// A typed secret.
     Typed {
-        /// The secret.
         secret: Secret,
         /// Keep it in the keyring of the operating system.
         keep: bool,
     },
-    /// Nothing, or Esc.
+    /// Cancelled, such as with Esc.
     Cancelled,
 }
 
 impl PasswordDialog {
-    /// Shows the question until it is answered. Enter sends what was typed.
+    /// Shows the question until it is answered. Enter submits the input.
     pub fn show(&mut self, ui: &Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
         let mut answer = None;
         let modal = Modal::new(Id::unique("password")).show(ui.ctx(), |ui| {
@@ -96,9 +94,9 @@ impl PasswordDialog {
         .inner
     }
 
-    /// Forgets what was typed.
+    /// Wipes the input.
     pub fn clear(&mut self) {
-        // Through a secret, so that it is wiped.
+        // `Secret` wipes the text when it is dropped.
         drop(Secret::take(&mut self.typed));
         (self.keep, self.is_open) = (false, false);
     }
@@ -108,7 +106,7 @@ fn field() -> Id {
     Id::unique("password field")
 }
 
-/// The field remembers what stood in it, to undo typing.
+/// Clears the undo history of the field, which contains the typed text.
 fn forget(ui: &Ui) {
     TextEditState::default().store(ui.ctx(), field());
 }

@@ -1,4 +1,4 @@
-//! A new source, typed.
+//! The form for a new source.
 
 use std::path::PathBuf;
 
@@ -17,17 +17,16 @@ const MAX: f32 = 720.0;
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 const NAME: f32 = 240.0;
-/// Groups of `CelesTrak` that most stations want.
+/// Commonly used groups of `CelesTrak`.
 const GROUPS: [&str; 8] =
     ["active", "stations", "weather", "resource", "science", "amateur", "cubesat", "geo"];
 
-/// What was typed.
 #[derive(Default)]
 pub(super) struct AddState {
     kind: Kind,
     name: String,
     place: String,
-    /// The name of the source that was asked for last.
+    /// The name of the source requested last.
     asked: Option<String>,
 }
 
@@ -50,7 +49,7 @@ impl AddState {
         Source { name: self.name.trim().to_owned(), place }
     }
 
-    /// What was typed is done with once it stands in the list.
+    /// Clears the form once the source is in the list.
     fn forget_the_added(&mut self, sources: &Sources) {
         let is_there = |name: &String| sources.list.iter().any(|source| source.name == *name);
         if self.asked.as_ref().is_some_and(is_there) {

@@ -1,4 +1,4 @@
-//! The catalog: search by number, name and group, and follow satellites.
+//! The catalog: search by number, name and group, and mark favourites.
 
 use std::sync::Arc;
 
@@ -24,10 +24,10 @@ use crate::{
 };
 
 const ROW: f32 = 48.0;
-/// Width kept for the button of a row.
+/// Width reserved for the button of a row.
 const BUTTON: f32 = 80.0;
 
-/// What is looked for, and what was found.
+/// Search and result.
 #[derive(Default)]
 pub(super) struct SearchState {
     typed: String,
@@ -36,15 +36,15 @@ pub(super) struct SearchState {
     wants_focus: bool,
 }
 
-/// What is searched.
+/// The set of objects to search.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 enum Among {
     /// All objects.
     #[default]
     All,
-    /// Those that the operator follows.
+    /// Favourites.
     Favourites,
-    /// Those of one source.
+    /// Objects of one source.
     Group(String),
 }
 

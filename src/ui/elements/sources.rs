@@ -1,4 +1,4 @@
-//! The sources, one card each.
+//! The cards of the sources.
 
 use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 
@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-/// A card is not wider than its words need.
+/// Maximum width of a card.
 const MAX: f32 = 720.0;
 
 pub(super) fn show(
@@ -74,7 +74,7 @@ fn one(
     }
 }
 
-/// A button whose name says more than its word; whether it was clicked.
+/// Shows a button with a longer accessible name; returns `true` when it was clicked.
 pub(super) fn named_button(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
     let response = ui.add_enabled(enabled, Button::new(word));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));

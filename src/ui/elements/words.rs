@@ -1,4 +1,4 @@
-//! What is known of a source, in words.
+//! Sentences about sources and the catalog.
 
 use jiff::Timestamp;
 
@@ -27,7 +27,7 @@ fn date_and_age(epoch: Timestamp, now: Timestamp) -> String {
     format!("{}, {} old", epoch.strftime("%Y-%m-%d"), format::age(seconds_between(epoch, now)))
 }
 
-/// Where a source is.
+/// Location of a source.
 pub(super) fn place(source: &Source) -> String {
     match &source.place {
         SourcePlace::File(path) => format!("File {}", path.display()),
@@ -36,7 +36,7 @@ pub(super) fn place(source: &Source) -> String {
     }
 }
 
-/// What came of a source, one sentence a line, the most important first.
+/// Sentences about the outcome of a source, most important first.
 pub(super) fn report(
     source: &Source,
     report: Option<&SourceReport>,
@@ -92,7 +92,7 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
     (Tone::Good, format!("{}{newest}.{age}", objects(report.objects())))
 }
 
-/// When the server was asked last, and when it may be asked again.
+/// Times of the last and the next permitted request to the server.
 fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
     let next = report.next_fetch?;
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
@@ -105,8 +105,8 @@ fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
     Some(format!("Asked {ago} ago.{again}"))
 }
 
-/// The question before a server is asked sooner than it should be; `None` where
-/// it may be asked now.
+/// The confirmation before a premature request to a server; `None` if a request is
+/// permitted now.
 pub(super) fn ask_again(
     name: &str,
     report: Option<&SourceReport>,

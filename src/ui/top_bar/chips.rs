@@ -1,4 +1,4 @@
-//! The chips of the antennas, and one for those that have no room.
+//! The chips of the antennas, and one for all that have no room.
 
 use egui::{Align2, Popup, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -19,7 +19,7 @@ const MORE_WIDTH: f32 = 56.0;
 /// More chips than this keep glyph and name only.
 const FULL_CHIPS: usize = 4;
 
-/// Shows the chips at the right end of `rect` and returns where they begin.
+/// Shows the chips at the right end of `rect` and returns their left end.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -64,7 +64,7 @@ pub(super) fn show(
     start
 }
 
-/// How many chips have room, with the chip for the others if they are not all.
+/// Number of chips that have room, beside the chip for the others if not all fit.
 fn how_many_fit(widths: &[f32], gap: f32, room: f32) -> usize {
     let all: f32 = widths.iter().map(|width| width + gap).sum::<f32>() - gap;
     if all <= room {
@@ -80,7 +80,7 @@ fn how_many_fit(widths: &[f32], gap: f32, room: f32) -> usize {
         .count()
 }
 
-/// The chip that stands for the hidden ones and carries their worst state.
+/// Shows the chip that stands for the hidden ones and has their worst state.
 fn more_chip(ui: &Ui, rect: Rect, hidden: &[ChipModel<'_>]) -> Response {
     let t = theme::tokens(ui);
     let worst = hidden.iter().map(|chip| chip.link).max_by_key(|link| badness(*link));

@@ -1,4 +1,4 @@
-//! UTC first; the date and the local time beside it or in a tool-tip.
+//! The clock: UTC, with date and local time beside it or in a tool-tip.
 
 use egui::{Align2, Color32, Rect, Ui, accesskit::Live, pos2, vec2};
 
@@ -9,16 +9,16 @@ use crate::ui::{
     widgets::paint,
 };
 
-/// The letters UTC and the space behind them.
+/// Width of the letters UTC and the space after them.
 const UTC_WIDTH: f32 = 34.0;
-/// Between the local time and the health of the clock.
+/// Gap between the local time and the health of the clock.
 const HEALTH_GAP: f32 = 10.0;
-/// From the middle of the bar to the middle of each of two lines.
+/// Distance from the centre of the bar to the centre of each of two lines.
 const LINE: f32 = 8.0;
-/// A sentence in less room than this takes three lines.
+/// Minimum width for a sentence in two lines; below it the sentence takes three.
 const TWO_LINES: f32 = 180.0;
 
-/// Times as they are shown.
+/// Formatted times.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ClockModel<'a> {
     /// UTC, hh:mm:ss.
@@ -29,34 +29,33 @@ pub struct ClockModel<'a> {
     pub local: &'a str,
     /// Name or offset of the local zone.
     pub zone: &'a str,
-    /// Whether the clock can be trusted.
+    /// Health of the clock.
     pub health: ClockHealth<'a>,
 }
 
-/// Whether the clock can be trusted.
+/// Health of the clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ClockHealth<'a> {
-    /// How it is shown.
+    /// Colour and shape of the health.
     pub mood: ClockMood,
     /// In a few words.
     pub words: &'a str,
-    /// What it means.
+    /// Explanation.
     pub sentence: &'a str,
 }
 
-/// How the health of the clock is shown.
+/// Rating of the health of the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ClockMood {
-    /// As it should be.
+    /// The clock is good.
     Good,
-    /// It needs somebody to look after it: shown also where words have no room.
+    /// The clock needs attention: shown also where words have no room.
     Bad,
-    /// Nothing is known.
     #[default]
     Unknown,
 }
 
-/// Where the clock ends, and where the letters UTC beside it stand.
+/// Right end of the clock, and the place of the letters UTC beside it.
 pub(super) struct ClockEnds {
     pub(super) time: f32,
     pub(super) utc: Rect,
@@ -79,9 +78,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
     ClockEnds { time: time.right(), utc }
 }
 
-/// Shows date, local time and health in `rect`, beside and below the letters
-/// UTC. What would be cut off is left out; it is in the tool-tip as well.
-/// Returns whether it had room.
+/// Shows date, local time and health in `rect`, beside and below the letters UTC. Parts that
+/// would be cut are left out; the tool-tip contains them as well. Returns `true` if there
+/// was room.
 pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     let t = theme::tokens(ui);
     let local = format!("{} {}", model.local, model.zone);
@@ -110,7 +109,7 @@ pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     true
 }
 
-/// A triangle below the letters UTC, where the health has no room for words.
+/// Shows a triangle below the letters UTC, where the health has no room for words.
 pub(super) fn warn(ui: &Ui, utc: Rect, health: &ClockHealth<'_>) {
     let t = theme::tokens(ui);
     let place = paint::square(utc.center() + vec2(0.0, 2.0 * LINE), 14.0);
@@ -123,13 +122,13 @@ fn name_health(ui: &Ui, place: Rect, health: &ClockHealth<'_>) {
     paint::name_text(ui, "clock health", place, &name).on_hover_text(health.sentence);
 }
 
-/// Says in `rect` what STOP did not prove.
+/// Shows in `rect` that STOP is not confirmed.
 pub(super) fn not_confirmed(ui: &Ui, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
     about_stop(ui, rect, sentence, (t.badbg, t.bad), Live::Assertive);
 }
 
-/// Says in `rect` which antennas STOP has left alone.
+/// Shows in `rect` which antennas STOP left alone.
 pub(super) fn left_out(ui: &Ui, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
     about_stop(ui, rect, sentence, (t.warnbg, t.warn), Live::Polite);

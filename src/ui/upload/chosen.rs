@@ -1,4 +1,4 @@
-//! The satellites that are to go to the unit.
+//! The satellites chosen for the upload.
 
 use std::sync::Arc;
 
@@ -20,11 +20,10 @@ use crate::{
     },
 };
 
-/// How many objects a search offers.
+/// Maximum number of search results.
 const OFFERED: usize = 5;
 const ROW: f32 = 24.0;
 
-/// What was clicked.
 enum Change {
     Remove(u32),
     Add(u32),
@@ -172,7 +171,7 @@ fn search(ui: &mut Ui, catalog: &Catalog, form: &mut Form, change: &mut Option<C
     }
 }
 
-/// A button whose name says more than its word; whether it was clicked.
+/// Shows a button with a longer accessible name; returns `true` when it was clicked.
 pub(super) fn named(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
     let response = ui.add_enabled(enabled, Button::new(word));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));

@@ -1,4 +1,4 @@
-//! The way to the unit, as typed.
+//! The form for an upload.
 
 use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 
@@ -15,11 +15,11 @@ use crate::{
 
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
-/// No field is wider than its words need.
+/// Maximum width of a field.
 const MAX: f32 = 360.0;
 const SSH: &str = "22";
 
-/// What was typed for one antenna.
+/// Input for one antenna.
 pub(super) struct Form {
     takes: &'static ElementFiles,
     pub(super) file: String,
@@ -29,9 +29,9 @@ pub(super) struct Form {
     pub(super) user: String,
     pub(super) uses_key: bool,
     pub(super) key_file: String,
-    /// `None` for those that the operator follows.
+    /// Catalog numbers of the chosen satellites; `None` for the favourites.
     pub(super) numbers: Option<Vec<u32>>,
-    /// The satellite that the unit is to follow.
+    /// The satellite that the unit shall follow.
     pub(super) satellite: Option<u32>,
     pub(super) search: String,
     checked: Option<Checked>,
@@ -45,7 +45,7 @@ struct Checked {
 }
 
 impl Form {
-    /// What is known of `antenna`, whose unit takes such files, without being asked.
+    /// The form prefilled from the settings of `antenna`, whose unit accepts these files.
     pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
         let setting = connection.spec().settings.iter().find(|it| it.key == takes.setting);
@@ -79,12 +79,12 @@ impl Form {
         &self.checked.insert(checked).chosen
     }
 
-    /// Those that were checked last.
+    /// Catalog numbers of the satellites checked last.
     pub(super) fn known_numbers(&self) -> Option<&[u32]> {
         self.checked.as_ref().map(|checked| checked.numbers.as_slice())
     }
 
-    /// The file of the chosen satellites, or why there is none.
+    /// The file of the chosen satellites, or the reason why there is none.
     pub(super) fn chosen_file(
         &mut self,
         catalog: &Arc<Catalog>,
@@ -98,7 +98,7 @@ impl Form {
         FileName::new(self.file.trim(), self.takes)
     }
 
-    /// Where the unit's files are served.
+    /// The server of the unit's files.
     pub(super) fn peer(&self) -> Result<Peer, String> {
         let host = self.host.trim();
         if host.is_empty() || host.contains(char::is_whitespace) {
@@ -109,7 +109,7 @@ impl Form {
         Ok(Peer { host: host.to_owned(), port })
     }
 
-    /// What is to be done, or what is missing for it.
+    /// The order, or what is missing for it.
     pub(super) fn order(
         &self,
         antenna: &str,

@@ -1,4 +1,4 @@
-//! The files that were on the unit before, each to be put back.
+//! Earlier files of the unit, which can be restored.
 
 use egui::{RichText, Ui};
 
@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// How many digits of a hash tell two files apart.
+/// Number of hash digits shown to tell files apart.
 const HASH_DIGITS: usize = 12;
 
 pub(super) fn show(

@@ -1,4 +1,4 @@
-//! What came of an order.
+//! The outcome of an upload.
 
 use egui::{Frame, Margin, RichText, Stroke, Ui};
 use jiff::Timestamp;
@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// How many objects of a file are listed with their ages.
+/// Maximum number of objects of a file listed with their ages.
 const LISTED: usize = 20;
 
 pub(super) fn show(

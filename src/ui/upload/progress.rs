@@ -1,4 +1,4 @@
-//! How far an order is, step by step.
+//! The progress of an upload, step by step.
 
 use std::cmp::Ordering;
 
@@ -17,8 +17,8 @@ use crate::{
     },
 };
 
-/// The steps, each with what it does. The first is everything before the
-/// upload, the last everything after it.
+/// Descriptions of the steps. The first covers everything before the transfer, the last
+/// everything after it.
 const STEPS: [&str; 8] = [
     "Connect, check the host key, log in",
     "Read the file on the unit",

@@ -1,4 +1,4 @@
-//! What the operator has to decide while files are on their way.
+//! The operator's decisions during an upload.
 
 use egui::Ui;
 
@@ -8,13 +8,13 @@ use crate::{
     ui::dialogs::{self, Answer, PasswordDialog, SecretAnswer},
 };
 
-/// What is typed into the questions.
+/// Input into the questions.
 #[derive(Default)]
 pub(super) struct Questions {
     password: PasswordDialog,
 }
 
-/// Shows the question that is open, if one is. Esc says no.
+/// Shows the open question, if any. Esc says no.
 pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut Vec<UiCommand>) {
     let ask = match &model.uploads.stage {
         Stage::AsksAboutTracking(busy) => {
