@@ -1,4 +1,4 @@
-//! Says that the station is a demonstration.
+//! The strip that marks the demo station.
 
 use egui::{Align2, Rect, Ui};
 
@@ -18,10 +18,9 @@ use crate::{
 
 /// Height of the strip.
 pub const HEIGHT: f32 = 32.0;
-/// Height of the strip in a low window, where it says less.
+/// Height of the strip in a low window, where its text is shorter.
 pub const LOW_HEIGHT: f32 = 28.0;
 
-/// Shows the strip in `rect`.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
@@ -34,7 +33,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let words = match &model.catalog {
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
-        // The age stands above the plot as well.
+        // The age is shown above the plot as well.
         CatalogState::Ready(_) if rect.height() < HEIGHT => {
             "Demo station: the antennas are simulated, no metal moves.".to_owned()
         }
@@ -42,7 +41,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
                 format!(", {} old", format::age(seconds_between(newest, model.now)))
             });
-            // Of several sources the newest epoch alone would promise too much.
+            // With several sources, the newest epoch alone would be misleading.
             let elements = if model.sources.list.is_empty() {
                 format!(" Elements: {BUNDLED_SOURCE}{age}.")
             } else {

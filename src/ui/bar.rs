@@ -21,7 +21,6 @@ use crate::{
     plan::Barrier,
 };
 
-/// Shows the bar in `rect`.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let (utc, date) = (format::time(model.now), format::date(model.now));
     let zoned = model.now.to_zoned(TimeZone::system());
@@ -102,7 +101,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     commands.extend(top_bar::show(ui, rect, &bar));
 }
 
-/// Where an antenna must not point that an alarm tells of.
+/// The barrier that an alarm is about.
 fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
     match kind {
         AlarmKind::Safety(matter) => matter.barrier(),
@@ -111,8 +110,8 @@ fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
     }
 }
 
-/// Whether the alarm is about the Sun that comes to an antenna, which stands there and
-/// can be sent away.
+/// Returns `true` for an alarm about the Sun approaching an antenna that stands still and can
+/// be moved away.
 fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     let is_about = barrier_of(kind) == Some(&Barrier::Sun);
     let snapshot = &antenna.snapshot;
@@ -120,7 +119,7 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     is_about && is_there && antenna.can_park() && !antenna.is_busy()
 }
 
-/// What STOP does, with what it does beyond that for some of the antennas.
+/// The effect of STOP, with its further effects on some antennas.
 fn stop_about(model: &Model, left_out: &str) -> String {
     let note = |antenna: &AntennaModel| {
         Some(format!(" {}: {}", antenna.config.name, antenna.variant().capabilities.stop_note?))
@@ -130,8 +129,7 @@ fn stop_about(model: &Model, left_out: &str) -> String {
     format!("Stops every antenna.{notes}{space}{left_out}")
 }
 
-/// Names the antennas that a STOP from here leaves to others; empty if there are
-/// none.
+/// The names of the antennas that STOP leaves to others; empty if there are none.
 fn left_out_of_stop(model: &Model) -> String {
     let is_left_out = |of: &&AntennaModel| of.held_by.is_none() && !of.snapshot.wants_stop();
     let left_out = model.antennas.iter().filter(is_left_out);
@@ -173,7 +171,6 @@ fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}  {}", lettered(latitude_deg, 'N', 'S'), lettered(longitude_deg, 'E', 'W'))
 }
 
-/// The glyph of a link.
 pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => LinkGlyph::Off,
@@ -183,7 +180,7 @@ pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {
     }
 }
 
-/// Age of the last good reply, or nothing.
+/// Age of the last good reply, or empty.
 pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     let last = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return String::new(),
@@ -195,7 +192,7 @@ pub fn age(model: &Model, antenna: &AntennaModel) -> String {
     })
 }
 
-/// What an antenna does, in one or two words.
+/// Activity of an antenna in one or two words.
 pub fn activity(antenna: &AntennaModel) -> &'static str {
     let state = &antenna.snapshot.state;
     let stops = matches!(
@@ -229,7 +226,7 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
     }
 }
 
-/// The sentence of the first antenna that is not known to stand after a stop.
+/// The sentence of the first antenna that is not known to stand still after a stop.
 fn unproved_stop(model: &Model) -> Option<String> {
     let unproved =
         |antenna: &&AntennaModel| matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
@@ -256,7 +253,7 @@ fn stop_look<'a>(model: &Model, unproved: Option<&'a str>) -> StopLook<'a> {
     }
 }
 
-/// Whether an antenna moves, or is about to.
+/// Returns `true` if an antenna moves or is about to.
 fn is_under_way(antenna: &AntennaModel) -> bool {
     antenna.snapshot.state.measured.is_some_and(|measured| measured.moving())
         || antenna.snapshot.jog.is_some()

@@ -1,18 +1,17 @@
-//! A question before something that moves metal and was asked for by a key.
+//! The confirmation of a command that moves metal and was given by a key.
 
 use egui::{Key, Modal, Ui};
 
 use super::text;
 use crate::model::UiCommand;
 
-/// A question, and what a yes brings about.
+/// A question, and the command for a yes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
-    /// What is asked.
     pub text: String,
-    /// The word on the button that says yes.
+    /// Text of the button that says yes.
     pub yes: &'static str,
-    /// What a yes brings about.
+    /// Command for a yes.
     pub command: UiCommand,
 }
 

@@ -1,5 +1,5 @@
-//! The comparison of a unit's settings with a file: a dialog in which the
-//! operator chooses what to take over into the form.
+//! The dialog that compares a unit's settings with a file, and takes chosen values over
+//! into the form.
 
 use std::{collections::BTreeSet, path::Path, path::PathBuf};
 
@@ -12,12 +12,12 @@ use crate::{
     model::UiCommand,
 };
 
-/// Width of the dialog where the window has room for it.
+/// Width of the dialog if the window has room for it.
 const WIDTH: f32 = 760.0;
-/// Height of the table before it scrolls.
+/// Maximum height of the table before it scrolls.
 const TABLE: f32 = 320.0;
 
-/// What was typed and chosen.
+/// Input and choices.
 #[derive(Debug, Default)]
 pub struct CompareState {
     path: String,
@@ -27,16 +27,15 @@ pub struct CompareState {
 /// A value that the operator takes over from a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taken {
-    /// Key of its group.
+    /// Key of the group.
     pub group: &'static str,
-    /// Key of its field.
+    /// Key of the field.
     pub field: &'static str,
-    /// The value.
     pub value: Value,
 }
 
-/// Shows the dialog for `antenna`, which has this index. Gives what the
-/// operator takes over, once.
+/// Shows the dialog for `antenna`, which has this index. Returns once the values that the
+/// operator takes over.
 pub fn show(
     ui: &Ui,
     (index, antenna): (usize, &AntennaModel),
@@ -70,7 +69,7 @@ pub fn show(
     taken
 }
 
-/// The copies that there are, and a path to any other. Gives the one to read.
+/// Shows the existing copies, and a path to any other. Returns the one to read.
 fn choose(ui: &mut Ui, open: &OpenCopy, state: &mut CompareState) -> Option<PathBuf> {
     let t = theme::tokens(ui);
     let mut read = None;

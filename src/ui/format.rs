@@ -1,4 +1,4 @@
-//! How numbers and times are written.
+//! The formats of numbers and times.
 
 use jiff::{Timestamp, tz::TimeZone};
 
@@ -7,13 +7,13 @@ use crate::{
     device::{Capabilities, Pointing},
 };
 
-/// The true minus sign.
+/// Typographic minus sign.
 const MINUS: char = '\u{2212}';
-/// Groups the thousands.
+/// Separator of thousands.
 const THIN_SPACE: char = '\u{2009}';
 
-/// A number with `decimals` places and the true minus sign. What rounds to
-/// zero has no sign.
+/// A number with `decimals` places and the typographic minus sign. A value that rounds to zero
+/// has no sign.
 pub fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -24,13 +24,13 @@ pub fn number(value: f64, decimals: usize) -> String {
     if negative { format!("{MINUS}{digits}") } else { digits }
 }
 
-/// The same with a plus sign before what is not negative.
+/// A [`number`] with a plus sign if it is not negative.
 pub fn signed(value: f64, decimals: usize) -> String {
     let text = number(value, decimals);
     if text.starts_with(MINUS) || !value.is_finite() { text } else { format!("+{text}") }
 }
 
-/// From five digits on, in groups of three.
+/// The digits in groups of three, from five digits on.
 fn group_thousands(digits: &str) -> String {
     let whole = digits.find('.').unwrap_or(digits.len());
     if whole < 5 {
@@ -51,8 +51,7 @@ pub fn degrees(value_deg: f64, decimals: usize) -> String {
     format!("{}°", number(value_deg, decimals))
 }
 
-/// Azimuth and elevation of an antenna that can do so much, as far as they are
-/// known.
+/// Azimuth and elevation of an antenna with these capabilities, as far as they are known.
 pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
     let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
@@ -67,8 +66,7 @@ pub fn pointing_at(direction: AzEl) -> String {
     format!("{}, {}", degrees(azimuth, 1), degrees(elevation, 1))
 }
 
-/// Decimals of a degree that mean something to a controller that can do so much,
-/// at most two.
+/// Significant decimals of a degree for a controller with these capabilities, at most two.
 pub fn decimals(can: Capabilities) -> usize {
     match can.position_step_deg {
         0.0 => 2,
@@ -105,7 +103,7 @@ pub fn time_left(seconds: f64) -> String {
 
 /// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
 pub fn countdown(seconds: f64) -> String {
-    // The full second that is left, so that zero is shown at zero.
+    // Rounds up, so that zero is shown at zero.
     let left = seconds.ceil();
     let sign = if left < 0.0 { '+' } else { MINUS };
     let whole = left.abs() as u64;
@@ -117,7 +115,7 @@ pub fn countdown(seconds: f64) -> String {
     }
 }
 
-/// How old something is: 0.3 s, 14 s, 3 min, 8 h 52 min, 12 d.
+/// An age: 0.3 s, 14 s, 3 min, 8 h 52 min, 12 d.
 pub fn age(seconds: f64) -> String {
     let seconds = seconds.max(0.0);
     let whole = seconds as u64;
@@ -150,7 +148,7 @@ pub fn date(at: Timestamp) -> String {
     at.to_zoned(TimeZone::UTC).strftime("%a %Y-%m-%d").to_string()
 }
 
-/// Names in a row, such as "Satrak, Genius and RC2000C".
+/// Names joined into a list, such as "Satrak, Genius and RC2000C".
 pub fn list(names: &[impl AsRef<str>]) -> String {
     let mut text = String::new();
     for (index, name) in names.iter().enumerate() {

@@ -18,9 +18,9 @@ pub enum Icon {
     Warning,
     /// Good.
     Check,
-    /// Not possible, fault.
+    /// Impossible, fault.
     Cross,
-    /// Left out, not known.
+    /// Left out, unknown.
     Dash,
     /// Refused for now.
     Lock,
@@ -67,8 +67,7 @@ pub fn paint(painter: &Painter, rect: Rect, icon: Icon, colour: Color32) {
     shapes::draw(&Pen::new(painter, rect, colour), icon);
 }
 
-/// Paints the sign of the program in two colours: the bowl, and the feed that
-/// points at the satellite.
+/// Paints the logo in two colours: the bowl, and the feed that points at the satellite.
 pub fn paint_sign(painter: &Painter, rect: Rect, bowl: Color32, feed: Color32) {
     shapes::bowl(&Pen::new(painter, rect, bowl));
     shapes::feed(&Pen::new(painter, rect, feed));

@@ -1,5 +1,4 @@
-//! The keys that work in every view, in one table: what is in it works, and
-//! the list that the operator can open is drawn from it.
+//! The table of keyboard shortcuts, from which the list of keys is drawn as well.
 
 mod act;
 pub mod list;
@@ -15,17 +14,17 @@ use act::Act;
 /// One line of the list of keys.
 #[derive(Debug, Clone, Copy)]
 pub struct Binding {
-    /// What is held with each of the keys.
+    /// Modifiers held with each of the keys.
     pub modifiers: Modifiers,
-    /// The keys, each with what it brings about.
+    /// The keys, each with its effect.
     keys: &'static [(Key, Act)],
-    /// Where they work.
+    /// Scope of the keys.
     pub place: KeyScope,
-    /// What they do, in a few words.
+    /// Description for the list of keys.
     pub does: &'static str,
 }
 
-/// Where a key works.
+/// Scope of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyScope {
     /// Everywhere, also while typing.
@@ -34,12 +33,12 @@ pub enum KeyScope {
     Views,
     /// In the Operate view, but not while typing.
     Operate,
-    /// Where the focus is; the control that has it takes the key itself.
+    /// In the focused control, which handles the key itself.
     Focus,
 }
 
 impl Binding {
-    /// The keys.
+    /// Keys of the binding.
     pub fn keys(&self) -> impl Iterator<Item = Key> {
         self.keys.iter().map(|(key, _)| *key)
     }
@@ -53,8 +52,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
     Binding { modifiers, ..binding }
 }
 
-/// All keys, in the order of the list. STOP's key is taken by the app before
-/// anything else.
+/// All keys, in the order of the list. The app handles the key of STOP before anything else.
 pub const ALL: [Binding; 23] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
@@ -176,23 +174,20 @@ pub const ALL: [Binding; 23] = [
     row(KeyScope::Views, &[(Key::Questionmark, Act::List)], "this list"),
 ];
 
-/// What the keys change beside the model.
+/// State that the keys change, apart from the model.
 pub struct Desk<'a> {
-    /// A question that waits for its answer.
+    /// The open question.
     pub question: &'a mut Option<Question>,
-    /// The Operate view.
     pub operate: &'a mut OperateState,
-    /// The Elements view.
     pub elements: &'a mut ElementsState,
-    /// The Console view.
     pub console: &'a mut ConsoleState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }
 
-/// Takes the keys of this frame.
+/// Handles the keys of this frame.
 pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
-    // A letter that is typed is no command, and a dialog has its own keys.
+    // A typed letter is no shortcut, and a dialog has keys of its own.
     let typing = ui.text_edit_focused() || desk.question.is_some() || *desk.list_open;
     let works = |place| match place {
         KeyScope::Everywhere => true,

@@ -17,7 +17,7 @@ use egui::{
     epaint::{CircleShape, ColorMode, CornerRadiusF32, PathShape, RectShape},
 };
 
-/// Smaller discs are one textured square in egui already, points.
+/// Minimum radius, points: egui draws smaller discs as one textured square.
 const SMALLEST_DISC: f32 = 12.0;
 
 /// Rewrites the shapes of every frame before they are cut into triangles.

@@ -1,5 +1,4 @@
-//! The line above the sky plot: which pass is selected, and how long until its
-//! next events.
+//! The line above the sky plot: the selected pass with countdowns to its events.
 
 use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
 
@@ -16,50 +15,47 @@ use super::{
 pub const HEIGHT: f32 = 56.0;
 /// A lower header has one line.
 const TWO_LINES_FROM: f32 = 52.0;
-/// Space at the left and the right.
+/// Padding at the left and the right.
 const PADDING: f32 = 16.0;
-/// The same with the button, in a small window.
+/// [`PADDING`] in a small window, with the button.
 const SMALL_PADDING: f32 = 12.0;
-/// Between the texts at the left and the countdowns.
+/// Gap between the texts at the left and the countdowns.
 const GAP: f32 = 16.0;
-/// Between a word and what it belongs to.
+/// Gap between a word and its value.
 const WORD_GAP: f32 = 7.0;
-/// How much lower a smaller text goes to stand on the same line as a larger
-/// one, for each point of difference in size.
+/// Downward shift of a smaller text to align its baseline with a larger one, for each point of
+/// difference in size.
 const DOWN_PER_SIZE: f32 = 0.22;
-/// In less room than this a text is left out.
+/// Minimum width of a text; with less room it is left out.
 const MIN_TEXT: f32 = 24.0;
-/// With less room than this for the texts, the countdown to the maximum is
-/// left out.
+/// Minimum width of the texts for a countdown to TCA.
 const TCA_FROM: f32 = 180.0;
-/// Room for a countdown of the usual length, so that the words before it do
-/// not move with its figures.
+/// Widest usual countdown; its width is reserved, so that the words before it do not move with
+/// the digits.
 const DEFAULT_COUNTDOWN: &str = "T−00:00";
 
-/// The selected pass, all in words.
+/// The selected pass in words.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PassHeaderModel<'a> {
-    /// Name of the satellite.
     pub name: &'a str,
     /// Second name and catalog number.
     pub detail: &'a str,
-    /// The elements and where they are.
+    /// The elements and their location.
     pub second_line: &'a str,
-    /// The second line tells of something that is not as it should be.
+    /// The second line is a warning.
     pub second_line_warns: bool,
-    /// Countdown to the maximum; empty once it is over.
+    /// Countdown to TCA; empty once it is over.
     pub tca_countdown: &'a str,
-    /// What the large countdown leads to, such as AOS or LOS.
+    /// Event of the large countdown, such as AOS or LOS.
     pub event: &'a str,
-    /// The large countdown.
     pub countdown: &'a str,
     /// A small window: one line, and a button that opens the list of passes.
     pub drawer_button: bool,
-    /// A sentence that stands here instead of a pass.
+    /// A sentence to show in place of a pass.
     pub empty: Option<&'a str>,
 }
 
-/// Shows the header in `rect`. True when the operator wants the list of passes.
+/// Shows the header in `rect`. Returns `true` when the operator wants the list of passes.
 pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     let t = theme::tokens(ui);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
@@ -94,14 +90,14 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
         names(ui, line(rect.top() + 20.0), model.name, model.detail, text::title());
         second_line(ui, line(rect.top() + 40.0), model);
     }
-    // What had no room is in the tool-tip.
+    // The tool-tip contains texts that had no room.
     paint::name_text(ui, "pass", texts, &said(&[model.name, model.detail, model.second_line]))
         .on_hover_text(model.second_line);
     clicked
 }
 
-/// Paints the name in `font` and then `detail`, cut where `rect` ends. Returns where
-/// they end.
+/// Paints the name in `font` and then `detail`, cut at the end of `rect`. Returns their right
+/// end.
 fn names(ui: &Ui, rect: Rect, name: &str, detail: &str, font: FontId) -> f32 {
     let t = theme::tokens(ui);
     let down = DOWN_PER_SIZE * (font.size - text::body().size);
@@ -121,7 +117,7 @@ fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
     }
 }
 
-/// Paints the countdowns at the right of `room` and returns where they begin.
+/// Paints the countdowns at the right of `room` and returns their left end.
 fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) -> f32 {
     let t = theme::tokens(ui);
     let y = room.center().y;
@@ -159,7 +155,7 @@ fn countdowns(ui: &Ui, room: Rect, model: &PassHeaderModel<'_>, one_line: bool) 
     left
 }
 
-/// The width to keep free for a countdown.
+/// The width to reserve for a countdown.
 fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     if countdown.is_empty() {
         return 0.0;
@@ -168,7 +164,7 @@ fn countdown_width(ui: &Ui, countdown: &str, font: FontId) -> f32 {
     paint::text_width(ui, countdown, font).max(usual)
 }
 
-/// The texts that are not empty, in one.
+/// The non-empty texts, joined.
 fn said(texts: &[&str]) -> String {
     let texts: Vec<&str> = texts.iter().copied().filter(|text| !text.is_empty()).collect();
     texts.join(", ")

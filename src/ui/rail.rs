@@ -1,4 +1,4 @@
-//! The views and the list of keys, at the left edge of the window.
+//! The rail at the left edge of the window: the views and the list of keys.
 
 use egui::{Align2, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
@@ -12,22 +12,19 @@ use super::{
 pub const WIDTH: f32 = 72.0;
 /// Width with icons only.
 pub const SMALL_WIDTH: f32 = 48.0;
-/// Below this width of the window the words go.
+/// In a window below this width the rail has icons only.
 pub const SMALL_BELOW: f32 = 1200.0;
 
-/// Above the first entry and below the last.
+/// Padding above the first entry and below the last.
 const EDGE: f32 = 8.0;
-/// Between two entries.
+/// Gap between two entries.
 const GAP: f32 = 4.0;
 
-/// One view.
 #[derive(Debug, Clone, Copy)]
 pub struct RailEntry<'a> {
-    /// Its icon.
     pub icon: Icon,
-    /// Its name.
     pub word: &'a str,
-    /// It is the view that is shown.
+    /// The view is shown now.
     pub active: bool,
 }
 
@@ -36,8 +33,7 @@ pub fn width(window_width: f32) -> f32 {
     if window_width < SMALL_BELOW { SMALL_WIDTH } else { WIDTH }
 }
 
-/// Shows the entries in `rect` and returns the index of the one that was
-/// clicked.
+/// Shows the entries in `rect` and returns the index of a clicked one.
 pub fn show(ui: &mut Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     let builder = UiBuilder::new().id_salt("rail").max_rect(rect);
     ui.scope_builder(builder, |ui| fill(ui, rect, entries)).inner
@@ -56,8 +52,8 @@ fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     clicked
 }
 
-/// Shows, at the foot of the rail in `rect`, what opens the list of keys.
-/// True when it was clicked.
+/// Shows the button for the list of keys at the foot of the rail in `rect`. Returns `true` when
+/// it was clicked.
 pub fn show_keys(ui: &mut Ui, rect: Rect) -> bool {
     let entry = RailEntry { icon: Icon::Question, word: "Keys", active: false };
     let top = rect.bottom() - EDGE - cell_height(rect);

@@ -25,44 +25,43 @@ use crate::{
     transfer::{FileProtocol, Peer},
 };
 
-/// A source as it is typed in a form.
+/// A source as typed in a form.
 #[derive(Debug, Clone, Copy)]
 pub enum TypedSource<'a> {
     /// A web address.
     Web {
-        /// As the unit is told.
+        /// Address as set in the unit.
         url: &'a str,
     },
     /// A file on a server.
     Server {
-        /// Its name or IP address.
+        /// Host name or IP address.
         address: &'a str,
         /// TCP port.
         port: &'a str,
-        /// The user there.
+        /// User name.
         user: &'a str,
-        /// The user's password.
+        /// Password of the user.
         password: &'a str,
-        /// The file.
+        /// Path of the file.
         file: &'a str,
-        /// The name of the satellite as in the file.
+        /// Name of the satellite as in the file.
         satellite: &'a str,
     },
 }
 
-/// What the operator chose beside the form.
+/// The operator's choices beside the form.
 #[derive(Default)]
 pub struct SourceTestState {
-    /// `None` for what the port says.
+    /// Protocol; `None` for the one implied by the port.
     protocol: Option<FileProtocol>,
-    /// The satellite to look for in a file from the web; `None` for the one that
-    /// the unit holds.
+    /// The satellite to look for in a file from the web; `None` for the one in the unit.
     satellite: Option<String>,
     question: Option<Question>,
 }
 
-/// Draws the button and what came of it, for the unit of the antenna with the
-/// index `antenna`, as wide as the place in `ui`.
+/// Draws the button and the outcome of the test, for the unit of the antenna with the index
+/// `antenna`, as wide as `ui`.
 pub fn show(
     ui: &mut Ui,
     model: &Model,

@@ -1,4 +1,4 @@
-//! What the selected antenna does, why, and what comes next.
+//! The state sentence of an antenna: its activity, the reason and the next step.
 
 mod link;
 mod lock_out;
@@ -23,9 +23,9 @@ use crate::{
 /// A sentence with its words.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Spoken {
-    /// What kind of thing it says.
+    /// Kind of the sentence.
     pub kind: SentenceKind,
-    /// Its parts; `true` for a name that is to be found at one glance.
+    /// Parts of the sentence; `true` for a name that must be found at a glance.
     pub parts: Vec<(String, bool)>,
 }
 
@@ -49,7 +49,7 @@ impl Spoken {
         self.parts.iter().map(|(text, _)| text.as_str()).collect()
     }
 
-    /// As the widget takes it.
+    /// Calls `show` with the sentence as the widget takes it.
     pub fn with<R>(&self, show: impl FnOnce(&Sentence<'_>) -> R) -> R {
         let spans: Vec<Span<'_>> =
             self.parts.iter().map(|(text, bold)| Span { text, bold: *bold }).collect();
@@ -57,7 +57,7 @@ impl Spoken {
     }
 }
 
-/// The sentence of `antenna`. The gravest matter comes first.
+/// The state sentence of `antenna`. The gravest matter takes precedence.
 pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
     lock_out::sentence(antenna)
         .or_else(|| link::sentence(model, antenna))
@@ -132,7 +132,7 @@ fn preparing(antenna: &AntennaModel) -> Option<Spoken> {
     )
 }
 
-/// The unit follows its own program, by our wish or not.
+/// The sentence for a unit that runs its own program, requested by Azel or not.
 fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
     let state = &antenna.snapshot.state;
     let program = state.program.filter(|program| program.enabled)?;
@@ -230,7 +230,7 @@ fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
     )
 }
 
-/// A jog, by the name of its speed where it has one: the figure is not known.
+/// A jog in words, with the name of a named speed, whose rate is unknown.
 fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
     let speeds = antenna.variant().capabilities.jog;
     let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
@@ -274,7 +274,7 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
     }
 }
 
-/// What the operator could track next.
+/// A sentence about the selected pass, which the operator could track.
 fn next_words(
     selected: Option<(&ListedSatellite, Timestamp, Timestamp)>,
     now: Timestamp,
@@ -292,7 +292,7 @@ fn next_words(
     }
 }
 
-/// " at 343.1°, 5.0°", where it is known.
+/// The position, such as " at 343.1°, 5.0°"; empty if unknown.
 fn place(antenna: &AntennaModel) -> String {
     antenna.snapshot.state.measured.map_or_else(String::new, |measured| match measured.pointing {
         Pointing { azimuth: None, elevation: None } => String::new(),
@@ -300,7 +300,7 @@ fn place(antenna: &AntennaModel) -> String {
     })
 }
 
-/// The name without what stands in brackets behind it.
+/// The name without a trailing part in brackets.
 pub fn short(name: &str) -> &str {
     name.split_once(" (").map_or(name, |(short, _)| short)
 }

@@ -2,7 +2,6 @@
 
 use egui::{FontData, FontDefinitions, FontFamily, FontId};
 
-/// How heavy a text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
     /// Running text.
@@ -26,7 +25,7 @@ impl Weight {
     }
 }
 
-/// Any size; the named ones below are to be preferred.
+/// A font of any size; prefer the named ones below.
 pub fn sized(size: f32, weight: Weight) -> FontId {
     FontId::new(size, weight.family())
 }
@@ -36,7 +35,7 @@ pub fn clock() -> FontId {
     sized(28.0, Weight::SemiBold)
 }
 
-/// Name of the selected thing.
+/// Name of the selected object.
 pub fn title() -> FontId {
     sized(20.0, Weight::SemiBold)
 }
@@ -81,8 +80,7 @@ pub fn raw() -> FontId {
     FontId::new(12.0, FontFamily::Monospace)
 }
 
-/// The fonts of the window. Figures all have one width, so that numbers change
-/// in place.
+/// The fonts of the window. All digits have the same width, so that numbers change in place.
 pub fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |family: FontFamily, name: &str, bytes: &'static [u8]| {

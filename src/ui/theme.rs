@@ -1,4 +1,4 @@
-//! Puts the tokens and the fonts into egui.
+//! Installs the colours and the fonts in egui.
 
 use egui::{Context, CornerRadius, Id, Stroke, TextStyle};
 
@@ -15,14 +15,15 @@ pub fn name(ctx: &Context) -> ThemeName {
     ctx.data(|data| data.get_temp(Id::unique("azel theme"))).unwrap_or_default()
 }
 
-/// Once, when the window opens: fonts, text styles, the theme, and how it is painted.
+/// Installs fonts, text styles, the theme and the shape rewriting. Call once, when the window
+/// opens.
 pub fn install(ctx: &Context, theme: ThemeName) {
     ctx.set_fonts(text::definitions());
     ctx.add_plugin(LeanShapes);
     set(ctx, theme);
 }
 
-/// Changes the theme, within one frame; sizes stay as they are.
+/// Changes the theme within one frame; sizes stay as they are.
 pub fn set(ctx: &Context, theme: ThemeName) {
     ctx.data_mut(|data| data.insert_temp(Id::unique("azel theme"), theme));
     let egui_theme = match theme {

@@ -1,7 +1,7 @@
-//! The colours of the three themes. View code names a colour only by its
-//! token here; no other module holds a literal.
+//! The colours of the three themes. View code uses only the tokens defined here; no other
+//! module contains a literal colour.
 
-// Colours are read in the form in which the design names them.
+// Colours are written as in the design.
 #![allow(clippy::unreadable_literal)]
 
 use egui::Color32;
@@ -9,7 +9,6 @@ use egui::Color32;
 use crate::model::ThemeName;
 
 impl ThemeName {
-    /// The colours of the theme.
     pub fn tokens(self) -> &'static Tokens {
         match self {
             Self::Dark => &DARK,
@@ -22,7 +21,7 @@ impl ThemeName {
 /// One colour for each role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tokens {
-    /// Window ground, plot surroundings, input ground.
+    /// Background of the window, of plot surroundings and of inputs.
     pub bg0: Color32,
     /// Panels, bars, day part of the plan.
     pub bg1: Color32,

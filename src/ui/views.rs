@@ -1,4 +1,4 @@
-//! The whole window: what is always there, and the view that fills the rest.
+//! The whole window: the permanent parts, and the view that fills the rest.
 
 use std::path::PathBuf;
 
@@ -26,7 +26,7 @@ use crate::{
     model::{MaskNews, Model, UiCommand, View},
 };
 
-/// What the operator typed, opened and folded.
+/// Input, open parts and folds of all views.
 #[derive(Default)]
 pub struct Views {
     operate: operate::OperateState,
@@ -40,23 +40,23 @@ pub struct Views {
     keys_open: bool,
 }
 
-/// What the views keep from one start to the next.
+/// State of the views kept from one start to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Kept {
     /// The travel gauges are unfolded in a low window.
     pub travel_open: bool,
     /// The checks are unfolded in a low window.
     pub faults_open: bool,
-    /// How many hours the strip of passes shows; `None` for the usual.
+    /// Number of hours in the timeline; `None` for the default.
     pub strip_hours: Option<u32>,
-    /// Width of the list of passes, points; `None` for the usual.
+    /// Width of the pass list, points; `None` for the default.
     pub list_width: Option<u32>,
     /// Layers of the sky plot.
     pub layers: Layers,
 }
 
 impl Views {
-    /// As the operator left them.
+    /// Views in the state in which the operator left them.
     pub fn with(kept: Kept) -> Self {
         let mut views = Self::default();
         let operate = &mut views.operate;
@@ -68,7 +68,7 @@ impl Views {
         views
     }
 
-    /// What is to be kept.
+    /// The state to keep.
     pub fn kept(&self) -> Kept {
         Kept {
             travel_open: self.operate.card.travel_open,
@@ -79,7 +79,7 @@ impl Views {
         }
     }
 
-    /// Draws everything and collects what the operator asked for.
+    /// Draws everything and collects the operator's commands.
     pub fn show(&mut self, ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
@@ -135,7 +135,7 @@ impl Views {
         }
         if let Some(question) = self.antennas.ask_before_leaving(model, before, commands) {
             self.question = Some(question);
-            // Enter is to answer the question, not to end the typing behind it.
+            // Enter answers the question, rather than ending the typing behind it.
             ui.memory_mut(egui::Memory::stop_text_input);
         }
         let answered = commands.len();
@@ -150,8 +150,8 @@ impl Views {
         keys::list::show(ui, &mut self.keys_open);
     }
 
-    /// Asks before the window closes where something would be lost with it.
-    /// Whether there is something to ask. A key that is held down ends here.
+    /// Asks before the window closes if something would be lost with it, or closes it in the way
+    /// set for the station. Returns `true` if the window must stay open until then.
     pub fn ask_before_closing(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         let mut lost = Vec::new();
         match self.antennas.edited(model) {
@@ -187,22 +187,22 @@ impl Views {
         true
     }
 
-    /// The station has changed, and not by the preferences.
+    /// Call when the station has changed other than by the preferences.
     pub fn station_changed(&mut self) {
         self.preferences.forget();
     }
 
-    /// The lines of the console were saved here, or not, and why.
+    /// Takes the outcome of saving console lines: the path or the error.
     pub fn log_saved(&mut self, result: Result<PathBuf, String>) {
         self.console.saved(result);
     }
 
-    /// A horizon mask was read or written, or not, and why.
+    /// Takes the outcome of reading or writing a horizon mask.
     pub fn mask_news(&mut self, news: MaskNews) {
         self.preferences.mask_news(news);
     }
 
-    /// The settings were saved at this time, or not, and why.
+    /// Takes the outcome of saving the settings: the time or the error.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         self.preferences.saved(result);
     }

@@ -1,5 +1,5 @@
-//! What the lower layers report, in plain sentences: what did not happen, why,
-//! what is true now, what to do.
+//! Reports of the lower layers as plain sentences: the failure, its reason, the present
+//! state, and the remedy.
 
 mod alarms;
 mod on_board;
@@ -24,11 +24,11 @@ use crate::{
     makes,
 };
 
-/// Elements older than this are worth a word, seconds: after some days a low
-/// satellite is minutes away from where they put it.
+/// Age from which old elements are mentioned: after some days a satellite in low orbit is
+/// minutes away from the prediction.
 pub const OLD_ELEMENTS_S: f64 = 7.0 * 86_400.0;
 
-/// What is asked of an antenna, as its key or button calls it.
+/// Name of a request to an antenna, as its key or button calls it.
 pub fn asked(asked: Asked) -> &'static str {
     let motion = match asked {
         Asked::Motion(motion) => motion,
@@ -43,14 +43,14 @@ pub fn asked(asked: Asked) -> &'static str {
     }
 }
 
-/// What an action of some make is called.
+/// Name of an action of any make.
 fn action_name(key: &str) -> &'static str {
     let mut actions =
         makes::SPECS.iter().flat_map(|spec| spec.variants).flat_map(|variant| variant.actions);
     actions.find(|action| action.key == key).map_or("Action", |action| action.label)
 }
 
-/// The end of an axis, or the way towards it, as the jog keys call it.
+/// Name of an end of an axis, or of the direction towards it, as the jog keys call it.
 pub fn way(axis: &str, plus: bool) -> String {
     match (axis, plus) {
         ("Az", true) => "CW".to_owned(),
@@ -62,7 +62,7 @@ pub fn way(axis: &str, plus: bool) -> String {
     }
 }
 
-/// What goes on with an antenna, in a sentence.
+/// A sentence about an ongoing activity of an antenna.
 pub fn stake(antenna: &str, stake: &Stake) -> String {
     let short = super::state_sentence::short;
     match stake {
@@ -75,7 +75,7 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
     }
 }
 
-/// What an intent is called.
+/// Name of an intent.
 pub fn intent(intent: Intent) -> &'static str {
     match intent {
         Intent::Standby => "Standby",
@@ -86,13 +86,13 @@ pub fn intent(intent: Intent) -> &'static str {
     }
 }
 
-/// A problem told by a lower layer, as a sentence.
+/// A problem reported by a lower layer, as a sentence.
 pub fn sentence(problem: &str) -> String {
     let words = capitalised(problem);
     if words.ends_with('.') { words } else { format!("{words}.") }
 }
 
-/// With a capital at the beginning.
+/// The text with its first letter capitalised.
 pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();

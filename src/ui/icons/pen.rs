@@ -1,4 +1,4 @@
-//! Draws on the grid of an icon.
+//! A pen for drawing on the grid of an icon.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
@@ -8,7 +8,7 @@ const GRID: f32 = 20.0;
 const STROKE: f32 = 1.5;
 /// Lines thinner than this have flat ends.
 const THINNEST_ROUND_POINTS: f32 = 1.4;
-/// Lines do not get thinner than this in small icons.
+/// Minimum thickness of lines in small icons.
 const THINNEST_POINTS: f32 = 1.25;
 
 /// A pen of one colour over the square of one icon; all places and lengths are
@@ -35,12 +35,12 @@ impl<'a> Pen<'a> {
         (grid * self.scale).max(THINNEST_POINTS)
     }
 
-    /// A line through the points with round joins and caps.
+    /// Draws a line through the points with round joins and caps.
     pub(super) fn line(&self, points: &[(f32, f32)]) {
         self.thick_line(points, STROKE);
     }
 
-    /// The same in another width.
+    /// Draws a line in another width.
     pub(super) fn thick_line(&self, points: &[(f32, f32)], width: f32) {
         let width = self.width(width);
         for pair in points.windows(2) {
@@ -49,7 +49,7 @@ impl<'a> Pen<'a> {
                 self.painter.line_segment(ends, Stroke::new(width, self.colour));
             }
         }
-        // The painter ends lines flat. On thin lines a round end is a smudge.
+        // egui ends lines flat. On thin lines a round end would be a smudge.
         if width < THINNEST_ROUND_POINTS {
             return;
         }
@@ -58,31 +58,31 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A closed outline.
+    /// Draws a closed outline.
     pub(super) fn outline(&self, points: &[(f32, f32)]) {
         let points = points.iter().map(|point| self.at(*point)).collect();
         self.painter.add(Shape::closed_line(points, Stroke::new(self.width(STROKE), self.colour)));
     }
 
-    /// A ring.
+    /// Draws a ring.
     pub(super) fn ring(&self, centre: (f32, f32), radius: f32) {
         let stroke = Stroke::new(self.width(STROKE), self.colour);
         self.painter.circle_stroke(self.at(centre), radius * self.scale, stroke);
     }
 
-    /// A filled disc.
+    /// Draws a filled disc.
     pub(super) fn disc(&self, centre: (f32, f32), radius: f32) {
         self.painter.circle_filled(self.at(centre), radius * self.scale, self.colour);
     }
 
-    /// A filled convex shape.
+    /// Draws a filled convex shape.
     pub(super) fn filled(&self, points: &[(f32, f32)]) {
         let points = points.iter().map(|point| self.at(*point)).collect();
         self.painter.add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
     }
 
-    /// Part of a circle; angles in degrees, zero to the right, growing
-    /// clockwise on the screen.
+    /// Draws part of a circle; angles in degrees, zero to the right, growing clockwise on the
+    /// screen.
     pub(super) fn arc(&self, centre: (f32, f32), radius: f32, from_deg: f32, to_deg: f32) {
         let stroke = Stroke::new(self.width(STROKE), self.colour);
         let points = arc_points(centre, radius, from_deg, to_deg);
@@ -91,7 +91,7 @@ impl<'a> Pen<'a> {
     }
 }
 
-/// Points on part of a circle, for arcs and for filled parts.
+/// Points on part of a circle, for arcs and filled sectors.
 pub(super) fn arc_points(
     (x, y): (f32, f32),
     radius: f32,

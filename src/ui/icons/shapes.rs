@@ -1,13 +1,13 @@
-//! What each icon looks like.
+//! The shapes of the icons.
 
 use super::{
     Icon,
     pen::{Pen, arc_points},
 };
 
-/// Check and cross are drawn heavier, so that a verdict reads at 12 points.
+/// Stroke of check and cross: heavier, so that a verdict is legible at 12 points.
 const HEAVY: f32 = 2.0;
-/// Enough for a smooth ellipse of 20 points.
+/// Number of vertices for a smooth ellipse of 20 points.
 const ELLIPSE_POINTS: usize = 32;
 
 pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {

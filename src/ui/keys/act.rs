@@ -1,4 +1,4 @@
-//! What a key brings about.
+//! The effects of keys.
 
 use egui::{FocusDirection, Ui};
 
@@ -10,23 +10,23 @@ use crate::{
     ui::{confirm::Question, theme},
 };
 
-/// What a key brings about.
+/// Effect of a key.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Act {
-    /// The control that has the focus, or the app, takes the key itself.
+    /// Handled elsewhere: by the focused control or by the app.
     There,
     Show(View),
     SelectAntenna(usize),
-    /// So many passes down the list.
+    /// Moves the selection by this many passes down the list.
     MoveInList(isize),
     NextPass,
     Drawer,
     Track,
     GoTo,
     Manual,
-    /// So many rates up.
+    /// Moves the jog rate by this many steps up.
     Rate(i32),
-    /// So many steps closer.
+    /// Zooms the timeline in by this many steps.
     Zoom(isize),
     UsualZoom,
     Search,
@@ -36,7 +36,7 @@ pub(super) enum Act {
 }
 
 impl Act {
-    /// Whether the key is taken at all; if not, it is left to others.
+    /// Returns `true` if the effect is possible now; otherwise the key is left to others.
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {
             Self::SelectAntenna(index) => index < model.antennas.len(),
@@ -109,12 +109,13 @@ fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     }
 }
 
-/// The fields are open in Position only: it is chosen where nothing runs.
+/// Focuses the go-to fields. They are open in Position only, which is selected first if
+/// nothing is running.
 fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
     let hold = UiCommand::Antenna(model.selected_antenna, driver::Command::Hold);
     let intent = antenna.snapshot.intent;
-    // Also what the unit tracks of its own accord is not ended by a slip.
+    // A slip of the finger must not end on-board track either.
     if antenna.tracks() || intent == Intent::Track {
         let text = "End tracking and go to a direction?".to_owned();
         *desk.question = Some(Question { text, yes: "Position", command: hold });

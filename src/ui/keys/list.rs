@@ -46,7 +46,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
     }
 }
 
-/// The keys of a line as they stand on the keyboard, such as "Ctrl 1, 6".
+/// The keys of a line as labelled on the keyboard, such as "Ctrl 1, 6".
 pub fn in_words(binding: &Binding) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
@@ -54,7 +54,7 @@ pub fn in_words(binding: &Binding) -> String {
         _ => "",
     };
     let words: Vec<&str> = binding.keys().map(word).collect();
-    // Four directions are one thing on a keyboard.
+    // The four arrow keys have a common name.
     if words.len() == 4 && binding.keys().all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }

@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 use egui::{Color32, Mesh, Pos2, Rect, Shape, Stroke, Vec2, epaint::CornerRadiusF32, pos2};
 
-/// How far a side may lie inside its arc, pixels: too little to be seen.
+/// Maximum distance of a side from its arc, pixels: too small to see.
 const FLATNESS_PX: f32 = 0.1;
 
 /// Rectangles of two triangles each.
@@ -102,7 +102,7 @@ fn loops(mesh: &mut Mesh, outline: &[Pos2], edges: &[(f32, Color32)]) {
     for index in 0..count {
         let before = (corner(index) - corner(index + count - 1)).normalized().rot90();
         let after = (corner(index + 1) - corner(index)).normalized().rot90();
-        // As far out as both neighbouring sides go.
+        // Mitre: as far out as both neighbouring sides reach.
         let outwards = (before + after) / (1.0 + before.dot(after)).max(0.5);
         for (distance, colour) in edges {
             mesh.colored_vertex(corner(index) + outwards * *distance, *colour);

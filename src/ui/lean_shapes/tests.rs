@@ -8,7 +8,7 @@ use super::*;
 
 const COLOUR: Color32 = Color32::WHITE;
 
-/// What a shape leaves on the screen.
+/// The painted result of a shape.
 struct Picture {
     /// Area times opacity, square points.
     ink: f32,

@@ -1,4 +1,4 @@
-//! What a unit will make of a source, in sentences.
+//! Sentences about how a unit will read a source.
 
 use egui::Ui;
 use jiff::Timestamp;
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// How many refused objects are told of.
+/// Maximum number of refused objects listed.
 const TOLD: usize = 3;
 
 /// Shows the sentences about `view`, fetched at `at`, for `satellite`.

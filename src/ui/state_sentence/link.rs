@@ -35,7 +35,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 format::age(silent_s),
                 words::link_loss(reason)
             ));
-            // A connection that is closed at once may show as reset.
+            // A connection that the unit closes at once may appear as a reset.
             let is_turned_away =
                 matches!(reason, LinkLoss::Refused(_) | LinkLoss::Closed | LinkLoss::Broken(_));
             let spoken = match antenna.spec().closed_note.filter(|_| is_turned_away) {
@@ -50,7 +50,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     }
 }
 
-/// Why nothing is asked, and what begins it.
+/// The sentence for a link that is off: the reason, and how to connect.
 fn off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
     if let Some(by) = &antenna.held_by {
@@ -68,7 +68,7 @@ fn off(antenna: &AntennaModel) -> String {
     )
 }
 
-/// The unit answers with numbers that cannot be read.
+/// The sentence for a unit whose numbers cannot be read.
 fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken> {
     let again = match antenna.snapshot.link {
         LinkState::Off | LinkState::Connecting { .. } => return None,
@@ -76,7 +76,7 @@ fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken
             let retry_s = retry_at.saturating_duration_since(model.steady).as_secs_f64();
             format!(" Next try in {}.", format::age(retry_s.ceil()))
         }
-        // A stop that is not proved is the graver matter.
+        // An unproved stop is the graver matter.
         LinkState::Up { .. } | LinkState::Stale { .. } => {
             let stopping = antenna.snapshot.stop;
             if matches!(stopping, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
@@ -90,7 +90,7 @@ fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken
     Some(what_it_did(spoken, antenna).plain(format!("{why}{again}")))
 }
 
-/// What it did when it was heard last, and so perhaps still does.
+/// Appends the last known activity, which may continue.
 fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
     let moving = state.measured.is_some_and(|measured| measured.moving());

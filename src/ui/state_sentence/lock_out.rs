@@ -1,4 +1,4 @@
-//! Sentences while the unit is worked on.
+//! Sentences while the unit is locked out for maintenance.
 
 use super::Spoken;
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
 pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     let snapshot = &antenna.snapshot;
     let lock_out = snapshot.lock_out.as_ref()?;
-    // A stop that is not proved is the graver matter.
+    // An unproved stop is the graver matter.
     if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
         return None;
     }
@@ -31,7 +31,7 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     )))
 }
 
-/// When the lock-out began, with the day.
+/// Start of the lock-out, with the day.
 fn since(antenna: &AntennaModel) -> String {
     let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.since);
     since.map_or_else(String::new, |at| format!("{} {}", format::date(at), format::time_z(at)))

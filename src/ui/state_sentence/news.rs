@@ -1,4 +1,4 @@
-//! Sentences about what has just happened, for a short while.
+//! Sentences about recent events, shown for a short time.
 
 use super::{Spoken, short};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     ui::{format, widgets::sentence::SentenceKind, words},
 };
 
-/// For how long the operator is told.
+/// Time for which such a sentence is shown.
 const SHOWN_S: f64 = 12.0;
 
 pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {

@@ -1,4 +1,4 @@
-//! The sentence of an antenna that this program sends from position to position.
+//! Sentences of an antenna in program track.
 
 use super::{Spoken, place, short};
 use crate::{

@@ -1,4 +1,4 @@
-//! The alarm list.
+//! Sentences of the alarm list.
 
 use crate::{
     driver::LinkLoss,
@@ -7,7 +7,7 @@ use crate::{
     ui::format,
 };
 
-/// An alarm in words. `antenna` is its name, where it is about one.
+/// An alarm in words. `antenna` is the name of its antenna, if it has one.
 // One arm a kind.
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {

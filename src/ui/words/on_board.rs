@@ -1,4 +1,4 @@
-//! How a unit tracks by itself, and why it misses.
+//! Sentences about on-board track.
 
 use crate::{
     astro::AzEl,
@@ -10,7 +10,7 @@ use crate::{
     ui::format,
 };
 
-/// Why a unit misses, in a clause that begins with the unit.
+/// The reason why a unit misses, as a clause that begins with the unit.
 pub fn cause(ranked: &Ranked) -> String {
     match &ranked.cause {
         Cause::Place { place, away_km } => format!(
@@ -59,7 +59,7 @@ fn place_words(place: Place) -> String {
     format!("{} {}", angle(place.latitude_deg, 'N', 'S'), angle(place.longitude_deg, 'E', 'W'))
 }
 
-/// By how much a unit would miss `name`, and why.
+/// The amount by which a unit would miss `name`, and the reason.
 pub fn would_miss(name: &str, found: &Supervision) -> String {
     let off = format::degrees(found.worst.off.degrees(), 1);
     let at = format::time_z(found.worst.at);
@@ -72,7 +72,7 @@ pub fn would_miss(name: &str, found: &Supervision) -> String {
     }
 }
 
-/// What is not known of a unit; `None` where nothing but its elements is.
+/// Unknown facts about a unit; `None` if nothing or only its elements are unknown.
 pub fn not_known(found: &Supervision) -> Option<String> {
     let word = |unknown: &Unknown| match unknown {
         Unknown::Place => Some("its place"),
@@ -84,14 +84,14 @@ pub fn not_known(found: &Supervision) -> Option<String> {
     (!words.is_empty()).then(|| format!("Not known of the unit: {}.", words.join(", ")))
 }
 
-/// What is said of a unit that will follow well enough.
+/// The note on a unit that tracks well enough.
 pub fn within_beam(found: &Supervision) -> Option<String> {
     let first = found.causes.first()?;
     let off = format::degrees(found.worst.off.degrees(), 2);
     Some(format!("Up to {off} off: {}.", cause(first)))
 }
 
-/// The lowest elevation of a unit that is below that of the station.
+/// The note on a unit whose minimum elevation is below that of the station.
 pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
     format!(
         "The unit's minimum elevation is {}, the station's {}. Set it under Antennas.",
@@ -100,7 +100,7 @@ pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
     )
 }
 
-/// Where a unit's own program would go wrong first, and what to do.
+/// The first place where a unit's own program would enter a forbidden zone, and what to do.
 pub fn trespass(Trespass { at, direction, limit }: &Trespass) -> String {
     let bound = match limit {
         OffLimits::Elevation { lowest_deg } => {

@@ -1,4 +1,4 @@
-//! Why something was not sent or not done.
+//! The reasons of refusals and failures.
 
 use crate::{
     device::{PrepareError, settings::Hindrance},
@@ -6,14 +6,14 @@ use crate::{
     ui::format,
 };
 
-/// The button that starts an action whose end only the unit knows.
+/// Text of the button that starts an action whose end only the unit knows.
 pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing its end";
-/// The button that lets an antenna be moved out of where it must not point.
+/// Text of the button that allows moving an antenna out of a forbidden zone.
 pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
-/// The button that lets it move without a dead-man.
+/// Text of the button that allows motion without a dead-man.
 pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without dead-man";
 
-/// Why a motion was not sent.
+/// The reason why a motion was not sent.
 // One arm a kind.
 #[allow(clippy::too_many_lines)]
 pub fn refusal(refusal: &Refusal) -> String {
@@ -120,12 +120,12 @@ pub fn refusal(refusal: &Refusal) -> String {
     }
 }
 
-/// Why a setting that decides where the antenna points has to wait, and what to do.
+/// The reason why a setting that affects pointing must wait, and what to do.
 pub fn hindrance(hindrance: Hindrance) -> String {
     super::sentence(&hindrance.to_string())
 }
 
-/// Why a target is not followed, or no further.
+/// The reason why a target is not tracked, or no longer.
 pub fn track_problem(problem: &TrackProblem) -> String {
     match problem {
         TrackProblem::NoPass => "it does not rise in the next days.".to_owned(),
@@ -137,13 +137,13 @@ pub fn track_problem(problem: &TrackProblem) -> String {
     }
 }
 
-/// What a unit answered when it said no. A number is the code of a Satrak.
+/// The refusal of a unit in words. A number is an error code of a Satrak.
 pub fn answer(code: &str) -> String {
     let is_number = !code.is_empty() && code.bytes().all(|byte| byte.is_ascii_digit());
     if is_number { format!("ERR,{code}") } else { code.to_owned() }
 }
 
-/// Why a link is lost.
+/// The reason why a link is lost.
 pub fn link_loss(loss: &LinkLoss) -> String {
     match loss {
         LinkLoss::Refused(why) => format!("the connection was not made ({why})"),
@@ -159,7 +159,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
     }
 }
 
-/// Why a satellite is not on the unit.
+/// The reason why a satellite is not on the unit.
 pub fn prepare_error(error: &PrepareError) -> String {
     match error {
         PrepareError::CannotBeSent(why) => format!("it cannot be sent: {why}"),

@@ -1,4 +1,4 @@
-//! Matters of safety.
+//! Sentences about safety.
 
 use crate::{
     driver::{Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike},
@@ -8,7 +8,7 @@ use crate::{
     ui::format,
 };
 
-/// Where an antenna is that is inside a barrier.
+/// A barrier as the goal of a motion, such as "too close to the Sun".
 pub fn forbidden(barrier: &Barrier) -> String {
     match barrier {
         Barrier::MinimumElevation => "below its minimum elevation".to_owned(),
@@ -17,7 +17,7 @@ pub fn forbidden(barrier: &Barrier) -> String {
     }
 }
 
-/// Where an antenna is that stands inside a barrier.
+/// A barrier as the position of an antenna.
 pub fn inside(barrier: &Barrier) -> String {
     match barrier {
         Barrier::KeepOut(name) => format!("inside \u{201c}{name}\u{201d}"),
@@ -25,8 +25,8 @@ pub fn inside(barrier: &Barrier) -> String {
     }
 }
 
-/// What an antenna may do that stands inside a barrier; `may_leave` by the operator's
-/// word.
+/// The motions allowed to an antenna inside a barrier; `may_leave`: the operator has allowed
+/// it to leave.
 pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String {
     let place = inside(barrier);
     match (may_leave, barrier) {
@@ -43,8 +43,7 @@ pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String 
     }
 }
 
-/// What following the Sun with `antenna` means while it is kept away from; the radius
-/// of that in degrees.
+/// The consequence of following the Sun with `antenna` under Sun avoidance of `radius_deg`.
 pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
     format!(
         "The Sun avoidance keeps {antenna} {} away from the Sun. The hold lifts it for this track \
@@ -53,12 +52,12 @@ pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
     )
 }
 
-/// What holds while the Sun is followed.
+/// The note while the Sun is followed.
 pub const SUN_IS_LIFTED: &str =
     "The Sun avoidance is lifted by your word, for this track alone. STOP ends both.";
 
-/// The operator's reason for a keep-out that something is told of, in a sentence behind
-/// that; empty where there is none.
+/// The operator's reason for a keep-out, to append to a sentence about it; empty if there is
+/// none.
 pub fn reason(barrier: &Barrier, station: &Station) -> String {
     let Barrier::KeepOut(name) = barrier else { return String::new() };
     let keep_out = station.keep_outs.iter().find(|of| of.name == name.as_str());
@@ -69,7 +68,7 @@ pub fn reason(barrier: &Barrier, station: &Station) -> String {
     format!(" \u{201c}{name}\u{201d}: {reason}.")
 }
 
-/// How long an antenna runs on after STOP, and where that is known from.
+/// The overrun of an antenna, and the source of that value.
 pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -> String {
     let overrun = format!("Runs on for {} s", format::number(overrun_s, 1));
     let enough = StoppingWay::ENOUGH;
@@ -79,11 +78,11 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
     format!("{overrun} by its make: {stops} of {enough} STOPs seen.")
 }
 
-/// Why a jog waits for the operator's word.
+/// The reason why jogging waits for the operator's permission.
 pub const UNGUARDED: &str =
     "No dead-man can be had: if Azel ended while the key is held, nothing would stop the antenna.";
 
-/// Why the operator is asked whether the antenna stands.
+/// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
         let why =
@@ -96,7 +95,7 @@ pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
     ))
 }
 
-/// A STOP that is owed to a unit of no antenna.
+/// The sentence about a STOP owed to a unit that belongs to no antenna any more.
 pub fn owed(unit: &Unit) -> String {
     let Unit { make, address } = unit;
     let known = makes::SPECS.iter().find(|known| known.key == make);
@@ -107,7 +106,7 @@ pub fn owed(unit: &Unit) -> String {
     )
 }
 
-/// In what a unit differs from what it was before, as a sentence after a blank.
+/// The difference of a unit from its earlier state, as a sentence after a blank.
 fn unlike(unlike: Unlike) -> &'static str {
     match unlike {
         Unlike::Identity => {
@@ -121,7 +120,7 @@ fn unlike(unlike: Unlike) -> &'static str {
     }
 }
 
-/// A matter of safety in words; `antenna` is its name.
+/// A matter of safety in words; `antenna` is the name of the antenna.
 pub fn safety(matter: &Safety, antenna: &str) -> String {
     match matter {
         Safety::DeadManFired => format!(
