@@ -1,5 +1,5 @@
-//! The window's shell: it takes what its station shows, draws it, and hands over what
-//! the views ask for.
+//! The window's shell: it draws the state of its station and carries out the commands of
+//! the views.
 //!
 //! Invariants: this thread never blocks and never does I/O; views change nothing, they
 //! queue [`UiCommand`]s.
@@ -33,7 +33,7 @@ use crate::{
     ui,
 };
 
-/// While something moves, the numbers run.
+/// Interval between frames while an antenna moves.
 const MOVING_FRAME: Duration = Duration::from_millis(100);
 
 /// The app behind the window.
@@ -47,19 +47,19 @@ pub struct App {
     log_work: LogWork,
     mask_work: MaskWork,
     keeper: Keeper,
-    /// What the station was told last that is looked at.
+    /// The attention last reported to the station.
     told: engine::Attention,
-    /// What was to be done before the end is done.
+    /// Everything to be done before closing is done.
     closes: bool,
-    /// The operator or the operating system has said so: nothing is asked.
+    /// The operator or the operating system has decided to close: no question is asked.
     may_close: Arc<AtomicBool>,
-    /// The operating system has said so: nobody can be asked.
+    /// The operating system ends the program: nobody can be asked.
     told_to_end: Arc<AtomicBool>,
     drawn: bool,
 }
 
 impl App {
-    /// The app in a new window, on a station as `settings` say.
+    /// Creates the app in a new window, on the station that `settings` name.
     pub fn new(ctx: &egui::Context, settings: &Settings, clock: Clock) -> io::Result<Self> {
         let keeper = Keeper::beside(settings.station_path().as_deref());
         ui::theme::install(ctx, keeper.memory.theme);
@@ -112,7 +112,6 @@ impl App {
         })
     }
 
-    /// What is shown.
     pub fn model(&self) -> &Model {
         &self.model
     }
@@ -122,11 +121,11 @@ impl App {
         &self.station
     }
 
-    /// Takes everything that has come in since the last frame.
+    /// Takes all news since the last frame.
     fn think(&mut self) {
         let now = self.clock.now();
         (self.model.now, self.model.steady) = (now.utc, now.steady);
-        // They tell of what is published by then.
+        // Events refer to state that is published by then.
         let events: Vec<_> = std::iter::from_fn(|| self.station.next_event()).collect();
         if self.station.take() {
             let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
@@ -151,7 +150,7 @@ impl App {
         self.remember();
     }
 
-    /// Selects the antenna that the operator selected last, if the station has it.
+    /// Selects the antenna that the operator selected last, if the station still has it.
     fn select_known_antenna(&mut self) {
         let last = self.keeper.memory.antenna.as_deref();
         let mut antennas = self.model.antennas.iter();
@@ -160,7 +159,7 @@ impl App {
         self.model.selected_antenna = place.unwrap_or(self.model.selected_antenna).min(most);
     }
 
-    /// Tells the station what is looked at.
+    /// Reports to the station what is looked at.
     fn look(&mut self) {
         let (list, selected) = (self.model.list, self.model.selected);
         let attention = engine::Attention { list, selected };
@@ -170,24 +169,24 @@ impl App {
         }
     }
 
-    /// Keeps what the operator has changed for the next start.
+    /// Keeps the operator's changes for the next start.
     fn remember(&mut self) {
         self.keeper.memory.views = self.views.kept();
         self.keeper.keep(&self.wake);
     }
 
-    /// Whether the window is to close now, and nothing is asked: true once.
+    /// Returns `true` once, when the window closes now without a question.
     fn closes_now(&mut self) -> bool {
         if !self.station.runs() {
-            // Nothing is shown any more. The sessions hear it while they end.
+            // Nothing is shown any more. The sessions carry the STOP out while they end.
             self.station.client().stop_all();
             std::panic::resume_unwind(Box::new("the station broke down".to_owned()));
         }
         std::mem::take(&mut self.closes) && !self.may_close.swap(true, Ordering::Relaxed)
     }
 
-    /// The next frame: ten a second while metal moves or a key is held, else on
-    /// the full second. Whatever comes in asks for its own.
+    /// Schedules the next frame: ten per second while metal moves or a key is held, otherwise on
+    /// the full second. News request a frame of their own.
     fn schedule_repaint(&self, ctx: &egui::Context) {
         let lively = self.model.antennas.iter().any(|antenna| {
             let snapshot = &antenna.snapshot;
@@ -198,14 +197,14 @@ impl App {
         let into_second = self.model.now.subsec_nanosecond();
         let to_next = Duration::from_nanos(1_000_000_000 - u64::from(into_second.unsigned_abs()));
         let wait = if lively { MOVING_FRAME.min(to_next) } else { to_next };
-        // A clock that stands at the second when the frame comes early would
-        // ask for a frame at once, again and again.
+        // If a frame comes slightly before the full second, the wait would be zero again and
+        // again.
         let wait = wait.max(Duration::from_millis(5));
         ctx.request_repaint_after_for(wait, egui::ViewportId::ROOT);
     }
 }
 
-/// Every jog ends with a STOP on the wire before the window is gone.
+/// Ends every jog with a STOP on the wire before the window is gone.
 impl Drop for App {
     fn drop(&mut self) {
         if self.told_to_end.load(Ordering::Relaxed) {
@@ -218,8 +217,8 @@ impl Drop for App {
     }
 }
 
-/// A log-out or Ctrl C in the terminal closes the window in order, so that a
-/// jog ends with STOP.
+/// Makes a log-out or Ctrl C in the terminal close the window in order, so that a jog ends
+/// with STOP.
 fn close_on_signals(
     station: Client,
     flags: [Arc<AtomicBool>; 2],
@@ -234,8 +233,8 @@ fn close_on_signals(
     })
 }
 
-/// Asks for a frame soon. A delay that is not zero gives one frame, not two,
-/// and merges what comes in between.
+/// A waker that requests a frame soon. A non-zero delay gives one frame instead of two and
+/// merges all requests in between.
 fn wake(ctx: egui::Context) -> Wake {
     Arc::new(move || {
         ctx.request_repaint_after_for(Duration::from_millis(30), egui::ViewportId::ROOT);
@@ -251,15 +250,15 @@ impl eframe::App for App {
         self.schedule_repaint(ctx);
     }
 
-    /// The ground of the panels: cleared, not painted, which spares a software
-    /// renderer most of what it would have to fill.
+    /// The background of the panels: cleared instead of painted, which saves a software renderer
+    /// most of the filling.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         tracing::trace!(causes = ?ui.repaint_causes(), "frame");
-        // Before any other input of the frame, whatever is open or focused.
+        // STOP comes before any other input of the frame, whatever is open or focused.
         let stop = ui.input(|input| input.key_pressed(egui::Key::Escape));
         if stop {
             self.stop_all();

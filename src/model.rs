@@ -1,4 +1,4 @@
-//! The model: what the views show and ask for. Only the shell of the window changes it; a view
+//! The model: the state that the views show. Only the shell of the window changes it; a view
 //! reads it and queues commands.
 
 pub mod command;
@@ -42,36 +42,36 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// For how long the way of a satellite that is not selected is drawn.
+/// Length of the drawn path of a satellite that is not selected.
 const AHEAD_S: f64 = 300.0;
 
-/// Which view fills the window.
+/// The view that fills the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum View {
     /// Watch and drive.
     #[default]
     Operate,
-    /// The catalog and where it comes from.
+    /// The catalog and its sources.
     Elements,
     /// The settings of the units.
     Antennas,
-    /// What goes over the links.
+    /// The traffic on the links.
     Console,
     /// The station's settings.
     Preferences,
 }
 
-/// What became of a file with a horizon mask.
+/// Outcome of reading or writing a file with a horizon mask.
 pub enum MaskNews {
     /// A mask was read, in this form.
     Read(HorizonMask, MaskForm),
     /// A mask was written here.
     Written(PathBuf),
-    /// It could not be done, and why.
+    /// The operation failed, with the reason.
     Failed(String),
 }
 
-/// Everything that is shown.
+/// All state shown in the window.
 pub struct Model {
     /// UTC of this frame.
     pub now: Timestamp,
@@ -83,54 +83,51 @@ pub struct Model {
     pub station: Arc<Station>,
     /// The station is the demo station with simulated antennas.
     pub demo: bool,
-    /// The elements.
     pub catalog: CatalogState,
-    /// Where the elements come from.
+    /// The sources of elements.
     pub sources: Arc<Sources>,
     /// The antennas of the station.
     pub antennas: Vec<AntennaModel>,
-    /// What goes over their links, in the same order.
+    /// The traffic on the links of the antennas, in the same order.
     pub wires: Vec<WireLog>,
-    /// Which of them the card shows.
+    /// Index of the antenna whose card is shown.
     pub selected_antenna: usize,
-    /// The passes to come.
+    /// The predicted passes.
     pub pass_lists: PassLists,
-    /// Which of them the list shows.
+    /// The choice of passes in the list.
     pub list: ListChoice,
-    /// The pass that is shown.
+    /// The selected pass.
     pub selected: Option<PassKey>,
     /// The sky at `now`.
     pub sky: Sky,
     /// Files of elements on their way to units.
     pub uploads: Arc<Uploads>,
-    /// The sources that units are told to use, tested from here.
+    /// Tests, from this console, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
-    /// What the keep-outs do to the passes to come.
+    /// Effects of the keep-outs on the predicted passes.
     pub effects: Effects,
-    /// What must not be missed.
+    /// Active alarms.
     pub alarms: Alarms,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
-    /// Which view fills the window.
+    /// The view that fills the window.
     pub view: View,
-    /// The window is about to close, and what it waits for.
+    /// What a closing window waits for; `None` while it is not closing.
     pub closing: Option<Closing>,
 }
 
 /// The sky of the site.
 #[derive(Debug, Default)]
 pub struct Sky {
-    /// The satellites of the list that are up.
+    /// Satellites of the list above the horizon.
     pub satellites: Vec<Seen>,
-    /// The satellite of the selected pass, up or not.
+    /// The satellite of the selected pass, above the horizon or not.
     pub selected: Option<Selected>,
-    /// What the horizon mask leaves of the selected pass.
+    /// The stretches of the selected pass above the horizon mask.
     pub mask_cut: MaskCut,
-    /// The Sun.
     pub sun: Option<AzEl>,
-    /// The Moon.
     pub moon: Option<AzEl>,
-    /// Day and night from a little before now for the next hours.
+    /// Day and night from shortly before now for the next hours.
     pub sun_spans: Vec<SunSpan>,
     seconds: Option<i64>,
     sun_spans_of: Option<(Site, i64)>,
@@ -139,18 +136,15 @@ pub struct Sky {
 /// A satellite above the horizon.
 #[derive(Debug)]
 pub struct Seen {
-    /// Which.
     pub satellite: Arc<ListedSatellite>,
-    /// Where.
     pub direction: AzEl,
-    /// Where it goes in the next minutes.
+    /// Path of the next minutes.
     pub ahead: Vec<AzEl>,
 }
 
 /// The satellite of the selected pass.
 #[derive(Debug, Clone, Copy)]
 pub struct Selected {
-    /// Where it stands and how it moves.
     pub look: LookAngles,
     /// The Sun shines on it.
     pub sunlit: bool,
@@ -162,7 +156,7 @@ impl Model {
         self.antennas.get(self.selected_antenna)
     }
 
-    /// The place of an antenna, if the station still has it.
+    /// The index of an antenna, if the station still has it.
     pub fn place(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.id() == id)
     }
@@ -172,19 +166,19 @@ impl Model {
         self.antennas.get(self.place(id)?)
     }
 
-    /// The selected pass, while it is not over.
+    /// The selected pass, until it is over.
     pub fn selected_pass(&self) -> Option<&PredictedPass> {
         let selected = self.pass_lists.find(self.selected?);
         selected.filter(|predicted| predicted.pass.los.time > self.now)
     }
 
-    /// The pass of a followed satellite that is under way, or else its next one.
+    /// The pass of a favourite that is under way, otherwise its next one.
     pub fn pass_of(&self, catalog_number: u32) -> Option<&PredictedPass> {
         let passes = self.pass_lists.favourites.upcoming(self.now);
         passes.iter().find(|predicted| predicted.number() == catalog_number)
     }
 
-    /// The pass of a followed satellite that is under way or comes next.
+    /// The pass of any favourite that is under way or comes next.
     pub fn next_pass(&self) -> Option<&PredictedPass> {
         self.pass_lists.next(self.now)
     }
@@ -197,7 +191,7 @@ impl Model {
         }
     }
 
-    /// Takes what the station shows of itself.
+    /// Takes the state published by the station.
     pub fn take(&mut self, station: &Handle) {
         let shown = Arc::clone(station.snapshot());
         let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
@@ -225,7 +219,7 @@ impl Model {
         }
     }
 
-    /// The station has shown nothing new for so long.
+    /// Raises the alarm that the station has published nothing new for `stood`; `None` clears it.
     pub fn watch_station(&mut self, stood: Option<Duration>) {
         let stands = |kind: &AlarmKind| matches!(kind, AlarmKind::StationStands(_));
         match stood {
@@ -234,7 +228,7 @@ impl Model {
         }
     }
 
-    /// Puts everything at its place for `now`.
+    /// Recomputes the sky for `now`.
     pub fn refresh_sky(&mut self) {
         let (site, now) = (self.station.site, self.now);
         let pass = self.selected.and_then(|key| self.pass_lists.find(key));
@@ -252,7 +246,7 @@ impl Sky {
         site: Site,
         now: Timestamp,
     ) {
-        // The one that is compared with the antenna moves with every frame.
+        // The selected satellite is compared with the antenna and moves with every frame.
         self.selected = selected.and_then(|satellite| {
             let look = satellite.propagator.look_from(site, now).ok()?;
             let state = satellite.propagator.state_at(now).ok()?;
@@ -278,7 +272,7 @@ impl Sky {
             .collect();
     }
 
-    /// Made anew every minute.
+    /// Recomputes day and night every minute.
     fn refresh_sun_spans(&mut self, site: Site, now: Timestamp) {
         let made_of = (site, now.as_second() / 60);
         if self.sun_spans_of == Some(made_of) {

@@ -1,4 +1,4 @@
-//! Carries out what the views asked for.
+//! Carries out the commands of the views.
 
 use std::sync::atomic::Ordering;
 
@@ -12,20 +12,20 @@ use crate::{
 };
 
 impl App {
-    /// Past every queue, to every antenna that it concerns.
+    /// Sends STOP past every queue, to every antenna that it concerns.
     pub(super) fn stop_all(&mut self) {
         let stopped = self.station.client().stop_all();
         self.show_stopped(&stopped);
     }
 
-    /// Past every queue, also to a unit that has to be connected for it.
+    /// Sends STOP past every queue, also to a unit that must be connected for it.
     fn stop_one(&mut self, index: usize) {
         let Some(id) = self.id(index) else { return };
         let stopped = self.station.client().stop(id);
         self.show_stopped(&stopped);
     }
 
-    /// STOP is shown as pressed from this frame on.
+    /// Shows STOP as pressed from this frame on.
     fn show_stopped(&mut self, stopped: &Stopped) {
         let antennas = self.model.antennas.iter_mut();
         for antenna in antennas.filter(|of| stopped.antennas.contains(&of.id())) {
@@ -33,7 +33,7 @@ impl App {
         }
     }
 
-    /// The antenna that is shown at this place.
+    /// The id of the antenna with this index.
     fn id(&self, index: usize) -> Option<AntennaId> {
         self.model.antennas.get(index).map(AntennaModel::id)
     }
@@ -133,7 +133,7 @@ impl App {
     fn send(&mut self, command: Command) {
         let Err(command) = self.station.client().send(command) else { return };
         tracing::error!(?command, "the station is too busy to take a command");
-        // What ends a motion must not get lost: stop instead.
+        // A command that ends a motion must not get lost: stop instead.
         if let Command::Antenna(id, driver::Command::Standby | driver::Command::EndJog) = command {
             let stopped = self.station.client().stop(id);
             self.show_stopped(&stopped);

@@ -1,4 +1,4 @@
-//! Works out what the keep-outs do to the passes, on a thread.
+//! Computes the effects of the keep-outs on the passes, on a thread.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::{
     model::effects::{DEBOUNCE, Effect, Question, answer, ways},
 };
 
-/// What is worked out, for which list of passes.
+/// A running computation, with its question and the revision of the pass list.
 pub(super) type EffectsJob = (Question, u64, Job<Effect>);
 
 impl App {
@@ -25,7 +25,7 @@ impl App {
         };
         match end {
             Some(Ok(effect)) => effects.effect = Some(effect),
-            // Asking the same again would break off again.
+            // The same question would fail again.
             Some(Err(_)) => effects.asked = None,
             None => {}
         }
@@ -54,7 +54,7 @@ impl App {
             answer(asked, &ways, revision)
         };
         match Job::start("azel-effects", Arc::clone(&self.wake), work) {
-            // A job on an older question is cancelled.
+            // Replacing the job of an older question cancels it.
             Ok(job) => *begun = Some((question.clone(), revision, job)),
             Err(error) => tracing::error!(%error, "no thread for the effects"),
         }

@@ -1,4 +1,4 @@
-//! Lines of the console as a file of their own, written on a thread.
+//! Writes lines of the console to a file, on a thread.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -15,14 +15,14 @@ pub(super) struct LogWork {
 }
 
 impl LogWork {
-    /// The folder stands beside that of the elements.
+    /// Uses a folder beside that of the elements.
     pub(super) fn beside(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("console")), job: None }
     }
 }
 
 impl App {
-    /// Begins to write `lines`, or says why not.
+    /// Begins to write `lines`, or reports why it cannot.
     pub(super) fn save_log(&mut self, lines: Vec<Arc<Line>>) {
         if self.log_work.job.is_some() {
             return self.views.log_saved(Err("the last file is still being written".to_owned()));
@@ -45,7 +45,7 @@ impl App {
         }
     }
 
-    /// Takes what the thread has done.
+    /// Takes the result of the thread.
     pub(super) fn take_log_file(&mut self) {
         if let Some(end) = Job::take(&mut self.log_work.job) {
             self.views.log_saved(end.unwrap_or_else(|broke_off| Err(broke_off.to_string())));

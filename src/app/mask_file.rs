@@ -1,4 +1,4 @@
-//! Horizon masks from files and to files, on a thread.
+//! Reads and writes files with horizon masks, on a thread.
 
 use std::{fs, path::PathBuf, sync::Arc};
 
@@ -10,10 +10,10 @@ use crate::{
     whole_file,
 };
 
-/// A file with a mask is not larger, bytes.
+/// Maximum size of a mask file, bytes.
 const MAX: u64 = 4 << 20;
 
-/// One file at a time, in one folder for those that are written.
+/// Reads or writes one file at a time; written files go to one folder.
 #[derive(Default)]
 pub(super) struct MaskWork {
     folder: Option<PathBuf>,
@@ -21,7 +21,7 @@ pub(super) struct MaskWork {
 }
 
 impl MaskWork {
-    /// The folder stands beside that of the elements.
+    /// Uses a folder beside that of the elements.
     pub(super) fn beside(library: Option<PathBuf>) -> Self {
         Self { folder: library.map(|library| library.with_file_name("horizon")), job: None }
     }
@@ -62,7 +62,7 @@ impl App {
         }
     }
 
-    /// Takes what the thread has done.
+    /// Takes the result of the thread.
     pub(super) fn take_mask_file(&mut self) {
         let Some(end) = Job::take(&mut self.mask_work.job) else { return };
         self.views.mask_news(end.unwrap_or_else(|broke| MaskNews::Failed(broke.to_string())));

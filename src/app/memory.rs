@@ -1,7 +1,6 @@
-//! What the window keeps from one start to the next, in a small file beside the
-//! station's. It is a convenience: whatever is wrong with the file costs no
-//! more than what stands in it, and it is written only after the operator has
-//! changed something.
+//! The state that the window keeps from one start to the next, in a small file beside the
+//! station file. It is a convenience: a damaged file costs no more than its contents, and
+//! the file is written only after a change by the operator.
 
 use std::{
     fs, io,
@@ -19,24 +18,24 @@ use crate::{
     whole_file,
 };
 
-/// The end of the program waits so long for the last change.
+/// Maximum wait for the last write at the end of the program.
 const FAREWELL: Duration = Duration::from_millis(500);
 
-/// What is kept.
+/// The kept state.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Memory {
-    /// The colours.
+    /// The theme.
     pub(super) theme: ThemeName,
     /// Name of the antenna that the operator selected last.
     pub(super) antenna: Option<String>,
-    /// Which passes the list shows.
+    /// The choice of passes in the list.
     pub(super) list: ListChoice,
-    /// What the views keep.
+    /// The kept state of the views.
     pub(super) views: Kept,
 }
 
 impl Memory {
-    /// What was kept at `path`. A missing or wrong part has its default.
+    /// Reads the file at `path`. A missing or wrong part gets its default.
     fn read(path: &Path) -> Self {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
@@ -126,14 +125,14 @@ fn layers(table: Option<&toml::Table>) -> Layers {
     }
 }
 
-/// One of a few words; the usual one where there is none that is known.
+/// Reads one of a few words; the default if the word is missing or unknown.
 fn word<T: Default + DeserializeOwned>(table: &toml::Table, key: &str) -> T {
     table.get(key).and_then(|value| value.clone().try_into().ok()).unwrap_or_default()
 }
 
-/// The memory, its file and the writing under way.
+/// The memory, its file and a running write.
 pub(super) struct Keeper {
-    /// What is kept.
+    /// The kept state.
     pub(super) memory: Memory,
     written: Memory,
     path: Option<PathBuf>,
@@ -141,16 +140,16 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    /// The memory that belongs to the station file; nothing is kept without one.
+    /// The memory of a station file; without a station file nothing is kept.
     pub(super) fn beside(station: Option<&Path>) -> Self {
         let path = station.map(|station| station.with_file_name("window.toml"));
         let memory = path.as_deref().map(Memory::read).unwrap_or_default();
         Self { written: memory.clone(), memory, path, job: None }
     }
 
-    /// Writes what has changed, on a thread of its own and one change at a time.
+    /// Writes changes on a thread of its own, one write at a time.
     pub(super) fn keep(&mut self, wake: &Wake) {
-        // What broke off is in the log, and is tried again with the next change.
+        // A failed write is in the log and is tried again with the next change.
         let _ = Job::take(&mut self.job);
         let Some(path) = self.path.clone().filter(|_| self.job.is_none()) else { return };
         if self.memory == self.written {
@@ -167,7 +166,7 @@ impl Keeper {
         }
     }
 
-    /// Before the end: the last change, within reason.
+    /// Writes the last change before the end, for a limited time.
     pub(super) fn finish(&mut self, wake: &Wake) {
         for _ in 0..2 {
             if let Some(job) = self.job.take() {

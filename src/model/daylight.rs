@@ -1,4 +1,4 @@
-//! When the Sun is up.
+//! Spans of day and night.
 
 use jiff::Timestamp;
 
@@ -12,7 +12,7 @@ const SPAN_MIN: (i32, i32) = (-60, 25 * 60);
 /// A stretch of day or of night.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunSpan {
-    /// Sunrise or sunset, but for the first.
+    /// Sunrise or sunset, except for the first span.
     pub from: Timestamp,
     pub to: Timestamp,
     /// `false` for night.

@@ -59,11 +59,11 @@ pub struct PassTrack {
 /// Effect of a keep-out on the passes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Toll {
-    /// Number of passes that it touches.
+    /// Number of passes that touch the zone.
     pub passes: usize,
-    /// Time of all these passes in it, seconds.
+    /// Time of all these passes inside the zone.
     pub time_s: f64,
-    /// The samples of each way that lie in it.
+    /// Stretches inside the zone: index of the track and range of its samples.
     pub blocked: Vec<(usize, Range<usize>)>,
 }
 
@@ -101,7 +101,7 @@ pub struct Effect {
 /// The last question and its answer.
 #[derive(Default)]
 pub struct Effects {
-    /// Kept until the next one, so that the view does not flicker.
+    /// The last answer, kept until the next one so that the view does not flicker.
     pub effect: Option<Effect>,
     /// The question, and the time it was asked first.
     pub asked: Option<(Question, Instant)>,
@@ -120,7 +120,7 @@ impl Effects {
     }
 }
 
-/// The ways of all passes, or of those that there was time for.
+/// The tracks of all passes, or of those that were done before cancellation.
 pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[PassTrack]> {
     let wanted = passes.iter().filter(|predicted| !predicted.is_always_up());
     let way = |predicted: &PredictedPass| PassTrack {
@@ -205,8 +205,8 @@ impl Toll {
     }
 }
 
-/// Whether each of the samples that are `seen` lies too near to the Sun, now or in its time
-/// ahead.
+/// For each sample that is `seen`, `true` if it lies too near to the Sun, at its time or in the
+/// look-ahead time.
 fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, seen: &[bool]) -> Vec<bool> {
     let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
         return Vec::new();
@@ -238,7 +238,7 @@ fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
     found
 }
 
-/// Duration of a stretch: half a step more at each end where the way goes on.
+/// Duration of a stretch, with half a step more at each end where the track goes on.
 fn time_s(way: &PassTrack, stretch: &Range<usize>) -> f64 {
     let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
     let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {

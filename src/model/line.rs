@@ -37,13 +37,13 @@ impl Line {
         &self.recorded.line
     }
 
-    /// Whether this is a routine question or answer, with nothing odd about it.
+    /// Returns `true` for a routine question or answer with nothing unusual in it.
     pub fn is_usual_poll(&self) -> bool {
         let is_calm = matches!(self.meaning.tone, Tone::Plain | Tone::Good);
         self.wire().is_poll && self.wire().finding.is_good() && is_calm
     }
 
-    /// Whether `needle`, in lower case, is in the bytes, the meaning or the name of the
+    /// Returns `true` if `needle`, in lower case, is in the bytes, the meaning or the name of the
     /// antenna.
     pub fn has(&self, needle: &str) -> bool {
         let texts = [self.raw.as_str(), &self.meaning.text, &self.antenna];
@@ -67,12 +67,12 @@ impl Line {
         let at = self.wire().at.to_zoned(TimeZone::UTC).strftime("%FT%T.%3fZ").to_string();
         let mut text = format!("{at}\t{}\t{}\t{}\t", self.antenna, self.direction(), self.raw);
         text.push_str(&self.round_trip().unwrap_or_default());
-        // Writing to a text cannot fail.
+        // Writing to a string cannot fail.
         let _ = write!(text, "\t{}", self.meaning.text);
         text
     }
 
-    /// "sent" or "received"; nothing for what did not come.
+    /// "sent" or "received"; empty for a missing reply.
     pub fn direction(&self) -> &'static str {
         match (self.wire().direction, self.wire().finding) {
             (_, Finding::NoReply { .. }) => "",
@@ -87,11 +87,11 @@ impl Line {
 pub enum Piece {
     /// Printable characters.
     Text(String),
-    /// Name of a byte that cannot be printed.
+    /// Name of an unprintable byte.
     Code(String),
 }
 
-/// The bytes as they can be shown.
+/// The bytes split into printable text and names of unprintable bytes.
 pub fn pieces(bytes: &[u8]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for byte in bytes {
@@ -107,7 +107,7 @@ pub fn pieces(bytes: &[u8]) -> Vec<Piece> {
     pieces
 }
 
-/// The bytes stand for a meaning that the make has no words for.
+/// The meaning of a line that the make has no words for.
 fn unnamed(direction: Direction, length: usize) -> Meaning {
     let kind = if direction == Direction::Sent { "Request" } else { "Reply" };
     let plural = if length == 1 { "" } else { "s" };

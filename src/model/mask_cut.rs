@@ -14,8 +14,8 @@ pub struct MaskCut {
 }
 
 impl MaskCut {
-    /// The stretches above the mask, in order: empty where the mask hides the whole pass,
-    /// `None` where it cuts nothing off.
+    /// The stretches above the mask, in order: empty if the mask hides the whole pass, `None` if
+    /// it cuts nothing off.
     pub fn cut(&self) -> Option<&[Pass]> {
         self.cut.as_deref()
     }
