@@ -49,7 +49,7 @@ impl Angle {
         Self(self.0.abs())
     }
 
-    /// Whether the value is neither infinite nor not-a-number.
+    /// Returns `true` if the value is neither infinite nor not-a-number.
     pub fn is_finite(self) -> bool {
         self.0.is_finite()
     }

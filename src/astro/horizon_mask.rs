@@ -25,7 +25,7 @@ pub struct HorizonMask {
     points: Vec<(f64, f64)>,
 }
 
-/// Why points are no mask.
+/// The reason why points are not a mask.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaskError {
     /// No point at all.
@@ -45,7 +45,7 @@ pub enum MaskError {
     Duplicate(f64),
 }
 
-/// Why a text is no mask.
+/// The reason why a text is not a mask.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaskTextError {
     /// A line does not hold two numbers.

@@ -13,7 +13,7 @@ pub struct Site {
     altitude_m: f64,
 }
 
-/// Why a place is no site.
+/// The reason why a place is not a site.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SiteError {
     /// Not within the poles.

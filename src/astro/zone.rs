@@ -190,7 +190,7 @@ impl Zone {
     }
 }
 
-/// Whether `b` is the direction of `a`, counted one turn or more on or back.
+/// Returns `true` if `b` is the direction of `a`, counted one turn or more on or back.
 fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
     let is_counted_on = (a.azimuth - b.azimuth).abs().degrees() > 180.0;
     is_counted_on && is_same(a.to_enu(), b.to_enu())

@@ -250,7 +250,7 @@ impl Elements {
         time::seconds_between(self.epoch, now)
     }
 
-    /// Whether the satellite keeps its place in the sky: the period within 2 %
+    /// Returns `true` if the satellite keeps its place in the sky: the period within 2 %
     /// of a sidereal day and a near-circular orbit, whatever its inclination.
     pub fn is_geosynchronous(&self) -> bool {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1

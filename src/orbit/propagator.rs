@@ -136,7 +136,7 @@ impl Propagator {
         self.sgp4_state(since_epoch_min, resumable)
     }
 
-    /// Whether the orbit may have met the ground by then.
+    /// Returns `true` if the orbit may have met the ground by then.
     pub(super) fn may_be_down_at(&self, since_epoch_s: f64) -> bool {
         since_epoch_s > self.low_after_min * 60.0
     }

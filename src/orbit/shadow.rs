@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use super::State;
 use crate::astro::{frames, sun_moon};
 
-/// Whether a satellite in `state` (TEME, valid at `at`) is in sunlight.
+/// Returns `true` if a satellite in `state` (TEME, valid at `at`) is in sunlight.
 ///
 /// The shadow is a cylinder as wide as the equator. At its border half of the
 /// Sun's disc is hidden: the middle of the penumbra, which a low satellite

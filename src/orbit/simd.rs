@@ -16,7 +16,7 @@ pub(super) use self::vector::Vector;
 
 /// Numbers that go through the same operations.
 pub(super) type Lanes = f64x8;
-/// How many they are.
+/// Number of lanes.
 pub(super) const LANES: usize = 8;
 
 /// From here on a number of this type has no digits after the point.
@@ -55,9 +55,9 @@ pub(super) trait Number:
     fn atan2(self, x: Self) -> Self;
     /// The nearest number from `low` to `high`.
     fn within(self, low: f64, high: f64) -> Self;
-    /// Whether this is less. What is no number is not.
+    /// Compares each lane with `than`: true where it is less, false for NaN.
     fn is_less(self, than: Self) -> Self::Answer;
-    /// Whether any lane is this large. What is no number is not.
+    /// Returns `true` if any lane is at least `limit`; NaN is not.
     fn any_reaches(self, limit: f64) -> bool;
 }
 

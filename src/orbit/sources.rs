@@ -42,7 +42,7 @@ impl Source {
     }
 }
 
-/// Whether a server may be asked at `now` that was last asked at
+/// Returns `true` if a server may be asked at `now` that was last asked at
 /// `last_attempt`, whatever its answer was. `forced`: the operator wants it.
 pub fn may_fetch(last_attempt: Option<Timestamp>, now: Timestamp, forced: bool) -> bool {
     // A clock that was set back must not shut the source off.
@@ -90,7 +90,7 @@ pub struct SourceReport {
     pub as_of: Option<Timestamp>,
     /// The newest epoch in it.
     pub newest_epoch: Option<Timestamp>,
-    /// Why the last request brought nothing.
+    /// The reason why the last request brought no new elements.
     pub fetch_problem: Option<FetchProblem>,
     /// When the server may be asked again without force, where one is asked.
     pub next_fetch: Option<Timestamp>,

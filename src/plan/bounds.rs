@@ -22,7 +22,7 @@ use crate::{
 /// wider by as much.
 const FINEST_DEG: f64 = 0.05;
 
-/// What an antenna must not point into.
+/// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
     /// Below its minimum elevation.
@@ -139,17 +139,17 @@ impl Bounds {
         BoundsAt { bounds: self, minimum_elevation: self.minimum_elevation, suns }
     }
 
-    /// Whether any keep-out or the Sun is refused.
+    /// Returns `true` if any keep-out or the Sun is refused.
     pub fn forbid_anything(&self) -> bool {
         self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
     }
 
-    /// Whether ways lead round any keep-out.
+    /// Returns `true` if ways lead round any keep-out.
     pub(super) fn has_way_round(&self) -> bool {
         self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
     }
 
-    /// Whether `direction` is in a keep-out that ways lead round, or less than `room_deg`
+    /// Returns `true` if `direction` is in a keep-out that ways lead round, or less than `room_deg`
     /// outside its margin.
     pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
         let room = Angle::from_degrees(room_deg);

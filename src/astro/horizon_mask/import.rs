@@ -43,7 +43,7 @@ pub enum MaskForm {
     Keys,
 }
 
-/// Why a text is no mask in any known form.
+/// The reason why a text is not a mask in any known form.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaskImportError {
     /// The table has no such column.

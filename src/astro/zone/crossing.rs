@@ -109,7 +109,7 @@ fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Op
     [at(cos), at(-cos), None, None]
 }
 
-/// Whether a point of the circle of `edge` lies between its ends, both included.
+/// Returns `true` if a point of the circle of `edge` lies between its ends, both included.
 fn is_on(edge: &Edge, point: DVec3) -> bool {
     is_same(point, edge.from)
         || is_same(point, edge.to)
@@ -119,7 +119,7 @@ fn is_on(edge: &Edge, point: DVec3) -> bool {
         }
 }
 
-/// Whether all of `edge` lies on the circle of `line`.
+/// Returns `true` if all of `edge` lies on the circle of `line`.
 fn is_on_line_of(line: &Edge, edge: &Edge) -> bool {
     let plane = |point: DVec3| match line.shape {
         Shape::GreatCircle { normal } => normal.dot(point),

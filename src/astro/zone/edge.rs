@@ -88,13 +88,13 @@ impl Edge {
         beside.min(at.distance_squared(self.from)).min(at.distance_squared(self.to))
     }
 
-    /// Whether the point of the great circle that is nearest to `at` lies between
+    /// Returns `true` if the point of the great circle that is nearest to `at` lies between
     /// the ends.
     pub(super) fn spans(&self, at: DVec3, normal: DVec3) -> bool {
         normal.cross(self.from).dot(at) >= 0.0 && self.to.cross(normal).dot(at) >= 0.0
     }
 
-    /// Whether the azimuth lies between the ends of an arc of constant elevation.
+    /// Returns `true` if the azimuth lies between the ends of an arc of constant elevation.
     pub(super) fn turns_past(&self, azimuth: f64) -> bool {
         let start = if self.turn < 0.0 { self.to_azimuth } else { self.from_azimuth };
         (azimuth - start).rem_euclid(TAU) <= self.turn.abs()

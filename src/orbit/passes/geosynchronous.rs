@@ -20,7 +20,7 @@ const LONGEST_WINDOW_S: f64 = 14.0 * 86_400.0;
 /// What those do in the longest window, in radians.
 const MARGIN: f64 = 0.02;
 
-/// Whether the satellite stays below the horizon for the whole window.
+/// Returns `true` if the satellite stays below the horizon for the whole window.
 ///
 /// With the inclination i, the eccentricity e and the mean motion n of the state
 /// in the middle of the window of length T, the point below the satellite goes

@@ -118,7 +118,7 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// Whether the object has come down by `at_s`, later than its epoch: SGP4
+    /// Returns `true` if the object has come down by `at_s`, later than its epoch: SGP4
     /// goes on below the ground and may bring it up again.
     pub(super) fn has_decayed_at(&self, at_s: f64) -> bool {
         let since_epoch_s = self.start_since_epoch_s + at_s;

@@ -119,7 +119,7 @@ impl Secular {
         self.drag_wave.eccentricity[0].abs()
     }
 
-    /// Whether [`Self::motion`] holds so many minutes after the epoch.
+    /// Returns `true` if [`Self::motion`] holds so many minutes after the epoch.
     pub(in crate::orbit) fn is_near_circular_at(&self, minutes: f64) -> bool {
         let (axis, eccentricity) = self.size(minutes);
         let wave = self.eccentricity_wave();

@@ -56,7 +56,7 @@ impl Field {
         FIELDS.iter().position(|known| known.eq_ignore_ascii_case(name)).map(Self)
     }
 
-    /// Whether it holds text that is taken as it is.
+    /// Returns `true` if it holds text that is taken as it is.
     fn is_text(self) -> bool {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }

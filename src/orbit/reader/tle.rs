@@ -15,7 +15,7 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// Whether the line looks like line `number` of a set.
+    /// Returns `true` if the line looks like line `number` of a set.
     fn is_numbered(self, number: char) -> bool {
         // A name may start with a digit too, but it has 24 columns at most.
         let mut letters = self.text.chars();

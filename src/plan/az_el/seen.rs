@@ -5,7 +5,7 @@ use crate::astro::AzEl;
 /// Elevation from which the azimuth may have to turn faster than it can, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 
-/// Whether the elevation makes up for an azimuth that does not keep up. Further down the
+/// Returns `true` if the elevation makes up for an azimuth that does not keep up. Further down the
 /// antenna would rise and fall while the azimuth goes round, and still point nowhere near.
 pub(super) fn is_overhead(direction: AzEl) -> bool {
     direction.elevation_deg() >= OVERHEAD_FROM_DEG

@@ -36,7 +36,7 @@ impl Bounds {
         is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
     }
 
-    /// Whether `direction` is clear of all barriers, and of the Sun for its time ahead.
+    /// Returns `true` if `direction` is clear of all barriers, and of the Sun for its time ahead.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
         self.now_and_later(at).iter().all(|bounds| bounds.has_room(direction, 0.0))
     }

@@ -150,12 +150,12 @@ impl Drives {
         AxisLimits::new([first, second], self.rates_deg_s, self.step_deg + self.arrives_within_deg)
     }
 
-    /// Whether one axis can be commanded without the other.
+    /// Returns `true` if one axis can be commanded without the other.
     pub(super) fn takes_single_axes(&self) -> bool {
         matches!(self.mount, Mount::AzEl { .. })
     }
 
-    /// Whether `direction` is not below the minimum elevation.
+    /// Returns `true` if `direction` is not below the minimum elevation.
     pub fn may_reach(&self, direction: AzEl) -> bool {
         !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
     }

@@ -69,7 +69,7 @@ impl Path {
         self.to
     }
 
-    /// Whether the path was planned for these rates.
+    /// Returns `true` if the path was planned for these rates.
     pub(super) fn is_for(&self, rates_deg_s: [f64; 2]) -> bool {
         let mut both = self.max_deg.into_iter().zip(rates_deg_s);
         both.all(|(max_deg, rate_deg_s)| {

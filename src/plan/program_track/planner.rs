@@ -154,7 +154,7 @@ impl Planner {
         !self.is_stale && self.path.as_ref().is_some_and(is_for) && self.reaches_on(now)
     }
 
-    /// Whether the path goes on for long enough.
+    /// Returns `true` if the path goes on for long enough.
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;

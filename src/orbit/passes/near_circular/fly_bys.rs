@@ -75,7 +75,7 @@ pub(super) fn guesses<'a>(
 }
 
 impl SatelliteAt<'_> {
-    /// Whether this is the fly-by that was found before it.
+    /// Returns `true` if this is the fly-by that was found before it.
     pub(super) fn is_same(&self, before: &Self) -> bool {
         ptr::eq(self.satellite, before.satellite)
             && (self.at_s - before.at_s) * self.satellite.rate_rad_s() < MIN_GAP * TAU

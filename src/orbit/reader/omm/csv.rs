@@ -14,7 +14,7 @@ const MAX_FIELDS: usize = 1000;
 /// has room for, and than the texts of a row are.
 const MIN_NAMES: usize = 4;
 
-/// Whether `line` is such a header.
+/// Returns `true` if `line` is such a header.
 pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
     let mut row = Row::new();
     row.split(line);

@@ -8,7 +8,7 @@ use crate::orbit::reader::ReadReport;
 /// Starts every message; a source that leaves it out is read as well.
 const START: &str = "CCSDS_OMM_VERS";
 
-/// Whether `line` may be the first of such a text.
+/// Returns `true` if `line` may be the first of such a text.
 pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     line.split_once('=').is_some_and(|(key, _)| {
         let key = key.trim();
@@ -18,7 +18,7 @@ pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     })
 }
 
-/// Whether `line` says nothing of an object.
+/// Returns `true` if `line` says nothing of an object.
 pub(in crate::orbit::reader) fn is_comment(line: &str) -> bool {
     line.split_whitespace().next() == Some("COMMENT")
 }

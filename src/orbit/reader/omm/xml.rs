@@ -10,7 +10,7 @@ use crate::orbit::reader::{ReadReport, RefusalReason};
 /// Bytes that are looked at to find the name of a tag and its prefix.
 const MAX_NAME: usize = 40;
 
-/// Whether `line` opens a message or an NDM, with a prefix or without.
+/// Returns `true` if `line` opens a message or an NDM, with a prefix or without.
 pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     line.starts_with('<') && [*b"omm", *b"ndm"].iter().any(|tag| is_start(line, 0, *tag))
 }
@@ -46,7 +46,7 @@ fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Whether the tag at `at` is a start tag called `called`, with a prefix or without.
+/// Returns `true` if the tag at `at` is a start tag called `called`, with a prefix or without.
 fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
     // A tag that never ends must not be searched through again for every `<` in it.
     let bytes = text.as_bytes().get(at + 1..).unwrap_or_default();
