@@ -19,7 +19,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
-pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, Standstill};
+pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill};
 pub use element_files::ElementFiles;
 pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};

@@ -3,7 +3,7 @@
 /// What a controller can do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capabilities {
-    /// Names of the two axes that are jogged.
+    /// Names of the two axes that are jogged; empty for one that is absent.
     pub axes: [&'static str; 2],
     /// It follows a satellite by itself, from the elements that it holds.
     pub has_program: bool,
@@ -15,9 +15,8 @@ pub struct Capabilities {
     /// Positions are told to it, and by it, in whole numbers of this many degrees;
     /// 0 for any.
     pub position_step_deg: f64,
-    /// It turns both angles of the sky. Without it the elevation is neither read
-    /// nor commanded.
-    pub has_elevation: bool,
+    /// What its second axis turns.
+    pub second_axis: SecondAxis,
     /// How fast it jogs.
     pub jog: JogSpeeds,
     /// One axis at a time is jogged.
@@ -34,6 +33,30 @@ pub struct Capabilities {
     pub standstill: Standstill,
     /// What STOP does beyond stopping this antenna, in a sentence.
     pub stop_note: Option<&'static str>,
+}
+
+/// What the second axis of a unit turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SecondAxis {
+    /// With the first one it turns both angles of the sky.
+    Elevation,
+    /// Something else than the antenna, named as in the middle of a sentence. The mount
+    /// knows nothing of it; the elevation is neither read nor commanded.
+    Other(&'static str),
+    /// There is none: the elevation is neither read nor commanded.
+    Absent,
+}
+
+impl Capabilities {
+    /// It turns both angles of the sky.
+    pub fn has_elevation(self) -> bool {
+        self.second_axis == SecondAxis::Elevation
+    }
+
+    /// How many axes point the antenna.
+    pub fn axis_count(self) -> usize {
+        if self.has_elevation() { 2 } else { 1 }
+    }
 }
 
 /// How standstill is told from the slowest motion of a unit.

@@ -144,7 +144,7 @@ impl Gate {
 
     /// Where the axes were measured last, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
-        self.state().measured?.axes_deg(self.make.capabilities.has_elevation)
+        self.state().measured?.axes_deg(self.make.capabilities.has_elevation())
     }
 
     /// What the antenna must keep within.
@@ -333,7 +333,7 @@ impl Gate {
     /// Where the elevation axis was measured, degrees; `None` without one.
     fn elevation_axis_deg(&self) -> Option<f64> {
         let is_one =
-            matches!(self.mount, Mount::AzEl { .. }) && self.make.capabilities.has_elevation;
+            matches!(self.mount, Mount::AzEl { .. }) && self.make.capabilities.has_elevation();
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 

@@ -418,10 +418,9 @@ impl Session {
         Some(now.steady.saturating_duration_since(measured.asked))
     }
 
-    /// Whether the antenna turns. Without an elevation the second axis turns
-    /// something else.
+    /// Whether the antenna turns, whatever else does.
     fn turns(&self) -> bool {
-        let count = if self.make.capabilities.has_elevation { 2 } else { 1 };
+        let count = self.make.capabilities.axis_count();
         let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
         axes.take(count).any(|axis| axis.motion != AxisMotion::Still)
     }

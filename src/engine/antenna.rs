@@ -271,7 +271,7 @@ impl AntennaModel {
         let predicted = self.snapshot.program_track.as_ref().and_then(|view| view.predicted);
         let mount = self.config.mount;
         predicted.is_some_and(|Sample { mut direction, .. }| {
-            if !self.variant().capabilities.has_elevation {
+            if !self.variant().capabilities.has_elevation() {
                 let [_, (lowest_deg, _)] = mount.travel_deg();
                 direction.elevation = Angle::from_degrees(lowest_deg);
             }

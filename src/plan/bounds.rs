@@ -97,7 +97,7 @@ impl Bounds {
         let finest = Angle::from_degrees(FINEST_DEG);
         let half_beam = antenna.beam_width() * 0.5;
         let holds = station.keep_outs.iter().filter(|zone| zone.holds_for(&antenna.name));
-        let has_elevation = antenna.connection.variant().capabilities.has_elevation;
+        let has_elevation = antenna.connection.variant().capabilities.has_elevation();
         let minimum = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
         Self {
             site: station.site,

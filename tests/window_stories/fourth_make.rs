@@ -12,17 +12,18 @@ use azel::{
     astro::{Angle, AzEl},
     clock::{Clock, Instant},
     device::Pointing,
-    driver::{AntennaHandle, Command, Driver, Event, Safety, Snapshot, StopState},
+    driver::{AntennaHandle, Command, Driver, Event, Intent, Safety, Snapshot, StopState},
     makes,
     model::View,
     plan::Bounds,
     station::{self, Antenna, ControllerSpec, Station, Value},
 };
-use egui::Role;
+use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
 use self::lever::{CODE, GEAR, SHAFTS, SPEC, unit};
 use crate::window_stories::{
+    makes::{alone, alone_at, model},
     preferences::{saved, write},
     rig::{self, SIZES, asked, says, settle},
 };
@@ -81,7 +82,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
 fn its_own_settings_are_fields_of_the_form() {
     for size in SIZES {
         let antenna = SPEC.antenna("Lever", SPEC.default_address);
-        let mut model = crate::window_stories::makes::model(antenna.clone(), rig::quiet());
+        let mut model = model(antenna.clone(), rig::quiet());
         (model.view, Arc::make_mut(&mut model.station).antennas) =
             (View::Preferences, vec![antenna]);
         let mut window = rig::window(size, model);
@@ -103,6 +104,28 @@ fn its_own_settings_are_fields_of_the_form() {
         let connection = &station.antennas[0].connection;
         assert_eq!((&*connection.address, connection.text(&CODE)), ("tower:8", "eureka"));
         assert_eq!((connection.text(&GEAR), connection.whole(&SHAFTS)), ("high", 3));
+    }
+}
+
+#[test]
+fn on_one_shaft_it_shows_and_turns_the_azimuth_alone() {
+    let mut antenna = SPEC.antenna("Lever", SPEC.default_address);
+    antenna.connection.put(&SHAFTS, 1).unwrap();
+    antenna.mount = alone().mount;
+    for size in SIZES {
+        let snapshot = alone_at(Intent::Manual, false);
+        let mut window = rig::window(size, model(antenna.clone(), snapshot));
+        assert!(window.query_by_label("Jog clockwise").is_some());
+        let second = ["Jog up", "Jog down", "Jog Other +", "Jog Other −"];
+        assert!(second.iter().all(|key| window.query_by_label(key).is_none()));
+        assert!(!says(&window, "has no known angle") && !says(&window, "El: "));
+        window.get_by_label("Jog clockwise").focus();
+        settle(&mut window);
+        window.key_down(Key::ArrowUp);
+        settle(&mut window);
+        window.key_up(Key::ArrowUp);
+        settle(&mut window);
+        assert_eq!(asked(&mut window), [], "there is no axis up");
     }
 }
 
@@ -138,8 +161,7 @@ fn it_is_told_its_settings_read_sent_and_stopped_and_shown() {
     until(&|shown| matches!(shown.stop, StopState::Stopped { .. }));
     assert_eq!([next(), next(), next()], ["C eureka low 2", "G 200 40", "S"]);
 
-    let mut shown =
-        crate::window_stories::makes::model(antenna, Snapshot::clone(&handle.snapshot()));
+    let mut shown = model(antenna, Snapshot::clone(&handle.snapshot()));
     shown.view = View::Operate;
     let window = rig::window(SIZES[0], shown);
     assert!(says(&window, "200.00"), "the card shows where it is");

@@ -2,7 +2,7 @@
 
 use super::{Rc2000c, actions};
 use crate::{
-    device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
+    device::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant},
     station::{
         AfterPass, Antenna, Connection, ControllerSpec, CountPoint, Direction, Link, MotionLimits,
         Mount, PollRates, Setting, Table, TrackSettings, Usual, Value,
@@ -59,7 +59,7 @@ pub static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 0.5,
         position_step_deg: 0.0,
-        has_elevation: true,
+        second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::Named(&[SLOW, FAST]),
         jogs_one_axis: true,
         steps: false,

@@ -2,7 +2,7 @@
 
 use super::{GROUPS, Genius, actions};
 use crate::{
-    device::{Capabilities, JogSpeed, JogSpeeds, Standstill, Variant},
+    device::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant},
     station::{
         AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
         PollRates, Setting, TrackSettings, Usual, Value,
@@ -64,7 +64,7 @@ pub static PAIR: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 1.5,
         position_step_deg: 1.0,
-        has_elevation: true,
+        second_axis: SecondAxis::Elevation,
         jog: SPEEDS,
         jogs_one_axis: true,
         steps: false,
@@ -81,7 +81,11 @@ pub static PAIR: Variant = Variant {
 /// A Rotator Genius of which one rotator turns the azimuth of the antenna and
 /// the other something else.
 pub static ALONE: Variant = Variant {
-    capabilities: Capabilities { axes: ["Az", "Other"], has_elevation: false, ..PAIR.capabilities },
+    capabilities: Capabilities {
+        axes: ["Az", "Other"],
+        second_axis: SecondAxis::Other("other rotator"),
+        ..PAIR.capabilities
+    },
     groups: GROUPS,
     actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
@@ -154,7 +158,7 @@ mod tests {
         {
             connection.put(&ROTATORS, rotators).unwrap();
             assert_eq!(Rotators::of(&connection), rotators);
-            assert_eq!(connection.variant().capabilities.has_elevation, has_elevation);
+            assert_eq!(connection.variant().capabilities.has_elevation(), has_elevation);
         }
     }
 }

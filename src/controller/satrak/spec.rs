@@ -2,7 +2,7 @@
 
 use super::{ELEMENT_FILES, GROUPS, Satrak, words};
 use crate::{
-    device::{Capabilities, JogSpeeds, Standstill, Variant},
+    device::{Capabilities, JogSpeeds, SecondAxis, Standstill, Variant},
     station::{
         AfterPass, Antenna, ControllerSpec, Direction, Link, MotionLimits, Mount, PollRates,
         Setting, TrackSettings, Usual,
@@ -58,7 +58,7 @@ pub static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 0.3,
         position_step_deg: 0.0,
-        has_elevation: true,
+        second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::AnyRate,
         jogs_one_axis: false,
         steps: true,

@@ -6,7 +6,7 @@ use super::{Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
     device::{
-        Asked, Motion, aimed,
+        Asked, Motion, SecondAxis, aimed,
         panel::{Act, Lead},
         settings::Hindrance,
     },
@@ -101,16 +101,17 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
 
 fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let can = situation.can;
+    let turns_second = |y: f64| y == 0.0 || can.second_axis != SecondAxis::Absent;
     let offered = match *motion {
         Motion::Jog { x_deg_s: x, y_deg_s: y } => {
             if can.jogs_one_axis && x != 0.0 && y != 0.0 {
                 return Err(Refusal::OneAxis);
             }
-            true
+            turns_second(y)
         }
-        Motion::Step { .. } => can.steps,
+        Motion::Step { y_deg, .. } => can.steps && turns_second(y_deg),
         Motion::Position { elevation, .. } => {
-            can.takes_positions && (can.has_elevation || elevation.is_none())
+            can.takes_positions && (can.has_elevation() || elevation.is_none())
         }
         Motion::StartProgram | Motion::EnableAuto => can.has_program,
     };
@@ -224,10 +225,8 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
     };
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    // Without an elevation the second axis is none of the mount's.
-    let count = if situation.can.has_elevation { 2 } else { 1 };
     let axes = measured.axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
-    let axes = axes.take(count);
+    let axes = axes.take(situation.can.axis_count());
     for (ahead_deg, ((axis, (from_deg, to_deg)), name)) in ahead_deg.into_iter().zip(axes) {
         let Some(angle_deg) = axis.angle_deg else { continue };
         let asked_deg = angle_deg + ahead_deg;
@@ -332,8 +331,7 @@ fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), 
         return Ok(());
     }
     let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    let count = if situation.can.has_elevation { 2 } else { 1 };
-    let axes = measured.axes.into_iter().zip(situation.can.axes).take(count);
+    let axes = measured.axes.into_iter().zip(situation.can.axes).take(situation.can.axis_count());
     for (axis, name) in axes {
         if axis.angle_deg.is_none() {
             return Err(Refusal::AngleUnknown { axis: name });

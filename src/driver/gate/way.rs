@@ -77,7 +77,7 @@ fn to_position(
     let lowest_deg = [first.0, second.0];
     let Some(to_deg) = target(azimuth, elevation, lowest_deg, situation) else { return Ok(()) };
     let reach = |(from, to): (f64, f64), end: f64| (from.min(end), to.max(end));
-    let second = if situation.can.has_elevation { reach(second, to_deg[1]) } else { (0.0, 90.0) };
+    let second = if situation.can.has_elevation() { reach(second, to_deg[1]) } else { (0.0, 90.0) };
     let sweep = Sweep([reach(first, to_deg[0]), second]);
     // Its end is judged by its reach; where it begins may be below the floor.
     blocked(sweep, to_deg, &situation.bounds_now().above_the_floor())
@@ -211,12 +211,12 @@ impl Depth {
 
 /// Where the axes stand, as the mount counts.
 pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
-    situation.state.measured?.axes_deg(situation.can.has_elevation)
+    situation.state.measured?.axes_deg(situation.can.has_elevation())
 }
 
 fn sweep_between(from_deg: [f64; 2], to_deg: [f64; 2], situation: &Situation<'_>) -> Sweep {
     let Sweep([first, second]) = Sweep::between(from_deg, to_deg);
-    let second = if situation.can.has_elevation { second } else { (0.0, 90.0) };
+    let second = if situation.can.has_elevation() { second } else { (0.0, 90.0) };
     Sweep([first, second])
 }
 
@@ -325,7 +325,7 @@ impl Gate {
             return None;
         };
         let situation = self.situation(Intent::Position, false, now);
-        let from_deg = axes(&situation).filter(|_| situation.can.has_elevation)?;
+        let from_deg = axes(&situation).filter(|_| situation.can.has_elevation())?;
         Some((from_deg, target(azimuth, elevation, from_deg, &situation)?))
     }
 

@@ -47,8 +47,8 @@ impl Session {
         }
         let Some(axes_deg) = self.gate.axes_deg() else { return };
         let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
-        // Without an elevation axis the second one turns something else.
-        let rates = [first, if self.make.capabilities.has_elevation { second } else { 0.0 }];
+        // A second axis without the elevation is none of the antenna's.
+        let rates = [first, if self.make.capabilities.has_elevation() { second } else { 0.0 }];
         self.seen.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);

@@ -26,7 +26,7 @@ impl Figures {
         let shows_deg = can.standstill.resolution_deg * 1.5 + sway_deg;
         let gap_s = shows_deg / can.standstill.slowest_deg_s;
         let gap = Duration::try_from_secs_f64(gap_s).unwrap_or(Duration::from_secs(1));
-        Self { tolerance_deg, gap, axes: if can.has_elevation { 2 } else { 1 } }
+        Self { tolerance_deg, gap, axes: can.axis_count() }
     }
 
     /// The time between two looks that prove standstill.

@@ -184,7 +184,7 @@ fn mount_limits(antenna: &Antenna) -> MountLimits {
         mount: antenna.mount,
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
-        has_elevation: antenna.connection.variant().capabilities.has_elevation,
+        has_elevation: antenna.connection.variant().capabilities.has_elevation(),
     }
 }
 

@@ -73,7 +73,7 @@ pub(super) fn show(
     let mut asked = None;
     let mut right = row.right();
     for direction in ORDER.into_iter().rev() {
-        let label = model.keys.label(direction);
+        let Some(label) = model.keys.label(direction) else { continue };
         let min = pos2(right - KEY, row.top());
         let place = Rect::from_min_size(min, vec2(KEY, SMALL_HEIGHT));
         right = place.left() - GAP;

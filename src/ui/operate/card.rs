@@ -65,6 +65,7 @@ pub(super) fn show(
     let others = others(model);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
+    let jog_note = axes::unseen(antenna);
     let travel = axes::travel(antenna);
     let modes = modes(can);
     let mode = snapshot.intent;
@@ -112,7 +113,7 @@ pub(super) fn show(
             drive: DriveModel {
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals),
-                ..drive(antenna, &locks, &blocked)
+                ..drive(antenna, &locks, &blocked, jog_note.as_deref())
             },
             readings: &snapshot.state.readings,
             faults: (!checks.is_empty()).then_some(FaultsModel { checks, checked_at: &checked_at }),
@@ -192,6 +193,7 @@ fn drive<'a>(
     antenna: &'a AntennaModel,
     locks: &Locks,
     blocked: &'a [JogDirection],
+    jog_note: Option<&'a str>,
 ) -> DriveModel<'a> {
     let can = antenna.variant().capabilities;
     let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
@@ -199,7 +201,7 @@ fn drive<'a>(
         keys: axes::keys(antenna),
         jog_locked: locks.jog,
         unguarded: is_unguarded.then_some(words::UNGUARDED),
-        jog_note: axes::unseen(antenna),
+        jog_note,
         blocked,
         real_deg_s: axes::rate_of_jog(antenna),
         speeds: can.jog,
@@ -207,7 +209,7 @@ fn drive<'a>(
         max_step_deg: can.steps.then_some(antenna.config.limits.maximum_step_deg),
         go_to_locked: locks.go_to,
         azimuth_range_deg: azimuth_range_deg(antenna.config.mount),
-        elevation_range_deg: can.has_elevation.then(|| elevation_range_deg(antenna)),
+        elevation_range_deg: can.has_elevation().then(|| elevation_range_deg(antenna)),
         commanded_deg: (None, None),
         commanded_decimals: 0,
         stop_note: can.stop_note,

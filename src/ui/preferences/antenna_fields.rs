@@ -217,5 +217,5 @@ fn takes_positions(antenna: &Antenna) -> bool {
 
 /// The antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
-    antenna.connection.variant().capabilities.has_elevation
+    antenna.connection.variant().capabilities.has_elevation()
 }

@@ -190,7 +190,7 @@ mod tests {
         "steep".clone_into(write(genius, "Elevation to"));
         "Second one".clone_into(write(genius, "Rotators of this antenna"));
         let station = draft.read().unwrap();
-        assert!(!station.antennas[1].connection.variant().capabilities.has_elevation);
+        assert!(!station.antennas[1].connection.variant().capabilities.has_elevation());
         "Azimuth, elevation".clone_into(write(&mut draft.antennas[1], "Rotators of this antenna"));
         assert_eq!(draft.read(), None);
         assert_eq!(write(&mut draft.antennas[1], "Elevation to"), "steep");

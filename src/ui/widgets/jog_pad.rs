@@ -58,7 +58,7 @@ pub fn show(
     }
     let mut keys = Vec::new();
     for direction in JogDirection::ALL {
-        let label = model.keys.label(direction);
+        let Some(label) = model.keys.label(direction) else { continue };
         let (x, y) = direction.signs();
         let reach = (rect.width() - side) / 2.0;
         let place =
@@ -83,7 +83,7 @@ pub fn show(
         ui.ctx().request_repaint_after_for(WHILE_HELD, ViewportId::ROOT);
     }
     for (direction, label, free, response) in &keys {
-        paint_key(ui, *label, *free, model.locked, held == Some(*direction), response);
+        paint_key(ui, label, *free, model.locked, held == Some(*direction), response);
     }
     paint_middle(ui, rect, model, held.is_some());
     paint::focus_ring(ui, &whole, RADIUS);
@@ -125,7 +125,7 @@ fn keeps_arrows(ui: &Ui, response: &Response) -> bool {
     true
 }
 
-fn paint_key(ui: &Ui, label: KeyLabel, free: bool, locked: bool, held: bool, response: &Response) {
+fn paint_key(ui: &Ui, label: &KeyLabel, free: bool, locked: bool, held: bool, response: &Response) {
     let t = theme::tokens(ui);
     let rect = response.rect;
     let colour = if held {

@@ -14,7 +14,7 @@ use azel::{
     controller::satrak,
     device::{
         AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Motion,
-        Moves, Standstill, Variant, aimed,
+        Moves, SecondAxis, Standstill, Variant, aimed,
     },
     station::{Connection, ControllerSpec, Link, Setting, Table, Usual, Value},
 };
@@ -31,8 +31,8 @@ pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     element_files: None,
     explain: None,
     why_no_question: None,
-    variants: &[&VARIANT],
-    variant: |_| &VARIANT,
+    variants: &[&VARIANT, &LEVEL],
+    variant: |connection| if connection.whole(&SHAFTS) == 1 { &LEVEL } else { &VARIANT },
     open: |antenna| Box::new(Lever::of(&antenna.connection)),
 };
 
@@ -59,7 +59,7 @@ static VARIANT: Variant = Variant {
         takes_positions: true,
         arrives_within_deg: 1.0,
         position_step_deg: 0.0,
-        has_elevation: true,
+        second_axis: SecondAxis::Elevation,
         jog: JogSpeeds::AnyRate,
         jogs_one_axis: false,
         steps: false,
@@ -67,6 +67,17 @@ static VARIANT: Variant = Variant {
         waits_for_word: false,
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.5 },
         stop_note: None,
+    },
+    groups: &[],
+    actions: &[],
+};
+
+/// On one shaft it turns the azimuth alone.
+static LEVEL: Variant = Variant {
+    capabilities: Capabilities {
+        axes: ["Az", ""],
+        second_axis: SecondAxis::Absent,
+        ..VARIANT.capabilities
     },
     groups: &[],
     actions: &[],

@@ -1,7 +1,11 @@
 //! What differs from make to make.
 
 use super::*;
-use crate::controller::rotator_genius::{ROTATORS, Rotators};
+use crate::{
+    controller::rotator_genius::{PAIR, ROTATORS, Rotators, SPEC},
+    device::{Capabilities, SecondAxis, Variant},
+    station::ControllerSpec,
+};
 
 fn of(antenna: Antenna, intent: Intent) -> Case {
     let mut case = Case { antenna, ..Case::new(intent) };
@@ -33,6 +37,27 @@ fn what_a_controller_cannot_do_is_not_asked_of_it() {
     let alone = alone(Intent::Position);
     assert_eq!(alone.ask(position(10.0, 20.0)), Err(Refusal::NotOffered), "no elevation axis");
     assert_eq!(alone.ask(position(10.0, None)), Ok(()));
+}
+
+#[test]
+fn an_axis_that_is_absent_is_not_turned() {
+    static AZIMUTH: Variant = Variant {
+        capabilities: Capabilities {
+            axes: ["Az", ""],
+            second_axis: SecondAxis::Absent,
+            steps: true,
+            ..PAIR.capabilities
+        },
+        groups: &[],
+        actions: &[],
+    };
+    static MAST: ControllerSpec =
+        ControllerSpec { variants: &[&AZIMUTH], variant: |_| &AZIMUTH, ..SPEC };
+    let mast = of(MAST.antenna("Mast", ""), Intent::Manual);
+    assert_eq!(mast.ask(jog(1.0, 0.0)), Ok(()));
+    assert_eq!(mast.ask(step(1.0, 0.0)), Ok(()));
+    assert_eq!(mast.ask(jog(0.0, 1.0)), Err(Refusal::NotOffered));
+    assert_eq!(mast.ask(step(0.0, 1.0)), Err(Refusal::NotOffered));
 }
 
 #[test]

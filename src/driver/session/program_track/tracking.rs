@@ -28,7 +28,7 @@ impl Manner {
             rates_deg_s: [antenna.limits.maximum_rate_deg_s; 2],
             step_deg: can.position_step_deg,
             arrives_within_deg: can.arrives_within_deg,
-            has_elevation: can.has_elevation,
+            has_elevation: can.has_elevation(),
         };
         Self { drives, following: antenna.follow }
     }

@@ -2,7 +2,7 @@
 
 use crate::{
     astro::Angle,
-    device::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing},
+    device::{AxisMotion, Capabilities, JogSpeeds, Measured, Pointing, SecondAxis},
     engine::antenna::AntennaModel,
     station::Mount,
     ui::{
@@ -45,7 +45,7 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
         error_deg: error.and_then(|(_, elevation)| elevation),
         rate_deg_s: rates.map(|(_, elevation)| elevation),
     };
-    let has_elevation = antenna.variant().capabilities.has_elevation;
+    let has_elevation = antenna.variant().capabilities.has_elevation();
     std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
 }
 
@@ -53,8 +53,7 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
 pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured;
-    let count = if can.has_elevation { 2 } else { 1 };
-    let axes = can.axes.into_iter().zip(antenna.config.mount.travel_deg()).take(count);
+    let axes = can.axes.into_iter().zip(antenna.config.mount.travel_deg()).take(can.axis_count());
     let gauge = |(index, (name, travel_deg)): (usize, (&'static str, (f64, f64)))| {
         let axis = measured.and_then(|measured| measured.axes.get(index).copied());
         let (from, to) = travel_deg;
@@ -78,18 +77,24 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
 
 /// The pair of axes that the jog keys turn.
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
-    match antenna.config.mount {
-        Mount::Xy { .. } => JogKeys::Xy,
-        Mount::AzEl { .. } if antenna.variant().capabilities.has_elevation => JogKeys::AzEl,
-        Mount::AzEl { .. } => JogKeys::AzOther,
+    let can = antenna.variant().capabilities;
+    match (antenna.config.mount, can.second_axis) {
+        (Mount::Xy { .. }, _) => JogKeys::Xy,
+        (Mount::AzEl { .. }, SecondAxis::Elevation) => JogKeys::AzEl,
+        (Mount::AzEl { .. }, SecondAxis::Other(_)) => {
+            let [_, name] = can.axes;
+            JogKeys::AzOther(name)
+        }
+        (Mount::AzEl { .. }, SecondAxis::Absent) => JogKeys::Az,
     }
 }
 
-/// Directions in which a limit switch is set, or whose axis has no known angle.
+/// Directions in which a limit switch is set, or whose axis has no known angle or is absent.
 pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection> {
     let unseen = measured.axes.map(|axis| axis.angle_deg.is_none() && !can.ends_jogs);
     let [x, y] = measured.axes;
     let [x_unseen, y_unseen] = unseen;
+    let y_unseen = y_unseen || can.second_axis == SecondAxis::Absent;
     [
         (x.plus_limit || x_unseen, JogDirection::XPlus),
         (x.minus_limit || x_unseen, JogDirection::XMinus),
@@ -102,18 +107,20 @@ pub(super) fn blocked(measured: Measured, can: Capabilities) -> Vec<JogDirection
 }
 
 /// A sentence about the axes that are not jogged because their angle is unknown.
-pub(super) fn unseen(antenna: &AntennaModel) -> Option<&'static str> {
+pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| !can.ends_jogs)?;
-    match measured.axes.map(|axis| axis.angle_deg.is_none()) {
-        [true, true] => Some("No angle is known, so neither axis is turned by hand."),
-        [true, false] => Some("The first axis has no known angle and is not turned by hand."),
-        [false, true] if can.has_elevation => {
-            Some("The elevation has no known angle and is not turned by hand.")
+    let axis = match (measured.axes.map(|axis| axis.angle_deg.is_none()), can.second_axis) {
+        ([false, false], _) | ([false, _], SecondAxis::Absent) => return None,
+        ([true, true], SecondAxis::Elevation | SecondAxis::Other(_)) => {
+            return Some("No angle is known, so neither axis is turned by hand.".to_owned());
         }
-        [false, true] => Some("The other rotator has no known angle and is not turned by hand."),
-        [false, false] => None,
-    }
+        ([true, _], SecondAxis::Absent) => "azimuth",
+        ([true, false], _) => "first axis",
+        ([false, true], SecondAxis::Elevation) => "elevation",
+        ([false, true], SecondAxis::Other(name)) => name,
+    };
+    Some(format!("The {axis} has no known angle and is not turned by hand."))
 }
 
 /// The signed rate of the jogged axis, degrees per second: measured for named speeds,
@@ -131,5 +138,5 @@ pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     }
     let (azimuth, elevation) = antenna.rates_deg_s?;
     let [x, _] = jog;
-    if x == 0.0 { can.has_elevation.then_some(elevation) } else { Some(azimuth) }
+    if x == 0.0 { can.has_elevation().then_some(elevation) } else { Some(azimuth) }
 }

@@ -72,7 +72,7 @@ fn no_direction(antenna: &AntennaModel) -> Option<&'static str> {
         return (!can.has_program).then_some("This controller cannot be sent to a direction.");
     }
     let pointing = antenna.snapshot.state.measured?.pointing;
-    let elevation_known = pointing.elevation.is_some() || !can.has_elevation;
+    let elevation_known = pointing.elevation.is_some() || !can.has_elevation();
     match (pointing.azimuth.is_some(), elevation_known) {
         (true, true) => None,
         (false, false) => Some("No directions: azimuth and elevation are not calibrated."),

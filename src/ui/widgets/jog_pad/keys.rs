@@ -48,36 +48,41 @@ pub enum JogKeys {
     Xy,
     /// Azimuth and elevation.
     AzEl,
-    /// Azimuth, and a second rotator that turns something else.
-    AzOther,
+    /// The azimuth, and something else by this name.
+    AzOther(&'static str),
+    /// The azimuth alone.
+    Az,
 }
 
 /// Label of a key.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyLabel {
     /// An arrow or a sign above the word; empty for a word alone.
     pub mark: &'static str,
     /// The word of the front panels.
     pub word: &'static str,
     /// The axis and direction, for screen readers.
-    pub name: &'static str,
+    pub name: String,
 }
 
 impl JogKeys {
-    pub fn label(self, direction: JogDirection) -> KeyLabel {
+    /// What stands on the key of a direction; `None` where there is no such key.
+    pub fn label(self, direction: JogDirection) -> Option<KeyLabel> {
         use JogDirection::{XMinus, XPlus, YMinus, YPlus};
         let (mark, word, name) = match (self, direction) {
             (Self::Xy, XPlus) => ("", "X+", "X+"),
             (Self::Xy, XMinus) => ("", "X−", "X−"),
             (Self::Xy, YPlus) => ("", "Y+", "Y+"),
             (Self::Xy, YMinus) => ("", "Y−", "Y−"),
-            (Self::AzEl | Self::AzOther, XPlus) => ("→", "CW", "clockwise"),
-            (Self::AzEl | Self::AzOther, XMinus) => ("←", "CCW", "counterclockwise"),
+            (_, XPlus) => ("→", "CW", "clockwise"),
+            (_, XMinus) => ("←", "CCW", "counterclockwise"),
             (Self::AzEl, YPlus) => ("↑", "Up", "up"),
             (Self::AzEl, YMinus) => ("↓", "Down", "down"),
-            (Self::AzOther, YPlus) => ("+", "Other", "Other +"),
-            (Self::AzOther, YMinus) => ("−", "Other", "Other −"),
+            (Self::AzOther(word), YPlus) => ("+", word, ""),
+            (Self::AzOther(word), YMinus) => ("−", word, ""),
+            (Self::Az, YPlus | YMinus) => return None,
         };
-        KeyLabel { mark, word, name }
+        let name = if name.is_empty() { format!("{word} {mark}") } else { name.to_owned() };
+        Some(KeyLabel { mark, word, name })
     }
 }
