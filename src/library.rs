@@ -199,8 +199,10 @@ impl Library {
                 Ok(false)
             }
             Answer::New { body, etag, last_modified } => {
-                let newest = newest_epoch(&body).ok_or(FetchProblem::NoElements)?;
-                if held.is_some_and(|held| newest_epoch(&held.bytes) > Some(newest)) {
+                let newest = newest_epoch(&body)?;
+                if held
+                    .is_some_and(|held| newest_epoch(&held.bytes).is_ok_and(|held| held > newest))
+                {
                     return Err(FetchProblem::Older);
                 }
                 whole_file::replace_and_keep_old(&path, &body)
@@ -213,8 +215,10 @@ impl Library {
     }
 }
 
-fn newest_epoch(bytes: &[u8]) -> Option<Timestamp> {
-    read_element_bytes(bytes).elements.iter().map(Elements::epoch).max()
+fn newest_epoch(bytes: &[u8]) -> Result<Timestamp, FetchProblem> {
+    let report = read_element_bytes(bytes);
+    let newest = report.elements.iter().map(Elements::epoch).max();
+    newest.ok_or(report.nothing.map_or(FetchProblem::NoElements, FetchProblem::Nothing))
 }
 
 fn no_report(source: &Source) -> SourceReport {

@@ -21,7 +21,7 @@ pub use passes::{
 };
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{
-    Note, NoteKind, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,
+    Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,
 };
 pub use shadow::is_sunlit;
 pub use sources::{

@@ -141,7 +141,10 @@ fn what_cannot_be_meant_is_refused_with_the_reason() {
     }
     let nothing = passes("", &[]);
     assert_eq!(nothing.status.code(), Some(1));
-    assert_eq!(text(&nothing.stderr).trim(), "There are no elements to compute with.");
+    let told = "-: no elements, it is empty\nThere are no elements to compute with.";
+    assert_eq!(text(&nothing.stderr).trim(), told);
+    let page = passes("<!DOCTYPE html><html>", &[]);
+    assert!(text(&page.stderr).starts_with("-: no elements, it is a web page\n"));
     let missing = passes("", &["--mask", "/no/such/mask"]);
     assert_eq!(missing.status.code(), Some(1));
     assert!(text(&missing.stderr).contains("/no/such/mask"));

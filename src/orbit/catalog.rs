@@ -5,20 +5,13 @@ use std::{cmp::Ordering, ops::Range};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Elements, Note, ReadReport, Refusal, RefusalReason};
+use super::{Elements, Note, Nothing, ReadReport, Refusal};
 
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
     /// By number: a sorted list takes half the memory of a map.
-    entries: Vec<Entry>,
+    entries: Vec<Elements>,
     groups: Vec<Group>,
-}
-
-#[derive(Debug, Clone)]
-struct Entry {
-    elements: Elements,
-    /// Line of the source, from 1.
-    line: u32,
 }
 
 /// The objects of one source.
@@ -38,12 +31,16 @@ pub struct MergeSummary {
     pub updated: usize,
     /// Sets of the same epoch as the known one.
     pub known: usize,
-    /// Objects that could not be read, and sets older than the known one.
+    /// Sets older than the known one, left out.
+    pub older: usize,
+    /// Objects that could not be read.
     pub refused: Vec<Refusal>,
     /// Refused beyond those listed.
     pub refused_unlisted: usize,
     /// Oddities of sets that were accepted.
     pub notes: Vec<Note>,
+    /// Why there was nothing to merge, where there was nothing.
+    pub nothing: Option<Nothing>,
 }
 
 impl Catalog {
@@ -54,34 +51,33 @@ impl Catalog {
             refused: report.refused,
             refused_unlisted: report.refused_unlisted,
             notes: report.notes,
+            nothing: report.nothing,
             ..MergeSummary::default()
         };
         let source = self.group(source);
         let known = self.entries.len();
         let mut members: Vec<u32> = Vec::with_capacity(report.elements.len());
         self.entries.reserve(report.elements.len());
-        for (elements, line) in report.elements.into_iter().zip(report.lines) {
+        for mut elements in report.elements {
             let number = elements.catalog_number();
             members.push(number);
-            let mut entry = Entry { elements, line };
             let (sorted, _) = self.entries.split_at_mut(known);
-            let place = sorted.binary_search_by_key(&number, Entry::number).ok();
+            let place = sorted.binary_search_by_key(&number, Elements::catalog_number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
-                Some(held) => held.settle(&mut entry, &mut summary),
-                None => self.entries.push(entry),
+                Some(held) => settle(held, &mut elements, &mut summary),
+                None => self.entries.push(elements),
             }
         }
         // Stable, so that sets of one object stay in the order of the text.
-        self.entries.sort_by_key(Entry::number);
+        self.entries.sort_by_key(Elements::catalog_number);
         self.entries.dedup_by(|later, held| {
-            let is_same = later.number() == held.number();
+            let is_same = later.catalog_number() == held.catalog_number();
             if is_same {
-                held.settle(later, &mut summary);
+                settle(held, later, &mut summary);
             }
             is_same
         });
         summary.added = self.entries.len() - known;
-        summary.refused.sort_by_key(|refusal| refusal.line);
         if let Some(group) = self.groups.get_mut(source as usize) {
             group.members.extend(members);
             group.members.sort_unstable();
@@ -99,13 +95,9 @@ impl Catalog {
         place as u32
     }
 
-    fn entry(&self, catalog_number: u32) -> Option<&Entry> {
-        let place = self.entries.binary_search_by_key(&catalog_number, Entry::number).ok()?;
-        self.entries.get(place)
-    }
-
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
-        self.entry(catalog_number).map(|entry| &entry.elements)
+        let of = Elements::catalog_number;
+        self.entries.get(self.entries.binary_search_by_key(&catalog_number, of).ok()?)
     }
 
     /// The sources, each with the number of its objects, in the order of
@@ -145,13 +137,12 @@ impl Catalog {
 
     /// All elements by catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
-        self.entries.iter().map(|entry| &entry.elements)
+        self.entries.iter()
     }
 
     /// Some of them, by their places in that order.
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = &Elements> {
-        let entries = self.entries.iter().take(places.end).skip(places.start);
-        entries.map(|entry| &entry.elements)
+        self.entries.iter().take(places.end).skip(places.start)
     }
 
     pub fn len(&self) -> usize {
@@ -167,28 +158,17 @@ impl Catalog {
     }
 }
 
-impl Entry {
-    fn number(&self) -> u32 {
-        self.elements.catalog_number()
-    }
-
-    /// Keeps the newer of two sets of one object and drops the other.
-    fn settle(&mut self, other: &mut Self, summary: &mut MergeSummary) {
-        let held = self.elements.epoch();
-        match other.elements.epoch().cmp(&held) {
-            Ordering::Greater => {
-                std::mem::swap(self, other);
-                summary.updated += 1;
-            }
-            Ordering::Equal => summary.known += 1,
-            Ordering::Less => summary.refused.push(Refusal {
-                line: other.line as usize,
-                object: Some(other.elements.label()),
-                reason: RefusalReason::OlderThanHeld { held },
-            }),
+/// Keeps the newer of two sets of one object in `held`.
+fn settle(held: &mut Elements, other: &mut Elements, summary: &mut MergeSummary) {
+    match other.epoch().cmp(&held.epoch()) {
+        Ordering::Greater => {
+            std::mem::swap(held, other);
+            summary.updated += 1;
         }
-        self.elements.take_name(&other.elements);
+        Ordering::Equal => summary.known += 1,
+        Ordering::Less => summary.older += 1,
     }
+    held.take_name(other);
 }
 
 fn search<'a>(
@@ -237,9 +217,7 @@ mod tests {
         assert_eq!((first.added, first.updated, first.known), (2, 0, 0));
         let second = catalog.merge(report(&[(5, "NEW", 11), (6, "STALE", 11)]), "second");
         assert_eq!((second.added, second.updated, second.known), (0, 1, 0));
-        let held = "2026-08-12T00:00:00Z".parse().unwrap();
-        let reason = RefusalReason::OlderThanHeld { held };
-        assert_eq!(second.refused, [Refusal { line: 1, object: Some("STALE".into()), reason }]);
+        assert_eq!((second.older, second.refused.len()), (1, 0));
         assert_eq!(catalog.get(5).unwrap().name(), "NEW");
         assert_eq!(catalog.get(6).unwrap().name(), "B");
         assert_eq!(catalog.newest_epoch(), Some("2026-08-12T00:00:00Z".parse().unwrap()));
@@ -252,7 +230,7 @@ mod tests {
         let objects = [(7, "A", 2), (5, "B", 3), (7, "C", 4), (7, "D", 1), (5, "E", 3)];
         let summary = catalog.merge(report(&objects), "one");
         assert_eq!((summary.added, summary.updated, summary.known), (2, 1, 1));
-        assert_eq!(summary.refused.len(), 1);
+        assert_eq!((summary.older, summary.refused.len()), (1, 0));
         assert_eq!(catalog.iter().map(Elements::name).collect::<Vec<_>>(), ["B", "C"]);
     }
 

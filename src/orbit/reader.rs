@@ -10,12 +10,12 @@ mod omm;
 mod report;
 mod tle;
 
-use std::borrow::Cow;
+use std::{borrow::Cow, io::Read as _};
 
 use smol_str::SmolStr;
 
 use self::omm::{csv, json, kvn, xml};
-pub use self::report::{Note, NoteKind, ReadReport, Refusal, RefusalReason};
+pub use self::report::{Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason};
 pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 
 /// Reads all elements of `text`: TLE with two or three lines a set (Alpha-5
@@ -23,20 +23,62 @@ pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 /// Space-Track write them. Never fails as a whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
     let text = text.trim_start_matches('\u{feff}');
-    match form(text) {
+    let mut report = match form(text) {
         Form::Json => json::read(text),
         Form::Xml => xml::read(text),
         Form::Kvn => kvn::read(text),
         Form::Csv => csv::read(text),
         Form::Tle => tle::read(text),
+    };
+    if report.elements.is_empty() && report.refused.is_empty() {
+        report.nothing = Some(nothing_in(text));
+    }
+    report
+}
+
+/// Why there is nothing in `text`.
+fn nothing_in(text: &str) -> Nothing {
+    let text = text.trim();
+    let start: String = text.chars().take(15).collect::<String>().to_ascii_lowercase();
+    if text.is_empty() {
+        Nothing::Empty
+    } else if start.starts_with("no gp data") {
+        Nothing::NoGpData
+    } else if start.starts_with("<!doctype html") || start.starts_with("<html") {
+        Nothing::WebPage
+    } else {
+        Nothing::Unknown
     }
 }
 
 /// Reads all elements of a file as it is on disk or came over a wire. Bytes
 /// that are no UTF-8 are replaced; UTF-16 is read where its mark says so, as
-/// some shells write it.
+/// some shells write it. What is compressed by gzip is unpacked.
 pub fn read_element_bytes(bytes: &[u8]) -> ReadReport {
+    let unpacked;
+    let bytes = if bytes.starts_with(GZIP) {
+        let Some(read) = unpack(bytes) else { return of_nothing(Nothing::Unpackable) };
+        unpacked = read;
+        &unpacked
+    } else {
+        bytes
+    };
+    if PACKED.iter().any(|mark| bytes.starts_with(mark)) {
+        return of_nothing(Nothing::Packed);
+    }
     read_elements(&decoded(bytes))
+}
+
+fn of_nothing(nothing: Nothing) -> ReadReport {
+    ReadReport { nothing: Some(nothing), ..ReadReport::default() }
+}
+
+/// All files of a gzip; `None` where it is damaged or unpacks to too much.
+fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
+    let mut unpacked = Vec::new();
+    let mut packed = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1);
+    packed.read_to_end(&mut unpacked).ok()?;
+    (unpacked.len() as u64 <= MAX_UNPACKED).then_some(unpacked)
 }
 
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
@@ -51,6 +93,13 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let letters = char::decode_utf16(units).map(|letter| letter.unwrap_or('\u{fffd}'));
     Cow::Owned(letters.collect())
 }
+
+/// How a gzip starts.
+const GZIP: &[u8] = &[0x1f, 0x8b];
+/// The whole catalog as XML has 30 MB.
+const MAX_UNPACKED: u64 = 1 << 28;
+/// How zip, bzip2, xz and zstd start.
+const PACKED: [&[u8]; 4] = [b"PK\x03\x04", b"BZh", b"\xfd7zXZ", &[0x28, 0xb5, 0x2f, 0xfd]];
 
 /// How elements are written.
 enum Form {
@@ -91,8 +140,12 @@ fn form(text: &str) -> Form {
 /// A text of a source on one line: without blanks around it, and with blanks
 /// for the characters that no screen and no form can show.
 fn clean(text: &str) -> SmolStr {
-    // A form may lose the mark of the byte order, which is no control character.
-    let is_unseen = |letter: char| letter.is_control() || letter == '\u{feff}';
+    // A form may lose the mark of the byte order, which is no control character; nor are those
+    // that turn the order of what follows.
+    let is_unseen = |letter: char| {
+        let turns = matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        letter.is_control() || letter == '\u{feff}' || turns
+    };
     let text = text.trim_matches(|letter: char| letter.is_whitespace() || is_unseen(letter));
     if text.contains(is_unseen) { text.replace(is_unseen, " ").into() } else { text.into() }
 }
@@ -101,7 +154,10 @@ fn clean(text: &str) -> SmolStr {
 mod tests {
     use proptest::prelude::*;
 
+    use std::io::Write as _;
+
     use super::*;
+    use crate::orbit::Elements;
 
     proptest! {
         #[test]
@@ -194,7 +250,61 @@ mod tests {
 
     #[test]
     fn an_empty_text_holds_nothing() {
-        assert_eq!(read_elements(""), ReadReport::default());
-        assert_eq!(read_elements("\u{feff}\r\n\r\n"), ReadReport::default());
+        for text in ["", "\u{feff}\r\n\r\n"] {
+            assert_eq!(read_elements(text), of_nothing(Nothing::Empty));
+        }
+    }
+
+    #[test]
+    fn what_holds_nothing_says_what_it_is() {
+        for (bytes, why) in [
+            (&b"No GP data found\n"[..], Nothing::NoGpData),
+            (b"<!DOCTYPE html>\n<html><body>503</body></html>", Nothing::WebPage),
+            (b" <html>\n<head><title>403 Forbidden</title></head>", Nothing::WebPage),
+            (b"PK\x03\x04....", Nothing::Packed),
+            (b"\x1f\x8b\x08 no gzip", Nothing::Unpackable),
+            (b"hello\nworld\n", Nothing::Unknown),
+            (b"[]", Nothing::Unknown),
+        ] {
+            assert_eq!(read_element_bytes(bytes), of_nothing(why), "{why}");
+        }
+    }
+
+    #[test]
+    fn what_is_compressed_is_read() {
+        let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        packed.write_all(FORMS[0].as_bytes()).unwrap();
+        let packed = packed.finish().unwrap();
+        assert_eq!(read_element_bytes(&packed), read_elements(FORMS[0]));
+        let cut = &packed[..packed.len() - 12];
+        assert_eq!(read_element_bytes(cut), of_nothing(Nothing::Unpackable));
+    }
+
+    #[test]
+    fn an_epoch_with_an_offset_is_that_time() {
+        for (epoch, utc) in [
+            ("2026-08-11T15:00:00+03:00", Some("2026-08-11T12:00:00Z")),
+            ("2026-08-11T00:30:00-11:30", Some("2026-08-11T12:00:00Z")),
+            ("2026-08-11T12:00:00+00:00", Some("2026-08-11T12:00:00Z")),
+            ("2026-08-11T12:00:00Z", Some("2026-08-11T12:00:00Z")),
+            ("2026-08-11T12:00:00", Some("2026-08-11T12:00:00Z")),
+            ("2026-223T12:00:00", Some("2026-08-11T12:00:00Z")),
+            ("2026-223T12:00:00+03:00", None),
+            ("2026-08-11T12:00:00[Europe/Istanbul]", None),
+            ("2026-08-11T15:00:00+03:00[Europe/Istanbul]", None),
+        ] {
+            let report = read_elements(&FORMS[1].replace("2026-08-11T12:00:00", epoch));
+            let read = report.elements.first().map(Elements::epoch);
+            assert_eq!(read, utc.map(|utc| utc.parse().unwrap()), "{epoch}");
+            assert_eq!(report.refused.len(), usize::from(utc.is_none()), "{epoch}");
+        }
+    }
+
+    #[test]
+    fn names_of_refused_objects_are_harmless_too() {
+        let text =
+            FORMS[1].replace("\"A\"", "\"A\\u001b]0;x\\u0007 \\u202eB\"").replace("15.5", "-1");
+        let refused = &read_elements(&text).refused[0];
+        assert_eq!(refused.object.as_deref(), Some("A ]0;x   B"));
     }
 }

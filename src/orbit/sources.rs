@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use jiff::{SignedDuration, Timestamp};
 use serde::{Deserialize, Serialize};
 
-use super::MergeSummary;
+use super::{MergeSummary, Nothing};
 use crate::astro::time;
 
 /// A server is asked for one source at most once in this time, unless the
@@ -71,6 +71,9 @@ pub enum FetchProblem {
     /// Nothing in the answer could be read.
     #[error("the answer holds no elements")]
     NoElements,
+    /// Nothing in the answer looks like elements.
+    #[error("the answer holds no elements, {0}")]
+    Nothing(Nothing),
     /// All that came is older than what is held.
     #[error("the answer is older than what is held")]
     Older,

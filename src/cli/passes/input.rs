@@ -51,6 +51,9 @@ pub(super) fn read(files: &[PathBuf], numbers: &[u32]) -> anyhow::Result<Input> 
             let object = refusal.object.as_deref().unwrap_or("unnamed object");
             said.refused(&format!("{source}:{}: {object}: {}", refusal.line, refusal.reason));
         }
+        if let Some(why) = summary.nothing {
+            said.refused(&format!("{source}: no elements, {why}"));
+        }
         if summary.refused_unlisted > 0 {
             said.refused(&format!("{source}: {} more were refused", summary.refused_unlisted));
         }

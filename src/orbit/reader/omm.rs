@@ -106,7 +106,7 @@ impl<'a> Message<'a> {
             return;
         }
         match self.elements() {
-            Ok(elements) => report.accept(line, elements),
+            Ok(elements) => report.elements.push(elements),
             Err(reason) => report.refuse(line, self.object().as_deref(), reason),
         }
     }
@@ -185,7 +185,11 @@ impl<'a> Message<'a> {
     ) -> Result<Option<u64>, RefusalReason> {
         let whole = match self.value(name) {
             None => return Ok(None),
-            Some(Value::Text(text)) => parse(text.trim()),
+            Some(Value::Text(text)) => {
+                let text = text.trim();
+                // CCSDS 502.0-B, 7.5.4.
+                parse(text.strip_prefix('+').unwrap_or(text))
+            }
             Some(Value::Number(number)) if *number >= 0.0 && number.fract() == 0.0 => {
                 Some(*number as u64)
             }
@@ -217,6 +221,14 @@ impl<'a> Message<'a> {
     /// The epoch, which is UTC whether it says so or not.
     fn epoch(&self) -> Result<Timestamp, RefusalReason> {
         let text = self.text("EPOCH").ok_or(RefusalReason::MissingField("EPOCH"))?;
+        // The parser of civil times passes over an offset and a zone.
+        let time = text.split_once(['T', 't', ' ']).map_or("", |(_, time)| time);
+        if time.contains('[') {
+            return Err(RefusalReason::Field("EPOCH"));
+        }
+        if time.contains(['+', '-']) {
+            return text.parse().map_err(|_| RefusalReason::Field("EPOCH"));
+        }
         let text = text.trim_end_matches(['Z', 'z']);
         let civil: Option<civil::DateTime> = text.parse().ok().or_else(|| by_day_of_year(text));
         let civil = civil.ok_or(RefusalReason::Field("EPOCH"))?;

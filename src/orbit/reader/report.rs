@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clean;
 use crate::{
     name::{self, Name},
     orbit::{Elements, elements::ElementsError},
@@ -24,8 +25,8 @@ pub struct ReadReport {
     pub refused_unlisted: usize,
     /// Oddities of accepted objects, the first 100,000.
     pub notes: Vec<Note>,
-    /// The line of each of `elements`, from 1.
-    pub(in crate::orbit) lines: Vec<u32>,
+    /// Why there are neither elements nor refusals, where there are none.
+    pub nothing: Option<Nothing>,
 }
 
 /// A refused object.
@@ -130,18 +131,33 @@ pub enum RefusalReason {
     /// The numbers are no orbit.
     #[error(transparent)]
     Orbit(#[from] ElementsError),
-    /// The catalog holds a newer set of this object.
-    #[error("older than the set that is held, of {held}")]
-    OlderThanHeld { held: jiff::Timestamp },
+    /// A list of JSON ends without its bracket: what came after is missing.
+    #[error("the list breaks off here")]
+    BreaksOff,
+}
+
+/// Why a text holds nothing: no object that could be read, and none that could not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Nothing {
+    #[error("it is empty")]
+    Empty,
+    /// A server's page about an error, or the page around a list.
+    #[error("it is a web page")]
+    WebPage,
+    /// The answer of `CelesTrak` to a query that finds no object.
+    #[error("it says \"No GP data found\"")]
+    NoGpData,
+    /// Zip, bzip2, xz, zstd.
+    #[error("it is packed in a way that is not read here; unpack it first")]
+    Packed,
+    #[error("it is compressed, and cannot be unpacked")]
+    Unpackable,
+    #[error("it is neither TLE nor OMM")]
+    Unknown,
 }
 
 impl ReadReport {
-    /// Accepts an object that starts at `line`.
-    pub(super) fn accept(&mut self, line: usize, elements: Elements) {
-        self.elements.push(elements);
-        self.lines.push(u32::try_from(line).unwrap_or(u32::MAX));
-    }
-
     /// Refuses an object.
     pub(super) fn refuse(&mut self, line: usize, object: Option<&str>, reason: RefusalReason) {
         if self.refused.len() < MAX_LISTED {
@@ -160,7 +176,7 @@ impl ReadReport {
 }
 
 fn shortened(object: &str) -> String {
-    object.chars().take(MAX_OBJECT_CHARS).collect()
+    clean(object).chars().take(MAX_OBJECT_CHARS).collect()
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ fn set(
             report.note(first.place, object, NoteKind::BlankChecksum { line });
         }
     }
-    report.accept(first.place, elements);
+    report.elements.push(elements);
     Ok(())
 }
 

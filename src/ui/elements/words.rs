@@ -56,12 +56,16 @@ pub(super) fn report(
             Some((Tone::Bad, format!("Cannot be read: {problem}: {place}.")))
         })
         .collect();
+    lines.extend(report.files.iter().filter_map(|file| {
+        let (why, place) = (file.merge.nothing?, file.path.display());
+        Some((Tone::Caution, format!("No elements, {why}: {place}.")))
+    }));
     if report.objects() > 0 || lines.is_empty() {
         lines.insert(0, held(source, report, now));
     }
     if report.refused() > 0 {
         let refused = format::number(report.refused() as f64, 0);
-        lines.push((Tone::Plain, format!("{refused} refused: unreadable, or older than held.")));
+        lines.push((Tone::Plain, format!("{refused} refused: unreadable.")));
     }
     if let Some(problem) = &report.fetch_problem {
         let stays = if report.objects() > 0 { " What was held stays." } else { "" };

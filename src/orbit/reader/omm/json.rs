@@ -13,18 +13,33 @@ use crate::orbit::reader::{ReadReport, RefusalReason};
 /// Reads all objects of `text`.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
+    // An object around the list, as some servers put it.
+    let mut is_wrapped = false;
+    let (mut last, mut is_sound) = (1, true);
     for Part { line, text } in parts(text) {
+        last = line;
         if !text.starts_with('{') {
-            report.refuse(line, None, RefusalReason::NotAnObject);
+            if !is_wrapped {
+                report.refuse(line, None, RefusalReason::NotAnObject);
+            }
             continue;
         }
         let mut message = Message::default();
         let mut json = serde_json::Deserializer::from_str(text);
         let filled = Fill(&mut message).deserialize(&mut json).and_then(|()| json.end());
+        if filled.is_err() && message.is_empty() && text.trim_end().ends_with('[') {
+            is_wrapped = true;
+            continue;
+        }
+        is_sound = filled.is_ok();
         match filled.map_err(|_| RefusalReason::Json).and_then(|()| message.elements()) {
-            Ok(elements) => report.accept(line, elements),
+            Ok(elements) => report.elements.push(elements),
             Err(reason) => report.refuse(line, message.object().as_deref(), reason),
         }
+    }
+    // What broke off within an object is refused already.
+    if is_sound && text.trim_start().starts_with('[') && !text.trim_end().ends_with(']') {
+        report.refuse(last, None, RefusalReason::BreaksOff);
     }
     report
 }
@@ -232,6 +247,32 @@ mod tests {
             assert_eq!(report.elements.len(), 1, "{key}");
             let object = Some("NEW OBJECT".to_owned());
             assert_eq!(report.refused, [Refusal { line: 1, object, reason }]);
+        }
+    }
+
+    #[test]
+    fn a_list_that_breaks_off_between_objects_is_told() {
+        let list = format!("[\n{},\n{}", celestrak(), celestrak());
+        for end in ["", ",", ",\n"] {
+            let report = read(&format!("{list}{end}"));
+            assert_eq!(report.elements.len(), 2);
+            let why = RefusalReason::BreaksOff;
+            assert_eq!(report.refused, [Refusal { line: 3, object: None, reason: why }]);
+        }
+        assert_eq!(read(&format!("{list}\n]\n")).refused, []);
+    }
+
+    #[test]
+    fn lists_within_an_object_and_an_object_around_the_list_are_read() {
+        let nested = with("extra", json!({"a": {"b": [1, {"c": 3}]}, "d": [{"e": 1}, {"f": 2}]}));
+        let report = read(&json!([nested, celestrak()]).to_string());
+        assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{:?}", report.refused);
+        for around in [
+            json!({"data": [nested, celestrak()]}),
+            json!({"count": 2, "data": [celestrak(), nested], "next": null}),
+        ] {
+            let report = read(&around.to_string());
+            assert_eq!((report.elements.len(), report.refused.len()), (2, 0), "{around}");
         }
     }
 

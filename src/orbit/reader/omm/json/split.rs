@@ -1,5 +1,12 @@
 //! Cuts a JSON list into its entries, so that a bad one costs no other.
 
+use std::collections::BTreeMap;
+
+use serde::de::IgnoredAny;
+use serde_json::Deserializer;
+
+use crate::orbit::reader::omm::Field;
+
 /// One entry, which need not be sound JSON.
 #[derive(Debug, PartialEq)]
 pub(super) struct Part<'a> {
@@ -58,7 +65,7 @@ fn object_end(text: &str) -> usize {
                 }
             }
             b'{' if before == b':' => depth += 1,
-            b'{' => return index,
+            b'{' => return sound_end(text).unwrap_or(index),
             b'}' if !in_string => {
                 depth -= 1;
                 if depth == 0 {
@@ -72,6 +79,16 @@ fn object_end(text: &str) -> usize {
         }
     }
     text.len()
+}
+
+/// The length of the message that `text` starts with, where it is sound JSON: a list within it
+/// may hold objects too. `None` for an object around a list of messages.
+#[allow(clippy::zero_sized_map_values, reason = "only the keys are looked at")]
+fn sound_end(text: &str) -> Option<usize> {
+    let mut objects = Deserializer::from_str(text).into_iter::<BTreeMap<String, IgnoredAny>>();
+    let fields = objects.next()?.ok()?;
+    let is_message = fields.keys().any(|key| Field::named(key).is_some());
+    is_message.then_some(objects.byte_offset())
 }
 
 #[cfg(test)]
