@@ -32,6 +32,7 @@
 
 mod cases;
 mod line;
+mod makes;
 mod scene;
 mod unit;
 mod world;

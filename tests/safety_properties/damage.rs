@@ -10,8 +10,9 @@ use azel::{
 
 use super::{
     cases::for_each_case,
+    makes::{MAKES, Make},
     scene::Scene,
-    unit::{Unit, Word},
+    unit::Word,
     world::{Wish, World},
 };
 use crate::common::dice::Dice;
@@ -40,18 +41,11 @@ async fn watched(scene: &mut Scene, seconds: f64, case: &str) {
     }
 }
 
-async fn damaged(mut dice: Dice, make: usize, percent: u32) {
-    let min_margin_deg = |world: &World| world.coarse_deg;
-    let wish =
-        Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+async fn damaged(mut dice: Dice, make: &Make, percent: u32) {
+    let wish = Wish::default();
     let world = loop {
         let world = World::random(&mut dice, &wish);
-        let is_it = match world.unit {
-            Unit::Satrak(_) => make == 0,
-            Unit::Genius(_) => make == 1,
-            Unit::Rc2000c(..) => make == 2,
-        };
-        if is_it {
+        if world.make.name == make.name {
             break world;
         }
     };
@@ -65,13 +59,11 @@ async fn damaged(mut dice: Dice, make: usize, percent: u32) {
         elevation: Some(Angle::from_degrees(dice.between(20.0, 80.0))),
     });
     watched(&mut scene, dice.between(1.0, 15.0), &case).await;
-    // A Genius is told one axis after the other.
-    let most = if make == 1 { 2 } else { 1 };
     let moved = |scene: &Scene| {
-        let words = scene.world.unit.words_since(began);
+        let words = scene.world.words_since(began);
         words.iter().filter(|(_, word)| *word == Word::Motion).count()
     };
-    assert!(moved(&scene) <= most, "sent again: {case}\n{}", scene.report());
+    assert!(moved(&scene) <= make.words_of_a_go_to, "sent again: {case}\n{}", scene.report());
 
     // What moves is stopped, however bad the line is.
     scene.stop();
@@ -82,7 +74,7 @@ async fn damaged(mut dice: Dice, make: usize, percent: u32) {
         assert!(waited < Duration::from_mins(1), "never proved: {case}\n{}", scene.report());
     }
     assert!(!scene.world.unit.is_turning(), "stopped while it turns: {case}\n{}", scene.report());
-    assert!(moved(&scene) <= most, "sent after STOP: {case}\n{}", scene.report());
+    assert!(moved(&scene) <= make.words_of_a_go_to, "sent after STOP: {case}\n{}", scene.report());
 
     // A line that is well again is shown so, and by then nothing has begun to move.
     scene.trouble(|line| (line.damaged, line.lost) = (0.0, 0.0));
@@ -94,9 +86,9 @@ async fn damaged(mut dice: Dice, make: usize, percent: u32) {
 
 #[test]
 fn any_rate_of_damage_becomes_no_position_no_motion_and_no_lost_stop() {
-    for (make, name) in ["Satrak", "Genius", "RC2000C"].into_iter().enumerate() {
+    for make in MAKES {
         for percent in RATES {
-            let class = format!("{name}, {percent} % damaged");
+            let class = format!("{}, {percent} % damaged", make.name);
             for_each_case(&class, 4, |dice| damaged(dice, make, percent));
         }
     }

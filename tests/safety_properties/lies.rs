@@ -10,14 +10,13 @@ use azel::{
 use super::{
     cases::for_each_case,
     scene::Scene,
-    unit::{Lie, Unit},
+    unit::Lie,
     world::{Wish, World},
 };
 use crate::common::dice::Dice;
 
-async fn scene(dice: &mut Dice, makes: usize) -> Scene {
-    let min_margin_deg = |world: &World| world.coarse_deg;
-    let wish = Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes };
+async fn scene(dice: &mut Dice, others_jog: bool) -> Scene {
+    let wish = Wish { others_jog, ..Wish::default() };
     let world = World::random(dice, &wish);
     Scene::start(world, dice).await
 }
@@ -34,13 +33,13 @@ fn long_way(scene: &Scene, axis: usize) -> f64 {
 }
 
 async fn flags_lie(mut dice: Dice) {
-    let mut scene = scene(&mut dice, 2).await;
+    let mut scene = scene(&mut dice, true).await;
     let axis = dice.below(2);
     let rate_deg_s = long_way(&scene, axis) * dice.between(SLOWEST_DEG_S, 5.0);
     scene.world.unit.tell(Lie::FalseRest);
     scene.seconds(1.0).await;
     let began = Instant::now();
-    assert!(scene.world.unit.other_client_turns(axis, rate_deg_s).await);
+    scene.world.other_client_turns(axis, rate_deg_s).await;
     scene.trouble(|line| line.ignores_stop = true);
     let presses = dice.chance(0.6);
     let press_at = began + Duration::try_from_secs_f64(dice.between(0.0, 6.0)).unwrap();
@@ -68,10 +67,7 @@ async fn flags_lie(mut dice: Dice) {
     if turned_until < began + Duration::from_millis(9900) {
         return;
     }
-    // Of a Genius the angles are held against the flags before anything else sees
-    // them.
-    let is_genius = matches!(scene.world.unit, Unit::Genius(_));
-    if is_genius {
+    if scene.world.make.doubts_flags {
         let is_told = scene.told(began, |event| matches!(event, Event::StopNotConfirmed));
         assert!(was_shown || is_told.is_some(), "shown as standing\n{}", scene.report());
         return;
@@ -85,15 +81,11 @@ async fn flags_lie(mut dice: Dice) {
 }
 
 async fn angles_freeze(mut dice: Dice) {
-    let mut scene = scene(&mut dice, 3).await;
+    let mut scene = scene(&mut dice, false).await;
     let axis = dice.below(2);
     let way = long_way(&scene, axis);
     let fastest_deg_s = scene.world.antenna.limits.maximum_rate_deg_s;
-    let share = match scene.world.unit {
-        // Its one speed is the fastest.
-        Unit::Genius(_) => 1.0,
-        _ => dice.between(0.3, 1.0),
-    };
+    let share = if scene.world.has_one_speed() { 1.0 } else { dice.between(0.3, 1.0) };
     let mut rates_deg_s = [0.0; 2];
     rates_deg_s[axis] = way * share * fastest_deg_s;
     scene.send(Command::Manual);

@@ -41,7 +41,7 @@ pub(super) async fn carry(
     mut there: Box<dyn Stream>,
     line: Arc<Mutex<Line>>,
     mut dice: Dice,
-    unit: Unit,
+    unit: Arc<dyn Unit>,
 ) -> io::Result<()> {
     let (mut out, mut back) = ([0; 1024], [0; 1024]);
     loop {
@@ -52,7 +52,7 @@ pub(super) async fn carry(
                     return Ok(());
                 }
                 let line = line.lock().unwrap().clone();
-                let vanishes = line.is_deaf || line.ignores_stop && holds_stop(bytes, &unit);
+                let vanishes = line.is_deaf || line.ignores_stop && unit.holds_stop(bytes);
                 if !vanishes {
                     there.write_all(bytes).await?;
                 }
@@ -96,15 +96,5 @@ pub(super) async fn carry(
                 here.write_all(&sent[at..]).await?;
             }
         }
-    }
-}
-
-fn holds_stop(bytes: &[u8], unit: &Unit) -> bool {
-    let holds = |word: &[u8]| bytes.windows(word.len()).any(|part| part == word);
-    match unit {
-        Unit::Satrak(_) => holds(b"STOP=") || holds(b"STOP ="),
-        Unit::Genius(_) => holds(b"|S"),
-        // The code follows the start and the address.
-        Unit::Rc2000c(..) => bytes.get(2..4) == Some(b"3X"),
     }
 }

@@ -71,9 +71,8 @@ const RUNS_ON_S: f64 = 2.0;
 const AGAIN: Duration = Duration::from_millis(1500);
 
 async fn fails(mut dice: Dice) {
-    let min_margin_deg = |world: &World| world.coarse_deg;
     let keep_outs = dice.below(3);
-    let wish = Wish { keep_outs, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+    let wish = Wish { keep_outs, ..Wish::default() };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let is_jog = dice.chance(0.6);
@@ -140,8 +139,8 @@ async fn fails(mut dice: Dice) {
     );
     assert_eq!(scene.count(failed, is_silent), 1, "told again: {case}\n{}", scene.report());
     assert!(scene.shown().silent, "{case}\n{}", scene.report());
-    let ends_by_itself = !scene.world.unit.jogs_run_on() || !is_jog;
-    if is_jog && !scene.world.unit.jogs_run_on() {
+    let ends_by_itself = !scene.world.make.jogs_run_on || !is_jog;
+    if is_jog && !scene.world.make.jogs_run_on {
         let turned_deg = (scene.world.unit.axes_deg()[axis] - from_deg[axis]).abs();
         let max_deg = scene.world.fastest_deg_s * RUNS_ON_S;
         assert!(turned_deg <= max_deg, "ran on by {turned_deg}: {case}\n{}", scene.report());
@@ -153,7 +152,7 @@ async fn fails(mut dice: Dice) {
     let turned_on = scene.world.unit.is_turning();
     scene.seconds(10.5).await;
     assert!(!scene.shown().silent, "still silent: {case}\n{}", scene.report());
-    let words = scene.world.unit.words_since(back);
+    let words = scene.world.words_since(back);
     if !ends_by_itself && failure != Failure::Mute {
         // Only questions may come before it on a link that heals by itself; on a new
         // one nothing does. Of an antenna that has come to its end looks alone prove
@@ -218,9 +217,7 @@ async fn hold(scene: &mut Scene, rates_deg_s: [f64; 2], seconds: f64) {
 
 /// Replies that are late, and one that is lost, are no silence.
 async fn answers_late(mut dice: Dice) {
-    let min_margin_deg = |world: &World| world.coarse_deg;
-    let wish =
-        Wish { keep_outs: 0, min_margin_deg, has_sun: false, starts_inside: false, makes: 3 };
+    let wish = Wish::default();
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let late_ms = dice.between(0.0, 400.0);

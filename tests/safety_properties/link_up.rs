@@ -12,7 +12,6 @@ use azel::{
 use super::{
     cases::for_each_case,
     scene::Scene,
-    unit::Unit,
     world::{Wish, World},
 };
 use crate::common::dice::Dice;
@@ -38,7 +37,7 @@ fn deed(dice: &mut Dice, world: &World) -> Deed {
     match dice.below(14) {
         0..5 => {
             let mut rates_deg_s = both(dice, rate_deg_s);
-            let takes_one = !matches!(world.unit, Unit::Satrak(_));
+            let takes_one = world.antenna.connection.variant().capabilities.jogs_one_axis;
             if takes_one || dice.chance(0.5) {
                 rates_deg_s[dice.below(2)] = 0.0;
             }
@@ -134,8 +133,7 @@ async fn carry_out(scene: &mut Scene, dice: &mut Dice, deeds: &[Deed]) {
 
 async fn drives(mut dice: Dice) {
     let keep_outs = dice.below(4);
-    let min_margin_deg = |world: &World| world.coarse_deg;
-    let wish = Wish { keep_outs, min_margin_deg, has_sun: true, starts_inside: false, makes: 3 };
+    let wish = Wish { keep_outs, has_sun: true, ..Wish::default() };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let mut deeds = Vec::new();
@@ -167,20 +165,14 @@ fn room_deg(world: &World) -> f64 {
 
 async fn others_move(mut dice: Dice) {
     let keep_outs = 1 + dice.below(3);
-    let wish = Wish {
-        keep_outs,
-        min_margin_deg: room_deg,
-        has_sun: false,
-        starts_inside: false,
-        makes: 2,
-    };
+    let wish = Wish { keep_outs, min_margin_deg: room_deg, others_jog: true, ..Wish::default() };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     for _ in 0..2 {
         let axis = dice.below(2);
         let way = if dice.chance(0.5) { 1.0 } else { -1.0 };
         let rate_deg_s = way * dice.between(0.3, scene.world.fastest_deg_s);
-        assert!(scene.world.unit.other_client_turns(axis, rate_deg_s).await);
+        scene.world.other_client_turns(axis, rate_deg_s).await;
         let end = Instant::now() + Duration::from_secs(40);
         while Instant::now() < end {
             scene.look().await;
@@ -248,15 +240,14 @@ fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usiz
 }
 
 /// Whether a jog along the shortest way is free for as far as it is judged ahead, which
-/// at the one speed of a Genius may be beyond what lies behind the zone.
+/// of a unit with one speed may be beyond what lies behind the zone.
 fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64) -> bool {
     /// More than a jog is judged ahead.
     const AHEAD_S: f64 = 2.5;
     let World { bounds, antenna, utc_origin, unit, .. } = &scene.world;
-    let ahead_deg = match unit {
-        Unit::Genius(_) => antenna.limits.maximum_rate_deg_s * AHEAD_S,
-        _ => rate_deg_s * AHEAD_S,
-    };
+    let has_one_speed = scene.world.has_one_speed();
+    let fastest_deg_s = antenna.limits.maximum_rate_deg_s;
+    let ahead_deg = if has_one_speed { fastest_deg_s } else { rate_deg_s } * AHEAD_S;
     let at_deg = unit.axes_deg();
     let Some(turn_deg) = turn_out_deg(scene, at_deg, (axis, way), GAP_DEG) else { return false };
     let (from_deg, to_deg) = antenna.mount.travel_deg()[axis];
@@ -270,9 +261,8 @@ fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64
 }
 
 async fn starts_inside(mut dice: Dice) {
-    let min_margin_deg = |world: &World| world.coarse_deg;
     let keep_outs = 1 + dice.below(2);
-    let wish = Wish { keep_outs, min_margin_deg, has_sun: false, starts_inside: true, makes: 3 };
+    let wish = Wish { keep_outs, starts_inside: true, ..Wish::default() };
     let world = World::random(&mut dice, &wish);
     let mut scene = Scene::start(world, &mut dice).await;
     let slow_deg_s = scene.world.antenna.limits.maximum_rate_deg_s * 0.24;

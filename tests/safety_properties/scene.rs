@@ -37,10 +37,8 @@ pub(super) struct Scene {
 impl Scene {
     /// A session that has read its unit and knows its bounds.
     pub(super) async fn start(world: World, dice: &mut Dice) -> Self {
-        let line = Arc::new(Mutex::new(Line {
-            is_unchecked: matches!(world.unit, Unit::Genius(_)),
-            ..Line::default()
-        }));
+        let line =
+            Arc::new(Mutex::new(Line { is_unchecked: world.make.is_unchecked, ..Line::default() }));
         let (network, last_dial) = (Network::default(), Arc::default());
         let dial = dial(&network, &world.unit, &line, &last_dial, dice.next());
         let clock = TestClock::new(world.utc_origin).clock();
@@ -146,18 +144,18 @@ impl Scene {
 
 fn dial(
     network: &Network,
-    unit: &Unit,
+    unit: &Arc<dyn Unit>,
     line: &Arc<Mutex<Line>>,
     last_dial: &Arc<Mutex<Option<Instant>>>,
     seed: u64,
 ) -> Dial {
-    let (unit, line, last_dial) = (unit.clone(), Arc::clone(line), Arc::clone(last_dial));
+    let (unit, line, last_dial) = (Arc::clone(unit), Arc::clone(line), Arc::clone(last_dial));
     let mut dice = Dice::new(seed);
     network.dial(move || {
         *last_dial.lock().unwrap() = Some(Instant::now());
         let (near, here) = tokio::io::duplex(4096);
         let (line, dice) = (Arc::clone(&line), Dice::new(dice.next()));
-        tokio::spawn(carry(here, unit.link(), line, dice, unit.clone()));
+        tokio::spawn(carry(here, unit.link(), line, dice, Arc::clone(&unit)));
         Box::new(near) as Box<dyn Stream>
     })
 }

@@ -1,24 +1,27 @@
 //! A random station, its antenna and its unit.
 
+use std::sync::Arc;
+
 use azel::{
-    astro::{Angle, AzEl, time},
-    controller::{
-        rc2000c::Calibration,
-        rotator_genius::{ROTATORS, Rotators},
-    },
+    astro::{AzEl, time},
+    clock::Instant,
+    device::JogSpeeds,
     plan::Bounds,
-    protocol::rotator_genius::WholeDegrees,
-    sim::{rc2000c, rotator_genius, satrak},
-    station::{Antenna, CountLine, CountPoint, Entered, KeepOut, Mount, Station, SunAvoidance},
+    station::{Antenna, Entered, KeepOut, Station, SunAvoidance},
 };
 use jiff::Timestamp;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
-use super::unit::Unit;
+use super::{
+    makes::{MAKES, Make},
+    unit::{Unit, Word},
+};
 use crate::common::dice::Dice;
 
 /// A station, its antenna, and where it stands.
 pub(super) struct World {
-    pub(super) unit: Unit,
+    pub(super) make: &'static Make,
+    pub(super) unit: Arc<dyn Unit>,
     pub(super) antenna: Antenna,
     pub(super) station: Station,
     pub(super) bounds: Bounds,
@@ -36,18 +39,29 @@ pub(super) struct Wish {
     pub(super) has_sun: bool,
     /// The axes stand inside a keep-out.
     pub(super) starts_inside: bool,
-    pub(super) makes: usize,
+    /// Other clients can turn the axes.
+    pub(super) others_jog: bool,
+}
+
+impl Default for Wish {
+    fn default() -> Self {
+        Self {
+            keep_outs: 0,
+            min_margin_deg: |world| world.coarse_deg,
+            has_sun: false,
+            starts_inside: false,
+            others_jog: false,
+        }
+    }
 }
 
 impl World {
     /// A random one, and its axes somewhere free, or inside a keep-out.
     pub(super) fn random(dice: &mut Dice, wish: &Wish) -> Self {
+        let can = |make: &&Make| make.others_jog.is_some() || !wish.others_jog;
+        let makes: Vec<_> = MAKES.iter().copied().filter(can).collect();
         loop {
-            let mut world = match dice.below(wish.makes) {
-                0 => Self::of_satrak(dice),
-                1 => Self::of_genius(dice),
-                _ => Self::of_rc2000c(dice),
-            };
+            let mut world = (makes[dice.below(makes.len())].random)(dice);
             if wish.has_sun && dice.chance(0.4) {
                 let radius_deg = dice.between(1.0, 25.0);
                 let ahead_min = dice.between(0.0, 30.0);
@@ -67,107 +81,26 @@ impl World {
         }
     }
 
-    fn of_satrak(dice: &mut Dice) -> Self {
-        let utc_origin = some_time(dice);
-        let station = Station::default();
-        let lower_axis_deg = dice.between(0.0, 180.0);
-        let options = satrak::Options {
-            lower_axis: Angle::from_degrees(lower_axis_deg),
-            seed: dice.next(),
-            max_clients: 2,
-            ..satrak::Options::new(station.site, utc_origin)
-        };
-        let mut antenna = Antenna::satrak("Dish", "in memory");
-        antenna.mount = Mount::Xy {
-            lower_axis_azimuth_deg: lower_axis_deg,
-            travel_from_deg: dice.between(5.0, 30.0),
-            travel_to_deg: dice.between(150.0, 175.0),
-        };
-        antenna.limits.maximum_rate_deg_s = dice.between(0.5, 5.0);
-        antenna.limits.minimum_elevation_deg = dice.between(0.0, 15.0);
-        antenna.beam_width_deg = dice.between(0.1, 3.0);
-        let unit = Unit::Satrak(satrak::Control::new(&options));
-        Self::with(unit, antenna, station, utc_origin, 5.0, 0.15)
-    }
-
-    fn of_genius(dice: &mut Dice) -> Self {
-        use rotator_genius::{Options, RotatorOptions};
-        let highest_deg = if dice.chance(0.3) { 180.0 } else { 90.0 };
-        let options = Options {
-            rotators: [
-                RotatorOptions::default(),
-                RotatorOptions {
-                    limit_cw: WholeDegrees::nearest(highest_deg).unwrap(),
-                    ..RotatorOptions::elevation()
-                },
-            ],
-            max_clients: 2,
-            seed: dice.next(),
-            ..Options::default()
-        };
-        let mut antenna = Antenna::genius("Mast", "in memory");
-        antenna.connection.put(&ROTATORS, Rotators::Pair).unwrap();
-        antenna.mount = Mount::AzEl {
-            azimuth_from_deg: dice.between(0.0, 40.0).round(),
-            azimuth_to_deg: dice.between(320.0, 450.0).round(),
-            elevation_from_deg: 0.0,
-            elevation_to_deg: highest_deg,
-        };
-        antenna.beam_width_deg = dice.between(1.0, 20.0);
-        antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);
-        let unit = Unit::Genius(rotator_genius::Control::new(&options));
-        Self::with(unit, antenna, Station::default(), some_time(dice), 4.0, 2.6)
-    }
-
-    fn of_rc2000c(dice: &mut Dice) -> Self {
-        let point = |counts, degrees| CountPoint { counts, degrees };
-        let (from_deg, span_deg) = (dice.between(-90.0, 180.0).round(), dice.between(120.0, 420.0));
-        let to_deg = from_deg + span_deg.round();
-        let calibration = Calibration {
-            azimuth: vec![point(30, from_deg), point(3630, to_deg)],
-            elevation: vec![point(30, 0.0), point(1830, 90.0)],
-        };
-        let lines = [&calibration.azimuth, &calibration.elevation]
-            .map(|points| CountLine::through(points).unwrap());
-        let mut antenna = Antenna::rc2000c("Dish", "in memory");
-        calibration.put_into(&mut antenna.connection).unwrap();
-        antenna.mount = Mount::AzEl {
-            azimuth_from_deg: from_deg,
-            azimuth_to_deg: to_deg,
-            elevation_from_deg: 0.0,
-            elevation_to_deg: 90.0,
-        };
-        // 40 counts a second.
-        let fastest_deg_s = f64::max(40.0 * (to_deg - from_deg) / 3600.0, 2.0);
-        antenna.limits.maximum_rate_deg_s = fastest_deg_s;
-        antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);
-        antenna.beam_width_deg = dice.between(0.1, 3.0);
-        let unit = Unit::Rc2000c(rc2000c::Control::new(&rc2000c::Options::default()), lines);
-        Self::with(unit, antenna, Station::default(), some_time(dice), fastest_deg_s, 0.3)
-    }
-
-    fn with(
-        unit: Unit,
+    pub(super) fn new(
+        make: &'static Make,
+        unit: impl Unit + 'static,
         antenna: Antenna,
-        station: Station,
         utc_origin: Timestamp,
         fastest_deg_s: f64,
         coarse_deg: f64,
     ) -> Self {
+        let (unit, station) = (Arc::new(unit), Station::default());
         let bounds = Bounds::of(&station, &antenna);
-        Self { unit, antenna, station, bounds, utc_origin, fastest_deg_s, coarse_deg }
+        Self { make, unit, antenna, station, bounds, utc_origin, fastest_deg_s, coarse_deg }
     }
 
     /// Puts the axes somewhere; `false` where that is not as wished.
-    fn place(&mut self, dice: &mut Dice, inside: bool) -> bool {
+    fn place(&self, dice: &mut Dice, inside: bool) -> bool {
         let axes_deg = self.antenna.mount.travel_deg().map(|(from_deg, to_deg)| {
             let away_deg = f64::min(5.0, (to_deg - from_deg) / 4.0);
             dice.between(from_deg + away_deg, to_deg - away_deg).round()
         });
-        let axes_deg = match &self.unit {
-            Unit::Genius(_) => [axes_deg[0].rem_euclid(360.0), axes_deg[1]],
-            _ => axes_deg,
-        };
+        let axes_deg = self.unit.as_counted(axes_deg);
         // Where a unit counts within a full circle, an axis that has turned further would
         // begin outside of its travel.
         if axes_deg[0] < self.antenna.mount.travel_deg()[0].0 {
@@ -178,21 +111,27 @@ impl World {
         let sky = self.bounds.at(self.utc_origin).above_the_floor().nearest(direction);
         let clear_deg = sky.map_or(90.0, |nearest| nearest.angle.degrees());
         let is_wished = if inside { clear_deg < -0.5 } else { clear_deg > 3.0 };
-        if above_deg < 3.0 || !is_wished {
-            return false;
-        }
-        match &mut self.unit {
-            Unit::Satrak(control) => control.place(axes_deg),
-            Unit::Genius(control) => {
-                control.place(axes_deg.map(|deg| WholeDegrees::nearest(deg).unwrap()));
-            }
-            Unit::Rc2000c(control, lines) => {
-                let counts = [lines[0].counts(axes_deg[0]), lines[1].counts(axes_deg[1])];
-                let [Some(azimuth), Some(elevation)] = counts else { return false };
-                control.place([azimuth, elevation]);
-            }
-        }
-        true
+        above_deg >= 3.0 && is_wished && self.unit.place(axes_deg)
+    }
+
+    /// What the unit has received since `from`, in order.
+    pub(super) fn words_since(&self, from: Instant) -> Vec<(Instant, Word)> {
+        self.unit.words().into_iter().filter(|(at, _)| *at >= from).collect()
+    }
+
+    /// Every jog is as fast as any.
+    pub(super) fn has_one_speed(&self) -> bool {
+        let jog = self.antenna.connection.variant().capabilities.jog;
+        matches!(jog, JogSpeeds::Named([_]))
+    }
+
+    /// Another client turns one axis.
+    pub(super) async fn other_client_turns(&self, axis: usize, rate_deg_s: f64) {
+        let jog = self.make.others_jog.unwrap();
+        let mut near = self.unit.link();
+        near.write_all(&jog(axis, rate_deg_s)).await.unwrap();
+        let mut answer = [0; 64];
+        drop(near.read(&mut answer).await);
     }
 
     /// How far the true direction is from the nearest keep-out itself, degrees.
@@ -227,7 +166,7 @@ impl World {
     }
 }
 
-fn some_time(dice: &mut Dice) -> Timestamp {
+pub(super) fn some_time(dice: &mut Dice) -> Timestamp {
     let noon: Timestamp = "2026-06-21T10:00:00Z".parse().unwrap();
     time::add_seconds(noon, dice.between(0.0, 365.0).floor() * time::DAY_S)
 }
