@@ -59,7 +59,8 @@ pub enum Motion {
         /// Second axis, signed.
         y_deg: f64,
     },
-    /// To a direction; `None` leaves that angle as it is.
+    /// To a direction; `None` leaves that axis where it stands, by its own angle and not by
+    /// the direction: over the zenith the two differ.
     Position {
         /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
         /// the position of that axis: 370 is not 10.
@@ -178,8 +179,12 @@ pub enum PrepareError {
 }
 
 /// A controller as everyone may use it: nothing here starts a motion, or decides
-/// where one leads. What a make does not
-/// implement, it does not have.
+/// where one leads. A method with a default belongs to something that not every make has,
+/// or tells the usual figure.
+///
+/// A question for the position that is not answered is asked again. A position counts as
+/// asked when the first question went out that was not answered, and the reply to a halt
+/// is none, whatever stands in it.
 pub trait Device: Send {
     /// The link has come up: forget what was outstanding, a halt too, and ask everything anew.
     fn link_up(&mut self, now: Moment);
@@ -221,13 +226,15 @@ pub trait Device: Send {
         Duration::from_secs(1)
     }
 
-    /// Asks for the position without waiting for its turn.
+    /// Asks for the position without waiting for its turn, where [`Self::poll_period`] can be
+    /// long.
     fn look(&mut self, _now: Moment) {}
 
     /// While `is_watched`, metal moves on this program's word: a position that is not
     /// told within [`Self::prompt`] is asked for again at once, and a reply that takes
-    /// longer holds up no question for the position.
-    fn watch_closely(&mut self, _is_watched: bool) {}
+    /// longer holds up no question for the position. It has no default: the silence of the
+    /// unit is judged by the second question.
+    fn watch_closely(&mut self, is_watched: bool);
 
     /// How long a reply takes at most while all is well.
     fn prompt(&self) -> Duration {
@@ -235,7 +242,8 @@ pub trait Device: Send {
     }
 
     /// Reads the group with this key anew. It is then among
-    /// [`AntennaState::held`].
+    /// [`AntennaState::held`]. Without [`Variant::groups`] it is never asked, nor are the
+    /// other methods about settings.
     fn read_group(&mut self, _group: &str) {}
 
     /// A change that is not sent: the reason stands in [`AntennaState::held`].
@@ -264,10 +272,9 @@ pub trait Device: Send {
     /// What is known.
     fn state(&self) -> &AntennaState;
 
-    /// What came of earlier requests, oldest first.
-    fn next_event(&mut self) -> Option<ControllerEvent> {
-        None
-    }
+    /// What came of earlier requests, oldest first. It has no default: a motion that was
+    /// refused or not answered is told by it alone.
+    fn next_event(&mut self) -> Option<ControllerEvent>;
 
     /// Without any good reply for this long, the link counts as lost.
     fn patience(&self) -> Duration {
@@ -296,15 +303,17 @@ pub trait Moves: Device {
     }
 
     /// Puts a target on the device without moving it. The outcome comes as a
-    /// [`ControllerEvent`].
+    /// [`ControllerEvent`]. Without [`Capabilities::has_program`] it is never asked.
     fn prepare(&mut self, _target: TrackTarget) {}
 
     /// Puts new values of a group on the device and reads them back. How far it
     /// is, and what came of it, stands in [`AntennaState::held`].
     fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
-    /// Queues a motion. It is sent once, and not at all
-    /// when a halt comes first.
+    /// Queues a motion. It is sent once, and not at all when a halt comes first. The link
+    /// may be gone: then the motion is refused, or forgotten when the link comes up. The
+    /// gate lets nothing by that [`Variant::capabilities`] exclude; what comes all the same
+    /// is refused by a [`ControllerEvent`].
     fn start(&mut self, motion: Motion);
 
     /// Queues what only this make can do. A controller without

@@ -59,7 +59,10 @@ impl Capabilities {
     }
 }
 
-/// How standstill is told from the slowest motion of a unit.
+/// How standstill is told from the slowest motion of a unit: by two looks that lie as far
+/// apart as its slowest motion needs to show, `1.5 * resolution_deg / slowest_deg_s`
+/// seconds. STOP is told as unproved after 3 s, or 1 s more than that time where this is
+/// longer: figures that keep it below 2 s are told in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standstill {
     /// Angles are told in steps of this, degrees.

@@ -196,7 +196,7 @@ impl Moves for Rc2000c {
         // A newer wish replaces one that has not gone out yet.
         self.orders.clear();
         match motion {
-            Motion::Jog { x_deg_s, y_deg_s } => {
+            Motion::Jog { x_deg_s, y_deg_s } if x_deg_s == 0.0 || y_deg_s == 0.0 => {
                 let rate_deg_s = x_deg_s.abs().max(y_deg_s.abs());
                 let named = VARIANT.capabilities.jog.nearest(rate_deg_s, self.maximum_rate_deg_s);
                 let speed =
@@ -213,7 +213,10 @@ impl Moves for Rc2000c {
                 };
                 self.order(motion.into(), request);
             }
-            Motion::Step { .. } | Motion::StartProgram | Motion::EnableAuto => {
+            Motion::Jog { .. }
+            | Motion::Step { .. }
+            | Motion::StartProgram
+            | Motion::EnableAuto => {
                 self.order(motion.into(), Err("the controller cannot do this".to_owned()));
             }
         }

@@ -89,16 +89,16 @@ impl Genius {
 
     /// The commands that `motion` is made of; an error says why there are none.
     pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<Order>, &'static str> {
-        let Roles { axes: [first, second], .. } = self.roles().ok_or(NOT_READ)?;
+        let Roles { axes: [first, second], is_pair, .. } = self.roles().ok_or(NOT_READ)?;
         let requests = match motion {
-            Motion::Jog { x_deg_s, y_deg_s } => {
+            Motion::Jog { x_deg_s, y_deg_s } if x_deg_s == 0.0 || y_deg_s == 0.0 => {
                 let (rotator, rate) =
                     if x_deg_s == 0.0 { (second, y_deg_s) } else { (first, x_deg_s) };
                 let direction =
                     if rate > 0.0 { Direction::Clockwise } else { Direction::CounterClockwise };
                 vec![unit::Motion::Rotate { rotator, direction }]
             }
-            Motion::Position { azimuth, elevation } => {
+            Motion::Position { azimuth, elevation } if is_pair || elevation.is_none() => {
                 let azimuth =
                     azimuth.map(|azimuth| whole_azimuth(azimuth).ok_or(BEYOND)).transpose()?;
                 let elevation = elevation.map(whole_elevation);

@@ -15,7 +15,7 @@ use super::*;
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
     device::{
-        Axis, AxisMotion, Extent, Measured, TrackTarget,
+        Axis, AxisMotion, ControllerEvent, Extent, Measured, TrackTarget,
         panel::Lead,
         settings::{Change, Values},
     },
@@ -56,8 +56,12 @@ impl Device for Metal {
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         Vec::new()
     }
+    fn watch_closely(&mut self, _: bool) {}
     fn motion_under_way(&self) -> bool {
         false
+    }
+    fn next_event(&mut self) -> Option<ControllerEvent> {
+        None
     }
 
     fn state(&self) -> &AntennaState {

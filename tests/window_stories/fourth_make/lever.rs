@@ -9,12 +9,12 @@ use std::{
 };
 
 use azel::{
-    astro::AzEl,
+    astro::{Angle, AzEl},
     clock::{Instant, Moment},
     controller::satrak,
     device::{
-        AntennaState, Axis, AxisMotion, Capabilities, Device, Extent, JogSpeeds, Measured, Motion,
-        Moves, SecondAxis, Standstill, Variant, aimed,
+        AntennaState, Axis, AxisMotion, Capabilities, ControllerEvent, Device, Extent, JogSpeeds,
+        Measured, Motion, Moves, SecondAxis, Standstill, Variant,
     },
     station::{Connection, ControllerSpec, Link, Setting, Table, Usual, Value},
 };
@@ -91,9 +91,10 @@ struct Lever {
     greeting: String,
     state: AntennaState,
     orders: VecDeque<String>,
+    events: VecDeque<ControllerEvent>,
     heard: Vec<u8>,
-    /// When the place was asked for that was not told yet.
-    asked: Option<Instant>,
+    /// When each place was asked for that was not told yet; they are told in this order.
+    asked: VecDeque<Instant>,
 }
 
 impl Lever {
@@ -103,8 +104,9 @@ impl Lever {
             greeting: format!("C {code} {gear} {}\n", connection.whole(&SHAFTS)),
             state: AntennaState::default(),
             orders: VecDeque::new(),
+            events: VecDeque::new(),
             heard: Vec::new(),
-            asked: None,
+            asked: VecDeque::new(),
         }
     }
 }
@@ -113,7 +115,8 @@ impl Device for Lever {
     fn link_up(&mut self, now: Moment) {
         self.state.link_since = Some(now.steady);
         self.orders = [self.greeting.clone()].into();
-        (self.asked, self.heard) = (None, Vec::new());
+        self.asked.clear();
+        self.heard.clear();
     }
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
@@ -123,7 +126,7 @@ impl Device for Lever {
             let line = String::from_utf8_lossy(&line);
             let place: Vec<f64> =
                 line.split(' ').filter_map(|word| word.trim().parse().ok()).collect();
-            let (&[azimuth, elevation], Some(asked)) = (&place[..], self.asked.take()) else {
+            let (&[azimuth, elevation], Some(asked)) = (&place[..], self.asked.pop_front()) else {
                 continue;
             };
             let axis = |angle_deg| Axis {
@@ -150,10 +153,11 @@ impl Device for Lever {
             assert!(!order.starts_with(FRAGILE), "a controller with a fault of its own");
             return Some(order.into_bytes());
         }
-        self.asked.is_none().then(|| {
-            self.asked = Some(now.steady);
-            b"P?\n".to_vec()
-        })
+        if self.asked.back().is_some_and(|last| now.steady < *last + self.prompt()) {
+            return None;
+        }
+        self.asked.push_back(now.steady);
+        Some(b"P?\n".to_vec())
     }
 
     /// Always: while it waits for an answer, that answer and the operator's STOP
@@ -167,6 +171,9 @@ impl Device for Lever {
         b"S\n".to_vec()
     }
 
+    /// It asks again as soon at any time.
+    fn watch_closely(&mut self, _: bool) {}
+
     fn motion_under_way(&self) -> bool {
         !self.orders.is_empty()
     }
@@ -174,15 +181,23 @@ impl Device for Lever {
     fn state(&self) -> &AntennaState {
         &self.state
     }
+
+    fn next_event(&mut self) -> Option<ControllerEvent> {
+        self.events.pop_front()
+    }
 }
 
 impl Moves for Lever {
     fn start(&mut self, motion: Motion) {
-        let Motion::Position { azimuth, elevation } = motion else { return };
-        let measured = self.state.measured.map(|measured| measured.pointing);
-        let aim = aimed(azimuth, elevation, measured);
-        if let Some(AzEl { azimuth, elevation }) = aim.direction() {
-            self.orders.push_back(format!("G {} {}\n", azimuth.degrees(), elevation.degrees()));
+        let stays_deg = self.state.measured.map(|measured| measured.axes.map(|it| it.angle_deg));
+        if let (Motion::Position { azimuth, elevation }, Some([az_deg, el_deg])) =
+            (motion, stays_deg)
+            && let Some(az_deg) = azimuth.map(Angle::degrees).or(az_deg)
+            && let Some(el_deg) = elevation.map(Angle::degrees).or(el_deg)
+        {
+            self.orders.push_back(format!("G {az_deg} {el_deg}\n"));
+        } else {
+            self.events.push_back(ControllerEvent::Refused(motion.into(), "no lever".to_owned()));
         }
     }
 }
