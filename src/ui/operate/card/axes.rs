@@ -49,30 +49,31 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
     std::iter::once(azimuth).chain(has_elevation.then_some(elevation)).collect()
 }
 
-/// Travel gauges. A rotator that turns something else gets none.
+/// Travel gauges, with the ends that the unit keeps to where it tells them. A rotator that turns something else gets none.
 pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
     let can = antenna.variant().capabilities;
-    let measured = antenna.snapshot.state.measured;
-    let axes = can.axes.into_iter().zip(antenna.config.mount.travel_deg()).take(can.axis_count());
-    let gauge = |(index, (name, travel_deg)): (usize, (&'static str, (f64, f64)))| {
-        let axis = measured.and_then(|measured| measured.axes.get(index).copied());
-        let (from, to) = travel_deg;
-        let scale_deg = match antenna.config.mount {
+    let state = &antenna.snapshot.state;
+    let mount = antenna.config.mount;
+    let [whole_deg, within_deg] = [mount, mount.within(state.travel_deg)].map(|it| it.travel_deg());
+    let gauge = |index: usize| {
+        let axis = state.measured.and_then(|measured| measured.axes.get(index).copied());
+        let (name, whole_deg) = (can.axes.get(index)?, *whole_deg.get(index)?);
+        let scale_deg = match mount {
             Mount::Xy { .. } => (0.0, 180.0),
-            Mount::AzEl { .. } => travel_deg,
+            Mount::AzEl { .. } => whole_deg,
         };
-        TravelModel {
+        Some(TravelModel {
             name,
             scale_deg,
-            travel_deg,
+            travel_deg: *within_deg.get(index)?,
             position_deg: axis.and_then(|axis| axis.angle_deg),
             decimals: format::decimals(can).min(1),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
-            turns: to - from > 360.0,
-        }
+            turns: whole_deg.1 - whole_deg.0 > 360.0,
+        })
     };
-    axes.enumerate().map(gauge).collect()
+    (0..can.axis_count()).filter_map(gauge).collect()
 }
 
 /// The pair of axes that the jog keys turn.
@@ -139,4 +140,24 @@ pub(super) fn rate_of_jog(antenna: &AntennaModel) -> Option<f64> {
     let (azimuth, elevation) = antenna.rates_deg_s?;
     let [x, _] = jog;
     if x == 0.0 { can.has_elevation().then_some(elevation) } else { Some(azimuth) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        driver::{LinkState, Snapshot},
+        station::Antenna,
+    };
+
+    #[test]
+    fn the_travel_ends_where_the_unit_says_so() {
+        let mut snapshot = Snapshot::before_anything(LinkState::Off);
+        snapshot.state.travel_deg = [None, Some((5.0, 120.0))];
+        let antenna = AntennaModel::new(Antenna::genius("Mast", ""), Arc::new(snapshot));
+        let ends_deg: Vec<_> = travel(&antenna).into_iter().map(|axis| axis.travel_deg).collect();
+        assert_eq!(ends_deg, [(0.0, 360.0), (5.0, 90.0)]);
+    }
 }
