@@ -41,8 +41,8 @@ pub enum Safety {
         /// By how much it has turned, degrees.
         turned_deg: f64,
     },
-    /// It does not answer while it moves on this program's word. The snapshot says
-    /// until when.
+    /// It does not answer while it moves on this program's word, or before STOP is proved to
+    /// have ended that. The snapshot says until when.
     SilentInMotion,
     /// A held jog does not turn the axis.
     JogWithoutEffect,

@@ -68,7 +68,8 @@ impl Session {
         self.contact.silence.wrote(now.steady);
     }
 
-    /// Whether metal moves on this program's word, as far as is known.
+    /// Whether metal moves on this program's word, as far as is known: it may until STOP is
+    /// proved, though the last look shows it at rest.
     fn is_in_motion(&mut self) -> bool {
         self.is_unproved()
             && (self.follows_now()

@@ -147,8 +147,9 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
             format::degrees(turned_deg.abs(), 1)
         ),
         Safety::SilentInMotion => format!(
-            "{antenna} does not answer while it moves: where it is now is not known. Look at it. \
-             STOP reaches it as soon as the link does; before that use the local panel."
+            "{antenna} does not answer while it moves or may still move: where it is now is not \
+             known. Look at it. STOP reaches it as soon as the link does; before that use the \
+             local panel."
         ),
         Safety::JogWithoutEffect => {
             format!("{antenna} took the jog, but its angle does not change.")
