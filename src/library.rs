@@ -11,7 +11,10 @@ mod index;
 mod list;
 mod unfinished;
 
-use std::path::{Path, PathBuf};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use jiff::Timestamp;
 use rustls::pki_types::CertificateDer;
@@ -37,6 +40,11 @@ use crate::{
 
 /// How the files in a folder end that hold elements.
 const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
+
+/// The files of elements in `folder`, by name, without the folders in it.
+pub(crate) fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    disk::files(folder, &ENDINGS)
+}
 
 /// The elements on disk.
 #[derive(Debug)]
@@ -97,22 +105,18 @@ impl Library {
 
     fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
         let mut report = no_report(source);
-        let paths = match &source.place {
-            SourcePlace::File(path) => vec![path.clone()],
-            SourcePlace::Folder(path) => match disk::files(path, &ENDINGS) {
-                Ok(paths) => paths,
-                Err(error) => {
-                    report.files.push(unread(path, &error));
-                    return report;
-                }
-            },
-            SourcePlace::Web(url) => {
-                let Some(record) = self.index.get(url) else { return report };
-                report.fetch_problem.clone_from(&record.problem);
-                report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
-                report.as_of = record.confirmed_at;
-                // Nothing was kept of a source that never answered.
-                record.confirmed_at.map(|_| self.folder.join(&record.file)).into_iter().collect()
+        if let SourcePlace::Web(url) = &source.place
+            && let Some(record) = self.index.get(url)
+        {
+            report.fetch_problem.clone_from(&record.problem);
+            report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
+            report.as_of = record.confirmed_at;
+        }
+        let paths = match self.files_of(source) {
+            Ok(paths) => paths,
+            Err((path, error)) => {
+                report.files.push(unread(&path, &error));
+                return report;
             }
         };
         for path in paths {
@@ -133,6 +137,19 @@ impl Library {
             }
         }
         report
+    }
+
+    /// The files that hold the elements of a source, which need not exist; none where its server
+    /// never answered. An error names the folder that cannot be listed.
+    pub fn files_of(&self, source: &Source) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+        match &source.place {
+            SourcePlace::File(path) => Ok(vec![path.clone()]),
+            SourcePlace::Folder(path) => element_files(path).map_err(|error| (path.clone(), error)),
+            SourcePlace::Web(url) => {
+                let kept = self.index.get(url).filter(|record| record.confirmed_at.is_some());
+                Ok(kept.map(|record| self.folder.join(&record.file)).into_iter().collect())
+            }
+        }
     }
 
     /// Asks the servers of `sources` for what is new at `now`: every server
@@ -233,7 +250,7 @@ fn no_report(source: &Source) -> SourceReport {
     }
 }
 
-fn unread(path: &Path, error: &std::io::Error) -> FileReport {
+fn unread(path: &Path, error: &io::Error) -> FileReport {
     let problem = Some(error.to_string());
     FileReport { path: path.to_owned(), objects: 0, merge: MergeSummary::default(), problem }
 }

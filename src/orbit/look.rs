@@ -14,7 +14,7 @@
 
 use jiff::Timestamp;
 
-use super::{PropagationError, Propagator};
+use super::{PropagationError, Propagator, State};
 use crate::astro::{AzEl, Site, frames};
 
 /// Speed of light in km/s.
@@ -37,19 +37,25 @@ impl LookAngles {
     }
 }
 
-impl Propagator {
-    /// Look angles of the satellite from `site` at `at`: geometric, with UT1 taken as UTC.
-    pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
-        let state = self.state_at(at)?;
+impl State {
+    /// Look angles from `site` at `at`, the time of this state.
+    pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
         let to_ecef = frames::teme_to_ecef(at);
-        let position_km = to_ecef * state.position_km;
+        let position_km = to_ecef * self.position_km;
         let velocity_km_s =
-            frames::velocity_over_ground_km_s(position_km, to_ecef * state.velocity_km_s);
+            frames::velocity_over_ground_km_s(position_km, to_ecef * self.velocity_km_s);
         let line_km = position_km - frames::site_ecef_km(site);
         let range_km = line_km.length();
         let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
         let range_rate_km_s = line_km.dot(velocity_km_s) / range_km;
-        Ok(LookAngles { direction, range_km, range_rate_km_s })
+        LookAngles { direction, range_km, range_rate_km_s }
+    }
+}
+
+impl Propagator {
+    /// Look angles of the satellite from `site` at `at`: geometric, with UT1 taken as UTC.
+    pub fn look_from(&self, site: Site, at: Timestamp) -> Result<LookAngles, PropagationError> {
+        Ok(self.state_at(at)?.look_from(site, at))
     }
 }
 
