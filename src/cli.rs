@@ -1,6 +1,8 @@
 //! The command line.
 
+mod input;
 pub mod log;
+mod look;
 mod passes;
 #[cfg(unix)]
 mod remote;
@@ -39,7 +41,9 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Predict passes from element files
-    Passes(passes::Options),
+    Passes(Box<passes::Options>),
+    /// Follow one satellite: direction, range and range rate in steps
+    Look(Box<look::Options>),
     /// Run the station without a window, until SIGTERM or Ctrl C
     Serve(serve::Options),
     /// Stop the antennas of the Azel that has the station open, and wait for the proof
@@ -91,7 +95,12 @@ impl Cli {
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
             None => window::run(self.station)?,
-            Some(Command::Passes(options)) => return passes::run(&options),
+            Some(Command::Passes(options)) => {
+                return told(passes::run(self.station.as_deref(), &options));
+            }
+            Some(Command::Look(options)) => {
+                return told(look::run(self.station.as_deref(), &options));
+            }
             Some(Command::Serve(options)) => {
                 return serve::run(
                     self.station,
@@ -123,6 +132,15 @@ impl Cli {
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// Tells of a wrong command line that the parser did not see, as the parser does.
+fn told(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
+    result.or_else(|error| {
+        let error = error.downcast::<clap::Error>()?;
+        error.print()?;
+        Ok(ExitCode::from(error.exit_code() as u8))
+    })
 }
 
 /// In the user's data folder.

@@ -22,6 +22,7 @@ mod host_tracking;
 mod mask_stretches;
 mod orbit_reference;
 mod pass_brute_force;
+mod pass_event_ids;
 mod pass_search;
 mod rc2000c_any;
 mod rc2000c_session;

@@ -110,19 +110,269 @@ fn a_mask_cuts_a_pass_into_its_clear_stretches() {
     }
 }
 
+/// One object as OMM, with other values for some fields.
+fn object(values: &[(&str, Value)]) -> Value {
+    let mut object = serde_json::json!({
+        "OBJECT_NAME": "SMALLSAT", "NORAD_CAT_ID": 5, "EPOCH": "2026-08-12T00:00:00",
+        "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.0002, "INCLINATION": 51.6,
+        "RA_OF_ASC_NODE": 225.4, "ARG_OF_PERICENTER": 44.9, "MEAN_ANOMALY": 5.1,
+        "BSTAR": 0.0001
+    });
+    for (field, value) in values {
+        object[*field] = value.clone();
+    }
+    object
+}
+
+/// Runs `azel` with nothing on standard input.
+fn azel(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_azel")).args(arguments).output().unwrap()
+}
+
+/// A folder of files of elements.
+struct Files(tempfile::TempDir);
+
+impl Files {
+    fn new(files: &[(&str, String)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, content) in files {
+            std::fs::write(folder.path().join(name), content).unwrap();
+        }
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    /// `azel passes` as CSV, of the files with these `names`.
+    fn passes(&self, names: &[&str], arguments: &[&str]) -> Output {
+        let paths: Vec<String> = names.iter().map(|name| self.path(name)).collect();
+        let mut command = vec!["passes", "--elements"];
+        command.extend(paths.iter().map(String::as_str));
+        azel(&[&command[..], &SITE, &WINDOW, &["--format", "csv"], arguments].concat())
+    }
+}
+
 #[test]
-fn every_refused_object_is_named_and_the_exit_code_says_so() {
+fn every_unusable_object_is_named_and_the_exit_code_says_so() {
     let mut elements = reference_elements();
     let broken = elements.lines().next().unwrap().replace(" 0 ", " 4 ");
     elements = [&elements, broken.as_str(), "no elements at all"].join("\n");
+    let output = passes(&elements, &["--format", "csv"]);
+    assert_eq!(output.status.code(), Some(3));
+    let said = text(&output.stderr);
+    assert!(said.lines().any(|line| line.starts_with("-:")), "{said}");
     let output = passes(&elements, &["--format", "csv", "--catalog-number", "900,999999999"]);
     assert_eq!(output.status.code(), Some(3));
     let said = text(&output.stderr);
     assert!(said.contains("999999999: no elements of this object"), "{said}");
-    assert!(said.lines().any(|line| line.starts_with("-:")), "{said}");
     let table = text(&output.stdout);
     assert!(table.lines().count() > 1, "{table}");
     assert!(table.lines().skip(1).all(|line| line.starts_with("900,")), "{table}");
+}
+
+#[test]
+fn only_what_concerns_the_objects_that_are_asked_for_counts() {
+    let list = |objects: &[Value]| Value::from(objects.to_vec()).to_string();
+    let good = object(&[]);
+    let bad = object(&[
+        ("OBJECT_NAME", "DAMAGED".into()),
+        ("NORAD_CAT_ID", 7.into()),
+        ("MEAN_MOTION", (-1).into()),
+    ]);
+    let nameless = object(&[
+        ("OBJECT_NAME", "".into()),
+        ("NORAD_CAT_ID", 8.into()),
+        ("MEAN_MOTION", (-1).into()),
+    ]);
+    let newer_bad = object(&[("EPOCH", "2026-08-13T00:00:00".into()), ("INCLINATION", 400.into())]);
+    let files = Files::new(&[
+        ("mixed.json", list(&[good.clone(), bad, nameless])),
+        ("good.json", list(&[good])),
+        ("newer.json", list(&[newer_bad])),
+        ("page.html", "<!DOCTYPE html><html>503</html>".to_owned()),
+    ]);
+    for (names, arguments, code, told) in [
+        (&["mixed.json"][..], &[][..], 3, &["DAMAGED", "json:1: 8: "][..]),
+        (&["mixed.json"], &["--catalog-number", "5"], 0, &[]),
+        (&["mixed.json"], &["--name", "smalls"], 0, &[]),
+        (&["mixed.json"], &["--catalog-number", "8,5"], 3, &["8: no elements of this", ": 8: "]),
+        (&["mixed.json"], &["--name", "damag", "--name", "LLSA"], 3, &["damag: no", "DAMAGED: "]),
+        (&["mixed.json"], &["--name", "absent"], 1, &["absent: no elements", "There are no"]),
+        // The newest set of the object is lost.
+        (&["good.json", "newer.json"], &["--catalog-number", "5"], 3, &["SMALLSAT: inclination"]),
+        (&["good.json", "page.html"], &[], 3, &["page.html: no elements, it is a web page"]),
+        (&["good.json", "page.html"], &["--catalog-number", "5"], 3, &["page.html: no elements"]),
+        (&["good.json", "absent.json"], &[], 3, &["absent.json cannot be read"]),
+        (&["absent.json"], &[], 1, &["absent.json cannot be read", "There are no elements"]),
+        (&["page.html"], &[], 1, &["it is a web page", "There are no elements"]),
+    ] {
+        let output = files.passes(names, arguments);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{names:?} {arguments:?}: {said}");
+        for told in told {
+            assert!(said.contains(told), "{names:?} {arguments:?}: {said}");
+        }
+        if code == 0 {
+            assert_eq!(said, "", "{names:?} {arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn the_order_of_files_changes_nothing() {
+    let at = |epoch: &str, anomaly: f64| {
+        let object = object(&[("EPOCH", epoch.into()), ("MEAN_ANOMALY", anomaly.into())]);
+        Value::from(vec![object]).to_string()
+    };
+    let files = Files::new(&[
+        ("a.json", at("2026-08-11T00:00:00", 10.0)),
+        ("b.json", at("2026-08-12T00:00:00", 20.0)),
+        ("c.json", at("2026-08-12T00:00:00", 30.0)),
+        ("d.json", "No GP data found".to_owned()),
+    ]);
+    let all = ["a.json", "b.json", "c.json", "d.json"];
+    let first = files.passes(&all, &[]);
+    assert_eq!(first.status.code(), Some(3));
+    for turn in 1..4 {
+        let mut names = all;
+        names.rotate_left(turn);
+        assert_eq!(files.passes(&names, &[]), first);
+    }
+    assert_eq!(files.passes(&["a.json", "b.json"], &[]).status.code(), Some(0));
+    assert_eq!(files.passes(&["b.json", "a.json"], &[]).status.code(), Some(0));
+}
+
+#[test]
+fn a_folder_stands_for_the_element_files_in_it() {
+    let list = Value::from(vec![object(&[])]).to_string();
+    let files = Files::new(&[("a.json", list), ("notes.md", "no elements".to_owned())]);
+    std::fs::create_dir(files.path("empty")).unwrap();
+    let output = files.passes(&["."], &[]);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+    assert_eq!(output.stdout, files.passes(&["a.json"], &[]).stdout);
+    let empty = files.passes(&["empty"], &[]);
+    assert_eq!(empty.status.code(), Some(1));
+    assert!(text(&empty.stderr).contains("no element files in it"), "{}", text(&empty.stderr));
+}
+
+#[test]
+fn site_and_elevations_come_from_the_station_file() {
+    let list = Value::from(vec![object(&[])]).to_string();
+    let station = |site: &str| {
+        format!(
+            "name = 'Hill'\nelevation_floor_deg = 20.0\n{site}\n[[antenna]]\n\
+             connection = {{ controller = 'satrak', address = 'localhost:1' }}\n\
+             limits = {{ minimum_elevation_deg = 5.0 }}\n"
+        )
+    };
+    let site = "[site]\nlatitude_deg = 41.02\nlongitude_deg = 29.17\naltitude_m = 100.0";
+    let files = Files::new(&[
+        ("a.json", list),
+        ("station.toml", station(site)),
+        ("no_site.toml", station("")),
+        ("bad_site.toml", station(&site.replace("41.02", "141.02"))),
+        ("bad_antenna.toml", station(site).replace("5.0", "500.0")),
+    ]);
+    let (a, path) = (files.path("a.json"), files.path("station.toml"));
+    let of_station = |arguments: &[&str]| {
+        let command = ["passes", "--elements", &a, "--station", &path];
+        azel(&[&command[..], &WINDOW, arguments].concat())
+    };
+    let output = of_station(&["--format", "csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let spelled_out = files.passes(&["a.json"], &["--aos", "5", "--floor", "20"]);
+    assert!(text(&output.stdout).lines().count() > 2);
+    assert_eq!(text(&output.stdout), text(&spelled_out.stdout));
+    // What is on the command line counts.
+    let own = of_station(&["--format", "csv", "--aos", "0", "--floor", "0", "--lat", "41.02"]);
+    assert_eq!(text(&own.stdout), text(&files.passes(&["a.json"], &[]).stdout));
+    // The option may stand before the command too.
+    let before = azel(&["--station", &path, "passes", "--elements", &a, "--format", "csv"]);
+    assert_eq!(before.status.code(), Some(0), "{}", text(&before.stderr));
+    let ics = text(&of_station(&["--format", "ics"]).stdout);
+    assert!(ics.contains("LOCATION:Hill\r\n"), "{ics}");
+    for (name, why) in [
+        ("no_site.toml", "has no site"),
+        ("bad_site.toml", "latitude 141.02"),
+        ("bad_antenna.toml", "antenna[0].limits.minimum_elevation_deg"),
+        ("x.toml", "no settings yet"),
+    ] {
+        let path = files.path(name);
+        let output = azel(&["passes", "--station", &path, "--elements", &a]);
+        assert_eq!(output.status.code(), Some(1), "{name}");
+        let said = text(&output.stderr);
+        assert!(said.contains(why) && said.contains(name), "{said}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_sources_of_the_station_are_groups() {
+    let of =
+        |number: u32| Value::from(vec![object(&[("NORAD_CAT_ID", number.into())])]).to_string();
+    let files = Files::new(&[
+        ("a.json", of(5)),
+        ("b.json", of(6)),
+        (
+            "station.toml",
+            "[site]\nlatitude_deg = 41.02\nlongitude_deg = 29.17\naltitude_m = 100.0\n".to_owned(),
+        ),
+    ]);
+    let sources = format!(
+        "[[source]]\nname = \"own\"\nfile = \"{}\"\n[[source]]\nname = \"other\"\nfile = \"{}\"\n\
+         [[source]]\nname = \"web\"\nweb = \"https://example.org/x\"\n",
+        files.path("a.json"),
+        files.path("b.json")
+    );
+    std::fs::write(files.path("sources.toml"), sources).unwrap();
+    let path = files.path("station.toml");
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_azel"))
+            .args(["passes", "--station", &path, "--format", "json"])
+            .args(WINDOW)
+            .args(arguments)
+            .env("XDG_DATA_HOME", files.path("data"))
+            .output()
+            .unwrap();
+        let numbers: std::collections::BTreeSet<u64> = serde_json::from_slice(&output.stdout)
+            .map(|rows: Vec<Value>| rows)
+            .unwrap_or_default()
+            .iter()
+            .filter_map(|row| row["catalog_number"].as_u64())
+            .collect();
+        (output.status.code().unwrap(), Vec::from_iter(numbers), text(&output.stderr))
+    };
+    let (code, numbers, said) = run(&[]);
+    assert_eq!((code, numbers), (3, vec![5, 6]), "{said}");
+    assert!(said.contains("web: nothing of this source is held"), "{said}");
+    assert_eq!(run(&["--group", "other"]), (0, vec![6], String::new()));
+    let a = files.path("a.json");
+    assert_eq!(run(&["--group", "other", "--elements", &a]), (0, vec![5, 6], String::new()));
+    assert_eq!(run(&["--elements", &a]), (0, vec![5], String::new()));
+    let (code, _, said) = run(&["--group", "weather"]);
+    assert_eq!(code, 1);
+    assert!(said.contains("no source weather; it has: own, other, web."), "{said}");
+}
+
+#[test]
+fn old_elements_are_told_on_standard_error() {
+    let list = Value::from(vec![object(&[])]).to_string();
+    let files = Files::new(&[("a.json", list)]);
+    let run = |from: &str| {
+        let a = files.path("a.json");
+        let arguments = ["passes", "--elements", &a, "--from", from, "--hours", "24"];
+        azel(&[&arguments[..], &SITE].concat())
+    };
+    assert_eq!(text(&run("2026-08-20").stderr), "");
+    for from in ["2026-08-26", "2026-07-20T03:00:00+03:00"] {
+        let output = run(from);
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.starts_with("Caution: 1 of 1 satellites"), "{said}");
+        assert!(said.contains("SMALLSAT") && said.lines().count() == 1, "{said}");
+    }
 }
 
 #[test]
@@ -131,13 +381,33 @@ fn what_cannot_be_meant_is_refused_with_the_reason() {
         (&["--hours", "-1"][..], "between 0 and"),
         (&["--hours", "NaN"], "between 0 and"),
         (&["--floor", "91"], "between -90 and 90"),
-        (&["--from", "yesterday"], "--from"),
+        (&["--from", "yesterday"], "2026-08-12T09:00:00+03:00"),
+        (&["--from", "2026-08-12T00:00:00"], "an offset"),
+        (&["--doppler", "-1"], "MHz"),
+        (&["--name", ""], "--name"),
+        (&["--group", "weather"], "needs --station"),
         (&["--threads", "0"], "--threads"),
         (&["--format", "pdf"], "table"),
     ] {
         let output = command(&SITE, arguments).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(text(&output.stderr).contains(reason), "{}", text(&output.stderr));
+    }
+    for (place, reason) in [
+        (["91", "29", "0"], "latitude 91 is not between"),
+        (["41", "400", "0"], "longitude 400 is not between"),
+        (["41", "29", "99999"], "altitude 99999 is not between"),
+        (["NaN", "29", "0"], "latitude NaN"),
+    ] {
+        let [lat, lon, alt] = place;
+        let output = azel(&["passes", "--elements", "-", "--lat", lat, "--lon", lon, "--alt", alt]);
+        assert_eq!(output.status.code(), Some(2), "{place:?}");
+        assert!(text(&output.stderr).contains(reason), "{}", text(&output.stderr));
+    }
+    for arguments in [&["passes"][..], &["passes", "--lat", "1", "--lon", "1", "--alt", "1"]] {
+        let output = azel(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains("--elements"), "{}", text(&output.stderr));
     }
     let nothing = passes("", &[]);
     assert_eq!(nothing.status.code(), Some(1));
@@ -151,25 +421,133 @@ fn what_cannot_be_meant_is_refused_with_the_reason() {
 }
 
 #[test]
-fn whoever_reads_may_stop_early() {
-    let mut child = command(&[&SITE[..], &WINDOW].concat(), &[]).spawn().unwrap();
-    drop(child.stdout.take());
-    child.stdin.take().unwrap().write_all(reference_elements().as_bytes()).unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert_eq!((output.status.code(), text(&output.stderr)), (Some(0), String::new()));
+fn a_reader_may_stop_early() {
+    for format in ["table", "csv", "json", "ics"] {
+        let arguments = ["--format", format];
+        let mut child = command(&[&SITE[..], &WINDOW].concat(), &arguments).spawn().unwrap();
+        drop(child.stdout.take());
+        child.stdin.take().unwrap().write_all(reference_elements().as_bytes()).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = (output.status.code(), text(&output.stderr));
+        assert_eq!(told, (Some(0), String::new()), "{format}");
+    }
+}
+
+#[test]
+fn a_pass_has_range_light_epoch_and_doppler() {
+    let elements = reference_elements();
+    let arguments = ["--format", "json", "--doppler", "145.8"];
+    let list = rows(&passes(&elements, &arguments));
+    let mut sunlit = 0;
+    for row in &list {
+        let number = |point: &str, key: &str| row[point][key].as_f64().unwrap();
+        let range = |point: &str| number(point, "range_km");
+        assert!(row["age_days"].as_f64().unwrap().abs() < 60.0, "{row}");
+        assert!(row["epoch"].as_str().unwrap().parse::<Timestamp>().is_ok(), "{row}");
+        assert!(row["dark_at_site"].is_boolean(), "{row}");
+        sunlit += usize::from(row["sunlit"].as_bool().unwrap());
+        let is_short = row["duration_s"].as_f64().unwrap() < 1000.0;
+        if is_short && row["starts_before"] == false && row["ends_after"] == false {
+            assert!(range("aos") > range("tca") && range("los") > range("tca"), "{row}");
+            // It comes closer, and goes away.
+            assert!(number("aos", "doppler_hz") > 0.0 && number("los", "doppler_hz") < 0.0);
+            assert!(number("aos", "range_rate_km_s") < 0.0, "{row}");
+        }
+    }
+    assert!(sunlit > 0 && sunlit < list.len(), "{sunlit} of {}", list.len());
+    let table = text(&passes(&elements, &["--format", "csv", "--doppler", "145.8"]).stdout);
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    assert!(head.ends_with(&["aos_doppler_hz", "tca_doppler_hz", "los_doppler_hz"]), "{head:?}");
+    for (line, row) in lines.zip(&list) {
+        assert_eq!(line.len(), head.len());
+        let field = |name: &str| line[head.iter().position(|head| *head == name).unwrap()];
+        assert_eq!(field("epoch"), row["epoch"]);
+        assert_eq!(field("range_km").parse().ok(), row["tca"]["range_km"].as_f64());
+        assert_eq!(field("los_doppler_hz").parse().ok(), row["los"]["doppler_hz"].as_f64());
+        assert_eq!(field("sunlit"), row["sunlit"].to_string());
+    }
+}
+
+#[test]
+fn events_stay_when_the_window_moves() {
+    let ids = |arguments: &[&str]| -> Vec<String> {
+        let output = passes(&reference_elements(), &[&["--format", "ics"], arguments].concat());
+        let calendar = text(&output.stdout).replace("\r\n ", "");
+        calendar.lines().filter_map(|line| line.strip_prefix("UID:")).map(str::to_owned).collect()
+    };
+    let run = |from: &str| {
+        let arguments = ["--from", from, "--hours", "24", "--format", "ics"];
+        let mut child = command(&SITE, &arguments).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(reference_elements().as_bytes()).unwrap();
+        let calendar = text(&child.wait_with_output().unwrap().stdout).replace("\r\n ", "");
+        let ids = calendar.lines().filter_map(|line| line.strip_prefix("UID:"));
+        ids.map(str::to_owned).collect::<std::collections::BTreeSet<_>>()
+    };
+    let all = ids(&[]);
+    let set: std::collections::BTreeSet<_> = all.iter().cloned().collect();
+    assert_eq!(set.len(), all.len());
+    for from in ["2026-08-12T06:00:00Z", "2026-08-13T00:03:00Z", "2026-08-13T17:31:00Z"] {
+        let moved = run(from);
+        assert!(moved.len() > 10 && moved.is_subset(&set), "{from}");
+    }
+}
+
+/// Runs `azel look` on one object.
+fn look(arguments: &[&str]) -> Output {
+    let list = Value::from(vec![object(&[]), object(&[("NORAD_CAT_ID", 6.into())])]).to_string();
+    let files = Files::new(&[("a.json", list)]);
+    let a = files.path("a.json");
+    azel(&[&["look", "--elements", &a], &SITE[..], arguments].concat())
+}
+
+#[test]
+fn a_satellite_is_looked_at_in_steps() {
+    let from = ["--catalog-number", "5", "--from", "2026-08-12T06:00:00Z"];
+    let run = |arguments: &[&str]| look(&[&from[..], arguments].concat());
+    let table = run(&[]);
+    assert_eq!(table.status.code(), Some(0), "{}", text(&table.stderr));
+    assert_eq!(text(&table.stdout).lines().count(), 1 + 91);
+    let json = run(&["--minutes", "1", "--step", "0.5", "--doppler", "437", "--format", "json"]);
+    let list = rows(&json);
+    assert_eq!(list.len(), 121);
+    for two in list.windows(2) {
+        let number = |row: usize, key: &str| two[row][key].as_f64().unwrap();
+        let change = (number(1, "range_km") - number(0, "range_km")) / 0.5;
+        let rate = 0.5 * (number(0, "range_rate_km_s") + number(1, "range_rate_km_s"));
+        assert!((change - rate).abs() < 5e-3, "{two:?}");
+        let shift_hz = -number(0, "range_rate_km_s") / 299_792.458 * 437e6;
+        assert!((number(0, "doppler_hz") - shift_hz).abs() < 2.0, "{two:?}");
+    }
+    assert_eq!(list[120]["time"], "2026-08-12T06:01:00.000Z");
+    let csv = text(&run(&["--minutes", "1", "--format", "csv"]).stdout);
+    assert_eq!(csv.lines().count(), 8);
+    // The same direction as a pass has at its maximum.
+    let both = look(&["--from", "2026-08-12"]);
+    assert_eq!(both.status.code(), Some(1));
+    let said = text(&both.stderr);
+    assert!(said.starts_with("2 satellites are meant") && said.contains("6 SMALLSAT"), "{said}");
+    assert_eq!(run(&["--step", "0"]).status.code(), Some(2));
+}
+
+#[test]
+fn a_look_agrees_with_the_maximum_of_a_pass() {
+    let elements = Value::from(vec![object(&[])]).to_string();
+    let pass = rows(&passes(&elements, &["--format", "json"])).swap_remove(0);
+    let at = pass["tca"]["time"].as_str().unwrap();
+    let arguments = ["--catalog-number", "5", "--from", at, "--minutes", "0.01"];
+    let rows = rows(&look(&[&arguments[..], &["--format", "json"]].concat()));
+    let number =
+        |key: &str| (rows[0][key].as_f64().unwrap() - pass["tca"][key].as_f64().unwrap()).abs();
+    assert!(number("azimuth_deg") < 0.02 && number("elevation_deg") < 1e-4, "{rows:?} {pass}");
+    assert!(number("range_km") < 0.01 && number("range_rate_km_s") < 1e-3, "{rows:?} {pass}");
 }
 
 #[test]
 fn numbers_that_no_orbit_has_are_refused_by_name_before_anything_is_computed() {
     let object = |field: &str, value: &str| {
-        let mut object = serde_json::json!({
-            "OBJECT_NAME": "DAMAGED", "NORAD_CAT_ID": 7, "EPOCH": "2026-08-12T00:00:00",
-            "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.0002, "INCLINATION": 51.6,
-            "RA_OF_ASC_NODE": 225.4, "ARG_OF_PERICENTER": 44.9, "MEAN_ANOMALY": 5.1,
-            "BSTAR": 0.0001
-        });
-        object[field] = value.into();
-        object
+        let damaged = [("OBJECT_NAME", "DAMAGED".into()), ("NORAD_CAT_ID", 7.into())];
+        object(&[&damaged[..], &[(field, value.into())]].concat())
     };
     let good = object("NORAD_CAT_ID", "5");
     for (field, value, reason) in [

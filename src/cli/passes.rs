@@ -1,64 +1,57 @@
 //! Predicts passes from element files, for the terminal and for other programs.
 
-mod input;
 mod progress;
 
 use std::{
     io::{self, BufWriter, Write as _},
-    path::PathBuf,
+    path::{Path, PathBuf},
     process::ExitCode,
 };
 
 use anyhow::Context as _;
 use clap::Args;
 use jiff::Timestamp;
+use rayon::prelude::*;
 
-use self::{input::Input, progress::Progress};
+use self::progress::Progress;
+use super::input::{self, EXIT_CODES, InputOptions, Satellites};
 use crate::{
-    astro::{Angle, HorizonMask, Site, time},
-    orbit::{Pass, PassSearch, clear_stretches, passes_of_all},
-    plan::pass_export::{ExportedPass, PassFormat, write_passes},
+    astro::{Angle, HorizonMask, time},
+    orbit::{Pass, PassSearch, passes_of_all},
+    plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
-/// Passes were written, but some object was refused.
-const SOME_REFUSED: u8 = 3;
+/// What the passes leave out, for `--help`.
+pub(super) const LEFT_OUT: &str = "All times are UTC. Directions are geometric: refraction is left \
+    out, UT1 is taken as UTC, and there is no polar motion. Refraction lifts a satellite at the \
+    horizon by half a degree, so that a low one comes up some 10 s before its AOS and goes down \
+    as much after its LOS; the rest comes to less than 0.1 s.";
 
 #[derive(Debug, Args)]
-#[command(after_help = "Exit code: 0 when every object was used, 3 when some were refused \
-    (each is named on standard error), 1 when nothing could be done, 2 for a wrong command line.")]
+#[command(after_help = format!("{LEFT_OUT}\n\n{EXIT_CODES}"))]
 pub(super) struct Options {
-    /// Element files: TLE, or OMM in JSON, CSV, XML or KVN; `-` reads standard
-    /// input. The newest set of an object is used
-    #[arg(long, value_name = "FILE", num_args = 1.., required = true)]
-    elements: Vec<PathBuf>,
-    /// Latitude of the site in degrees, north positive
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    lat: f64,
-    /// Longitude of the site in degrees, east positive
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    lon: f64,
-    /// Altitude of the site above the WGS84 ellipsoid in metres
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    alt: f64,
-    /// Only these objects
-    #[arg(long, value_name = "N,...", value_delimiter = ',')]
-    catalog_number: Vec<u32>,
-    /// Start of the window, such as 2026-08-12T00:00:00Z; now when left out
-    #[arg(long, value_name = "RFC3339")]
-    from: Option<Timestamp>,
+    #[command(flatten)]
+    input: InputOptions,
+    /// Start of the window: `now`, a date (0 h UTC), or a time with Z or an offset
+    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    from: Timestamp,
     /// Length of the window in hours
-    #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = hours, allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
     hours: f64,
-    /// Leave out passes whose maximum elevation stays below this
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = elevation, allow_negative_numbers = true)]
-    floor: f64,
-    /// Elevation of AOS and LOS
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, value_parser = elevation, allow_negative_numbers = true)]
-    aos: f64,
+    /// Leave out passes whose maximum elevation stays below this; the elevation floor of the
+    /// station, or 0, when left out
+    #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
+    floor: Option<f64>,
+    /// Elevation of AOS and LOS; that of the station, or 0, when left out
+    #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
+    aos: Option<f64>,
     /// Horizon mask: lines of azimuth and elevation in degrees. Each stretch of
     /// a pass that clears it is a row of its own
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
+    /// Add the Doppler shift of this frequency, sent by the satellite, to CSV and JSON
+    #[arg(long, value_name = "MHZ", value_parser = input::megahertz, allow_negative_numbers = true)]
+    doppler: Option<f64>,
     /// Threads to compute with; as many as there are cores when left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
@@ -67,60 +60,57 @@ pub(super) struct Options {
     format: PassFormat,
 }
 
-fn hours(text: &str) -> Result<f64, String> {
-    let hours: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    let most = 24.0 * 366.0;
-    if hours > 0.0 && hours <= most {
-        Ok(hours)
-    } else {
-        Err(format!("not between 0 and {most} hours"))
-    }
-}
-
-fn elevation(text: &str) -> Result<f64, String> {
-    let degrees: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if (-90.0..=90.0).contains(&degrees) {
-        Ok(degrees)
-    } else {
-        Err("not between -90 and 90 degrees".to_owned())
-    }
-}
-
-pub(super) fn run(options: &Options) -> anyhow::Result<ExitCode> {
-    let now = Timestamp::now();
-    let from = options.from.unwrap_or(now);
+pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
+    options.input.check("passes", station)?;
+    let place = options.input.place(station)?;
+    let angle = |own: Option<f64>, of_place| own.map_or(of_place, Angle::from_degrees);
+    let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
     let search = PassSearch {
-        site: Site::new(options.lat, options.lon, options.alt)?,
+        site: place.site,
         from,
-        to: time::add_seconds(from, options.hours * 3600.0),
-        aos_elevation: Angle::from_degrees(options.aos),
-        floor: Angle::from_degrees(options.floor),
+        to,
+        aos_elevation: angle(options.aos, place.aos_elevation),
+        floor: angle(options.floor, place.floor),
     };
     let mask = options.mask.as_ref().map(read_mask).transpose()?;
+    let query = PassQuery { search, mask };
     let threads = options.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
 
-    let Input { satellites, any_refused } =
-        input::read(&options.elements, &options.catalog_number)?;
+    let Satellites { list: satellites, is_complete } = options.input.satellites(station)?;
+    input::caution(&satellites, from, to);
     let progress = Progress::new(satellites.len());
     let found = pool.install(|| {
-        let found = passes_of_all(&satellites, &search, &|done| progress.show(done), &|| false);
-        match &mask {
-            Some(mask) => clear_of(mask, &search, &satellites, found),
-            None => found.collect(),
+        let found =
+            passes_of_all(&satellites, &query.search, &|done| progress.show(done), &|| false);
+        if query.mask.is_none() {
+            return found.collect();
         }
+        let parts = |(index, pass): (usize, Pass)| {
+            let satellite = satellites.get(index)?;
+            Some(
+                query.parts(&satellite.propagator, pass).into_iter().map(move |part| (index, part)),
+            )
+        };
+        let found: Vec<_> = found.collect();
+        found.into_par_iter().filter_map(parts).flatten_iter().collect::<Vec<_>>()
     });
     progress.end();
 
     let mut rows: Vec<_> = found
         .iter()
-        .filter_map(|(index, pass)| {
-            Some(ExportedPass { elements: &satellites.get(*index)?.elements, pass })
-        })
+        .filter_map(|(index, pass)| Some(ExportedPass { satellite: satellites.get(*index)?, pass }))
         .collect();
-    rows.sort_by_key(|row| (row.pass.aos.time, row.elements.catalog_number()));
-    write(options.format, &rows, now).context("The passes cannot be written")?;
-    Ok(if any_refused { ExitCode::from(SOME_REFUSED) } else { ExitCode::SUCCESS })
+    rows.sort_by_key(|row| (row.pass.aos.time, row.satellite.elements.catalog_number()));
+    let list = PassList {
+        rows: &rows,
+        query: &query,
+        place: place.name.as_deref(),
+        carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),
+        now: Timestamp::now(),
+    };
+    written(|out| list.write(out, options.format)).context("The passes cannot be written")?;
+    Ok(input::exit_code(is_complete))
 }
 
 fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
@@ -129,32 +119,12 @@ fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
     HorizonMask::parse(&text).with_context(|| format!("{} is no horizon mask", path.display()))
 }
 
-/// The stretches of `found` that clear `mask` and reach the floor.
-fn clear_of(
-    mask: &HorizonMask,
-    search: &PassSearch,
-    satellites: &[input::Satellite],
-    found: impl Iterator<Item = (usize, Pass)>,
-) -> Vec<(usize, Pass)> {
-    use rayon::prelude::*;
-
-    found
-        .collect::<Vec<_>>()
-        .par_iter()
-        .flat_map_iter(|(index, pass)| {
-            let stretches = satellites
-                .get(*index)
-                .map(|satellite| clear_stretches(&satellite.propagator, search.site, mask, pass));
-            stretches.into_iter().flatten().map(|stretch| (*index, stretch))
-        })
-        .filter(|(_, stretch)| stretch.max_elevation() >= search.floor)
-        .collect()
-}
-
-/// Whoever reads may stop early, as `head` does.
-fn write(format: PassFormat, rows: &[ExportedPass<'_>], now: Timestamp) -> io::Result<()> {
+/// Writes to standard output. A reader may stop early, as `head` does.
+pub(super) fn written(
+    write: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
+) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
-    match write_passes(&mut out, format, rows, now).and_then(|()| out.flush()) {
+    match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }

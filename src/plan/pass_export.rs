@@ -1,21 +1,127 @@
-//! Lists of passes as table, CSV, JSON and iCalendar.
+//! Lists of passes as table, CSV, JSON and iCalendar, and of look angles as the first three.
 
 mod calendar;
 mod csv;
+mod event_ids;
 mod json;
+mod looks;
 mod table;
 
-use std::io::{self, Write};
+use std::{
+    borrow::Borrow,
+    io::{self, Write},
+};
 
-use jiff::Timestamp;
+use jiff::{Timestamp, tz::TimeZone};
 
-use crate::orbit::{Elements, Pass};
+pub use self::looks::{LookFormat, LookList};
+use crate::{
+    astro::{HorizonMask, Site, sun_moon, time},
+    orbit::{
+        Elements, Pass, PassSearch, PropagationError, Propagator, clear_stretches, is_sunlit,
+        passes,
+    },
+};
+
+/// Below this elevation of the Sun a sunlit satellite can be seen from the ground, degrees.
+const DARK_SUN_DEG: f64 = -6.0;
+
+/// A satellite, ready to be computed with and to be written.
+#[derive(Debug, Clone)]
+pub struct Satellite {
+    pub elements: Elements,
+    pub propagator: Propagator,
+    /// Epoch in RFC 3339, made once for all rows.
+    epoch: String,
+}
+
+impl Satellite {
+    pub fn new(elements: Elements) -> Result<Self, PropagationError> {
+        let propagator = Propagator::new(&elements)?;
+        let epoch = format!("{:.6}", elements.epoch());
+        Ok(Self { elements, propagator, epoch })
+    }
+
+    /// Age of the elements at `time` in days, negative before their epoch.
+    fn age_days(&self, time: Timestamp) -> f64 {
+        rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
+    }
+
+    /// What is seen of the satellite at `at`; `None` where it has come down.
+    fn seen(&self, site: Site, at: Timestamp, carrier_hz: Option<f64>) -> Option<Seen> {
+        let state = self.propagator.state_at(at).ok()?;
+        let look = state.look_from(site, at);
+        Some(Seen {
+            azimuth_deg: degrees(look.direction.azimuth_deg()),
+            elevation_deg: degrees(look.direction.elevation_deg()),
+            range_km: rounded(look.range_km, 1e3),
+            range_rate_km_s: rounded(look.range_rate_km_s, 1e6),
+            doppler_hz: carrier_hz.map(|carrier_hz| rounded(look.doppler_hz(carrier_hz), 10.0)),
+            is_sunlit: is_sunlit(&state, at),
+        })
+    }
+}
+
+impl Borrow<Propagator> for Satellite {
+    fn borrow(&self) -> &Propagator {
+        &self.propagator
+    }
+}
+
+/// A satellite as it is seen at one instant, rounded as it is written.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    azimuth_deg: f64,
+    elevation_deg: f64,
+    range_km: f64,
+    range_rate_km_s: f64,
+    doppler_hz: Option<f64>,
+    is_sunlit: bool,
+}
+
+/// The passes that are asked for.
+#[derive(Debug, Clone)]
+pub struct PassQuery {
+    pub search: PassSearch,
+    /// Each stretch of a pass that clears it counts as a pass.
+    pub mask: Option<HorizonMask>,
+}
+
+impl PassQuery {
+    /// The parts of `pass` that are asked for.
+    pub fn parts(&self, propagator: &Propagator, pass: Pass) -> Vec<Pass> {
+        let Some(mask) = &self.mask else { return vec![pass] };
+        let mut stretches = clear_stretches(propagator, self.search.site, mask, &pass);
+        stretches.retain(|stretch| stretch.max_elevation() >= self.search.floor);
+        stretches
+    }
+
+    /// The same passes of one satellite, in another window.
+    fn passes_between(&self, propagator: &Propagator, from: Timestamp, to: Timestamp) -> Vec<Pass> {
+        let search = PassSearch { from, to, ..self.search };
+        let found = passes(propagator, &search, &|| false);
+        found.into_iter().flat_map(|pass| self.parts(propagator, pass)).collect()
+    }
+}
 
 /// A pass and its satellite.
 #[derive(Debug, Clone, Copy)]
 pub struct ExportedPass<'a> {
-    pub elements: &'a Elements,
+    pub satellite: &'a Satellite,
     pub pass: &'a Pass,
+}
+
+/// Passes to write, in their order.
+#[derive(Debug, Clone, Copy)]
+pub struct PassList<'a> {
+    pub rows: &'a [ExportedPass<'a>],
+    pub query: &'a PassQuery,
+    /// Name of the site, for calendars.
+    pub place: Option<&'a str>,
+    /// Frequency whose Doppler shift is written.
+    pub carrier_hz: Option<f64>,
+    /// Time stamp of the events of a calendar.
+    pub now: Timestamp,
 }
 
 /// How a list is written.
@@ -23,7 +129,7 @@ pub struct ExportedPass<'a> {
 pub enum PassFormat {
     /// Columns to read
     Table,
-    /// A header and one row per pass (RFC 4180)
+    /// A header and one row per pass
     Csv,
     /// A list of objects
     Json,
@@ -31,19 +137,28 @@ pub enum PassFormat {
     Ics,
 }
 
-/// Writes `rows` in their order. All times are UTC; `now` is the time stamp of
-/// the calendar's events.
-pub fn write_passes(
-    out: &mut impl Write,
-    format: PassFormat,
-    rows: &[ExportedPass<'_>],
-    now: Timestamp,
-) -> io::Result<()> {
-    match format {
-        PassFormat::Table => table::write(out, rows),
-        PassFormat::Csv => csv::write(out, rows),
-        PassFormat::Json => json::write(out, rows),
-        PassFormat::Ics => calendar::write(out, rows, now),
+impl PassList<'_> {
+    /// Writes the list. All times are UTC.
+    pub fn write(&self, out: &mut impl Write, format: PassFormat) -> io::Result<()> {
+        match format {
+            PassFormat::Table => table::write(out, self.rows),
+            PassFormat::Csv => csv::write(out, self),
+            PassFormat::Json => json::write(out, self),
+            PassFormat::Ics => calendar::write(out, self),
+        }
+    }
+
+    fn site(&self) -> Site {
+        self.query.search.site
+    }
+
+    fn seen(&self, row: &ExportedPass<'_>, at: Timestamp) -> Option<Seen> {
+        row.satellite.seen(self.site(), at, self.carrier_hz)
+    }
+
+    /// Whether the sky of the site is dark enough to see a satellite in sunlight.
+    fn is_dark(&self, at: Timestamp) -> bool {
+        sun_moon::sun(self.site(), at).elevation_deg() < DARK_SUN_DEG
     }
 }
 
@@ -53,10 +168,26 @@ fn rfc3339(time: Timestamp) -> String {
     format!("{rounded:.3}")
 }
 
+/// To the nearest second, in UTC.
+fn civil(time: Timestamp, format: &str) -> String {
+    let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
+    rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
+}
+
+/// An azimuth that never shows as 360.0.
+fn turn(azimuth_deg: f64) -> f64 {
+    if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
+}
+
 /// A number of degrees without the noise behind the sixth decimal.
 fn degrees(value: f64) -> f64 {
+    rounded(value, 1e6)
+}
+
+/// To the nearest of so many parts of one.
+fn rounded(value: f64, parts: f64) -> f64 {
     // Adding zero makes the zero of a small negative number positive.
-    (value * 1e6).round() / 1e6 + 0.0
+    (value * parts).round() / parts + 0.0
 }
 
 #[cfg(test)]

@@ -3,71 +3,93 @@
 use std::io::{self, Write};
 
 use icalendar::{Calendar, Component as _, Event};
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::{SignedDuration, Timestamp, Unit};
 
-use super::ExportedPass;
+use super::{ExportedPass, PassList, civil, event_ids::event_ids};
+use crate::{astro::Site, orbit::PassPoint};
 
-pub(super) fn write(
-    out: &mut impl Write,
-    rows: &[ExportedPass<'_>],
-    now: Timestamp,
-) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
     let mut calendar = Calendar::empty();
     calendar.append_property(("VERSION", "2.0"));
     calendar.append_property(("PRODID", "-//Azel//Passes//EN"));
     calendar.append_property(("CALSCALE", "GREGORIAN"));
-    for row in rows {
-        calendar.push(event(row, now));
+    let location = list.place.map_or_else(|| coordinates(list.site()), str::to_owned);
+    for (row, id) in list.rows.iter().zip(event_ids(list.rows, list.query)) {
+        calendar.push(event(list, row, &id, &location));
     }
     write!(out, "{calendar}")
 }
 
-fn event(ExportedPass { elements, pass }: &ExportedPass<'_>, now: Timestamp) -> Event {
+fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) -> Event {
+    let ExportedPass { satellite, pass } = row;
+    let (elements, site) = (&satellite.elements, list.site());
     let number = elements.catalog_number();
     let maximum_deg = pass.max_elevation().degrees();
-    let azimuth = |point: crate::orbit::PassPoint| point.direction.azimuth_deg();
+    let azimuth = |point: PassPoint| point.direction.azimuth_deg();
+    let start = second(pass.aos.time);
+    // RFC 5545, 3.8.2.2: later than the start.
+    let end = second(pass.los.time).max(start + SignedDuration::from_secs(1));
     let mut event = Event::new();
-    // The same pass is the same event, whenever it is written.
-    event.uid(&format!("{number}-{}@azel", pass.aos.time.as_millisecond()));
-    event.add_property("DTSTAMP", date_time(now));
-    event.add_property("DTSTART", date_time(pass.aos.time));
-    event.add_property("DTEND", date_time(pass.los.time));
+    event.uid(id);
+    event.add_property("DTSTAMP", date_time(list.now));
+    event.add_property("DTSTART", date_time(start));
+    event.add_property("DTEND", date_time(end));
     event.add_property("SUMMARY", format!("{} {maximum_deg:.0}°", elements.label()));
     event.add_property(
         "DESCRIPTION",
         format!(
-            "Catalogue number {number}\nAOS at azimuth {:.0}°\nHighest {maximum_deg:.1}° at azimuth {:.0}°\nLOS at azimuth {:.0}°",
+            "Catalogue number {number}\nAOS at azimuth {:.0}°\nHighest {maximum_deg:.1}° at azimuth {:.0}°\nLOS at azimuth {:.0}°\nElements of {}, age {:.1} days at AOS",
             azimuth(pass.aos),
             azimuth(pass.tca),
             azimuth(pass.los),
+            civil(elements.epoch(), "%Y-%m-%d %H:%M:%SZ"),
+            satellite.age_days(pass.aos.time),
         ),
     );
+    event.add_property("LOCATION", location);
+    let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
+    event.add_property("GEO", format!("{latitude_deg:.6};{longitude_deg:.6}"));
     event.done()
+}
+
+fn coordinates(site: Site) -> String {
+    let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
+    let north = if latitude_deg < 0.0 { 'S' } else { 'N' };
+    let east = if longitude_deg < 0.0 { 'W' } else { 'E' };
+    let (latitude_deg, longitude_deg) = (latitude_deg.abs(), longitude_deg.abs());
+    format!("{latitude_deg:.4}° {north}, {longitude_deg:.4}° {east}, {:.0} m", site.altitude_m())
+}
+
+fn second(time: Timestamp) -> Timestamp {
+    time.round(Unit::Second).unwrap_or(time)
 }
 
 /// UTC to the nearest second, in the basic form of the format.
 fn date_time(time: Timestamp) -> String {
-    let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
-    rounded.to_zoned(TimeZone::UTC).strftime("%Y%m%dT%H%M%SZ").to_string()
+    civil(time, "%Y%m%dT%H%M%SZ")
 }
 
 #[cfg(test)]
 mod tests {
+    use jiff::SignedDuration;
+
     use super::super::testing::{example, written};
     use crate::plan::pass_export::PassFormat;
 
     #[test]
     fn an_event_has_its_times_and_one_identity() {
         let (elements, pass) = example();
-        let text = written(PassFormat::Ics, &elements, &[pass]);
+        let text = written(PassFormat::Ics, elements, &[pass]);
         for line in [
             "BEGIN:VCALENDAR",
             "VERSION:2.0",
             "BEGIN:VEVENT",
-            "UID:25544-1786496523456@azel",
+            "UID:25544-47320-12-436156@azel",
             "DTSTAMP:20260811T000000Z",
             "DTSTART:20260812T010203Z",
             "DTEND:20260812T011200Z",
+            "GEO:41.020000;29.170000",
+            "LOCATION:41.0200° N\\, 29.1700° E\\, 100 m",
             "SUMMARY:ISS\\, (ZARYA)\\; \"1\" 45°",
             "END:VEVENT",
             "END:VCALENDAR",
@@ -75,5 +97,17 @@ mod tests {
             assert_eq!(text.matches(&format!("{line}\r\n")).count(), 1, "{line} in {text}");
         }
         assert!(text.lines().all(|line| line.len() <= 76), "{text}");
+    }
+
+    #[test]
+    fn an_event_lasts_a_second_at_least_and_tells_its_elements() {
+        let (elements, mut pass) = example();
+        pass.los.time = pass.aos.time + SignedDuration::from_millis(40);
+        let text = written(PassFormat::Ics, elements, &[pass]);
+        assert!(text.contains("DTSTART:20260812T010203Z\r\n"), "{text}");
+        assert!(text.contains("DTEND:20260812T010204Z\r\n"), "{text}");
+        let unfolded = text.replace("\r\n ", "");
+        let said = "Elements of 2026-08-11 01:21:00Z\\, age 1.0 days at AOS";
+        assert!(unfolded.contains(said), "{unfolded}");
     }
 }

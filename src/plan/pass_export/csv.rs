@@ -2,9 +2,10 @@
 
 use std::io::{self, Write};
 
-use super::{ExportedPass, degrees, rfc3339};
+use super::{ExportedPass, PassList, Seen, degrees, rfc3339};
 
-const HEADER: [&str; 15] = [
+/// Columns are added at the end, so that programs that count them stay right.
+const HEADER: [&str; 20] = [
     "catalog_number",
     "name",
     "aos_time",
@@ -20,12 +21,22 @@ const HEADER: [&str; 15] = [
     "duration_s",
     "starts_before",
     "ends_after",
+    "epoch",
+    "age_days",
+    "range_km",
+    "sunlit",
+    "designator",
 ];
+const DOPPLER_HEADER: [&str; 3] = ["aos_doppler_hz", "tca_doppler_hz", "los_doppler_hz"];
 
-pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(HEADER)?;
-    for ExportedPass { elements, pass } in rows {
+    let has_doppler = list.carrier_hz.is_some();
+    let doppler: &[&str] = if has_doppler { &DOPPLER_HEADER } else { &[] };
+    table.write_record(HEADER.iter().chain(doppler)).map_err(io_error)?;
+    for row in list.rows {
+        let ExportedPass { satellite, pass } = row;
+        let elements = &satellite.elements;
         let mut fields = vec![elements.catalog_number().to_string(), plain(elements.name())];
         for point in [pass.aos, pass.tca, pass.los] {
             fields.push(rfc3339(point.time));
@@ -36,9 +47,33 @@ pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Resu
         fields.push(format!("{:.3}", pass.duration_s()));
         fields.push(pass.starts_before.to_string());
         fields.push(pass.ends_after.to_string());
-        table.write_record(fields)?;
+        fields.push(satellite.epoch.clone());
+        fields.push(satellite.age_days(pass.aos.time).to_string());
+        let tca = list.seen(row, pass.tca.time);
+        fields.push(text_of(tca.map(|seen| seen.range_km)));
+        fields.push(text_of(tca.map(|seen| seen.is_sunlit)));
+        fields.push(plain(elements.international_designator().unwrap_or_default()));
+        if has_doppler {
+            let seen = [list.seen(row, pass.aos.time), tca, list.seen(row, pass.los.time)];
+            let doppler_hz = |seen: Option<Seen>| text_of(seen.and_then(|seen| seen.doppler_hz));
+            fields.extend(seen.map(doppler_hz));
+        }
+        table.write_record(fields).map_err(io_error)?;
     }
     table.flush()
+}
+
+/// An error of the output as it was: its kind tells a reader that has stopped from a full disk.
+pub(super) fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+/// Empty where there is nothing.
+pub(super) fn text_of<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
 }
 
 /// Text that no spreadsheet takes for a formula: names come from files of others.
@@ -54,7 +89,9 @@ fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{example, written};
+    use std::io::{self, Write};
+
+    use super::super::testing::{example, write_to, written, written_with};
     use crate::plan::pass_export::PassFormat;
 
     #[test]
@@ -70,14 +107,54 @@ mod tests {
     #[test]
     fn a_row_quotes_what_it_must() {
         let (elements, pass) = example();
-        let text = written(PassFormat::Csv, &elements, &[pass]);
+        let text = written(PassFormat::Csv, elements, &[pass]);
         let (header, row) = text.split_once('\n').unwrap();
         assert!(header.starts_with("catalog_number,name,aos_time,aos_azimuth_deg"), "{header}");
-        assert_eq!(
-            row,
-            "25544,\"ISS, (ZARYA); \"\"1\"\"\",2026-08-12T01:02:03.457Z,350.5,0,\
-             2026-08-12T01:07:00.000Z,80.25,45.123457,2026-08-12T01:12:00.000Z,170,0,\
-             45.123457,596.543,false,true\n"
+        assert!(
+            header.ends_with("ends_after,epoch,age_days,range_km,sunlit,designator"),
+            "{header}"
         );
+        let before = "25544,\"ISS, (ZARYA); \"\"1\"\"\",2026-08-12T01:02:03.457Z,350.5,0,\
+             2026-08-12T01:07:00.000Z,80.25,45.123457,2026-08-12T01:12:00.000Z,170,0,\
+             45.123457,596.543,false,true,2026-08-11T01:21:00.000000Z,0.9868,";
+        let rest = row.strip_prefix(before).unwrap_or_else(|| panic!("{row}"));
+        let fields: Vec<&str> = rest.trim_end().split(',').collect();
+        let [range_km, sunlit, designator] = fields[..] else { panic!("{row}") };
+        assert!((400.0..14_000.0).contains(&range_km.parse::<f64>().unwrap()), "{row}");
+        assert!(sunlit.parse::<bool>().is_ok(), "{row}");
+        assert_eq!(designator, "1998-067A");
+    }
+
+    #[test]
+    fn doppler_comes_last_where_it_is_asked_for() {
+        let (elements, pass) = example();
+        let text = written_with(PassFormat::Csv, elements, &[pass], Some(145.8e6));
+        let (header, row) = text.split_once('\n').unwrap();
+        assert!(
+            header.ends_with("designator,aos_doppler_hz,tca_doppler_hz,los_doppler_hz"),
+            "{header}"
+        );
+        let shifts: Vec<f64> =
+            row.trim_end().rsplit(',').take(3).map(|text| text.parse().unwrap()).collect();
+        // 8 km/s.
+        assert!(shifts.iter().all(|shift| shift.abs() < 3_900.0), "{row}");
+    }
+
+    #[test]
+    fn a_reader_that_stops_is_told_by_its_kind() {
+        struct Closed;
+        impl Write for Closed {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let (elements, pass) = example();
+        // More than the writer holds back.
+        let passes = vec![pass; 1000];
+        let error = write_to(&mut Closed, PassFormat::Csv, elements, &passes, None).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
     }
 }

@@ -2,47 +2,56 @@
 
 use std::io::{self, Write};
 
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
-use super::ExportedPass;
+use super::{ExportedPass, civil, turn};
+
+const TIME: &str = "%H:%M:%S";
 
 pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
+    let width = |of: &dyn Fn(&ExportedPass<'_>) -> usize, least: usize| {
+        rows.iter().map(of).max().unwrap_or(0).max(least)
+    };
+    let tca_width = width(&|row| later(row, row.pass.tca.time).len(), 8);
+    let los_width = width(&|row| later(row, row.pass.los.time).len(), 8);
+    let name_width = width(&|row| row.satellite.elements.name().chars().count(), 4);
     writeln!(
         out,
-        "{:<20} {:>5}   {:<8} {:>5} {:>5}   {:<8} {:>5}   {:>8}  {:>9}  name",
-        "AOS (UTC)", "az", "TCA", "az", "el", "LOS", "az", "lasts", "number"
+        "{:<20} {:>5}   {:<tca_width$} {:>5} {:>5}   {:<los_width$} {:>5}   {:>8}  {:>9}  {:<name_width$}  {:>7}",
+        "AOS (UTC)", "az", "TCA", "az", "el", "LOS", "az", "lasts", "number", "name", "age"
     )?;
-    for ExportedPass { elements, pass } in rows {
+    for row in rows {
+        let ExportedPass { satellite, pass } = row;
         let [aos, tca, los] = [pass.aos, pass.tca, pass.los];
         writeln!(
             out,
-            "{}{} {:>5.1}   {} {:>5.1} {:>5.1}   {}{} {:>4.1}   {:>8}  {:>9}  {}",
+            "{}{} {:>5.1}   {:>tca_width$} {:>5.1} {:>5.1}   {:>los_width$}{} {:>4.1}   {:>8}  {:>9}  {:<name_width$}  {:>5.1} d",
             if pass.starts_before { '<' } else { ' ' },
             civil(aos.time, "%Y-%m-%d %H:%M:%S"),
             turn(aos.direction.azimuth_deg()),
-            civil(tca.time, "%H:%M:%S"),
+            later(row, tca.time),
             turn(tca.direction.azimuth_deg()),
             tca.direction.elevation_deg(),
-            civil(los.time, "%H:%M:%S"),
+            later(row, los.time),
             if pass.ends_after { '>' } else { ' ' },
             turn(los.direction.azimuth_deg()),
             lasts(pass.duration_s()),
-            elements.catalog_number(),
-            elements.name()
+            satellite.elements.catalog_number(),
+            satellite.elements.name(),
+            satellite.age_days(aos.time),
         )?;
     }
     Ok(())
 }
 
-/// To the nearest second.
-fn civil(time: Timestamp, format: &str) -> String {
-    let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
-    rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
-}
-
-/// An azimuth that never shows as 360.0.
-fn turn(azimuth_deg: f64) -> f64 {
-    if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
+/// The time, with its date where that is not the one of AOS.
+fn later(row: &ExportedPass<'_>, time: Timestamp) -> String {
+    let day = |time: Timestamp| civil(time, "%Y-%m-%d");
+    if day(time) == day(row.pass.aos.time) {
+        civil(time, TIME)
+    } else {
+        format!("{} {}", day(time), civil(time, TIME))
+    }
 }
 
 fn lasts(seconds: f64) -> String {
@@ -57,6 +66,8 @@ fn lasts(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use jiff::SignedDuration;
+
     use super::super::testing::{example, written};
     use crate::plan::pass_export::PassFormat;
 
@@ -64,11 +75,23 @@ mod tests {
     fn columns_stand_below_their_heads() {
         let (elements, mut pass) = example();
         pass.starts_before = true;
-        let text = written(PassFormat::Table, &elements, &[pass]);
+        let text = written(PassFormat::Table, elements, &[pass]);
         assert_eq!(
             text,
-            "AOS (UTC)               az   TCA         az    el   LOS         az      lasts     number  name\n\
-             <2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   01:12:00> 170.0       9:57      25544  ISS, (ZARYA); \"1\"\n"
+            "AOS (UTC)               az   TCA         az    el   LOS         az      lasts     number  name                   age\n\
+             <2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   01:12:00> 170.0       9:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n"
+        );
+    }
+
+    #[test]
+    fn a_time_of_another_day_has_its_date() {
+        let (elements, mut pass) = example();
+        pass.los.time += SignedDuration::from_hours(47);
+        let text = written(PassFormat::Table, elements, &[pass]);
+        assert_eq!(
+            text,
+            "AOS (UTC)               az   TCA         az    el   LOS                    az      lasts     number  name                   age\n \
+             2026-08-12 01:02:03 350.5   01:07:00  80.2  45.1   2026-08-14 00:12:00> 170.0   47:09:57      25544  ISS, (ZARYA); \"1\"    1.0 d\n"
         );
     }
 }

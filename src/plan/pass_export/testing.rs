@@ -1,17 +1,19 @@
 //! One pass to write, for the tests of all forms.
 
+use std::io::{self, Write};
+
 use jiff::Timestamp;
 
-use super::{ExportedPass, PassFormat, write_passes};
+use super::{ExportedPass, PassFormat, PassList, PassQuery, Satellite};
 use crate::{
-    astro::{Angle, AzEl},
-    orbit::{Elements, Pass, PassPoint, read_elements},
+    astro::{Angle, AzEl, Site},
+    orbit::{Elements, Pass, PassPoint, PassSearch, read_elements},
 };
 
 /// A satellite whose name holds all that has to be quoted somewhere, and a pass.
 pub(super) fn example() -> (Elements, Pass) {
     let text = serde_json::json!({
-        "OBJECT_NAME": "ISS, (ZARYA); \"1\"", "NORAD_CAT_ID": 25_544,
+        "OBJECT_NAME": "ISS, (ZARYA); \"1\"", "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": 25_544,
         "EPOCH": "2026-08-11T01:21:00", "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.001,
         "INCLINATION": 51.6, "RA_OF_ASC_NODE": 0, "ARG_OF_PERICENTER": 0, "MEAN_ANOMALY": 0,
         "BSTAR": 0
@@ -34,10 +36,35 @@ pub(super) fn example() -> (Elements, Pass) {
     (elements, pass)
 }
 
-pub(super) fn written(format: PassFormat, elements: &Elements, passes: &[Pass]) -> String {
-    let rows: Vec<_> = passes.iter().map(|pass| ExportedPass { elements, pass }).collect();
+pub(super) fn written(format: PassFormat, elements: Elements, passes: &[Pass]) -> String {
+    written_with(format, elements, passes, None)
+}
+
+/// The same, with the Doppler shift of a carrier.
+pub(super) fn written_with(
+    format: PassFormat,
+    elements: Elements,
+    passes: &[Pass],
+    carrier_hz: Option<f64>,
+) -> String {
     let mut out = Vec::new();
-    let now: Timestamp = "2026-08-11T00:00:00Z".parse().unwrap();
-    write_passes(&mut out, format, &rows, now).unwrap();
+    write_to(&mut out, format, elements, passes, carrier_hz).unwrap();
     String::from_utf8(out).unwrap()
+}
+
+/// Passes over Istanbul, in a window from the day before.
+pub(super) fn write_to(
+    out: &mut impl Write,
+    format: PassFormat,
+    elements: Elements,
+    passes: &[Pass],
+    carrier_hz: Option<f64>,
+) -> io::Result<()> {
+    let satellite = Satellite::new(elements).unwrap();
+    let rows: Vec<_> =
+        passes.iter().map(|pass| ExportedPass { satellite: &satellite, pass }).collect();
+    let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+    let (now, to) = (at("2026-08-11T00:00:00Z"), at("2026-08-13T00:00:00Z"));
+    let query = PassQuery { search: PassSearch::new(Site::default(), now, to), mask: None };
+    PassList { rows: &rows, query: &query, place: None, carrier_hz, now }.write(out, format)
 }

@@ -1,0 +1,76 @@
+//! The site, with what a station file says of it.
+
+use std::{fs, path::Path};
+
+use anyhow::{Context as _, anyhow, bail};
+
+use super::InputOptions;
+use crate::{
+    astro::{Angle, Site},
+    engine::passes::Observer,
+    makes,
+    station::{self, NoteReason, Station},
+};
+
+/// Where the satellites are seen from.
+pub(in crate::cli) struct Place {
+    pub(in crate::cli) site: Site,
+    /// Name of the station.
+    pub(in crate::cli) name: Option<String>,
+    /// Elevation of AOS and LOS at the station; the horizon without one.
+    pub(in crate::cli) aos_elevation: Angle,
+    /// Elevation that a pass of the station has to reach.
+    pub(in crate::cli) floor: Angle,
+}
+
+/// How the places of settings start whose default must not be used in silence. The first antenna
+/// sets the elevation of AOS.
+const NEEDED: [&str; 3] =
+    ["elevation_floor_deg", "antenna[0].limits.minimum_elevation_deg", "antenna[0].connection"];
+
+impl InputOptions {
+    /// The site of the command line, and of `station` what is left out there.
+    pub(in crate::cli) fn place(&self, station: Option<&Path>) -> anyhow::Result<Place> {
+        let own = [self.lat, self.lon, self.alt];
+        let is_whole = own.iter().all(Option::is_some);
+        let station = station.map(|path| read_station(path, !is_whole)).transpose()?;
+        let of_station = station.as_ref().map(|station| station.site);
+        let [lat, lon, alt] = own;
+        let or_station = |value: Option<f64>, of: &dyn Fn(Site) -> f64| {
+            value.or_else(|| of_station.map(of)).context("The site is not known.")
+        };
+        let site = Site::new(
+            or_station(lat, &|site| site.latitude().degrees())?,
+            or_station(lon, &|site| site.longitude().degrees())?,
+            or_station(alt, &Site::altitude_m)?,
+        )?;
+        Ok(Place {
+            site,
+            aos_elevation: station
+                .as_ref()
+                .map_or(Angle::ZERO, |station| Observer::of(station).aos_elevation),
+            floor: station.as_ref().map_or(Angle::ZERO, Station::elevation_floor),
+            name: station.map(|station| station.name),
+        })
+    }
+}
+
+fn read_station(path: &Path, needs_site: bool) -> anyhow::Result<Station> {
+    let unusable = || format!("The station file {} cannot be used", path.display());
+    let loaded = station::load(path, makes::SPECS).with_context(unusable)?;
+    let is_needed = |place: &str| {
+        NEEDED.iter().any(|needed| place.starts_with(needed))
+            || (needs_site && place.starts_with("site"))
+    };
+    for note in &loaded.notes {
+        if let (true, NoteReason::Invalid(why)) = (is_needed(&note.place), &note.reason) {
+            return Err(anyhow!("{}: {why}", note.place)).with_context(unusable);
+        }
+    }
+    // Without it the reader gives the default, which is right for a window that shows it.
+    let table: toml::Table = toml::from_str(&fs::read_to_string(path)?)?;
+    if needs_site && !table.contains_key("site") {
+        bail!("{}: it has no site", unusable());
+    }
+    Ok(loaded.station)
+}

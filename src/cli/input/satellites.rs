@@ -1,0 +1,251 @@
+//! Reads the elements and picks the satellites that are asked for. What cannot be used is named
+//! on standard error, object by object.
+
+use std::{
+    fs::File,
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+use anyhow::{Context as _, bail};
+
+use super::InputOptions;
+use crate::{
+    library::{Library, Limits, disk::read_limited, element_files, library_folder, load_sources},
+    orbit::{Catalog, Elements, MergeSummary, Note, Refusal, Source, read_element_bytes},
+    plan::pass_export::Satellite,
+};
+
+/// Of one file; the whole catalogue as XML has 30 MB.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// The satellites that are asked for.
+pub(in crate::cli) struct Satellites {
+    /// In the order of their catalogue numbers.
+    pub(in crate::cli) list: Vec<Satellite>,
+    /// Everything that was asked for could be used.
+    pub(in crate::cli) is_complete: bool,
+}
+
+/// A file that was read.
+struct Merged {
+    file: String,
+    summary: MergeSummary,
+    holds_elements: bool,
+}
+
+impl InputOptions {
+    /// Reads the satellites that are asked for; an error when there are none.
+    pub(in crate::cli) fn satellites(&self, station: Option<&Path>) -> anyhow::Result<Satellites> {
+        let mut said = Said { errors: io::stderr().lock(), is_complete: true };
+        let mut files = self.own_files(&mut said);
+        if let Some(station) = station
+            && (self.elements.is_empty() || !self.group.is_empty())
+        {
+            files.extend(self.library_files(station, &mut said)?);
+        }
+        // Of two sets of one epoch the first stays: the order on the command line changes nothing.
+        files.sort();
+        files.dedup();
+        let mut catalog = Catalog::default();
+        let mut merged = Vec::new();
+        for path in &files {
+            let file = path.display().to_string();
+            match bytes_of(path) {
+                Ok(bytes) => {
+                    let report = read_element_bytes(&bytes);
+                    let holds_elements = !report.elements.is_empty();
+                    let summary = catalog.merge(report, &file);
+                    merged.push(Merged { file, summary, holds_elements });
+                }
+                Err(error) => said.unusable(&format!("{file} cannot be read: {error}")),
+            }
+        }
+        let asked = Asked::new(self, &catalog);
+        for file in &merged {
+            said.file(file, &asked);
+        }
+        for missing in &asked.missing {
+            said.unusable(missing);
+        }
+        let mut list = Vec::new();
+        for elements in catalog.iter().filter(|elements| asked.holds(elements)) {
+            match Satellite::new(elements.clone()) {
+                Ok(satellite) => list.push(satellite),
+                Err(reason) => said.unusable(&format!("{}: {reason}", elements.label())),
+            }
+        }
+        if list.is_empty() {
+            bail!("There are no elements to compute with.");
+        }
+        Ok(Satellites { list, is_complete: said.is_complete })
+    }
+
+    /// The files of `--elements`, and those in its folders.
+    fn own_files(&self, said: &mut Said) -> Vec<PathBuf> {
+        let mut files = Vec::new();
+        for path in &self.elements {
+            if !path.is_dir() {
+                files.push(path.clone());
+                continue;
+            }
+            match element_files(path) {
+                Ok(found) if found.is_empty() => {
+                    said.unusable(&format!("{}: no element files in it", path.display()));
+                }
+                Ok(found) => files.extend(found),
+                Err(error) => {
+                    said.unusable(&format!("{} cannot be read: {error}", path.display()));
+                }
+            }
+        }
+        files
+    }
+
+    /// The files of the sources of a station that are asked for, as the library keeps them.
+    fn library_files(&self, station: &Path, said: &mut Said) -> anyhow::Result<Vec<PathBuf>> {
+        let sources = load_sources(&station.with_file_name("sources.toml"))?;
+        let names = || sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
+        if sources.is_empty() {
+            bail!("The station has no sources of elements; --elements names files of them.");
+        }
+        for group in &self.group {
+            if !names().contains(&group.as_str()) {
+                bail!("The station has no source {group}; it has: {}.", names().join(", "));
+            }
+        }
+        let folder = library_folder().context("this user has no folder for data")?;
+        let library = Library::open(&folder, Limits::default())?;
+        let is_asked =
+            |source: &&Source| self.group.is_empty() || self.group.contains(&source.name);
+        let mut files = Vec::new();
+        for source in sources.iter().filter(is_asked) {
+            match library.files_of(source) {
+                Ok(found) if found.is_empty() => {
+                    said.unusable(&format!("{}: nothing of this source is held", source.name));
+                }
+                Ok(found) => files.extend(found),
+                Err((folder, error)) => {
+                    said.unusable(&format!("{} cannot be read: {error}", folder.display()));
+                }
+            }
+        }
+        Ok(files)
+    }
+}
+
+fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
+    if file == Path::new("-") {
+        read_limited(io::stdin().lock(), MAX_BYTES)
+    } else {
+        read_limited(File::open(file)?, MAX_BYTES)
+    }
+}
+
+/// The objects that are asked for.
+struct Asked<'a> {
+    numbers: &'a [u32],
+    /// In lower case.
+    names: Vec<String>,
+    /// Names, in lower case, of the objects that were found.
+    found: Vec<String>,
+    /// A sentence for each number and name that was not found.
+    missing: Vec<String>,
+}
+
+impl<'a> Asked<'a> {
+    fn new(options: &'a InputOptions, catalog: &Catalog) -> Self {
+        let numbers = &options.catalog_number[..];
+        let names = options.name.iter().map(|name| name.to_lowercase()).collect();
+        let mut asked = Self { numbers, names, found: Vec::new(), missing: Vec::new() };
+        if asked.is_everything() {
+            return asked;
+        }
+        let found = catalog.iter().filter(|elements| asked.holds(elements));
+        let found: Vec<String> = found.map(|elements| elements.name().to_lowercase()).collect();
+        for number in numbers.iter().filter(|number| catalog.get(**number).is_none()) {
+            asked.missing.push(format!("{number}: no elements of this object"));
+        }
+        for (name, lower) in options.name.iter().zip(&asked.names) {
+            if !found.iter().any(|found| found.contains(lower)) {
+                asked.missing.push(format!("{name}: no elements of an object of this name"));
+            }
+        }
+        asked.found = found;
+        asked
+    }
+
+    fn is_everything(&self) -> bool {
+        self.numbers.is_empty() && self.names.is_empty()
+    }
+
+    fn holds(&self, elements: &Elements) -> bool {
+        self.is_everything()
+            || self.numbers.contains(&elements.catalog_number())
+            || self.holds_name(&elements.name().to_lowercase())
+    }
+
+    fn holds_name(&self, lower: &str) -> bool {
+        self.names.iter().any(|name| lower.contains(name))
+    }
+
+    /// Whether a set that a reader names by its name, its number or not at all can be of an
+    /// object that is asked for.
+    fn concerns(&self, object: Option<&str>) -> bool {
+        let is_some_missing = !self.missing.is_empty();
+        let Some(object) = object.filter(|_| !self.is_everything()) else {
+            return self.is_everything() || is_some_missing;
+        };
+        let lower = object.to_lowercase();
+        self.holds_name(&lower)
+            || self.found.contains(&lower)
+            || match object.parse::<u32>() {
+                Ok(number) => self.numbers.contains(&number),
+                Err(_) => is_some_missing,
+            }
+    }
+}
+
+/// Standard error, and whether it was told of something unusable.
+struct Said {
+    errors: io::StderrLock<'static>,
+    is_complete: bool,
+}
+
+impl Said {
+    /// What of a file cannot be used, and the oddities of what can.
+    fn file(&mut self, merged: &Merged, asked: &Asked<'_>) {
+        let Merged { file, summary, holds_elements } = merged;
+        let object =
+            |object: &Option<String>| object.clone().unwrap_or_else(|| "unnamed object".to_owned());
+        // Any object may have been in a file that holds nothing.
+        let concerns =
+            |object: &Option<String>| !holds_elements || asked.concerns(object.as_deref());
+        for Refusal { line, object: name, reason } in &summary.refused {
+            if concerns(name) {
+                self.unusable(&format!("{file}:{line}: {}: {reason}", object(name)));
+            }
+        }
+        if summary.refused_unlisted > 0 && (asked.is_everything() || !holds_elements) {
+            self.unusable(&format!("{file}: {} more were refused", summary.refused_unlisted));
+        }
+        if let Some(nothing) = summary.nothing {
+            self.unusable(&format!("{file}: no elements, {nothing}"));
+        }
+        for Note { line, object: name, kind } in &summary.notes {
+            if concerns(name) {
+                self.line(&format!("{file}:{line}: {}: {kind}; used all the same", object(name)));
+            }
+        }
+    }
+
+    fn unusable(&mut self, sentence: &str) {
+        self.is_complete = false;
+        self.line(sentence);
+    }
+
+    fn line(&mut self, sentence: &str) {
+        // Nobody is left to be told that standard error is closed.
+        let _ = writeln!(self.errors, "{sentence}");
+    }
+}

@@ -1,0 +1,78 @@
+//! Look angles of one satellite in steps, from the same elements as passes.
+
+use std::{path::Path, process::ExitCode};
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+use jiff::Timestamp;
+
+use super::{
+    input::{self, EXIT_CODES, InputOptions, Satellites},
+    passes::{LEFT_OUT, written},
+};
+use crate::{
+    astro::time,
+    plan::pass_export::{LookFormat, LookList, Satellite},
+};
+
+/// Names that are listed where more than one satellite is meant.
+const MOST_NAMED: usize = 10;
+
+#[derive(Debug, Args)]
+#[command(after_help = format!("{LEFT_OUT}\n\n{EXIT_CODES}"))]
+pub(super) struct Options {
+    #[command(flatten)]
+    input: InputOptions,
+    /// First instant: `now`, a date (0 h UTC), or a time with Z or an offset
+    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    from: Timestamp,
+    /// How long, in minutes
+    #[arg(long, value_name = "MIN", default_value_t = 15.0, value_parser = input::minutes, allow_negative_numbers = true)]
+    minutes: f64,
+    /// Seconds from one row to the next
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = input::step_s, allow_negative_numbers = true)]
+    step: f64,
+    /// Add the Doppler shift of this frequency, sent by the satellite
+    #[arg(long, value_name = "MHZ", value_parser = input::megahertz, allow_negative_numbers = true)]
+    doppler: Option<f64>,
+    /// How the look angles are written
+    #[arg(long, value_enum, default_value_t = LookFormat::Table)]
+    format: LookFormat,
+}
+
+pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
+    options.input.check("look", station)?;
+    let site = options.input.place(station)?.site;
+    let Satellites { list, is_complete } = options.input.satellites(station)?;
+    let [satellite] = &list[..] else { bail!("{}", too_many(&list)) };
+    let (from, length_s) = (options.from, options.minutes * 60.0);
+    input::caution(&list, from, time::add_seconds(from, length_s));
+    if let Err(error) = satellite.propagator.state_at(from) {
+        bail!("{}: {error}", satellite.elements.label());
+    }
+    let list = LookList {
+        satellite,
+        site,
+        from,
+        // Noise of the division must not cost the last row.
+        count: (length_s / options.step + 1e-9) as u32 + 1,
+        step_s: options.step,
+        carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),
+    };
+    written(|out| list.write(out, options.format)).context("The look angles cannot be written")?;
+    Ok(input::exit_code(is_complete))
+}
+
+fn too_many(list: &[Satellite]) -> String {
+    let named = list.iter().take(MOST_NAMED).map(|satellite| {
+        let elements = &satellite.elements;
+        format!("{} {}", elements.catalog_number(), elements.name()).trim_end().to_owned()
+    });
+    let named: Vec<String> = named.collect();
+    let more = if list.len() > MOST_NAMED { ", ..." } else { "" };
+    format!(
+        "{} satellites are meant, and one is looked at; --catalog-number names it: {}{more}",
+        list.len(),
+        named.join(", ")
+    )
+}

@@ -1,0 +1,127 @@
+//! Identities of passes in a calendar: they stay when the elements are renewed, the window moves
+//! or the site is measured anew, so that a second import replaces the events of the first.
+//!
+//! Time is cut into slots, and a pass is named by the slot of its TCA. A slot is as long as a
+//! power of two of seconds, below the time between two passes: a period that is a little
+//! different gives the same slots, and a TCA that is a little different lies in the same slot but
+//! where it is next to the border of two.
+
+use std::collections::BTreeMap;
+
+use jiff::Timestamp;
+
+use super::{ExportedPass, PassQuery};
+use crate::{
+    astro::{Site, time},
+    orbit::{Elements, Pass},
+};
+
+/// Length of a slot as a share of the time between two passes, at most.
+const SLOT_SHARE: f64 = 0.9;
+/// A longer stay above the horizon, in revolutions, has no TCA that would stay.
+const LONGEST_PASS: f64 = 2.0;
+/// Sites this close have the same identities, degrees.
+const CELL_DEG: f64 = 1.0;
+/// Keeps the borders of cells off round coordinates.
+const CELL_OFFSET_DEG: f64 = 0.317;
+/// Nearer to a pole a metre is too much of a longitude.
+const POLAR_LATITUDE_DEG: f64 = 89.0;
+
+/// The identity of each of `rows`, which are in the order of their AOS. No two are the same.
+pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
+    let cell = cell(query.search.site);
+    // By satellite and slot, how many there were.
+    let mut before: BTreeMap<(u32, Option<i64>), usize> = BTreeMap::new();
+    let id = |ExportedPass { satellite, pass }: &ExportedPass<'_>| {
+        let number = satellite.elements.catalog_number();
+        let slots = Slots::of(&satellite.elements);
+        let again = |from, to| query.passes_between(&satellite.propagator, from, to);
+        let Found { slot, order } = slots.find(pass, query.search.from, again);
+        let before = before.entry((number, slot)).or_default();
+        let order = order.max(*before);
+        *before = order + 1;
+        let slot = slot.map_or_else(|| "up".to_owned(), |slot| slot.to_string());
+        let order = if order > 0 { format!("-{order}") } else { String::new() };
+        format!("{number}-{cell}-{}-{slot}{order}@azel", slots.exponent)
+    };
+    rows.iter().map(id).collect()
+}
+
+/// A number for the surroundings of a site: two stations have their passes in one calendar.
+fn cell(site: Site) -> u32 {
+    let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
+    let part = |degrees: f64| ((degrees + CELL_OFFSET_DEG) / CELL_DEG) as u32;
+    let is_polar = latitude_deg.abs() > POLAR_LATITUDE_DEG;
+    let longitude_deg = if is_polar { 0.0 } else { longitude_deg.rem_euclid(360.0) };
+    part(latitude_deg + 90.0) * 361 + part(longitude_deg)
+}
+
+/// The slots of a satellite.
+struct Slots {
+    /// A slot has 2 to this power seconds.
+    exponent: u32,
+    longest_pass_s: f64,
+}
+
+/// Where a pass belongs.
+struct Found {
+    /// `None` for what stays above the horizon.
+    slot: Option<i64>,
+    /// Passes before it in this slot that are known of.
+    order: usize,
+}
+
+impl Slots {
+    fn of(elements: &Elements) -> Self {
+        let period_s = elements.period_s();
+        // What is slow rises once in a turn of the Earth.
+        let between_s = SLOT_SHARE * period_s.min(time::DAY_S);
+        let exponent = between_s.log2().max(0.0) as u32;
+        Self { exponent, longest_pass_s: LONGEST_PASS * period_s }
+    }
+
+    fn at(&self, time: Timestamp) -> i64 {
+        time.as_second() >> self.exponent
+    }
+
+    fn start(&self, slot: i64) -> Timestamp {
+        Timestamp::from_second(slot << self.exponent).unwrap_or(Timestamp::MIN)
+    }
+
+    /// Finds the slot of `pass`. What a window that starts at `from` cuts off, of the pass or
+    /// of its slot, is looked for `again`.
+    fn find(
+        &self,
+        pass: &Pass,
+        from: Timestamp,
+        again: impl FnOnce(Timestamp, Timestamp) -> Vec<Pass>,
+    ) -> Found {
+        let slot = self.at(pass.tca.time);
+        let is_cut = pass.starts_before || pass.ends_after || self.start(slot) < from;
+        let found = Found { slot: Some(slot), order: 0 };
+        if !is_cut {
+            return if self.is_long(pass) { Found { slot: None, order: 0 } } else { found };
+        }
+        let first = self.start(slot).min(pass.aos.time);
+        let first = time::add_seconds(first, -self.longest_pass_s);
+        let last = if pass.ends_after { self.longest_pass_s } else { 1.0 };
+        let passes = again(first, time::add_seconds(pass.los.time, last));
+        let middle = time::add_seconds(pass.aos.time, 0.5 * pass.duration_s());
+        let is_same = |whole: &&Pass| (whole.aos.time..=whole.los.time).contains(&middle);
+        let Some(whole) = passes.iter().find(is_same) else { return found };
+        if self.is_long(whole) {
+            return Found { slot: None, order: 0 };
+        }
+        let slot = self.at(whole.tca.time);
+        let is_before = |other: &&Pass| {
+            other.aos.time < whole.aos.time
+                && self.at(other.tca.time) == slot
+                && !self.is_long(other)
+        };
+        Found { slot: Some(slot), order: passes.iter().filter(is_before).count() }
+    }
+
+    fn is_long(&self, pass: &Pass) -> bool {
+        pass.duration_s() > self.longest_pass_s
+    }
+}

@@ -1,0 +1,166 @@
+//! Look angles of one satellite, one row an instant.
+
+use std::io::{self, Write};
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::{
+    Satellite, Seen, civil,
+    csv::{io_error, text_of},
+    json::write_lines,
+    rfc3339, turn,
+};
+use crate::astro::{Site, time};
+
+const HEADER: [&str; 5] = ["time", "azimuth_deg", "elevation_deg", "range_km", "range_rate_km_s"];
+
+/// How look angles are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum LookFormat {
+    /// Columns to read
+    Table,
+    /// A header and one row per instant
+    Csv,
+    /// A list of objects
+    Json,
+}
+
+/// Look angles to write.
+#[derive(Debug, Clone, Copy)]
+pub struct LookList<'a> {
+    pub satellite: &'a Satellite,
+    pub site: Site,
+    pub from: Timestamp,
+    /// How many rows there are, the first at `from`.
+    pub count: u32,
+    pub step_s: f64,
+    /// Frequency whose Doppler shift is written.
+    pub carrier_hz: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Row {
+    time: String,
+    azimuth_deg: f64,
+    elevation_deg: f64,
+    range_km: f64,
+    range_rate_km_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    doppler_hz: Option<f64>,
+}
+
+impl LookList<'_> {
+    /// Writes the list, which ends where the object has come down. All times are UTC.
+    pub fn write(&self, out: &mut impl Write, format: LookFormat) -> io::Result<()> {
+        match format {
+            LookFormat::Table => self.write_table(out),
+            LookFormat::Csv => self.write_csv(out),
+            LookFormat::Json => write_lines(out, self.looks().map(|(at, seen)| row(at, seen))),
+        }
+    }
+
+    fn looks(&self) -> impl Iterator<Item = (Timestamp, Seen)> {
+        let instants = (0..self.count)
+            .map(|index| time::add_seconds(self.from, f64::from(index) * self.step_s));
+        instants.map_while(|at| {
+            self.satellite.seen(self.site, at, self.carrier_hz).map(|seen| (at, seen))
+        })
+    }
+
+    fn write_table(&self, out: &mut impl Write) -> io::Result<()> {
+        // Steps of parts of a second show them.
+        let is_fine = self.step_s.fract() > 0.0;
+        let head = if is_fine { "UTC                    " } else { "UTC                " };
+        write!(out, "{head}     az     el    range km      km/s")?;
+        writeln!(out, "{}", if self.carrier_hz.is_some() { "    Doppler Hz" } else { "" })?;
+        for (at, seen) in self.looks() {
+            let shown = if is_fine {
+                rfc3339(at).replace('T', " ").trim_end_matches('Z').to_owned()
+            } else {
+                civil(at, "%Y-%m-%d %H:%M:%S")
+            };
+            write!(
+                out,
+                "{shown}  {:>5.1}  {:>5.1}  {:>10.1}  {:>8.4}",
+                turn(seen.azimuth_deg),
+                seen.elevation_deg,
+                seen.range_km,
+                seen.range_rate_km_s,
+            )?;
+            let doppler = seen.doppler_hz.map(|hertz| format!("  {hertz:>12.1}"));
+            writeln!(out, "{}", doppler.unwrap_or_default())?;
+        }
+        Ok(())
+    }
+
+    fn write_csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut table = csv::Writer::from_writer(out);
+        let doppler = self.carrier_hz.map(|_| "doppler_hz");
+        table.write_record(HEADER.into_iter().chain(doppler)).map_err(io_error)?;
+        for (at, seen) in self.looks() {
+            let numbers =
+                [seen.azimuth_deg, seen.elevation_deg, seen.range_km, seen.range_rate_km_s];
+            let mut fields = vec![rfc3339(at)];
+            fields.extend(numbers.map(|number| number.to_string()));
+            fields.extend(seen.doppler_hz.map(|hertz| text_of(Some(hertz))));
+            table.write_record(fields).map_err(io_error)?;
+        }
+        table.flush()
+    }
+}
+
+fn row(at: Timestamp, seen: Seen) -> Row {
+    Row {
+        time: rfc3339(at),
+        azimuth_deg: seen.azimuth_deg,
+        elevation_deg: seen.elevation_deg,
+        range_km: seen.range_km,
+        range_rate_km_s: seen.range_rate_km_s,
+        doppler_hz: seen.doppler_hz,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::testing::example, *};
+
+    fn written(format: LookFormat, step_s: f64, carrier_hz: Option<f64>) -> String {
+        let satellite = Satellite::new(example().0).unwrap();
+        let from = "2026-08-12T01:00:00Z".parse().unwrap();
+        let site = Site::default();
+        let list = LookList { satellite: &satellite, site, from, count: 3, step_s, carrier_hz };
+        let mut out = Vec::new();
+        list.write(&mut out, format).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn all_forms_say_the_same() {
+        let rows: Vec<serde_json::Value> =
+            serde_json::from_str(&written(LookFormat::Json, 30.0, Some(1e8))).unwrap();
+        let csv = written(LookFormat::Csv, 30.0, Some(1e8));
+        let table = written(LookFormat::Table, 30.0, Some(1e8));
+        assert_eq!((rows.len(), csv.lines().count(), table.lines().count()), (3, 4, 4));
+        let head = "time,azimuth_deg,elevation_deg,range_km,range_rate_km_s,doppler_hz";
+        assert_eq!(csv.lines().next(), Some(head));
+        for ((row, csv), table) in rows.iter().zip(csv.lines().skip(1)).zip(table.lines().skip(1)) {
+            let fields: Vec<&str> = csv.split(',').collect();
+            assert_eq!(row["time"], fields[0]);
+            for (name, field) in head.split(',').zip(&fields).skip(1) {
+                assert_eq!(row[name].as_f64(), field.parse().ok(), "{name}");
+            }
+            let shown: Vec<&str> = table.split_whitespace().collect();
+            assert_eq!(shown.len(), 7, "{table}");
+            let range_km: f64 = shown[4].parse().unwrap();
+            assert!((range_km - row["range_km"].as_f64().unwrap()).abs() < 0.06, "{table}");
+        }
+    }
+
+    #[test]
+    fn steps_of_parts_of_a_second_are_shown() {
+        let table = written(LookFormat::Table, 0.5, None);
+        assert!(table.contains("\n2026-08-12 01:00:00.500  "), "{table}");
+        assert_eq!(table.lines().next().unwrap().len(), table.lines().nth(1).unwrap().len());
+    }
+}
