@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use super::App;
 use crate::{
     driver,
-    engine::{Command, Stopped, antenna::AntennaModel, passes::PredictedPass},
+    engine::{Command, Stopped, passes::PredictedPass},
     model::UiCommand,
     station::AntennaId,
     ui::theme,
@@ -19,9 +19,8 @@ impl App {
     }
 
     /// Sends STOP past every queue, also to a unit that must be connected for it.
-    fn stop_one(&mut self, index: usize) {
-        let Some(id) = self.id(index) else { return };
-        let stopped = self.station.client().stop(id);
+    fn stop_one(&mut self, antenna: AntennaId) {
+        let stopped = self.station.client().stop(antenna);
         self.show_stopped(&stopped);
     }
 
@@ -33,16 +32,11 @@ impl App {
         }
     }
 
-    /// The id of the antenna with this index.
-    fn id(&self, index: usize) -> Option<AntennaId> {
-        self.model.antennas.get(index).map(AntennaModel::id)
-    }
-
     pub(super) fn carry_out(&mut self, command: UiCommand, ctx: &egui::Context) {
         let model = &mut self.model;
         match command {
             UiCommand::Stop => self.stop_all(),
-            UiCommand::StopAntenna(index) => self.stop_one(index),
+            UiCommand::StopAntenna(antenna) => self.stop_one(antenna),
             UiCommand::Close => {
                 self.may_close.store(true, Ordering::Relaxed);
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -73,61 +67,9 @@ impl App {
             UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
             UiCommand::ImportMask(path) => self.import_mask(path),
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
-            UiCommand::Antenna(index, command) => {
-                self.send_to(index, |id| Command::Antenna(id, command));
-            }
-            UiCommand::Track { antenna, pass } => {
-                self.send_to(antenna, |antenna| Command::Track { antenna, pass, is_agreed: false });
-            }
-            UiCommand::ProgramTrackPass { antenna, pass } => {
-                self.send_to(antenna, |antenna| Command::ProgramTrackPass { antenna, pass });
-            }
-            UiCommand::TrackAnyway { antenna, pass } => {
-                self.send_to(antenna, |antenna| Command::Track { antenna, pass, is_agreed: true });
-            }
-            UiCommand::SaveSettings { antenna } => self.send_to(antenna, Command::SaveSettings),
-            UiCommand::CompareSettings { antenna } => {
-                self.send_to(antenna, Command::CompareSettings);
-            }
-            UiCommand::ReadCopy { antenna, path } => {
-                self.send_to(antenna, |antenna| Command::ReadCopy { antenna, path });
-            }
-            UiCommand::CloseAfter(how) => self.send(Command::CloseAfter(how)),
-            UiCommand::StayOpen => self.send(Command::StayOpen),
-            UiCommand::CloseCopy => self.send(Command::CloseCopy),
-            UiCommand::SetElevationFloor(floor_deg) => {
-                self.send(Command::SetElevationFloor(floor_deg));
-            }
-            UiCommand::CancelSearch => {
-                let scope = model.list.scope;
-                self.send(Command::CancelSearch(scope));
-            }
-            UiCommand::ResumeSearch => {
-                let scope = model.list.scope;
-                self.send(Command::ResumeSearch(scope));
-            }
-            UiCommand::SetFavourite { number, is_favourite } => {
-                self.send(Command::SetFavourite { number, is_favourite });
-            }
-            UiCommand::AddSource(source) => self.send(Command::AddSource(source)),
-            UiCommand::RemoveSource(name) => self.send(Command::RemoveSource(name)),
-            UiCommand::RefreshSources { names, forced } => {
-                self.send(Command::RefreshSources { names, forced });
-            }
-            UiCommand::OpenedAlarms => self.send(Command::OpenedAlarms),
-            UiCommand::AcknowledgeAlarm(id) => self.send(Command::AcknowledgeAlarm(id)),
-            UiCommand::SaveStation(station) => self.send(Command::SaveStation(station)),
-            UiCommand::TestSource(ask) => self.send(Command::TestSource(ask)),
-            UiCommand::Upload(ask) => self.send(Command::Upload(ask)),
             UiCommand::Station(command) => self.send(command),
         }
         (self.wake)();
-    }
-
-    fn send_to(&mut self, index: usize, command: impl FnOnce(AntennaId) -> Command) {
-        if let Some(id) = self.id(index) {
-            self.send(command(id));
-        }
     }
 
     fn send(&mut self, command: Command) {

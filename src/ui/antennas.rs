@@ -147,8 +147,7 @@ pub fn show(
         foot::show(ui, bottom, &unit, form, commands);
     }
     if let Some(open) = model.copies.open.as_ref().filter(|open| open.antenna == unit.name()) {
-        let of = (unit.index, unit.antenna);
-        let taken = copies::show(ui, of, open, &mut state.compare, commands);
+        let taken = copies::show(ui, unit.antenna, open, &mut state.compare, commands);
         form.take_over(&unit, taken);
     }
     if wants_unlock {

@@ -73,8 +73,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             },
             text,
             time,
-            moves_away: alarm.antenna.and_then(|id| model.place(id)).filter(|index| {
-                let antenna = model.antennas.get(*index);
+            moves_away: alarm.antenna.filter(|id| {
+                let antenna = model.antenna_of(*id);
                 !alarm.cleared && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
             }),
         })

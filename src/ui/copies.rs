@@ -8,7 +8,7 @@ use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
 use super::{format, text, theme};
 use crate::{
     device::settings::{Difference, Field, Group, SettingsCopy, Value, Verdict},
-    engine::{antenna::AntennaModel, copies::OpenCopy},
+    engine::{self, antenna::AntennaModel, copies::OpenCopy},
     model::UiCommand,
 };
 
@@ -34,11 +34,11 @@ pub struct Taken {
     pub value: Value,
 }
 
-/// Shows the dialog for `antenna`, which has this index. Returns once the values that the
+/// Shows the dialog for `antenna`. Returns once the values that the
 /// operator takes over.
 pub fn show(
     ui: &Ui,
-    (index, antenna): (usize, &AntennaModel),
+    antenna: &AntennaModel,
     open: &OpenCopy,
     state: &mut CompareState,
     commands: &mut Vec<UiCommand>,
@@ -53,7 +53,8 @@ pub fn show(
         let read = choose(ui, open, state);
         if let Some(path) = read {
             state.chosen.clear();
-            commands.push(UiCommand::ReadCopy { antenna: index, path });
+            let antenna = antenna.id();
+            commands.push(UiCommand::Station(engine::Command::ReadCopy { antenna, path }));
         }
         match &open.read {
             None => {}
@@ -64,7 +65,7 @@ pub fn show(
     });
     if closed || modal.should_close() {
         *state = CompareState::default();
-        commands.push(UiCommand::CloseCopy);
+        commands.push(UiCommand::Station(engine::Command::CloseCopy));
     }
     taken
 }

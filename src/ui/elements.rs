@@ -11,7 +11,7 @@ use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 use super::{confirm::Question, text, theme, words::sentence};
 use crate::{
     engine::{
-        CatalogState,
+        self, CatalogState,
         sources::{SourceWork, Sources},
     },
     model::{Model, UiCommand},
@@ -98,7 +98,8 @@ fn head(ui: &mut Ui, model: &Model, upload_is_open: &mut bool, commands: &mut Ve
         let can = sources.is_free() && !sources.list.is_empty();
         if ui.add_enabled(can, all).clicked() {
             let names = sources.list.iter().map(|source| source.name.clone()).collect();
-            commands.push(UiCommand::RefreshSources { names, forced: false });
+            commands
+                .push(UiCommand::Station(engine::Command::RefreshSources { names, forced: false }));
         }
         let word = if *upload_is_open { "Back to the catalogue" } else { "Upload to unit…" };
         if ui.add_enabled(model.antenna().is_some(), egui::Button::new(word)).clicked() {

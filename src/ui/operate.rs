@@ -20,8 +20,13 @@ use super::{
     timeline::Zoom,
 };
 use crate::{
-    engine::passes::{PassKey, PredictedPass},
+    driver::Command,
+    engine::{
+        antenna::AntennaModel,
+        passes::{PassKey, PredictedPass},
+    },
     model::{Model, UiCommand},
+    station::AntennaId,
 };
 use layout::Areas;
 
@@ -41,7 +46,7 @@ pub struct OperateState {
     passes: PassListState,
     found: filter::Found,
     /// Index of the antenna whose card was shown last.
-    shown_antenna: usize,
+    shown_antenna: Option<AntennaId>,
 }
 
 impl OperateState {
@@ -67,9 +72,10 @@ impl OperateState {
 
     /// Call when the card disappears. Releases a key that is held there.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
-        if self.card.hide().is_some() {
-            let end = crate::driver::Command::EndJog;
-            commands.push(UiCommand::Antenna(self.shown_antenna, end));
+        if self.card.hide().is_some()
+            && let Some(antenna) = self.shown_antenna
+        {
+            commands.push(UiCommand::antenna(antenna, Command::EndJog));
         }
     }
 }
@@ -87,10 +93,11 @@ pub fn show(
     let list_width = state.list_width.map(|width| width as f32);
     let areas = Areas::of(window, rect, state.drawer_open, model.demo, list_width);
     let t = theme::tokens(ui);
-    if state.shown_antenna != model.selected_antenna {
+    let shown = model.antenna().map(AntennaModel::id);
+    if state.shown_antenna != shown {
         state.leave_card(commands);
         state.card.change_antenna();
-        state.shown_antenna = model.selected_antenna;
+        state.shown_antenna = shown;
     }
     if let Some(strip) = areas.banner {
         banner::show(ui, strip, model, commands);

@@ -26,7 +26,7 @@ use super::{
 };
 use crate::{
     astro::MaskForm,
-    engine::antenna::AntennaModel,
+    engine::{self, antenna::AntennaModel},
     model::{MaskNews, Model, UiCommand},
     station::{Entered, Station},
 };
@@ -182,7 +182,7 @@ pub fn show(
         save.show(ui, "save", saving).clicked()
     };
     if saved && let Some(station) = read {
-        commands.push(UiCommand::SaveStation(Box::new(station)));
+        commands.push(UiCommand::Station(engine::Command::SaveStation(Box::new(station))));
     }
     if reverted {
         state.outcome = None;

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     engine::{
+        self,
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, TestAsk, TestStage, TestedSource},
     },
@@ -107,7 +108,7 @@ pub fn show(
 }
 
 fn push(commands: &mut Vec<UiCommand>, ask: TestAsk) {
-    commands.push(UiCommand::TestSource(ask));
+    commands.push(UiCommand::Station(engine::Command::TestSource(ask)));
 }
 
 fn order(
@@ -209,5 +210,10 @@ fn outcome(
 }
 
 fn forget(ui: &mut Ui, key: &DoubtfulKey, question: &mut Option<Question>) {
-    dialogs::changed_key(ui, key, UiCommand::TestSource(TestAsk::ForgetHostKey), question);
+    dialogs::changed_key(
+        ui,
+        key,
+        UiCommand::Station(engine::Command::TestSource(TestAsk::ForgetHostKey)),
+        question,
+    );
 }

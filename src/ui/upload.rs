@@ -25,7 +25,7 @@ use super::{
 };
 use crate::{
     engine::{
-        CatalogState,
+        self, CatalogState,
         uploads::{Ask, Cargo, Order, Stage},
     },
     model::{Model, UiCommand},
@@ -103,7 +103,7 @@ fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut 
         && let Ok(order) = order
     {
         let begin = Ask::Begin(Box::new(order.clone()));
-        commands.push(UiCommand::Upload(begin));
+        commands.push(UiCommand::Station(engine::Command::Upload(begin)));
     }
     if let Err(problem) = order {
         line(ui, Tone::Caution, &format!("Not to be sent yet: {problem}."));

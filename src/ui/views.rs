@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     driver::Command,
-    engine::closing::CloseHow,
+    engine::{self, closing::CloseHow},
     model::{MaskNews, Model, UiCommand, View},
 };
 
@@ -142,8 +142,9 @@ impl Views {
         Question::show(&mut self.question, ui, commands);
         ClosingDialog::show(&mut self.closing, ui, model, commands);
         closing::waiting(ui, model, commands);
-        let is_manual =
-            |command: &UiCommand| matches!(command, UiCommand::Antenna(_, Command::Manual));
+        let is_manual = |command: &UiCommand| {
+            matches!(command, UiCommand::Station(engine::Command::Antenna(_, Command::Manual)))
+        };
         if commands.iter().skip(answered).any(is_manual) {
             self.operate.card.drive.focus_pad();
         }
@@ -171,7 +172,9 @@ impl Views {
         self.operate.leave_card(commands);
         self.question = None;
         match CloseHow::of(&model.station) {
-            Some(how) if lost.is_empty() => commands.push(UiCommand::CloseAfter(how)),
+            Some(how) if lost.is_empty() => {
+                commands.push(UiCommand::Station(engine::Command::CloseAfter(how)));
+            }
             _ => self.closing = Some(ClosingDialog { lost }),
         }
         true

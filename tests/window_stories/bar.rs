@@ -5,6 +5,7 @@ use azel::{
     controller::satrak::checks,
     device::{Asked, Motion},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
+    engine,
     engine::alarms::{AlarmKind, Work},
     model::{ThemeName, UiCommand},
     station::{AntennaId, Note, NoteReason},
@@ -24,8 +25,10 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
     let model = &mut window.state_mut().model;
     for command in &commands {
         match command {
-            UiCommand::OpenedAlarms => model.alarms.unopened = false,
-            UiCommand::AcknowledgeAlarm(id) => model.alarms.acknowledge(*id),
+            UiCommand::Station(engine::Command::OpenedAlarms) => model.alarms.unopened = false,
+            UiCommand::Station(engine::Command::AcknowledgeAlarm(id)) => {
+                model.alarms.acknowledge(*id)
+            }
             other => panic!("{other:?}"),
         }
     }
@@ -90,10 +93,13 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         let text = words::alarm(&kind, "Satrak");
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, 2 new").click();
-        assert_eq!(carry_out(&mut window), [UiCommand::OpenedAlarms]);
+        assert_eq!(carry_out(&mut window), [UiCommand::Station(engine::Command::OpenedAlarms)]);
         window.get_by_label(&format!("{text}, 11:15:30Z, new"));
         window.get_by_label(&format!("Acknowledge: {text}")).click();
-        assert_eq!(carry_out(&mut window), [UiCommand::AcknowledgeAlarm(0)]);
+        assert_eq!(
+            carry_out(&mut window),
+            [UiCommand::Station(engine::Command::AcknowledgeAlarm(0))]
+        );
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
         window.get_by_label("2 alarms, 1 new");
         window.state_mut().model.alarms.clear(Some(AntennaId::FIRST), |_| true);
@@ -114,7 +120,10 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
             let mut window = rig::window(size, model);
             for id in [1, 0] {
                 window.key_press(Key::A);
-                assert_eq!(carry_out(&mut window), [UiCommand::AcknowledgeAlarm(id)]);
+                assert_eq!(
+                    carry_out(&mut window),
+                    [UiCommand::Station(engine::Command::AcknowledgeAlarm(id))]
+                );
             }
             window.key_press(Key::A);
             assert_eq!(carry_out(&mut window), []);

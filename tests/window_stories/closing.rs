@@ -7,7 +7,7 @@ use std::path::Path;
 use azel::{
     clock::Clock,
     driver::{Intent, LinkState, Snapshot, StopState},
-    engine::closing::CloseHow,
+    engine::{self, closing::CloseHow},
     model::{Model, UiCommand, View},
     station::{self, OnClose},
 };
@@ -117,7 +117,10 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
                 assert!(rig::says(&window, told), "{told}");
             }
             press(&mut window, word);
-            assert_eq!(rig::asked(&mut window), [UiCommand::CloseAfter(how)]);
+            assert_eq!(
+                rig::asked(&mut window),
+                [UiCommand::Station(engine::Command::CloseAfter(how))]
+            );
             assert!(!rig::says(&window, "Close Azel?"));
         }
         let mut window = asked_about(size, model());
@@ -138,7 +141,7 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
         Arc::make_mut(&mut model.station).on_close = Some(on_close);
         let mut window = asked_about(LARGE, model);
         assert!(!rig::says(&window, "Close Azel?"));
-        assert_eq!(rig::asked(&mut window), [UiCommand::CloseAfter(how)]);
+        assert_eq!(rig::asked(&mut window), [UiCommand::Station(engine::Command::CloseAfter(how))]);
     }
     let mut model = rig::model(states::tracking(0.1));
     (Arc::make_mut(&mut model.station).on_close, model.view) =

@@ -9,6 +9,7 @@ use azel::{
     model::{Model, ThemeName, UiCommand, View},
     protocol::satrak::encode,
     station,
+    station::AntennaId,
     ui::theme,
 };
 use egui::{Event, Key, Modifiers, Rect, Role, pos2, vec2};
@@ -40,7 +41,7 @@ fn the_shown_lines_are_saved_and_it_is_said_where() {
 
 #[test]
 fn a_query_is_sent_once_its_frame_stands_there() {
-    let ask = |question: &str| UiCommand::Antenna(0, Command::Ask(question.into()));
+    let ask = |question: &str| UiCommand::antenna(AntennaId(1), Command::Ask(question.into()));
     for size in SIZES {
         let mut window = view(size);
         assert!(is_disabled(&window, "Send"));

@@ -4,6 +4,7 @@ use azel::{
     astro::Angle,
     driver::{Command, Intent, Snapshot},
     model::UiCommand,
+    station::AntennaId,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -17,7 +18,7 @@ const AZIMUTH: &str = "Go to azimuth, degrees";
 const ELEVATION: &str = "Go to elevation, degrees";
 
 fn antenna(command: Command) -> UiCommand {
-    UiCommand::Antenna(0, command)
+    UiCommand::antenna(AntennaId(1), command)
 }
 
 fn type_into(window: &mut Window, field: &str, words: &str) {

@@ -7,7 +7,7 @@ use std::{fs, path::PathBuf};
 use azel::{
     astro::time::add_seconds,
     engine::{
-        CatalogState,
+        self, CatalogState,
         sources::{SourceWork, Sources},
     },
     makes,
@@ -82,7 +82,7 @@ fn is_disabled(window: &Window, button: &str) -> bool {
 
 fn refresh(names: &[&str], forced: bool) -> UiCommand {
     let names = names.iter().map(|name| (*name).to_owned()).collect();
-    UiCommand::RefreshSources { names, forced }
+    UiCommand::Station(engine::Command::RefreshSources { names, forced })
 }
 
 #[test]
@@ -167,7 +167,10 @@ fn a_source_is_removed_after_a_question() {
         click(&mut window, "Remove own");
         assert_eq!(asked(&mut window), []);
         window.key_press(Key::Enter);
-        assert_eq!(asked(&mut window), [UiCommand::RemoveSource("own".to_owned())]);
+        assert_eq!(
+            asked(&mut window),
+            [UiCommand::Station(engine::Command::RemoveSource("own".to_owned()))]
+        );
     }
 }
 
@@ -186,7 +189,10 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
         click(&mut window, "Add source");
-        assert_eq!(asked(&mut window), [UiCommand::AddSource(file_source())]);
+        assert_eq!(
+            asked(&mut window),
+            [UiCommand::Station(engine::Command::AddSource(file_source()))]
+        );
         let path = |window: &Window| {
             window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap_or_default()
         };
@@ -209,7 +215,10 @@ fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
         click(&mut window, "Add source");
-        assert_eq!(asked(&mut window), [UiCommand::AddSource(Source::celestrak("stations"))]);
+        assert_eq!(
+            asked(&mut window),
+            [UiCommand::Station(engine::Command::AddSource(Source::celestrak("stations")))]
+        );
     }
 }
 
@@ -269,11 +278,17 @@ fn satellites_are_followed_and_unfollowed_from_the_catalog() {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");
         window.get_by_label_contains("Add METEOR").click();
-        let follow = UiCommand::SetFavourite { number: METEOR_M2_3, is_favourite: true };
+        let follow = UiCommand::Station(engine::Command::SetFavourite {
+            number: METEOR_M2_3,
+            is_favourite: true,
+        });
         assert_eq!(asked(&mut window), [follow]);
         write(&mut window, "Search the catalogue", "43013");
         click(&mut window, "Remove NOAA 20 (JPSS-1) from the favourites");
-        let unfollow = UiCommand::SetFavourite { number: NOAA_20, is_favourite: false };
+        let unfollow = UiCommand::Station(engine::Command::SetFavourite {
+            number: NOAA_20,
+            is_favourite: false,
+        });
         assert_eq!(asked(&mut window), [unfollow]);
     }
 }

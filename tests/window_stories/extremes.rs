@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     driver::{LinkLoss, LinkState, Snapshot},
-    engine::{CatalogState, passes::PassLists},
+    engine::{self, CatalogState, passes::PassLists},
     model::{Model, Sky, UiCommand, View},
 };
 use egui::{Rect, Role, pos2, vec2};
@@ -125,7 +125,10 @@ fn without_elements_it_says_so_and_the_antenna_can_still_be_driven() {
         assert!(says(&window, "No elements: they could not be read. See the alarms."));
         window.drag_at(window.get_by_label("Jog X+").rect().center());
         let commands = asked(&mut window);
-        assert!(matches!(commands[..], [UiCommand::Antenna(..), ..]), "{commands:?}");
+        assert!(
+            matches!(commands[..], [UiCommand::Station(engine::Command::Antenna(..)), ..]),
+            "{commands:?}"
+        );
     }
 }
 

@@ -8,10 +8,10 @@ use azel::{
     clock::Instant,
     device::AxisMotion,
     driver::{Command, Event, Found, Intent, LinkState, Snapshot, TrackView},
-    engine::passes::PredictedPass,
+    engine::{self, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{ProgramTrack, Sample, Target, TrackPhase, TrackStats},
-    station::{Antenna, Mount},
+    station::{Antenna, AntennaId, Mount},
     ui::bar::activity,
 };
 use std::time::Duration;
@@ -186,7 +186,12 @@ fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
 
 fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> ProgramTrack {
     match chosen(size, antenna, entry).as_slice() {
-        [UiCommand::Antenna(0, Command::ProgramTrack(follow))] => (**follow).clone(),
+        [
+            UiCommand::Station(engine::Command::Antenna(
+                AntennaId(1),
+                Command::ProgramTrack(follow),
+            )),
+        ] => (**follow).clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -209,7 +214,11 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
 fn a_unit_that_tracks_by_itself_can_be_sent_from_here_all_the_same() {
     let satrak = Antenna::satrak("Dish", "192.168.10.21:4001");
     let entry = "Follow NOAA 20 position by position, from here";
-    let Some(UiCommand::Track { pass, .. }) = Some(rig::track_noaa_20()) else { unreachable!() };
-    let wanted = [UiCommand::ProgramTrackPass { antenna: 0, pass }];
+    let Some(UiCommand::Station(engine::Command::Track { pass, .. })) = Some(rig::track_noaa_20())
+    else {
+        unreachable!()
+    };
+    let wanted =
+        [UiCommand::Station(engine::Command::ProgramTrackPass { antenna: AntennaId(1), pass })];
     assert_eq!(chosen(rig::LARGE, satrak, entry), wanted);
 }

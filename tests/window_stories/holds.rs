@@ -8,7 +8,7 @@ use azel::{
     driver::{
         Command, Event, Inside, Intent, Mover, Refusal, Response, Safety, Snapshot, StopState,
     },
-    engine::alarms::AlarmKind,
+    engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     plan::{Barrier, Target},
     station::{Antenna, AntennaId, KeepOut, SunAvoidance},
@@ -48,7 +48,7 @@ fn a_jog_without_a_dead_man_is_allowed_by_holding_only() {
     window.get_by_label(UNGUARDED).click();
     assert_eq!(asked(&mut window), [], "a click is no hold");
     hold(&mut window, UNGUARDED);
-    assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::AllowUnguarded)]);
+    assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::AllowUnguarded)]);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn who_sees_an_antenna_stand_says_so_by_holding() {
             window.get_by_label(STANDS).click();
             assert_eq!(asked(&mut window), [], "a click is no hold");
             hold(&mut window, STANDS);
-            let wanted = [UiCommand::Antenna(0, Command::SeenStanding)];
+            let wanted = [UiCommand::antenna(AntennaId(1), Command::SeenStanding)];
             assert_eq!(asked(&mut window), wanted, "{why}");
         }
         let window = rig::window(size, rig::model(states::moving()));
@@ -93,7 +93,7 @@ fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
         window.get_by_label(OUT).click();
         assert_eq!(asked(&mut window), [], "a click is no hold");
         hold(&mut window, OUT);
-        assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::AllowWayOut)]);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::AllowWayOut)]);
 
         let window = rig::window(size, shows(inside(mast(), true)));
         assert!(says(&window, "By your word it may be moved out by hand for a minute"));
@@ -115,12 +115,18 @@ fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
             window
         };
         let follow = |window: &mut Window| match &asked(window)[..] {
-            [UiCommand::Antenna(0, Command::ProgramTrack(follow))] => {
-                (follow.target.clone(), false)
-            }
-            [UiCommand::Antenna(0, Command::ProgramTrackIntoSun(follow))] => {
-                (follow.target.clone(), true)
-            }
+            [
+                UiCommand::Station(engine::Command::Antenna(
+                    AntennaId(1),
+                    Command::ProgramTrack(follow),
+                )),
+            ] => (follow.target.clone(), false),
+            [
+                UiCommand::Station(engine::Command::Antenna(
+                    AntennaId(1),
+                    Command::ProgramTrackIntoSun(follow),
+                )),
+            ] => (follow.target.clone(), true),
             other => panic!("{other:?}"),
         };
         let mut window = choose_the_sun(shows(states::holding()));
@@ -155,12 +161,12 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
             let mut window = rig::window(size, model);
             window.get_by_label_contains("1 alarm").click();
             rig::settle(&mut window);
-            assert_eq!(asked(&mut window), [UiCommand::OpenedAlarms]);
+            assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::OpenedAlarms)]);
             window
         };
         let mut window = alarmed(inside(Barrier::Sun, false));
         window.get_by_label(near).click();
-        assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::MoveAway)]);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::MoveAway)]);
         let moving = Snapshot { inside: inside(Barrier::Sun, false).inside, ..states::moving() };
         for other in [moving, states::manual()] {
             assert!(alarmed(other).query_by_label(near).is_none());
@@ -208,7 +214,7 @@ fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
         window.get_by_label(UNSEEN).click();
         assert_eq!(asked(&mut window), [], "a click is no hold");
         hold(&mut window, UNSEEN);
-        let wanted = [UiCommand::Antenna(0, Command::ActUnseen(act.clone()))];
+        let wanted = [UiCommand::antenna(AntennaId(1), Command::ActUnseen(act.clone()))];
         assert_eq!(asked(&mut window), wanted);
     }
 }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use azel::{
     driver::{Command, Intent, LinkState, Snapshot},
-    engine::alarms::AlarmKind,
+    engine::{self, alarms::AlarmKind},
     model::UiCommand,
-    station::{self, LockOut},
+    station::{self, AntennaId, LockOut},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{
@@ -67,7 +67,10 @@ fn a_name_and_a_reason_are_needed_and_then_a_second() {
             assert!(is_possible(&window));
             hold(&mut window, HOLD);
             let wanted = LockOut { since: rig::now(), ..lock_out() };
-            assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::LockOut(wanted))]);
+            assert_eq!(
+                asked(&mut window),
+                [UiCommand::antenna(AntennaId(1), Command::LockOut(wanted))]
+            );
             assert!(window.query_by_label(HOLD).is_none(), "the dialog is closed");
         }
     }
@@ -88,7 +91,13 @@ fn what_ends_is_named_and_asked_about() {
         assert!(rig::says(&window, &format!("{what} Lock out Satrak all the same?")));
         press(&mut window, "Lock out (Enter)");
         let asked = asked(&mut window);
-        assert!(matches!(asked[..], [UiCommand::Antenna(0, Command::LockOut(_))]), "{asked:?}");
+        assert!(
+            matches!(
+                asked[..],
+                [UiCommand::Station(engine::Command::Antenna(AntennaId(1), Command::LockOut(_)))]
+            ),
+            "{asked:?}"
+        );
     }
 }
 
@@ -129,7 +138,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
         press(&mut window, "Take off…");
         settle(&mut window);
         hold(&mut window, TAKE_OFF);
-        assert_eq!(asked(&mut window), [UiCommand::Antenna(0, Command::Unlock)]);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::Unlock)]);
     }
 }
 

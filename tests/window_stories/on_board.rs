@@ -10,7 +10,7 @@ use azel::{
     astro::{Angle, time::add_seconds},
     device::{Place, settings::Value},
     driver::{OnBoardView, Snapshot},
-    engine::alarms::AlarmKind,
+    engine::{self, alarms::AlarmKind},
     model::{Model, UiCommand},
     orbit::{bundled, read_elements},
     plan::{
@@ -20,6 +20,7 @@ use azel::{
     protocol::satrak::encode,
     sim::satrak::BUNDLED_FILE,
     station,
+    station::AntennaId,
     ui::words,
 };
 use egui::Key;
@@ -64,7 +65,17 @@ fn a_unit_that_would_miss_is_started_by_holding_only() {
     assert!(texts(&window).iter().any(|text| text.ends_with(", The unit would miss")));
     hold(&mut window, "Hold 1 s to track anyway");
     let asked = asked(&mut window);
-    assert!(matches!(asked[..], [UiCommand::TrackAnyway { antenna: 0, .. }]), "{asked:?}");
+    assert!(
+        matches!(
+            asked[..],
+            [UiCommand::Station(engine::Command::Track {
+                antenna: AntennaId(1),
+                is_agreed: true,
+                ..
+            })]
+        ),
+        "{asked:?}"
+    );
 }
 
 #[test]

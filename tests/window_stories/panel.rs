@@ -7,7 +7,7 @@ use azel::{
     device::AxisMotion,
     driver::{Command, Intent, LinkState},
     model::{Model, UiCommand, View},
-    station::Antenna,
+    station::{Antenna, AntennaId},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -23,7 +23,7 @@ const AZIMUTH: &str = "Go to azimuth, degrees";
 const ELEVATION: &str = "Go to elevation, degrees";
 
 fn antenna(command: Command) -> UiCommand {
-    UiCommand::Antenna(0, command)
+    UiCommand::antenna(AntennaId(1), command)
 }
 
 fn type_into(window: &mut Window, field: &str, words: &str) {
@@ -304,6 +304,7 @@ fn what_was_typed_for_one_antenna_is_not_for_the_next() {
     let mut model = genius(Intent::Position);
     let second = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Position));
     model.antennas.extend(second.antennas);
+    model.antennas[1].config.id = AntennaId(2);
     let mut window = rig::window(rig::LARGE, model);
     type_into(&mut window, AZIMUTH, "121");
     window.state_mut().model.selected_antenna = 1;
@@ -329,7 +330,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             type_into(&mut window, "Query to send", "status");
             assert!(says(&window, "Asks for the status. The answer comes in the log."));
             window.key_press(Key::Enter);
-            let question = UiCommand::Antenna(0, Command::Ask("STATUS".into()));
+            let question = UiCommand::antenna(AntennaId(1), Command::Ask("STATUS".into()));
             assert_eq!(asked(&mut window), [question]);
             type_into(&mut window, "Query to send", "TPOS?");
             assert!(says(&window, "Not sent. This is no question that the unit answers"));

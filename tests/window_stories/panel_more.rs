@@ -9,6 +9,7 @@ use azel::{
     },
     driver::{Command, Intent},
     model::{Model, UiCommand},
+    station::AntennaId,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -51,7 +52,7 @@ fn sample(field: &Field) -> (&'static str, Value) {
 }
 
 fn act(action: &Action, values: Values) -> UiCommand {
-    UiCommand::Antenna(0, Command::Act(Act { action: action.key, values }))
+    UiCommand::antenna(AntennaId(1), Command::Act(Act { action: action.key, values }))
 }
 
 #[test]

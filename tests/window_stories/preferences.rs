@@ -5,6 +5,7 @@ use std::sync::Arc;
 use azel::{
     clock::Instant,
     driver::{LinkLoss, LinkState, Snapshot},
+    engine,
     model::{Model, UiCommand, View},
     station::Station,
 };
@@ -43,7 +44,7 @@ fn is_disabled(window: &Window, button: &str) -> bool {
 
 pub(crate) fn saved(commands: Vec<UiCommand>) -> Station {
     match <[UiCommand; 1]>::try_from(commands) {
-        Ok([UiCommand::SaveStation(station)]) => *station,
+        Ok([UiCommand::Station(engine::Command::SaveStation(station))]) => *station,
         other => panic!("{other:?}"),
     }
 }

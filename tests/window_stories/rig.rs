@@ -215,7 +215,13 @@ pub(crate) fn scroll(window: &mut Window, at: Pos2, points: f32) {
 /// What was asked for since the last time.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     settle(window);
-    std::mem::take(&mut window.state_mut().commands)
+    let asked = std::mem::take(&mut window.state_mut().commands);
+    for command in &asked {
+        if let UiCommand::Station(command) = command {
+            crate::common::comes_back(command);
+        }
+    }
+    asked
 }
 
 /// Whether a text (not a control) of the window contains `words`.

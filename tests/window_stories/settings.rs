@@ -5,7 +5,9 @@ use std::sync::Arc;
 use azel::{
     device::settings::{Change, GroupState, ReadFailure, Value, WriteError, WriteStep, Written},
     driver::{Command, Intent, LinkLoss, LinkState, Snapshot},
+    engine,
     model::{UiCommand, View},
+    station::AntennaId,
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -22,7 +24,10 @@ use crate::window_stories::{
 /// The only change that was asked for, and what was asked for before it.
 pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     let change = |command| match command {
-        UiCommand::Antenna(0, Command::WriteSettings(change)) => change,
+        UiCommand::Station(engine::Command::Antenna(
+            AntennaId(1),
+            Command::WriteSettings(change),
+        )) => change,
         other => panic!("{other:?}"),
     };
     commands.into_iter().map(change).collect()
@@ -66,7 +71,7 @@ fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
     }
     group(&mut snapshot, "web").failure = Some(ReadFailure::Refused("1".to_owned()));
     let mut window = desk(LARGE, snapshot);
-    let read = |key| UiCommand::Antenna(0, Command::ReadGroup(key));
+    let read = |key| UiCommand::antenna(AntennaId(1), Command::ReadGroup(key));
     assert_eq!(asked(&mut window), [read("general"), read("web")]);
     assert_eq!(asked(&mut window), []);
     assert!(says(&window, "not read: General, Web"));

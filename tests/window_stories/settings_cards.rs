@@ -4,6 +4,7 @@ use azel::{
     device::{Program, settings::Value},
     driver::Command,
     model::UiCommand,
+    station::AntennaId,
 };
 
 use crate::window_stories::{
@@ -31,7 +32,7 @@ fn automatic_tracking_is_switched_on_by_holding_and_off_at_once() {
     for size in SIZES {
         let mut window = desk(size, read());
         hold(&mut window, "Hold 1 s to switch on");
-        let asked_for = |on| UiCommand::Antenna(0, Command::AutoTrack(on));
+        let asked_for = |on| UiCommand::antenna(AntennaId(1), Command::AutoTrack(on));
         assert_eq!(asked(&mut window), [asked_for(true)]);
         for (auto, wanted) in [(Some(true), "On"), (None, "Not told")] {
             change(&mut window, 0, |snapshot| {

@@ -2,7 +2,10 @@
 
 use std::time::Duration;
 
-use azel::{clock::Instant, device::settings::Value, driver::Command, model::UiCommand};
+use azel::{
+    clock::Instant, device::settings::Value, driver::Command, engine, model::UiCommand,
+    station::AntennaId,
+};
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -63,7 +66,12 @@ fn a_change_that_is_not_heard_of_may_be_tried_again() {
             write(&mut window, "X reduction", ratio);
             apply(&mut window);
             let commands = asked(&mut window);
-            let [UiCommand::Antenna(0, Command::WriteSettings(change))] = commands.as_slice()
+            let [
+                UiCommand::Station(engine::Command::Antenna(
+                    AntennaId(1),
+                    Command::WriteSettings(change),
+                )),
+            ] = commands.as_slice()
             else {
                 panic!("{commands:?}")
             };
@@ -125,7 +133,10 @@ fn the_transmitter_is_switched_on_unlocked_and_confirmed() {
     hold(&mut window, "Hold 1 s to confirm Transmitter (SSPA) On");
     apply(&mut window);
     let commands = asked(&mut window);
-    let [UiCommand::Antenna(0, Command::WriteSettings(change))] = commands.as_slice() else {
+    let [
+        UiCommand::Station(engine::Command::Antenna(AntennaId(1), Command::WriteSettings(change))),
+    ] = commands.as_slice()
+    else {
         panic!("{commands:?}")
     };
     assert!(change.is_unlocked);

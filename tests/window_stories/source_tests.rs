@@ -2,6 +2,7 @@
 
 use azel::{
     engine::{
+        self,
         host_keys::DoubtfulKey,
         source_tests::{SourceOrder, SourceTests, TestAsk, TestStage, TestedSource},
     },
@@ -93,7 +94,7 @@ fn asked(window: &mut Window) -> Vec<TestAsk> {
     window.run_steps(4);
     let commands = std::mem::take(&mut window.state_mut().commands);
     let ask = |command| match command {
-        UiCommand::TestSource(ask) => ask,
+        UiCommand::Station(engine::Command::TestSource(ask)) => ask,
         other => panic!("{other:?}"),
     };
     commands.into_iter().map(ask).collect()

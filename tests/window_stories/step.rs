@@ -1,6 +1,6 @@
 //! Turning an axis by a set amount, and the rate of a jog.
 
-use azel::{driver::Command, model::UiCommand};
+use azel::{driver::Command, model::UiCommand, station::AntennaId};
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -12,7 +12,7 @@ use crate::window_stories::{
 const STEP: &str = "Step size, degrees";
 
 fn antenna(command: Command) -> UiCommand {
-    UiCommand::Antenna(0, command)
+    UiCommand::antenna(AntennaId(1), command)
 }
 
 /// Writes over what stands in the field.

@@ -7,7 +7,7 @@ use azel::{
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine::alarms::AlarmKind,
     model::{Model, UiCommand, View},
-    station::AntennaId,
+    station::{Antenna, AntennaId},
     ui::words,
 };
 use egui::{Key, Role};
@@ -172,7 +172,8 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let off = Snapshot::before_anything(LinkState::Off);
-        model.antennas.push(rig::antenna(makes::rc2000c(), off));
+        let second = Antenna { id: AntennaId(2), ..makes::rc2000c() };
+        model.antennas.push(rig::antenna(second, off));
         model.selected_antenna = 1;
         let mut window = rig::window(size, model);
         let stop = window.get_by_role_and_label(Role::Button, "STOP");
@@ -185,7 +186,7 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
         let about = own.accesskit_node().description().unwrap();
         assert!(about.contains("takes the panel"), "{about}");
         own.click();
-        assert_eq!(asked(&mut window), [UiCommand::StopAntenna(1)]);
+        assert_eq!(asked(&mut window), [UiCommand::StopAntenna(AntennaId(2))]);
     }
 }
 

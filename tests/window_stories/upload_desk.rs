@@ -3,6 +3,7 @@
 use azel::{
     astro::time::add_seconds,
     controller::satrak::ELEMENT_FILES,
+    engine,
     engine::uploads::{Ask, Failure, KeptEntry, Order, Stage, Uploads},
     model::{Model, ThemeName, UiCommand},
     transfer::{FileName, KeptFile, Origin, Peer, Progress, TleFile, UploadStep, Uploaded},
@@ -66,8 +67,8 @@ pub(crate) fn asked(window: &mut Window) -> Vec<Ask> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);
     let ask = |command| match command {
-        UiCommand::Upload(Ask::ListKept { .. }) => None,
-        UiCommand::Upload(ask) => Some(ask),
+        UiCommand::Station(engine::Command::Upload(Ask::ListKept { .. })) => None,
+        UiCommand::Station(engine::Command::Upload(ask)) => Some(ask),
         other => panic!("{other:?}"),
     };
     commands.into_iter().filter_map(ask).collect()

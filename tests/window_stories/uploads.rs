@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     controller::satrak::ELEMENT_FILES,
+    engine,
     engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     model::{UiCommand, View},
     transfer::{FileObject, Origin, Peer, UploadStep},
@@ -200,7 +201,10 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
     let mut window = part(WIDTHS[0], Uploads::default());
     write(&mut window, "File", FILE);
     let unit = peer().to_string();
-    let ask = UiCommand::Upload(Ask::ListKept { unit: unit.clone(), file: FILE.to_owned() });
+    let ask = UiCommand::Station(engine::Command::Upload(Ask::ListKept {
+        unit: unit.clone(),
+        file: FILE.to_owned(),
+    }));
     assert!(window.state().commands.contains(&ask));
     let of = (unit, FILE.to_owned());
     Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of: of.clone(), list: None };

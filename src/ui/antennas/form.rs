@@ -132,7 +132,7 @@ impl Form {
         }
         for group in unit.antenna.groups() {
             if !unit.is_fresh(group.key) && self.asked.1.insert(group.key) {
-                commands.push(UiCommand::Antenna(unit.index, Command::ReadGroup(group.key)));
+                commands.push(UiCommand::antenna(unit.antenna.id(), Command::ReadGroup(group.key)));
             }
         }
     }
@@ -187,7 +187,7 @@ impl Form {
         draft.begin(Sent { ticket, at: unit.model.steady, values: values.clone() });
         let is_unlocked = is_service && unit.is_unlocked;
         let change = Change { ticket, group: group.key, values, seen, is_unlocked };
-        commands.push(UiCommand::Antenna(unit.index, Command::WriteSettings(change)));
+        commands.push(UiCommand::antenna(unit.antenna.id(), Command::WriteSettings(change)));
     }
 
     /// Takes what came of the changes that were sent.

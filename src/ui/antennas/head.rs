@@ -6,6 +6,7 @@ use super::unit::Unit;
 use crate::{
     astro::time::seconds_between,
     driver::Command,
+    engine,
     model::UiCommand,
     ui::{
         format, text, theme,
@@ -26,7 +27,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let antenna = unit.index;
+    let antenna = unit.antenna.id();
     let groups = unit.antenna.groups();
     let is_read = is_read(unit);
     let mut right = rect.right() - PADDING;
@@ -39,13 +40,13 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     };
     if !groups.is_empty() {
         if button("Save copy", is_read) {
-            commands.push(UiCommand::SaveSettings { antenna });
+            commands.push(UiCommand::Station(engine::Command::SaveSettings(antenna)));
         }
         if button("Compare with file", is_read) {
-            commands.push(UiCommand::CompareSettings { antenna });
+            commands.push(UiCommand::Station(engine::Command::CompareSettings(antenna)));
         }
         if button("Read again", unit.is_open()) {
-            let read = |key| UiCommand::Antenna(antenna, Command::ReadGroup(key));
+            let read = |key| UiCommand::antenna(antenna, Command::ReadGroup(key));
             commands.extend(groups.iter().map(|group| read(group.key)));
         }
     }

@@ -80,7 +80,7 @@ pub(super) fn show(
     let is_clicked = button.show(ui, "send query", send).clicked();
     if let Some(question) = ready.filter(|_| is_clicked || is_entered) {
         let command = driver::Command::Ask(question.key.clone());
-        commands.push(UiCommand::Antenna(model.selected_antenna, command));
+        commands.extend(model.antenna().map(|of| UiCommand::antenna(of.id(), command)));
     }
 }
 

@@ -4,6 +4,7 @@ use egui::{Button, Id, Modal, RichText, Ui, vec2};
 
 use crate::{
     engine::{
+        self,
         antenna::{AntennaModel, Stake},
         closing::{CloseHow, Wanted},
     },
@@ -58,7 +59,8 @@ impl ClosingDialog {
             answer
         });
         match modal.inner {
-            Some(answer) => commands.extend(answer.map(UiCommand::CloseAfter)),
+            Some(answer) => commands
+                .extend(answer.map(|how| UiCommand::Station(engine::Command::CloseAfter(how)))),
             None if modal.should_close() => {}
             None => return,
         }
@@ -128,6 +130,6 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         ui.button("Stay").clicked()
     });
     if modal.inner || modal.should_close() {
-        commands.push(UiCommand::StayOpen);
+        commands.push(UiCommand::Station(engine::Command::StayOpen));
     }
 }

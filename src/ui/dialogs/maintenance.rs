@@ -48,7 +48,7 @@ impl MaintenanceDialog {
         commands: &mut Vec<UiCommand>,
     ) {
         let (Some(open), Some(antenna)) = (dialog.as_mut(), model.antenna()) else { return };
-        let for_antenna = |command| UiCommand::Antenna(model.selected_antenna, command);
+        let for_antenna = |command| UiCommand::antenna(antenna.id(), command);
         let lock_out = antenna.snapshot.lock_out.clone();
         let frame = Frame::popup(ui.style()).inner_margin(16);
         let modal = Modal::new(Id::unique("maintenance")).frame(frame);

@@ -6,7 +6,7 @@ use egui::{Align, Layout, RichText, TextEdit, Ui, vec2};
 
 use super::sources::named_button;
 use crate::{
-    engine::sources::Sources,
+    engine::{self, sources::Sources},
     library::check_source,
     model::UiCommand,
     orbit::{Source, SourcePlace},
@@ -91,7 +91,7 @@ pub(super) fn show(
         ui.horizontal(|ui| {
             if named_button(ui, can, "Add", "Add source") {
                 state.asked = Some(source.name.clone());
-                commands.push(UiCommand::AddSource(source));
+                commands.push(UiCommand::Station(engine::Command::AddSource(source)));
             }
             let typed = !state.name.is_empty() || !state.place.is_empty();
             if let (true, Err(problem)) = (typed, checked) {

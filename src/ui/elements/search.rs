@@ -10,7 +10,7 @@ use egui::{
 use super::{sources::named_button, words};
 use crate::{
     astro::time::seconds_between,
-    engine::CatalogState,
+    engine::{self, CatalogState},
     model::{Model, UiCommand},
     orbit::{Catalog, Elements},
     ui::{
@@ -205,7 +205,10 @@ fn row(
     let builder = UiBuilder::new().id_salt(("follow", number)).max_rect(place).layout(layout);
     ui.scope_builder(builder, |ui| {
         if named_button(ui, !settings_are_edited, word, &spoken) {
-            commands.push(UiCommand::SetFavourite { number, is_favourite: !is_favourite });
+            commands.push(UiCommand::Station(engine::Command::SetFavourite {
+                number,
+                is_favourite: !is_favourite,
+            }));
         }
     });
 }

@@ -4,6 +4,7 @@ use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
 
 use super::words;
 use crate::{
+    engine,
     model::{Model, UiCommand},
     orbit::{Source, SourcePlace, SourceReport},
     ui::{
@@ -45,7 +46,7 @@ fn one(
             *question = Some(Question {
                 text: format!("Remove the source {name}? Its elements are used no longer."),
                 yes: "Remove",
-                command: UiCommand::RemoveSource(name.clone()),
+                command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
             });
         }
         let (word, spoken) = match source.place {
@@ -55,7 +56,10 @@ fn one(
         if named_button(ui, is_free, word, &spoken) {
             let again = words::ask_again(name, report, model.now);
             let forced = again.is_some();
-            let command = UiCommand::RefreshSources { names: vec![name.clone()], forced };
+            let command = UiCommand::Station(engine::Command::RefreshSources {
+                names: vec![name.clone()],
+                forced,
+            });
             match again {
                 Some(text) => *question = Some(Question { text, yes: "Ask", command }),
                 None => commands.push(command),

@@ -5,7 +5,7 @@ use egui::{FocusDirection, Ui};
 use super::Desk;
 use crate::{
     driver::{self, Intent},
-    engine::antenna::AntennaModel,
+    engine::{self, antenna::AntennaModel},
     model::{Model, UiCommand, View},
     ui::{confirm::Question, theme},
 };
@@ -87,7 +87,8 @@ impl Act {
                 _ => desk.operate.filter_list(),
             },
             Self::Acknowledge => {
-                commands.extend(model.alarms.newest_unseen().map(UiCommand::AcknowledgeAlarm));
+                let seen = model.alarms.newest_unseen().map(engine::Command::AcknowledgeAlarm);
+                commands.extend(seen.map(UiCommand::Station));
             }
             Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),
             Self::List => *desk.list_open = true,
@@ -96,8 +97,9 @@ impl Act {
 }
 
 fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
-    let manual = UiCommand::Antenna(model.selected_antenna, driver::Command::Manual);
-    if model.antenna().is_some_and(AntennaModel::tracks) {
+    let Some(antenna) = model.antenna() else { return };
+    let manual = UiCommand::antenna(antenna.id(), driver::Command::Manual);
+    if antenna.tracks() {
         *desk.question = Some(Question {
             text: "End tracking and move by hand?".to_owned(),
             yes: "Manual",
@@ -113,7 +115,7 @@ fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
 /// nothing is running.
 fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
-    let hold = UiCommand::Antenna(model.selected_antenna, driver::Command::Hold);
+    let hold = UiCommand::antenna(antenna.id(), driver::Command::Hold);
     let intent = antenna.snapshot.intent;
     // A slip of the finger must not end on-board track either.
     if antenna.tracks() || intent == Intent::Track {

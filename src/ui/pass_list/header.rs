@@ -4,6 +4,7 @@ use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
+    engine,
     engine::passes::{SPANS_H, Scope},
     model::UiCommand,
     ui::{
@@ -77,7 +78,7 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
         for floor_deg in FLOORS_DEG {
             let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
             if ui.add(choice).clicked() && !same(&floor_deg) {
-                commands.push(UiCommand::SetElevationFloor(floor_deg));
+                commands.push(UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)));
             }
         }
     })

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, Role, Ui, WidgetInfo, vec2};
 
 use super::PassListModel;
 use crate::{
-    engine::passes::Work,
+    engine::{self, passes::Work},
     model::UiCommand,
     ui::{
         format, text, theme,
@@ -41,14 +41,22 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
             } else {
                 format!("Searched {} of {}", count(done), count(of))
             };
-            (words, t.t2, Some(("Cancel", UiCommand::CancelSearch)))
+            (
+                words,
+                t.t2,
+                Some(("Cancel", UiCommand::Station(engine::Command::CancelSearch(model.scope)))),
+            )
         }
         Work::Cancelled => {
             let words = match model.made {
                 Some((_, at)) => format!("Cancelled; list of {}", format::hours_minutes(at)),
                 None => "Cancelled".to_owned(),
             };
-            (words, t.warn, Some(("Search", UiCommand::ResumeSearch)))
+            (
+                words,
+                t.warn,
+                Some(("Search", UiCommand::Station(engine::Command::ResumeSearch(model.scope)))),
+            )
         }
     };
     let mut left = room;

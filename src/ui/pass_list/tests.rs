@@ -10,6 +10,7 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     astro::{Angle, AzEl, time::add_seconds},
+    engine,
     plan::Loss,
     ui::widgets::testing,
 };
@@ -115,11 +116,15 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
         for action in show(ui, rect, &model, &mut desk.state) {
             match action {
                 UiCommand::SelectPass(key) => desk.selected = Some(key),
-                UiCommand::SetElevationFloor(floor_deg) => desk.floor_deg = floor_deg,
+                UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)) => {
+                    desk.floor_deg = floor_deg;
+                }
                 UiCommand::SetScope(scope) => desk.scope = scope,
                 UiCommand::SetSpan(span_h) => desk.span_h = span_h,
-                UiCommand::CancelSearch => desk.work = Work::Cancelled,
-                UiCommand::ResumeSearch => desk.work = Work::UnderWay { done: 0, of: 0 },
+                UiCommand::Station(engine::Command::CancelSearch(_)) => desk.work = Work::Cancelled,
+                UiCommand::Station(engine::Command::ResumeSearch(_)) => {
+                    desk.work = Work::UnderWay { done: 0, of: 0 }
+                }
                 other => panic!("{other:?}"),
             }
             desk.actions.push(action);
@@ -186,7 +191,10 @@ fn another_floor_is_chosen_from_the_drop_down() {
     window.run();
     window.get_by_label("max ≥ 30°").click();
     window.run();
-    assert_eq!(window.state().actions, [UiCommand::SetElevationFloor(30.0)]);
+    assert_eq!(
+        window.state().actions,
+        [UiCommand::Station(engine::Command::SetElevationFloor(30.0))]
+    );
     window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 30°");
 }
 
@@ -222,7 +230,13 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     window.get_by_role_and_label(Role::Button, "Search").click();
     window.run();
     window.get_by_label("Preparing the satellites");
-    assert_eq!(window.state().actions, [UiCommand::CancelSearch, UiCommand::ResumeSearch]);
+    assert_eq!(
+        window.state().actions,
+        [
+            UiCommand::Station(engine::Command::CancelSearch(Scope::Favourites)),
+            UiCommand::Station(engine::Command::ResumeSearch(Scope::Favourites))
+        ]
+    );
 }
 
 #[test]

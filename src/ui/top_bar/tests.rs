@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    engine::alarms::Priority,
+    engine::{self, alarms::Priority},
     model::{ThemeName, View},
     ui::widgets::{
         alarm_list::{AlarmRow, AlarmState},
@@ -139,7 +139,10 @@ fn an_alarm_is_acknowledged() {
     window.run();
     window.get_by_label("Acknowledge: RC2000C does not reply").click();
     window.run();
-    let wanted = [UiCommand::OpenedAlarms, UiCommand::AcknowledgeAlarm(3)];
+    let wanted = [
+        UiCommand::Station(engine::Command::OpenedAlarms),
+        UiCommand::Station(engine::Command::AcknowledgeAlarm(3)),
+    ];
     assert_eq!(*window.state(), wanted);
 }
 

@@ -4,6 +4,7 @@ use egui::{RichText, Ui};
 
 use super::{chosen::named, form::Form, outcome};
 use crate::{
+    engine,
     engine::uploads::{Ask, Cargo, KeptEntry, Order},
     model::{Model, UiCommand},
     transfer::Origin,
@@ -34,7 +35,7 @@ pub(super) fn show(
     let kept = &model.uploads.kept;
     if kept.of != of {
         let (unit, file) = of;
-        commands.push(UiCommand::Upload(Ask::ListKept { unit, file }));
+        commands.push(UiCommand::Station(engine::Command::Upload(Ask::ListKept { unit, file })));
         return;
     }
     let t = theme::tokens(ui);
@@ -98,6 +99,10 @@ fn one(
             file.file, order.unit
         );
         let begin = Ask::Begin(Box::new(order));
-        *question = Some(Question { text, yes: "Put back", command: UiCommand::Upload(begin) });
+        *question = Some(Question {
+            text,
+            yes: "Put back",
+            command: UiCommand::Station(engine::Command::Upload(begin)),
+        });
     }
 }

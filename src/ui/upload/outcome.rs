@@ -5,6 +5,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::seconds_between,
+    engine,
     engine::uploads::{Ask, Failure, Proved, Stage, Warning},
     model::{Model, UiCommand},
     transfer::{FileObject, Uploaded},
@@ -46,7 +47,7 @@ pub(super) fn show(
             }
             warnings(ui, model);
             if ui.button("Done reading").clicked() {
-                commands.push(UiCommand::Upload(Ask::Dismiss));
+                commands.push(UiCommand::Station(engine::Command::Upload(Ask::Dismiss)));
             }
         });
     ui.add_space(4.0);
@@ -77,7 +78,7 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
     let tone = if failure.is_cancel { Tone::Caution } else { Tone::Bad };
     match (&failure.changed_key, &failure.uploaded) {
         (Some(key), _) => {
-            let forget = UiCommand::Upload(Ask::ForgetHostKey);
+            let forget = UiCommand::Station(engine::Command::Upload(Ask::ForgetHostKey));
             dialogs::changed_key(ui, key, forget, question);
         }
         (None, None) => line(ui, tone, &sentence(&failure.text)),

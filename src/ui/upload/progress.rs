@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use egui::{ProgressBar, RichText, Ui};
 
 use crate::{
+    engine,
     engine::uploads::{Ask, Stage},
     model::{Model, UiCommand},
     transfer::{Progress, UploadStep},
@@ -82,7 +83,7 @@ fn cancel(ui: &mut Ui, stage: &Stage, commands: &mut Vec<UiCommand>) {
     let can = stage.can_cancel();
     ui.horizontal_wrapped(|ui| {
         if ui.add_enabled(can, egui::Button::new("Cancel upload")).clicked() {
-            commands.push(UiCommand::Upload(Ask::Cancel));
+            commands.push(UiCommand::Station(engine::Command::Upload(Ask::Cancel)));
         }
         let words = match stage {
             Stage::Working { is_cancelled: true, .. } => "Ends as soon as the unit lets go.",

@@ -13,8 +13,9 @@ use super::{
 };
 use crate::{
     driver::Command,
-    engine::alarms::Priority,
+    engine::{self, alarms::Priority},
     model::UiCommand,
+    station::AntennaId,
     ui::{
         icons::{self, Icon},
         text::{self, Weight},
@@ -60,7 +61,7 @@ pub struct AlarmRow<'a> {
     /// Time of the alarm, formatted.
     pub time: &'a str,
     /// Index of the antenna that the alarm offers to move away from its position.
-    pub moves_away: Option<usize>,
+    pub moves_away: Option<AntennaId>,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -96,7 +97,7 @@ pub fn show(
     let response = button(ui, rect, model, one_line);
     let was_open = Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     if response.clicked() && !was_open {
-        commands.push(UiCommand::OpenedAlarms);
+        commands.push(UiCommand::Station(engine::Command::OpenedAlarms));
     }
     Popup::from_toggle_button_response(&response)
         .width(LIST_WIDTH)
@@ -240,13 +241,13 @@ fn list_row(
     if let Some(antenna) = row.moves_away {
         let apart = f32::midpoint(SMALL_HEIGHT, ROW_PADDING);
         if button(centre - apart, "Move away", "move away") {
-            commands.push(UiCommand::Antenna(antenna, Command::MoveAway));
+            commands.push(UiCommand::antenna(antenna, Command::MoveAway));
         }
         centre += apart;
     }
     if new {
         if button(centre, "Acknowledge", "acknowledge") {
-            commands.push(UiCommand::AcknowledgeAlarm(row.id));
+            commands.push(UiCommand::Station(engine::Command::AcknowledgeAlarm(row.id)));
         }
         return;
     }
@@ -318,10 +319,16 @@ mod tests {
         });
         window.get_by_label("2 alarms, 1 new").click();
         window.run();
-        assert_eq!(*window.state(), [UiCommand::OpenedAlarms]);
+        assert_eq!(*window.state(), [UiCommand::Station(engine::Command::OpenedAlarms)]);
         window.get_by_label("METEOR-M2 3 elements are 9 days old, 10:41:10Z, seen");
         window.get_by_label("Acknowledge: RC2000C does not reply").click();
         window.run();
-        assert_eq!(*window.state(), [UiCommand::OpenedAlarms, UiCommand::AcknowledgeAlarm(7)]);
+        assert_eq!(
+            *window.state(),
+            [
+                UiCommand::Station(engine::Command::OpenedAlarms),
+                UiCommand::Station(engine::Command::AcknowledgeAlarm(7))
+            ]
+        );
     }
 }

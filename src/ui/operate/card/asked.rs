@@ -4,7 +4,7 @@ use crate::{
     astro::{Angle, AzEl},
     device::panel::Act,
     driver::{Command, Intent},
-    engine::{antenna::AntennaModel, passes::PredictedPass},
+    engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
     plan::{self, ProgramTrack},
     ui::{
@@ -28,7 +28,7 @@ impl Desk<'_> {
             CardAction::Connect => Command::Connect,
             CardAction::Disconnect => return self.disconnect(),
             CardAction::Stop => {
-                return self.commands.push(UiCommand::StopAntenna(self.model.selected_antenna));
+                return self.commands.push(UiCommand::StopAntenna(self.antenna.id()));
             }
             CardAction::Act(act) => return self.act(act),
             CardAction::Select(index) => {
@@ -50,9 +50,9 @@ impl Desk<'_> {
             }
             CardAction::TrackAnyway => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
-                let antenna = self.model.selected_antenna;
-                let command = pass.map(|pass| UiCommand::TrackAnyway { antenna, pass });
-                return self.commands.extend(command);
+                let antenna = self.antenna.id();
+                let track = |pass| engine::Command::Track { antenna, pass, is_agreed: true };
+                return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             CardAction::Jog { x, y, rate_deg_s } => {
                 Command::Jog { rates_deg_s: [f64::from(x) * rate_deg_s, f64::from(y) * rate_deg_s] }
@@ -80,16 +80,16 @@ impl Desk<'_> {
     }
 
     fn for_antenna(&self, command: Command) -> UiCommand {
-        UiCommand::Antenna(self.model.selected_antenna, command)
+        UiCommand::antenna(self.antenna.id(), command)
     }
 
     fn follow(&mut self, choice: FollowChoice) {
         let target = match choice {
             FollowChoice::Selected => {
                 let pass = self.model.selected_pass().map(PredictedPass::key);
-                let antenna = self.model.selected_antenna;
-                let command = pass.map(|pass| UiCommand::ProgramTrackPass { antenna, pass });
-                return self.commands.extend(command);
+                let antenna = self.antenna.id();
+                let track = |pass| engine::Command::ProgramTrackPass { antenna, pass };
+                return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             FollowChoice::Sun | FollowChoice::IntoSun => plan::Target::Sun,
             FollowChoice::Moon => plan::Target::Moon,

@@ -52,7 +52,7 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
     let name = format!("{AUTO}, on the unit: {value}");
     row::said(ui, at.on_unit, value, text::small(), t.t2, &name);
     let place = at.new.with_max_x(at.state.right());
-    let send = |on| UiCommand::Antenna(unit.index, Command::AutoTrack(on));
+    let send = |on| UiCommand::antenna(unit.antenna.id(), Command::AutoTrack(on));
     if auto == Some(Some(true)) {
         let button = Button::normal("Switch off");
         let place = place.with_max_x(place.left() + button.width(ui));
