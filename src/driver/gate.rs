@@ -56,7 +56,7 @@ struct Situation<'a> {
 /// The checker and the controller behind it.
 pub(super) struct Gate {
     controller: Box<dyn Moves>,
-    make: &'static Variant,
+    variant: &'static Variant,
     rules: Vec<Rule>,
     limits: MotionLimits,
     mount: Mount,
@@ -83,15 +83,15 @@ pub(super) struct Gate {
 impl Gate {
     /// The gate before the controller of `antenna`.
     pub(super) fn new(controller: Box<dyn Moves>, antenna: &Antenna, bounds: Bounds) -> Self {
-        let make = antenna.connection.variant();
+        let variant = antenna.connection.variant();
         Self {
             controller,
-            make,
+            variant,
             rules: RULES.to_vec(),
             limits: antenna.limits,
             mount: bounds.mount(),
             bounds,
-            overrun_s: make.capabilities.standstill.overrun_s,
+            overrun_s: variant.capabilities.standstill.overrun_s,
             to_deg: None,
             started_from_deg: None,
             lock_out: None,
@@ -144,7 +144,7 @@ impl Gate {
 
     /// Where the axes were measured last, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
-        self.state().measured?.axes_deg(self.make.capabilities.has_elevation())
+        self.state().measured?.axes_deg(self.variant.capabilities.has_elevation())
     }
 
     /// What the antenna must keep within.
@@ -236,7 +236,7 @@ impl Gate {
         Situation {
             gate: self,
             state: self.controller.state(),
-            can: self.make.capabilities,
+            can: self.variant.capabilities,
             intent,
             stopping,
             may_move: false,
@@ -260,7 +260,7 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<&'static Action, Refusal> {
-        let action = self.make.action(act.action).ok_or(Refusal::NotOffered)?;
+        let action = self.variant.action(act.action).ok_or(Refusal::NotOffered)?;
         let situation = Situation { is_agreed, ..self.situation(intent, stopping, now) };
         self.ask_rules(|check| match check {
             Check::Act(check) => check(&act, &situation),
@@ -333,7 +333,7 @@ impl Gate {
     /// Where the elevation axis was measured, degrees; `None` without one.
     fn elevation_axis_deg(&self) -> Option<f64> {
         let is_one =
-            matches!(self.mount, Mount::AzEl { .. }) && self.make.capabilities.has_elevation();
+            matches!(self.mount, Mount::AzEl { .. }) && self.variant.capabilities.has_elevation();
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 

@@ -232,7 +232,7 @@ struct Seen {
 /// One antenna's session.
 pub struct Session {
     name: String,
-    make: &'static Variant,
+    variant: &'static Variant,
     setup: Setup,
     gate: Gate,
     dial: Dial,
@@ -289,15 +289,15 @@ impl Session {
     ) -> Self {
         let bounds = wires.bounds.borrow_and_update().clone();
         let mut gate = Gate::new(controller, antenna, bounds);
-        let make = antenna.connection.variant();
+        let variant = antenna.connection.variant();
         let (wanted, link) = first_link(antenna, clock.now().steady);
         let unit = Unit::of(antenna);
         let number = debts.begin(&unit, wires.stop_handle());
         gate.was_moved(debts.unproved_since(&unit));
-        let can = make.capabilities;
+        let can = variant.capabilities;
         Self {
             name: antenna.name.clone(),
-            make,
+            variant,
             setup: Setup {
                 park: antenna.park_direction().into(),
                 manner: Manner::of(antenna, can),
@@ -420,7 +420,7 @@ impl Session {
 
     /// Whether the antenna turns, whatever else does.
     fn turns(&self) -> bool {
-        let count = self.make.capabilities.axis_count();
+        let count = self.variant.capabilities.axis_count();
         let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
         axes.take(count).any(|axis| axis.motion != AxisMotion::Still)
     }

@@ -27,7 +27,7 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
         match command {
             UiCommand::Station(engine::Command::OpenedAlarms) => model.alarms.unopened = false,
             UiCommand::Station(engine::Command::AcknowledgeAlarm(id)) => {
-                model.alarms.acknowledge(*id)
+                model.alarms.acknowledge(*id);
             }
             other => panic!("{other:?}"),
         }

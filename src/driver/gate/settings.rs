@@ -32,7 +32,7 @@ impl Gate {
             self.controller.refuse_change(change, WriteError::LockedOut, now);
             return Err(refusal);
         }
-        let group = self.make.groups.iter().find(|group| group.key == change.group);
+        let group = self.variant.groups.iter().find(|group| group.key == change.group);
         let field = group.and_then(|group| group.moving_field(&change.values));
         let hindrance = || {
             let asked = self.situation(Intent::Standby, stopping, now);

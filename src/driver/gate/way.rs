@@ -295,7 +295,7 @@ impl Gate {
         if let Mount::AzEl { .. } = self.mount {
             travel_deg[1].0 = travel_deg[1].0.max(self.limits.minimum_elevation_deg);
         }
-        let can = self.make.capabilities;
+        let can = self.variant.capabilities;
         let rests_within_deg = can.position_step_deg + can.arrives_within_deg;
         AxisLimits::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
@@ -305,7 +305,7 @@ impl Gate {
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
         let Some(to_deg) = self.to_deg else { return reached };
-        let overrun_deg = self.make.capabilities.arrives_within_deg * 2.0;
+        let overrun_deg = self.variant.capabilities.arrives_within_deg * 2.0;
         for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(to_deg) {
             let passes =
                 (from_deg..=*reached).contains(&to_deg) || (*reached..=from_deg).contains(&to_deg);

@@ -133,7 +133,7 @@ impl Session {
                 self.go_to(Motion::Position { azimuth, elevation }, Intent::Position, now);
             }
             Command::Park => {
-                let has_elevation = self.make.capabilities.has_elevation();
+                let has_elevation = self.variant.capabilities.has_elevation();
                 let motion = Motion::Position {
                     azimuth: self.setup.park.azimuth,
                     elevation: self.setup.park.elevation.filter(|_| has_elevation),

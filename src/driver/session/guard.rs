@@ -94,7 +94,7 @@ fn copy(link: &Duplicate) -> io::Result<Duplicate> {
 impl Session {
     /// Sees to a dead-man before metal moves that only a STOP would end.
     pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
-        if self.make.capabilities.ends_jogs || self.guard.armed.is_some() {
+        if self.variant.capabilities.ends_jogs || self.guard.armed.is_some() {
             return Ok(());
         }
         let armed = self.guard.arm(now.steady);

@@ -79,7 +79,7 @@ impl Session {
     /// Away from the Sun, the shortest way that stays clear of it for its time ahead;
     /// to the park position where that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
-        let has_elevation = self.make.capabilities.has_elevation();
+        let has_elevation = self.variant.capabilities.has_elevation();
         let to = |direction: AzEl| Motion::Position {
             azimuth: Some(direction.azimuth),
             elevation: has_elevation.then_some(direction.elevation),

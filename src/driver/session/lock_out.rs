@@ -56,7 +56,7 @@ impl Session {
         self.activity = Activity::Standby;
         self.put_lock_out(lock_out, now);
         self.leave_panel();
-        if self.make.capabilities.has_program && !self.contact.link.is_open() {
+        if self.variant.capabilities.has_program && !self.contact.link.is_open() {
             self.tell_unproved();
         }
     }
@@ -64,7 +64,7 @@ impl Session {
     /// Where a question takes the panel of the unit from who works on it, nothing but
     /// STOP is said to it from now on.
     fn leave_panel(&mut self) {
-        if self.make.capabilities.waits_for_word && self.contact.wanted == Wanted::Yes {
+        if self.variant.capabilities.waits_for_word && self.contact.wanted == Wanted::Yes {
             self.contact.wanted = Wanted::ForStop;
         }
     }
@@ -75,7 +75,7 @@ impl Session {
             since: now.steady,
             is_asked: false,
             was_proved: false,
-            is_proved: !self.make.capabilities.has_program,
+            is_proved: !self.variant.capabilities.has_program,
             is_told: false,
         });
     }
@@ -99,7 +99,7 @@ impl Session {
     pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
         let Some(lock_out) = self.gate.lock_out() else { return false };
         if *command == Command::Connect {
-            let takes_panel = self.make.capabilities.waits_for_word;
+            let takes_panel = self.variant.capabilities.waits_for_word;
             if takes_panel {
                 let refusal = Refusal::PanelLockedOut { by: lock_out.by.clone() };
                 self.tell(Event::NotSent(refusal));
@@ -145,7 +145,7 @@ impl Session {
     /// asked once on each link, and not again after it was seen.
     pub(super) fn watch_lock_out(&mut self, now: Moment) {
         let Some(locking) = &mut self.locking else { return };
-        if !self.make.capabilities.has_program {
+        if !self.variant.capabilities.has_program {
             return;
         }
         if self.contact.unread {

@@ -33,7 +33,7 @@ pub(super) enum Marking {
 impl Session {
     /// Whether the mark is on the disk, or cannot be had; begins to write it.
     pub(super) fn is_marked(&mut self, now: Moment) -> bool {
-        if self.make.capabilities.ends_jogs || !self.owed.debts.has_marks() {
+        if self.variant.capabilities.ends_jogs || !self.owed.debts.has_marks() {
             return true;
         }
         match &mut self.owed.marking {
@@ -109,8 +109,8 @@ impl Session {
         let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
         let Ok(Some(since)) = spawn_blocking(move || debts.marked(&unit)).await else { return };
         let now = self.now();
-        let asks =
-            self.make.capabilities.waits_for_word || seconds_between(since, now.utc).abs() > OLD_S;
+        let asks = self.variant.capabilities.waits_for_word
+            || seconds_between(since, now.utc).abs() > OLD_S;
         self.owed.marking = Marking::Marked;
         if asks {
             self.owed.left_moving = Some(since);

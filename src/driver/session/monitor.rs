@@ -48,7 +48,7 @@ impl Session {
         let Some(axes_deg) = self.gate.axes_deg() else { return };
         let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
         // A second axis without the elevation is none of the antenna's.
-        let rates = [first, if self.make.capabilities.has_elevation() { second } else { 0.0 }];
+        let rates = [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }];
         self.seen.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
         let ahead_s = self.gate.ahead_s(now);
@@ -76,7 +76,7 @@ impl Session {
         goes_deeper: bool,
         now: Moment,
     ) {
-        let arrives_within_deg = self.make.capabilities.arrives_within_deg;
+        let arrives_within_deg = self.variant.capabilities.arrives_within_deg;
         let is_floor = here.barrier == Barrier::MinimumElevation;
         let dip_deg = if is_floor { DIP_DEG + arrives_within_deg } else { 0.0 };
         let (here_deg, there_deg) =

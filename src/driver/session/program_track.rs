@@ -294,7 +294,7 @@ impl Session {
 
     fn overrun(&self) -> Angle {
         let rate_deg_s = self.setup.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
-        Angle::from_degrees(rate_deg_s * self.make.capabilities.standstill.overrun_s)
+        Angle::from_degrees(rate_deg_s * self.variant.capabilities.standstill.overrun_s)
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {

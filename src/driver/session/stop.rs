@@ -172,7 +172,7 @@ impl Session {
         if is_pressed {
             self.tell(Event::Stopped);
             if let Proof::Flags { axis } = proof {
-                let axes = self.make.capabilities.axes;
+                let axes = self.variant.capabilities.axes;
                 let axis = axes.get(axis).copied().unwrap_or_default();
                 self.tell(Event::Safety(Safety::StoppedByFlags { axis }));
             }
@@ -212,7 +212,7 @@ impl Session {
         self.seen.looked = Some(look.received);
         if let Some((axis, turned_deg)) = self.seen.rest.take(look, is_at_rest, self.setup.figures)
         {
-            let axis = self.make.capabilities.axes.get(axis).copied().unwrap_or_default();
+            let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
             self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
         }
     }

@@ -169,7 +169,7 @@ impl Session {
         let Some(measured) = state.measured else { return };
         let tracks = match state.program {
             Some(program) => program.enabled,
-            None if self.make.capabilities.has_program => return,
+            None if self.variant.capabilities.has_program => return,
             None => false,
         };
         if !self.contact.unread || state.link_since.is_none_or(|since| measured.asked < since) {
@@ -234,7 +234,7 @@ impl Session {
             }
             return;
         }
-        let within_deg = self.make.capabilities.arrives_within_deg;
+        let within_deg = self.variant.capabilities.arrives_within_deg;
         let off = measured.pointing.separation(aim);
         let is_near = off.is_some_and(|off| off.degrees() <= within_deg);
         let event = match leg {
