@@ -23,7 +23,7 @@ use self::{effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::
 use crate::{
     clock::Clock,
     device::AxisMotion,
-    driver::TimeSync,
+    driver::{Outside, TimeSync},
     engine::{
         self, CatalogState, Client, Handle, Settings, alarms::Alarms, antenna::AntennaModel,
         passes::PassLists, signals,
@@ -59,14 +59,21 @@ pub struct App {
 }
 
 impl App {
-    /// Creates the app in a new window, on the station that `settings` name.
-    pub fn new(ctx: &egui::Context, settings: &Settings, clock: Clock) -> io::Result<Self> {
+    /// Creates the app in a new window, on the station that `settings` name. The station takes
+    /// its clock and links from `outside`; the window knows it by its handle alone.
+    pub fn new(
+        ctx: &egui::Context,
+        settings: &Settings,
+        outside: impl Into<Outside>,
+    ) -> io::Result<Self> {
+        let outside = outside.into();
+        let clock = outside.clock.clone();
         let keeper = Keeper::beside(settings.station_path().as_deref());
         ui::theme::install(ctx, keeper.memory.theme);
         let wake = wake(ctx.clone());
         let library = settings.library_path();
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
-        let station = Handle::start(settings.clone(), clock.clone(), Arc::clone(&wake))?;
+        let station = Handle::start(settings.clone(), outside, Arc::clone(&wake))?;
         let now = clock.now();
         let model = Model {
             now: now.utc,

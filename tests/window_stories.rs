@@ -13,6 +13,7 @@ mod following;
 mod fourth_make;
 mod holds;
 mod horizon;
+mod in_memory;
 mod keys;
 mod maintenance;
 mod makes;

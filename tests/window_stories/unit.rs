@@ -15,6 +15,7 @@ use azel::{
     app::App,
     clock::{Clock, Instant},
     controller::satrak::ELEMENT_FILE,
+    driver::Outside,
     engine::Settings,
     model::Model,
     orbit::{Elements, bundled},
@@ -117,7 +118,8 @@ pub(crate) fn clock_from(utc: Timestamp) -> Clock {
 }
 
 /// A window with the real app on the settings at `path`.
-pub(crate) fn open(path: &Path, clock: Clock) -> RealWindow {
+pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
+    let outside = outside.into();
     let settings = Settings {
         path: Some(path.to_owned()),
         library: Some(path.with_file_name("elements")),
@@ -126,7 +128,7 @@ pub(crate) fn open(path: &Path, clock: Clock) -> RealWindow {
     };
     Harness::builder()
         .with_size(rig::LARGE)
-        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, clock).unwrap())
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, outside).unwrap())
 }
 
 /// Frames until it is so.
