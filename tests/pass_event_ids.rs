@@ -67,8 +67,8 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
     Calendar { events: events.collect() }
 }
 
-/// Of the passes of `before` that are in `after` too: how many there are, and how many kept
-/// their identity.
+/// The number of passes of `before` that are in `after` too, and of those that kept their
+/// identity.
 fn kept(before: &Calendar, after: &Calendar) -> (usize, usize) {
     let mut by_number: BTreeMap<u32, Vec<(&Pass, &str)>> = BTreeMap::new();
     for (number, pass, id) in &after.events {

@@ -21,7 +21,7 @@ use crate::{
     plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
-/// What the passes leave out, for `--help`.
+/// The limits of the predictions, for `--help`.
 pub(super) const LEFT_OUT: &str = "All times are UTC. Directions are geometric: refraction is left \
     out, UT1 is taken as UTC, and there is no polar motion. Refraction lifts a satellite at the \
     horizon by half a degree, so that a low one comes up some 10 s before its AOS and goes down \

@@ -47,7 +47,7 @@ impl Satellite {
         rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
     }
 
-    /// What is seen of the satellite at `at`; `None` where it has come down.
+    /// The satellite as it is seen at `at`; `None` where it has come down.
     fn seen(&self, site: Site, at: Timestamp, carrier_hz: Option<f64>) -> Option<Seen> {
         let state = self.propagator.state_at(at).ok()?;
         let look = state.look_from(site, at);
@@ -124,7 +124,7 @@ pub struct PassList<'a> {
     pub now: Timestamp,
 }
 
-/// How a list is written.
+/// The form of a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum PassFormat {
     /// Columns to read
@@ -156,7 +156,7 @@ impl PassList<'_> {
         row.satellite.seen(self.site(), at, self.carrier_hz)
     }
 
-    /// Whether the sky of the site is dark enough to see a satellite in sunlight.
+    /// True where the sky of the site is dark enough to see a satellite in sunlight.
     fn is_dark(&self, at: Timestamp) -> bool {
         sun_moon::sun(self.site(), at).elevation_deg() < DARK_SUN_DEG
     }

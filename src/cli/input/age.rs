@@ -6,7 +6,7 @@ use crate::{astro::time, orbit::Elements};
 
 /// SGP4 takes orbits of a longer period for deep space.
 const DEEP_SPACE_PERIOD_S: f64 = 225.0 * 60.0;
-/// How far from their epoch elements can be relied on, days.
+/// Elements can be relied on this far from their epoch, days.
 const NEAR_EARTH_DAYS: f64 = 14.0;
 const DEEP_SPACE_DAYS: f64 = 60.0;
 

@@ -12,7 +12,7 @@ use crate::{
     station::{self, NoteReason, Station},
 };
 
-/// Where the satellites are seen from.
+/// The site, and the elevations that a pass has to reach there.
 pub(in crate::cli) struct Place {
     pub(in crate::cli) site: Site,
     /// Name of the station.
@@ -23,7 +23,7 @@ pub(in crate::cli) struct Place {
     pub(in crate::cli) floor: Angle,
 }
 
-/// How the places of settings start whose default must not be used in silence. The first antenna
+/// Settings whose default must not be used in silence, by the start of their place. The first antenna
 /// sets the elevation of AOS.
 const NEEDED: [&str; 3] =
     ["elevation_floor_deg", "antenna[0].limits.minimum_elevation_deg", "antenna[0].connection"];

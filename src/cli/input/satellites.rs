@@ -16,7 +16,7 @@ use crate::{
     plan::pass_export::Satellite,
 };
 
-/// Of one file; the whole catalogue as XML has 30 MB.
+/// Limit of one file; the whole catalogue as XML has 30 MB.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// The satellites that are asked for.
@@ -189,8 +189,8 @@ impl<'a> Asked<'a> {
         self.names.iter().any(|name| lower.contains(name))
     }
 
-    /// Whether a set that a reader names by its name, its number or not at all can be of an
-    /// object that is asked for.
+    /// True where a refused set can be of an object that is asked for. A reader names it by its
+    /// name, by its number, or not at all.
     fn concerns(&self, object: Option<&str>) -> bool {
         let is_some_missing = !self.missing.is_empty();
         let Some(object) = object.filter(|_| !self.is_everything()) else {
@@ -213,7 +213,7 @@ struct Said {
 }
 
 impl Said {
-    /// What of a file cannot be used, and the oddities of what can.
+    /// Names the sets of a file that cannot be used, and the oddities of those that can.
     fn file(&mut self, merged: &Merged, asked: &Asked<'_>) {
         let Merged { file, summary, holds_elements } = merged;
         let object =

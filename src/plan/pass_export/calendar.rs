@@ -84,7 +84,7 @@ mod tests {
             "BEGIN:VCALENDAR",
             "VERSION:2.0",
             "BEGIN:VEVENT",
-            "UID:25544-47320-12-436156@azel",
+            "UID:25544-47189-12-436156@azel",
             "DTSTAMP:20260811T000000Z",
             "DTSTART:20260812T010203Z",
             "DTEND:20260812T011200Z",

@@ -20,8 +20,6 @@ use crate::{
 const SLOT_SHARE: f64 = 0.9;
 /// A longer stay above the horizon, in revolutions, has no TCA that would stay.
 const LONGEST_PASS: f64 = 2.0;
-/// Sites this close have the same identities, degrees.
-const CELL_DEG: f64 = 1.0;
 /// Keeps the borders of cells off round coordinates.
 const CELL_OFFSET_DEG: f64 = 0.317;
 /// Nearer to a pole a metre is too much of a longitude.
@@ -47,13 +45,13 @@ pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<Str
     rows.iter().map(id).collect()
 }
 
-/// A number for the surroundings of a site: two stations have their passes in one calendar.
+/// A number for the square degree of a site: two stations have their passes in one calendar.
 fn cell(site: Site) -> u32 {
     let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
-    let part = |degrees: f64| ((degrees + CELL_OFFSET_DEG) / CELL_DEG) as u32;
+    let row = (latitude_deg + 90.0 + CELL_OFFSET_DEG) as u32;
     let is_polar = latitude_deg.abs() > POLAR_LATITUDE_DEG;
-    let longitude_deg = if is_polar { 0.0 } else { longitude_deg.rem_euclid(360.0) };
-    part(latitude_deg + 90.0) * 361 + part(longitude_deg)
+    let column = if is_polar { 0.0 } else { (longitude_deg + CELL_OFFSET_DEG).rem_euclid(360.0) };
+    row * 360 + column as u32
 }
 
 /// The slots of a satellite.
@@ -63,7 +61,7 @@ struct Slots {
     longest_pass_s: f64,
 }
 
-/// Where a pass belongs.
+/// The place of a pass among the slots.
 struct Found {
     /// `None` for what stays above the horizon.
     slot: Option<i64>,
@@ -74,7 +72,7 @@ struct Found {
 impl Slots {
     fn of(elements: &Elements) -> Self {
         let period_s = elements.period_s();
-        // What is slow rises once in a turn of the Earth.
+        // A slow satellite rises once in a turn of the Earth.
         let between_s = SLOT_SHARE * period_s.min(time::DAY_S);
         let exponent = between_s.log2().max(0.0) as u32;
         Self { exponent, longest_pass_s: LONGEST_PASS * period_s }
@@ -123,5 +121,28 @@ impl Slots {
 
     fn is_long(&self, pass: &Pass) -> bool {
         pass.duration_s() > self.longest_pass_s
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_site_measured_anew_stays_in_its_cell() {
+        let cell = |latitude_deg, longitude_deg| {
+            super::cell(Site::new(latitude_deg, longitude_deg, 0.0).unwrap())
+        };
+        for latitude_deg in [-89.0, -41.5, 0.0, 41.0] {
+            for longitude_deg in [-90.5, 0.0, 29.0, 180.0] {
+                let here = cell(latitude_deg, longitude_deg);
+                assert_eq!(here, cell(latitude_deg + 1e-4, longitude_deg));
+                assert_eq!(here, cell(latitude_deg, longitude_deg - 1e-4));
+                assert_ne!(here, cell(latitude_deg, longitude_deg - 1.1));
+                assert_ne!(here, cell(latitude_deg + 1.1, longitude_deg));
+            }
+        }
+        assert_eq!(cell(41.0, -180.0), cell(41.0, 180.0));
+        assert_eq!(cell(-90.0, 0.0), cell(-90.0, 170.0));
     }
 }

@@ -97,7 +97,7 @@ mod tests {
     use super::super::testing::{example, written, written_with};
     use crate::plan::pass_export::PassFormat;
 
-    /// Whether all of `part` stands in `whole` as it is.
+    /// True where all of `part` stands in `whole` as it is.
     fn holds(whole: &Value, part: &Value) -> bool {
         match (whole, part) {
             (Value::Object(whole), Value::Object(part)) => part

@@ -15,7 +15,7 @@ use crate::astro::{Site, time};
 
 const HEADER: [&str; 5] = ["time", "azimuth_deg", "elevation_deg", "range_km", "range_rate_km_s"];
 
-/// How look angles are written.
+/// The form of a list of look angles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum LookFormat {
     /// Columns to read
@@ -32,7 +32,7 @@ pub struct LookList<'a> {
     pub satellite: &'a Satellite,
     pub site: Site,
     pub from: Timestamp,
-    /// How many rows there are, the first at `from`.
+    /// Number of rows; the first is at `from`.
     pub count: u32,
     pub step_s: f64,
     /// Frequency whose Doppler shift is written.

@@ -2,19 +2,22 @@
 
 use std::io::{self, Write};
 
-use jiff::Timestamp;
+use jiff::{Timestamp, Unit};
 
 use super::{ExportedPass, civil, turn};
+use crate::orbit::Pass;
 
-const TIME: &str = "%H:%M:%S";
+const DATE_AND_TIME: &str = "%Y-%m-%d %H:%M:%S";
 
 pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
-    let width = |of: &dyn Fn(&ExportedPass<'_>) -> usize, least: usize| {
-        rows.iter().map(of).max().unwrap_or(0).max(least)
+    // A column is as wide as its widest entry.
+    let time_width = |time: fn(&Pass) -> Timestamp| {
+        if rows.iter().any(|row| is_of_another_day(row.pass, time(row.pass))) { 19 } else { 8 }
     };
-    let tca_width = width(&|row| later(row, row.pass.tca.time).len(), 8);
-    let los_width = width(&|row| later(row, row.pass.los.time).len(), 8);
-    let name_width = width(&|row| row.satellite.elements.name().chars().count(), 4);
+    let tca_width = time_width(|pass| pass.tca.time);
+    let los_width = time_width(|pass| pass.los.time);
+    let names = rows.iter().map(|row| row.satellite.elements.name().chars().count());
+    let name_width = names.max().unwrap_or(0).max(4);
     writeln!(
         out,
         "{:<20} {:>5}   {:<tca_width$} {:>5} {:>5}   {:<los_width$} {:>5}   {:>8}  {:>9}  {:<name_width$}  {:>7}",
@@ -27,12 +30,12 @@ pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Resu
             out,
             "{}{} {:>5.1}   {:>tca_width$} {:>5.1} {:>5.1}   {:>los_width$}{} {:>4.1}   {:>8}  {:>9}  {:<name_width$}  {:>5.1} d",
             if pass.starts_before { '<' } else { ' ' },
-            civil(aos.time, "%Y-%m-%d %H:%M:%S"),
+            civil(aos.time, DATE_AND_TIME),
             turn(aos.direction.azimuth_deg()),
-            later(row, tca.time),
+            later(pass, tca.time),
             turn(tca.direction.azimuth_deg()),
             tca.direction.elevation_deg(),
-            later(row, los.time),
+            later(pass, los.time),
             if pass.ends_after { '>' } else { ' ' },
             turn(los.direction.azimuth_deg()),
             lasts(pass.duration_s()),
@@ -45,13 +48,16 @@ pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Resu
 }
 
 /// The time, with its date where that is not the one of AOS.
-fn later(row: &ExportedPass<'_>, time: Timestamp) -> String {
-    let day = |time: Timestamp| civil(time, "%Y-%m-%d");
-    if day(time) == day(row.pass.aos.time) {
-        civil(time, TIME)
-    } else {
-        format!("{} {}", day(time), civil(time, TIME))
-    }
+fn later(pass: &Pass, time: Timestamp) -> String {
+    civil(time, if is_of_another_day(pass, time) { DATE_AND_TIME } else { "%H:%M:%S" })
+}
+
+fn is_of_another_day(pass: &Pass, time: Timestamp) -> bool {
+    let day = |time: Timestamp| {
+        let shown = time.round(Unit::Second).unwrap_or(time);
+        shown.as_second().div_euclid(86_400)
+    };
+    day(time) != day(pass.aos.time)
 }
 
 fn lasts(seconds: f64) -> String {
