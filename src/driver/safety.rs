@@ -112,7 +112,7 @@ pub enum Mover {
     Azel,
     /// The unit's own program.
     Program,
-    /// Nobody that is known here: the panel, another client, a overrun.
+    /// Nobody that is known here: the panel, another client, an overrun.
     Somebody,
 }
 

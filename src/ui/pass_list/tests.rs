@@ -233,8 +233,8 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     assert_eq!(
         window.state().actions,
         [
-            UiCommand::Station(engine::Command::CancelSearch(Scope::Favourites)),
-            UiCommand::Station(engine::Command::ResumeSearch(Scope::Favourites))
+            UiCommand::Station(engine::Command::CancelSearch(Scope::All)),
+            UiCommand::Station(engine::Command::ResumeSearch(Scope::All))
         ]
     );
 }
