@@ -213,6 +213,7 @@ mod tests {
 
     /// A sink that takes nothing until it is told to, and then everything.
     struct Sink {
+        reached: SyncSender<()>,
         opened: Receiver<()>,
         is_open: bool,
         text: Arc<Mutex<String>>,
@@ -221,6 +222,7 @@ mod tests {
     impl Write for Sink {
         fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
             if !self.is_open {
+                self.reached.send(()).unwrap();
                 self.is_open = self.opened.recv().is_ok();
             }
             self.text.lock().unwrap().push_str(std::str::from_utf8(bytes).unwrap());
@@ -232,16 +234,19 @@ mod tests {
         }
     }
 
-    fn blocked() -> (Lines, SyncSender<()>, Arc<Mutex<String>>) {
+    /// A log, what its sink signals when it is first written to, what opens that sink, and
+    /// what it then took.
+    fn blocked() -> (Lines, Receiver<()>, SyncSender<()>, Arc<Mutex<String>>) {
+        let (reach, reached) = sync_channel(1);
         let (open, opened) = sync_channel(1);
         let text = Arc::default();
-        let sink = Sink { opened, is_open: false, text: Arc::clone(&text) };
-        (Lines::to(sink, of_dropped_in_log).unwrap(), open, text)
+        let sink = Sink { reached: reach, opened, is_open: false, text: Arc::clone(&text) };
+        (Lines::to(sink, of_dropped_in_log).unwrap(), reached, open, text)
     }
 
     #[test]
     fn a_sink_that_takes_nothing_holds_up_nobody() {
-        let (log, _open, text) = blocked();
+        let (log, _reached, _open, text) = blocked();
         let start = Instant::now();
         for _ in 0..100 {
             log.say(&"x".repeat(MAX_BYTES / 10));
@@ -255,7 +260,10 @@ mod tests {
 
     #[test]
     fn the_number_of_dropped_lines_stands_where_they_would_have_stood() {
-        let (log, open, text) = blocked();
+        let (log, reached, open, text) = blocked();
+        log.say("first");
+        // The thread would otherwise look again in the middle of what follows.
+        reached.recv().unwrap();
         for number in 0..20 {
             log.say(&format!("{number} {}", "x".repeat(MAX_BYTES / 10)));
         }
@@ -266,7 +274,7 @@ mod tests {
         let text = text.lock().unwrap();
         let starts: Vec<&str> =
             text.lines().map(|line| line.split(" x").next().unwrap_or(line)).collect();
-        let [kept @ .., notice, last] = &starts[..] else { panic!("{starts:?}") };
+        let ["first", kept @ .., notice, last] = &starts[..] else { panic!("{starts:?}") };
         let dropped = 20 - kept.len();
         assert!(dropped > 0);
         assert_eq!(*kept, (0..kept.len()).map(|number| number.to_string()).collect::<Vec<_>>());
@@ -276,7 +284,7 @@ mod tests {
 
     #[test]
     fn what_is_said_last_is_written_before_the_end() {
-        let (log, open, text) = blocked();
+        let (log, _reached, open, text) = blocked();
         open.send(()).unwrap();
         log.say("The window could not be opened.");
         log.finish_within(Duration::from_secs(20));
