@@ -1,8 +1,8 @@
-//! What any controller is to the rest of the program: what it can do, what it
-//! tells, what it can be told, whatever its make.
+//! The interface between a controller of any make and the rest of the program: its state,
+//! its settings and its commands.
 //!
-//! Invariant: a [`Moves`] can make metal move, so only the driver's gate holds
-//! one; everyone else sees its [`Device`] side.
+//! Invariant: a [`Moves`] can start motion, so only the driver's gate holds one; everyone
+//! else sees its [`Device`] side.
 
 mod capabilities;
 mod element_files;
@@ -34,15 +34,15 @@ use crate::{
 use panel::{Act, Lead};
 use settings::{Change, WriteError};
 
-/// A reply that has not come after this long is missing while metal moves.
+/// While the antenna moves, a reply counts as missing after this time.
 pub const PROMPT: Duration = Duration::from_millis(600);
-/// Without a reply for so long the link of a make that says nothing else is lost.
+/// Default of [`Device::patience`].
 const PATIENCE: Duration = Duration::from_secs(5);
-/// A controller asks for the position twice a second at least: a motion by hand needs one
-/// younger than a second.
+/// Default of [`Device::poll_period`]. A controller asks for the position at least twice a
+/// second, because motion by hand needs one younger than a second.
 const LONGEST_POLL_PERIOD: Duration = Duration::from_millis(500);
 
-/// What makes metal move.
+/// A motion that a controller can be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Motion {
     /// Both axes turn at these rates until stopped; degrees a second.
@@ -59,8 +59,8 @@ pub enum Motion {
         /// Second axis, signed.
         y_deg: f64,
     },
-    /// To a direction; `None` leaves that axis where it stands, by its own angle and not by
-    /// the direction: over the zenith the two differ.
+    /// To a direction. `None` leaves that axis at its present angle, not at its present
+    /// direction: over the zenith the two differ.
     Position {
         /// Azimuth. On a mount whose azimuth axis turns by more than a turn it is
         /// the position of that axis: 370 is not 10.
@@ -69,13 +69,13 @@ pub enum Motion {
         /// the position of that axis: 120 points up 60 degrees on the other side.
         elevation: Option<Angle>,
     },
-    /// The controller follows the target it holds.
+    /// The unit starts to track the target it holds.
     StartProgram,
-    /// The controller starts to follow by itself whenever its target is due.
+    /// The unit starts to track by itself whenever its target is due.
     EnableAuto,
 }
 
-/// A request to move, as its outcome is told.
+/// A request to move; events report its outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Asked {
     /// By [`Moves::start`].
@@ -90,87 +90,83 @@ impl From<Motion> for Asked {
     }
 }
 
-/// What an antenna shall follow, as far as a controller that tracks by itself
-/// needs to know.
+/// A target for on-board track.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackTarget {
     /// Up to nine digits.
     pub catalog_number: u32,
-    /// As in the elements.
+    /// Name as in the elements.
     pub name: String,
-    /// When to start.
     pub from: Timestamp,
-    /// When to end.
     pub until: Timestamp,
 }
 
-/// What the operator may ask a device by hand; it changes nothing.
+/// A question that the operator may ask a unit by hand. It changes nothing.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Question {
-    /// As it is typed, in capitals, such as `STATUS?`.
+    /// As typed, in capitals, such as `STATUS?`.
     pub key: SmolStr,
-    /// What it asks, in a sentence without a full stop.
+    /// Subject of the question, as a sentence without a full stop.
     pub about: Cow<'static, str>,
-    /// As it goes over the link.
+    /// Bytes that go over the link.
     pub bytes: Box<[u8]>,
 }
 
-/// How much a halt ends.
+/// Scope of a halt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// What moves now.
+    /// Present motion only.
     Motion,
-    /// What moves now or may begin to, whatever is known of it.
+    /// Present motion and anything that may start, whatever the known state.
     Everything,
 }
 
-/// What came of something that was asked of the device.
+/// Outcome of a request to a unit.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ControllerEvent {
-    /// The target was sent and read back: the device holds it.
+    /// The target was sent and read back: the unit holds it.
     Prepared(TrackTarget),
-    /// The target is not on the device.
+    /// The unit does not hold the target.
     NotPrepared(TrackTarget, PrepareError),
-    /// The device took the command; whether it moves is seen in its state.
+    /// The unit accepted the command; its state shows whether it moves.
     Accepted(Asked),
-    /// The device said no. Its code stands as it came.
+    /// The unit refused the command, with this code as received.
     Refused(Asked, String),
-    /// No answer came. It is not sent again; the state will tell.
+    /// No answer came. The command is not sent again; the state shows what happened.
     Unanswered(Asked),
-    /// The device said no to a halt. Its code stands as it came.
+    /// The unit refused a halt, with this code as received.
     HaltRefused(String),
-    /// The device said no to switching auto-track off, or did not answer.
+    /// The unit refused to switch auto-track off, or did not answer.
     AutoStaysOn,
 }
 
-/// Why the device does not hold the target.
+/// Why the unit does not hold the target.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PrepareError {
-    /// A name, file or time cannot be carried by the protocol.
+    /// The protocol cannot carry a name, file or time.
     #[error("cannot be sent: {0}")]
     CannotBeSent(String),
-    /// The device said no. Its code stands as it came.
     #[error("refused with {code}")]
     Refused {
-        /// As it came.
+        /// The code as received.
         code: String,
     },
     /// No answer to a setting.
     #[error("no answer")]
     Unanswered,
-    /// The read-back shows something else.
+    /// The read-back differs from the target.
     #[error("holds {held}")]
     Differs {
-        /// What the device holds now.
+        /// Held by the unit now.
         held: String,
     },
-    /// The device has no elements of it.
+    /// The unit has no elements of the satellite.
     #[error("no elements in {file}")]
     NotOnDevice {
         /// The element file that was searched.
         file: String,
     },
-    /// Neither the device nor the settings name an element file.
+    /// Neither the unit nor the settings name an element file.
     #[error("no element file is named")]
     NoElementFile,
     /// A halt came in between.
@@ -178,150 +174,148 @@ pub enum PrepareError {
     Stopped,
 }
 
-/// A controller as everyone may use it: nothing here starts a motion, or decides
-/// where one leads. A method with a default belongs to something that not every make has,
-/// or tells the usual figure.
+/// The side of a controller that everyone may use: nothing here starts a motion or decides
+/// where one leads. A method with a default is for a feature that not every make has, or
+/// returns the usual figure.
 ///
-/// A question for the position that is not answered is asked again. A position counts as
-/// asked when the first question went out that was not answered, and the reply to a halt
-/// is none, whatever stands in it.
+/// A position question that is not answered is asked again. The position then counts as
+/// asked for when the first unanswered question went out. The reply to a halt is never
+/// taken as a position, whatever it holds.
 pub trait Device: Send {
-    /// The link has come up: forget what was outstanding, a halt too, and ask everything anew.
+    /// The link has come up: forget all outstanding requests, halts included, and ask
+    /// everything anew.
     fn link_up(&mut self, now: Moment);
 
-    /// The link is gone: nothing that was asked will be answered. What is not forgotten
-    /// here is when the link comes up.
+    /// The link is gone: no outstanding request will be answered. Requests that are kept
+    /// here are forgotten in [`Self::link_up`].
     fn link_down(&mut self, _now: Moment) {}
 
-    /// Bytes that were written, for [`Self::next_wire_line`].
+    /// Bytes were written: notes them for [`Self::next_wire_line`].
     fn sent(&mut self, _bytes: &[u8], _now: Moment) {}
 
-    /// What went over the link and was not taken yet, oldest first.
+    /// Takes the oldest line of the link that was not taken yet.
     fn next_wire_line(&mut self) -> Option<WireLine> {
         None
     }
 
-    /// Takes bytes that came in. Any bytes are harmless.
+    /// Takes received bytes. Any bytes are harmless.
     fn receive(&mut self, bytes: &[u8], now: Moment);
 
-    /// The bytes to send now, if something is due.
+    /// Returns the bytes to send now, if something is due.
     fn poll(&mut self, now: Moment) -> Option<Vec<u8>>;
 
-    /// When [`Self::poll`] is to be called next at the latest.
+    /// The latest time for the next call of [`Self::poll`].
     fn due(&self, now: Moment) -> Instant;
 
-    /// The bytes that stop all motion and end the device's own program. To be
-    /// written at once, before and despite anything else; motions that wait are
-    /// dropped. With [`Extent::Motion`] a program that is known to be off is
-    /// left alone.
+    /// Returns the bytes that stop all motion and end on-board track, and drops motions
+    /// that wait. The caller writes them at once, before and despite anything else. With
+    /// [`Extent::Motion`], an on-board track that is known to be off is left alone.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
-    /// The operator has pressed STOP, whatever else was halted before: nothing of
-    /// what was allowed for a while is allowed any more.
+    /// The operator has pressed STOP, whatever was halted before: ends every permission
+    /// that was given for a limited time.
     fn disarm(&mut self) {}
 
-    /// After this long a halt that is not proved is sent again: by then a state
-    /// that was asked for after it has come in.
+    /// Time after which an unproved halt is sent again. By then a state that was requested
+    /// after the halt has come in.
     fn halt_patience(&self) -> Duration {
         Duration::from_secs(1)
     }
 
-    /// Asks for the position without waiting for its turn, where [`Self::poll_period`] can be
-    /// long.
+    /// Asks for the position at once. For makes whose [`Self::poll_period`] can be long.
     fn look(&mut self, _now: Moment) {}
 
-    /// While `is_watched`, metal moves on this program's word: a position that is not
-    /// told within [`Self::prompt`] is asked for again at once, and a reply that takes
-    /// longer holds up no question for the position. It has no default: the silence of the
-    /// unit is judged by the second question.
+    /// While `is_watched`, this program has the antenna moving: a position that does not
+    /// arrive within [`Self::prompt`] is asked for again at once, and a slower reply holds
+    /// up no position question. There is no default, because the second question decides
+    /// whether the unit counts as silent.
     fn watch_closely(&mut self, is_watched: bool);
 
-    /// How long a reply takes at most while all is well.
+    /// Longest time that a reply takes in normal operation.
     fn prompt(&self) -> Duration {
         PROMPT
     }
 
-    /// Reads the group with this key anew. It is then among
-    /// [`AntennaState::held`]. Without [`Variant::groups`] it is never asked, nor are the
-    /// other methods about settings.
+    /// Reads the group with this key anew; the result appears in [`AntennaState::held`].
+    /// Without [`Variant::groups`], neither this method nor the others about settings are
+    /// called.
     fn read_group(&mut self, _group: &str) {}
 
-    /// A change that is not sent: the reason stands in [`AntennaState::held`].
+    /// Records a change that is not sent, with the reason, in [`AntennaState::held`].
     fn refuse_change(&mut self, _change: Change, _why: WriteError, _now: Moment) {}
 
-    /// While they are locked, changes of settings that wait end with
-    /// [`LockedOut`](settings::WriteError::LockedOut). The gate lets no new one by.
+    /// Locks or unlocks the settings. While they are locked, changes that wait end with
+    /// [`LockedOut`](settings::WriteError::LockedOut), and the gate passes no new one.
     fn lock_changes(&mut self, _are_locked: bool) {}
 
-    /// Asks this one of [`AntennaState::questions`], by its key, between its own. What is
-    /// none of them is dropped.
+    /// Asks one of [`AntennaState::questions`], by its key, between the controller's own
+    /// questions. An unknown key is ignored.
     fn ask(&mut self, _question: &str) {}
 
-    /// The device no longer starts to follow by itself.
+    /// Switches auto-track off: the unit no longer starts to track by itself.
     fn disable_auto(&mut self) {}
 
-    /// A motion is queued, or sent and not answered. It has no default: one that is not told
-    /// would be taken for none, and the next would be sent into it.
+    /// Returns `true` while a motion is queued, or sent and not answered. There is no
+    /// default: a wrong `false` would let the next motion be sent into this one.
     fn motion_under_way(&self) -> bool;
 
-    /// What `motion` becomes in the words of the device, such as whole degrees.
+    /// The motion as the unit takes it, such as rounded to whole degrees.
     fn as_told(&self, motion: Motion) -> Motion {
         motion
     }
 
-    /// What is known.
+    /// The state as last known.
     fn state(&self) -> &AntennaState;
 
-    /// What came of earlier requests, oldest first. It has no default: a motion that was
-    /// refused or not answered is told by it alone.
+    /// Takes the oldest outcome of earlier requests. There is no default: refused and
+    /// unanswered motions are reported only here.
     fn next_event(&mut self) -> Option<ControllerEvent>;
 
-    /// Without any good reply for this long, the link counts as lost.
+    /// Time without a good reply after which the link counts as lost.
     fn patience(&self) -> Duration {
         PATIENCE
     }
 
-    /// The time between two questions at present: how far ahead of the last position a jog is
-    /// judged, and when a link counts as stale.
+    /// Present time between two questions. It sets how far ahead of the last position a jog
+    /// is judged, and when a link counts as stale.
     fn poll_period(&self) -> Duration {
         LONGEST_POLL_PERIOD
     }
 }
 
-/// The side of a controller that moves metal or decides where it goes. Only the gate holds it.
+/// The side of a controller that can move the antenna or decide where it goes. Only the
+/// gate holds it.
 pub trait Moves: Device {
-    /// Why `asked` must not be started or go on, where that is special to this
-    /// device. The gate asks it after its own rules, and again while a jog runs.
+    /// A reason of this make not to start `asked` or let it go on. The gate calls it after
+    /// its own rules, and again while a jog runs.
     fn objection(&self, _asked: &Asked, _now: Moment) -> Option<&'static str> {
         None
     }
 
-    /// Where an action leads the axes. Of a make that does not say, the operator answers
-    /// for it.
+    /// Where an action leads the axes. By default the operator answers for it.
     fn lead_of(&self, _act: &Act) -> Lead {
         Lead::Unseen("its make does not tell where it leads")
     }
 
-    /// Puts a target on the device without moving it. The outcome comes as a
-    /// [`ControllerEvent`]. Without [`Capabilities::has_program`] it is never asked.
+    /// Puts a target on the unit without moving the antenna. The outcome is a
+    /// [`ControllerEvent`]. Not called without [`Capabilities::has_program`].
     fn prepare(&mut self, _target: TrackTarget) {}
 
-    /// Puts new values of a group on the device and reads them back. How far it
-    /// is, and what came of it, stands in [`AntennaState::held`].
+    /// Writes new values of a group to the unit and reads them back. Progress and outcome
+    /// appear in [`AntennaState::held`].
     fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
-    /// Queues a motion. It is sent once, and not at all when a halt comes first. The link
-    /// may be gone: then the motion is refused, or forgotten when the link comes up. The
-    /// gate lets nothing by that [`Variant::capabilities`] exclude; what comes all the same
-    /// is refused by a [`ControllerEvent`].
+    /// Queues a motion. It is sent once, or not at all when a halt comes first. Without a
+    /// link it is refused, or forgotten when the link comes up. The gate passes no motion
+    /// that [`Variant::capabilities`] exclude; one that comes anyway is refused with a
+    /// [`ControllerEvent`].
     fn start(&mut self, motion: Motion);
 
-    /// Queues what only this make can do. A controller without
-    /// [`Variant::actions`] is never asked.
+    /// Queues an action that only this make has. Not called without [`Variant::actions`].
     fn act(&mut self, _act: Act) {}
 }
 
-/// What a motion aims at: an angle that is left as it is stays as measured.
+/// The direction that a motion aims at. An angle that is `None` stays as measured.
 pub fn aimed(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,

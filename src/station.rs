@@ -1,5 +1,5 @@
-//! The station: its site, its antennas and what the operator follows. Kept in
-//! one TOML file that forgives what it can and never loses what it cannot read.
+//! The station: its site, antennas, favourites and keep-outs, in one TOML file. Reading
+//! forgives what it can and never loses what it cannot read.
 
 mod antenna;
 mod calibration;
@@ -33,29 +33,27 @@ use serde::{Serialize, Serializer};
 
 use crate::astro::{Angle, HorizonMask, Site};
 
-/// Where the operator works and with what.
+/// Site, antennas and settings of a ground station.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Station {
     /// Shown in the top bar.
     pub name: String,
-    /// Where it stands.
     pub site: Site,
-    /// What blocks the sky of the site; `None` where nothing does. In the file
-    /// it is a text that [`HorizonMask::parse`] reads: one point a line.
+    /// Horizon mask; `None` where nothing blocks the sky. In the file it is a text that
+    /// [`HorizonMask::parse`] reads: one point a line.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "mask_as_text")]
     pub horizon_mask: Option<HorizonMask>,
     /// The elevation floor of the pass list, degrees 0 to 89.
     pub elevation_floor_deg: f64,
     /// Catalog numbers of the satellites in the pass list.
     pub favourites: Vec<u32>,
-    /// What becomes of the antennas when the program ends; `None` where the
-    /// operator is asked.
+    /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
     pub on_close: Option<OnClose>,
-    /// Where antennas must not point.
+    /// Zones into which antennas must not point.
     #[serde(rename = "keep_out", skip_serializing_if = "Vec::is_empty")]
     pub keep_outs: Vec<KeepOut>,
-    /// How far antennas stay away from the Sun; `None` where they need not.
+    /// `None` where antennas need not stay away from the Sun.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sun_avoidance: Option<SunAvoidance>,
     /// The antennas, in the order of their chips.
@@ -70,13 +68,12 @@ fn mask_as_text<S: Serializer>(mask: &Option<HorizonMask>, out: S) -> Result<S::
 }
 
 impl Station {
-    /// The elevation floor as an angle.
     pub fn elevation_floor(&self) -> Angle {
         Angle::from_degrees(self.elevation_floor_deg)
     }
 }
 
-/// Istanbul, without antennas.
+/// A station in Istanbul, without antennas.
 impl Default for Station {
     fn default() -> Self {
         Self {

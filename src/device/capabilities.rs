@@ -1,101 +1,97 @@
-//! What a controller can do, as far as the rest of the program has to know.
+//! Capabilities of a controller that the rest of the program needs to know.
 
-/// What a controller can do.
+/// Capabilities of a controller, with the settings of its connection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Capabilities {
-    /// Names of the two axes that are jogged; empty for one that is absent.
+    /// Names of the two jogged axes; empty for an absent one.
     pub axes: [&'static str; 2],
-    /// It follows a satellite by itself, from the elements that it holds.
+    /// The unit can track a satellite from elements that it holds (on-board track).
     pub has_program: bool,
-    /// It takes directions; without it there is no go-to, no park and no
-    /// tracking by this program.
+    /// The unit takes directions. Without this there is no go-to, no park and no program
+    /// track.
     pub takes_positions: bool,
-    /// A direction that is off by this much counts as reached, degrees.
+    /// A direction that is off by this many degrees or less counts as reached.
     pub arrives_within_deg: f64,
-    /// Positions are told to it, and by it, in whole numbers of this many degrees;
-    /// 0 for any.
+    /// The unit takes and reports positions in multiples of this many degrees; 0 for any.
     pub position_step_deg: f64,
-    /// What its second axis turns.
     pub second_axis: SecondAxis,
-    /// How fast it jogs.
     pub jog: JogSpeeds,
-    /// One axis at a time is jogged.
+    /// Only one axis at a time is jogged.
     pub jogs_one_axis: bool,
-    /// It takes single steps.
+    /// The unit can turn by single steps.
     pub steps: bool,
-    /// A jog ends in the device by itself, so that an axis whose angle is not
-    /// known may be jogged all the same.
+    /// The unit ends a jog by itself, so an axis whose angle is not known may be jogged
+    /// too.
     pub ends_jogs: bool,
-    /// Whatever is asked of it may take its panel from somebody who stands in
-    /// front of it. It is left alone until the operator connects to it.
+    /// Any question may take the panel away from somebody who stands in front of the unit,
+    /// so it is left alone until the operator connects to it.
     pub waits_for_word: bool,
-    /// How standstill is told from its slowest motion.
     pub standstill: Standstill,
-    /// What STOP does beyond stopping this antenna, in a sentence.
+    /// A further effect of STOP, beyond stopping this antenna, as a sentence.
     pub stop_note: Option<&'static str>,
 }
 
-/// What the second axis of a unit turns.
+/// The second axis of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SecondAxis {
-    /// With the first one it turns both angles of the sky.
+    /// Elevation: together the two axes turn both angles of the sky.
     Elevation,
-    /// Something else than the antenna, named as in the middle of a sentence. The mount
-    /// knows nothing of it; the elevation is neither read nor commanded.
+    /// Something other than the antenna, named as in the middle of a sentence. The mount
+    /// ignores it; the elevation is neither read nor commanded.
     Other(&'static str),
-    /// There is none: the elevation is neither read nor commanded.
+    /// No second axis: the elevation is neither read nor commanded.
     Absent,
 }
 
 impl Capabilities {
-    /// It turns both angles of the sky.
+    /// Returns `true` if the axes turn both angles of the sky.
     pub fn has_elevation(self) -> bool {
         self.second_axis == SecondAxis::Elevation
     }
 
-    /// How many axes point the antenna.
+    /// Number of axes that point the antenna.
     pub fn axis_count(self) -> usize {
         if self.has_elevation() { 2 } else { 1 }
     }
 }
 
-/// How standstill is told from the slowest motion of a unit: by two looks that lie as far
-/// apart as its slowest motion needs to show, `1.5 * resolution_deg / slowest_deg_s`
-/// seconds. STOP is told as unproved after 3 s, or 1 s more than that time where this is
-/// longer: figures that keep it below 2 s are told in time.
+/// How to tell standstill from the slowest motion: by two positions that lie far enough
+/// apart in time for that motion to show, `1.5 * resolution_deg / slowest_deg_s` seconds.
+/// STOP is reported as unproved after 3 s, or after that time plus 1 s where this is
+/// longer; figures that keep that time below 2 s are reported in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Standstill {
-    /// Angles are told in steps of this, degrees.
+    /// Step of the reported angles, degrees.
     pub resolution_deg: f64,
-    /// Slowest rate at which a motion of its own runs on, degrees a second.
+    /// Slowest rate at which a motion of the unit runs on, degrees a second.
     pub slowest_deg_s: f64,
-    /// For how long an axis usually runs on at its rate after a STOP, seconds: half
-    /// of the time in which it slows down.
+    /// Usual overrun after STOP, in seconds at the rate of the axis: half of the time in
+    /// which the axis slows down.
     pub overrun_s: f64,
 }
 
-/// How fast a controller jogs.
+/// Jog speeds of a controller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JogSpeeds {
-    /// At any rate up to the highest that is allowed.
+    /// Any rate up to the highest that is allowed.
     AnyRate,
-    /// At one of these, the slowest first.
+    /// Only these, the slowest first.
     Named(&'static [JogSpeed]),
 }
 
-/// A speed without a figure that the device would know.
+/// A named speed; the unit knows no figure for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JogSpeed {
-    /// As on the front panel.
+    /// Name as on the front panel.
     pub name: &'static str,
-    /// As a share of the highest allowed rate. It is what tells the speeds of one
-    /// controller apart, not a promise.
+    /// Share of the highest allowed rate. It tells the speeds of one controller apart and
+    /// promises no rate.
     pub share: f64,
 }
 
 impl JogSpeeds {
-    /// The named speed that is meant by a rate, of which the highest is
-    /// `maximum_rate_deg_s`; `None` where any rate is possible.
+    /// The named speed nearest to a rate, where the highest rate is `maximum_rate_deg_s`;
+    /// `None` where any rate is possible.
     pub fn nearest(self, rate_deg_s: f64, maximum_rate_deg_s: f64) -> Option<JogSpeed> {
         let Self::Named(speeds) = self else { return None };
         let share = rate_deg_s.abs() / maximum_rate_deg_s;

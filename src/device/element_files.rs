@@ -1,42 +1,42 @@
-//! How a unit is given files of elements.
+//! Element files that a unit takes.
 
 use super::settings::{Key, Values};
 
-/// How every unit of a make takes files of elements over SFTP, and is told which
+/// How all units of a make take element files over SFTP, and how they are told which
 /// satellite of which file to use.
 #[derive(Debug)]
 pub struct ElementFiles {
-    /// Where it looks for them.
+    /// Folder in which the unit looks for the files.
     pub folder: &'static str,
-    /// The user that it has from its maker.
+    /// User name set by the maker.
     pub factory_user: &'static str,
-    /// SHA-256 in hexadecimal digits of the password that it has from its maker, after the
-    /// user and a colon. Whoever has its document knows it, so its use is worth a warning.
+    /// SHA-256, in hexadecimal digits, of `user:password` as set by the maker. Anyone with
+    /// the unit's document knows the password, so its use is worth a warning.
     pub factory_digest: &'static str,
-    /// Why the unit cannot be told a name of a file or of a satellite. The first argument
-    /// says which of both it is.
+    /// Checks a file or satellite name and says why the unit cannot take it. The first
+    /// argument says which of the two it is.
     pub check_name: fn(&'static str, &str) -> Result<(), String>,
-    /// Key of the setting of its connection that names the file it uses.
+    /// Key of the connection setting that names the file in use.
     pub setting: &'static str,
-    /// Key of the group of settings that chooses file and satellite.
+    /// Key of the settings group that chooses file and satellite.
     pub group: &'static str,
-    /// The values of that group for a file and the name of a satellite in it; the present
-    /// track ends.
+    /// Values of that group for a file and the name of a satellite in it. Writing them ends
+    /// the present track.
     pub choose: fn(&str, &str) -> Values,
-    /// The value of that group that holds the catalog number of what it found.
+    /// Value of that group with the catalog number that the unit found.
     pub number: Key<i64>,
-    /// Names of the checks that are bad where it does not find the satellite.
+    /// Names of the checks that are bad when the unit does not find the satellite.
     pub checks: &'static [&'static str],
 }
 
 impl ElementFiles {
-    /// The catalog number of what it found in its file.
+    /// The catalog number that the unit found in its file.
     pub fn found(&self, values: &Values) -> Option<i64> {
         self.number.of(values)
     }
 }
 
-/// There is one of each make.
+/// Compares by address: each make has one of these.
 impl PartialEq for ElementFiles {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self, other)

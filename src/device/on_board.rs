@@ -1,71 +1,67 @@
-//! What a device that tracks by itself tells of how it does so.
+//! What a unit reports about its on-board track.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-/// What a device that tracks by itself goes by, each part as last read. `None`
-/// means not read, or not told.
+/// On-board track of a unit, each part as last read. `None` means not read, or not
+/// reported.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct OnBoard {
-    /// Where it takes itself to stand.
+    /// Location that the unit uses.
     pub place: Option<Place>,
-    /// Its clock.
     pub clock: Option<UnitClock>,
-    /// What it adds to the path that it computes.
+    /// Offsets that the unit adds to the path it computes.
     pub offsets: Option<Offsets>,
-    /// The satellite that it holds.
     pub satellite: Option<HeldSatellite>,
-    /// From when to when it tracks.
+    /// Start and end of tracking.
     pub window: Option<(Timestamp, Timestamp)>,
 }
 
-/// A unit's clock against ours.
+/// A unit's clock compared with ours.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct UnitClock {
-    /// How far the unit is ahead of us, in seconds; half the way over the link
-    /// is taken off.
+    /// Seconds by which the unit is ahead of us, corrected by half the round trip over the
+    /// link.
     pub ahead_s: f64,
-    /// It was set by somebody.
+    /// Somebody has set the clock.
     pub is_set: bool,
-    /// When it was read, by our clock.
+    /// Time of the reading, by our clock.
     pub read_at: Timestamp,
 }
 
-/// A place as a device tells it: without its height.
+/// A location as a unit reports it, without altitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     /// North positive.
     pub latitude_deg: f64,
     /// East positive.
     pub longitude_deg: f64,
-    /// Both are told in steps of this.
+    /// Step of both angles as reported.
     pub step_deg: f64,
 }
 
-/// What a device adds to the path that it computes.
+/// Offsets that a unit adds to the path it computes.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Offsets {
-    /// Along the track. Which sign is ahead is not known.
+    /// Time along the track. Which sign is ahead is not known.
     pub time_s: f64,
-    /// Added to the azimuth.
     pub azimuth_deg: f64,
-    /// Added to the elevation.
     pub elevation_deg: f64,
-    /// Between the zero of the mount and north.
+    /// Angle between the zero of the mount and north.
     pub north_deg: f64,
-    /// It does not point lower.
+    /// The unit points no lower.
     pub minimum_elevation_deg: f64,
-    /// So long before its window it goes to the start of the track, seconds.
+    /// Seconds before its window at which the unit goes to the start of the track.
     pub lead_s: f64,
 }
 
-/// The satellite that a device holds. The epoch of its elements is not told.
+/// Satellite that a unit holds. The unit does not report the epoch of its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeldSatellite {
     /// Up to nine digits; 0 for none.
     pub catalog_number: u32,
-    /// As in its elements.
+    /// Name as in its elements.
     pub name: String,
-    /// The highest elevation of the pass as the device predicts it, where it tells.
+    /// Maximum elevation of the pass as the unit predicts it, where reported.
     pub maximum_elevation_deg: Option<f64>,
 }

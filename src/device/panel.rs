@@ -1,5 +1,5 @@
-//! The panel of a controller: what it tells beyond its position, and what only
-//! it can do. The window draws both from these descriptions.
+//! Panel of a controller: readings beyond the position, and actions that only its make has.
+//! The window draws both from these descriptions.
 
 use std::borrow::Cow;
 
@@ -8,48 +8,44 @@ use serde::{Deserialize, Serialize};
 use super::settings::{Field, Values};
 use crate::name::{self, Name};
 
-/// One line of what a device tells of itself.
+/// One line that a unit reports about itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
-    /// Before the value. Lines with the same label would not be told apart.
+    /// Text before the value. Each line needs a label of its own.
     pub label: Cow<'static, str>,
-    /// As shown, with its unit.
+    /// Value as shown, with its unit.
     pub text: String,
-    /// For a bar: how full it is, 0 to 1.
+    /// Fill of a bar, 0 to 1; `None` for no bar.
     pub share: Option<f64>,
-    /// Whether it is worth a second look.
     pub tone: Tone,
 }
 
 impl Reading {
-    /// A plain line.
+    /// A plain line without a bar.
     pub fn new(label: impl Into<Cow<'static, str>>, text: impl Into<String>) -> Self {
         Self { label: label.into(), text: text.into(), share: None, tone: Tone::Plain }
     }
 
-    /// With a bar that is full by `share`, 0 to 1.
+    /// Adds a bar that is full by `share`, 0 to 1.
     #[must_use]
     pub fn with_bar(self, share: f64) -> Self {
         Self { share: Some(share.clamp(0.0, 1.0)), ..self }
     }
 
-    /// In this tone.
     #[must_use]
     pub fn in_tone(self, tone: Tone) -> Self {
         Self { tone, ..self }
     }
 }
 
-/// How something that a device tells, or is told, is to be taken.
+/// Tone in which a report or a command is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tone {
-    /// As usual.
     Plain,
-    /// Something is to be changed or to move.
+    /// A setting is to change, or something is to move.
     Change,
-    /// It was accepted.
+    /// Good news, such as an accepted command.
     Good,
-    /// Unusual.
     Caution,
     /// Wrong, or refused.
     Bad,
@@ -58,73 +54,70 @@ pub enum Tone {
 /// A fault or warning that a device can report.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Check {
-    /// As the operator knows it.
+    /// Name as the operator knows it.
     #[serde(deserialize_with = "name::one")]
     pub name: Name,
-    /// What is good, or not, with it; after the name, may be empty.
+    /// Shown after the name: what is good or bad about it; may be empty.
     #[serde(deserialize_with = "name::one")]
     pub about: Name,
-    /// How it is.
     pub state: CheckState,
-    /// How the device puts it where it says more than `state` does; else empty.
+    /// The unit's own words where they say more than `state`; else empty.
     pub told: Cow<'static, str>,
-    /// What to do about it, in a sentence.
+    /// Advice to the operator, as a sentence.
     #[serde(deserialize_with = "name::one")]
     pub advice: Name,
-    /// As long as it is a fault, nothing may be moved.
+    /// A fault here forbids all motion.
     pub locks_motion: bool,
 }
 
 impl Check {
-    /// One that locks no motion.
+    /// A check that never forbids motion.
     pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
         let told = Cow::Borrowed("");
         Self { name, about: "", state, told, advice, locks_motion: false }
     }
 
-    /// Whether it is a fault for which nothing may be moved.
+    /// Returns `true` for a fault that forbids all motion.
     pub fn forbids_motion(&self) -> bool {
         self.locks_motion && self.state == CheckState::Fault
     }
 }
 
-/// How a checked thing is.
+/// Result of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CheckState {
-    /// Not told.
+    /// Not reported.
     Unknown,
-    /// All right.
     Good,
     /// A warning.
     Caution,
-    /// A fault.
     Fault,
 }
 
-/// What only this make of controller can do.
+/// An action that only this make has.
 #[derive(Debug)]
 pub struct Action {
-    /// Names it in commands and logs.
+    /// Name in commands and logs.
     pub key: &'static str,
-    /// On its key.
+    /// Text on its button.
     pub label: &'static str,
-    /// What it does, in a sentence or two.
+    /// Effect, in a sentence or two.
     pub about: &'static str,
-    /// What it needs to be told; the window asks for it.
+    /// Inputs that the window asks for.
     pub fields: &'static [Field],
-    /// Metal may move by it: it passes every rule of the gate.
+    /// The action may move the antenna, so it passes every rule of the gate.
     pub moves: bool,
-    /// Asked before it is done, where it cannot be undone.
+    /// Confirmation question, for an action that cannot be undone.
     pub question: Option<&'static str>,
 }
 
-/// An action with what it was told.
+/// An action with its inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Act {
     /// Key of the action.
     #[serde(deserialize_with = "name::one")]
     pub action: Name,
-    /// By the keys of its fields.
+    /// Inputs by the keys of the action's fields.
     #[serde(deserialize_with = "name::map")]
     pub values: Values,
 }
@@ -132,12 +125,12 @@ pub struct Act {
 /// Where an action leads the axes of the mount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lead {
-    /// They stay: nothing turns, or something else does.
+    /// The mount's axes stay: nothing turns, or something else does.
     Nowhere,
-    /// There, degrees as the mount counts; `None` stays as it is.
+    /// To these angles, degrees as the mount counts; `None` leaves an axis as it is.
     To([Option<f64>; 2]),
-    /// Where the unit alone knows, for this reason: the operator answers for it.
+    /// Only the unit knows where, for this reason; the operator answers for it.
     Unseen(&'static str),
-    /// Nobody knows where as long as this is so; it is not sent.
+    /// Nobody knows where, for this reason; the action is not sent.
     Unknown(&'static str),
 }

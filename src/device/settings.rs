@@ -1,5 +1,5 @@
-//! What a device remembers, described once: forms, files and read-backs of all
-//! controllers are driven by the same groups of fields.
+//! Settings of a unit. The same groups of fields drive the forms, files and read-backs of
+//! all controllers.
 
 mod copy;
 mod field;

@@ -1,4 +1,4 @@
-//! The state that all antennas share, as last read from the device.
+//! The state that all antennas have in common, as last read from the unit.
 
 use std::sync::Arc;
 
@@ -16,57 +16,54 @@ use crate::{
     name::{self, Name},
 };
 
-/// What is known of an antenna. `None` means not read yet, never a default.
+/// Known state of an antenna. `None` means not read yet, never a default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct AntennaState {
-    /// The last measured position.
     pub measured: Option<Measured>,
-    /// The device's own tracking program.
+    /// The unit's on-board track.
     pub program: Option<Program>,
-    /// Something besides the two axes turns, such as the polarization.
+    /// Something other than the two axes turns, such as the polarization.
     pub turns_besides: bool,
-    /// Something is wrong that forbids motion; `None` until the device was
-    /// asked on this link, and while a new fault is not yet known by name.
+    /// A fault forbids motion. `None` until the unit was asked on this link, and while the
+    /// name of a new fault is not known yet.
     pub motion_lock: Option<bool>,
-    /// Both ends of each axis by the device's own limits, degrees as the mount
-    /// counts; `None` where it tells none.
+    /// Lower and upper end of each axis by the unit's own limits, degrees as the mount
+    /// counts; `None` where it reports none.
     pub travel_deg: [Option<(f64, f64)>; 2],
-    /// When the present link came up: what is older tells of another time.
+    /// When the present link came up. Older readings are from an earlier link.
     pub link_since: Option<Instant>,
-    /// What it tells beyond the above, line by line for its panel.
+    /// Further readings for the panel, line by line.
     pub readings: Arc<[Reading]>,
-    /// Its faults and warnings by name, where it reports them one by one.
+    /// Faults and warnings by name, where the unit reports them one by one.
     pub checks: Arc<[Check]>,
     /// When [`Self::checks`] were read.
     pub checked_at: Option<Timestamp>,
-    /// What it can be asked by hand.
+    /// Questions that the operator can ask by hand.
     pub questions: Arc<[Question]>,
-    /// What it goes by when it tracks by itself.
     pub on_board: OnBoard,
-    /// Why the last position could not be read, as far as it is known, and what to do;
-    /// in a sentence or two.
+    /// Why the last position could not be read, as far as known, and what to do, in a
+    /// sentence or two.
     #[serde(deserialize_with = "name::option")]
     pub unreadable: Option<Name>,
-    /// Its settings, as far as they were read, and what came of changes.
+    /// Settings that were read, and the outcome of changes.
     #[serde(deserialize_with = "name::shared_map")]
     pub held: Arc<Held>,
-    /// What answers is another device, or wants to be told a code first.
+    /// Another unit answers, or one that needs a code first.
     pub is_other_device: bool,
-    /// Who it says that it is, with its firmware or names, as told on this link.
+    /// Identity that the unit reported on this link, with its firmware or names.
     pub identity: Option<String>,
-    /// What it calls itself, for the head of its card.
+    /// Name that the unit gives itself, for the head of its card.
     pub unit_name: Option<String>,
-    /// What went over the link.
     pub traffic: Traffic,
 }
 
 impl AntennaState {
-    /// What is known of a group of settings.
+    /// The state of a group of settings, empty if it is new.
     pub(crate) fn group(&mut self, key: &'static str) -> &mut GroupState {
         Arc::make_mut(&mut self.held).entry(key).or_default()
     }
 
-    /// A change is over, for good or bad. `is_followed` by another one of its group.
+    /// Records the end of a change. `is_followed`: another change of its group waits.
     pub(crate) fn end_change(
         &mut self,
         change: Change,
@@ -74,7 +71,7 @@ impl AntennaState {
         is_followed: bool,
         now: Moment,
     ) {
-        // The names of what was changed only: a value may be a secret.
+        // Only the names of the fields: a value may be a secret.
         let fields: Vec<_> = change.values.keys().collect();
         tracing::info!(group = change.group, ?fields, ?result, "settings");
         let state = self.group(change.group);
@@ -85,43 +82,40 @@ impl AntennaState {
     }
 }
 
-/// A measured position.
+/// A position that a unit reported.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// When the device measured it, as well as the way over the link tells.
     pub at: Timestamp,
-    /// When it was asked for, the first time. What the device did after this
-    /// instant may not show in it.
+    /// When it was first asked for. The position may not show what the unit did after this
+    /// instant.
     pub asked: Instant,
-    /// When it came in.
     pub received: Instant,
-    /// Where the antenna points.
     pub pointing: Pointing,
-    /// Its two axes.
     pub axes: [Axis; 2],
 }
 
 impl Measured {
-    /// Where both axes stand, degrees as the mount counts; an antenna without an
-    /// elevation axis counts as one at 0. `None` where an axis tells no angle.
+    /// Angles of both axes, degrees as the mount counts; a missing elevation axis counts as
+    /// 0. `None` where an axis reports no angle.
     pub fn axes_deg(&self, has_elevation: bool) -> Option<[f64; 2]> {
         let [first, second] = self.axes.map(|axis| axis.angle_deg.filter(|deg| deg.is_finite()));
         Some([first?, if has_elevation { second? } else { 0.0 }])
     }
 }
 
-/// Where an antenna points, as far as its device tells.
+/// Direction of an antenna, as far as its unit reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pointing {
-    /// `None` without a sensor, or while the reading cannot be turned into one.
+    /// `None` without a sensor, or while its reading gives no angle.
     pub azimuth: Option<Angle>,
-    /// As the azimuth; `None` for good where there is no elevation axis.
+    /// `None` also where there is no elevation axis.
     pub elevation: Option<Angle>,
 }
 
 impl Pointing {
-    /// Where axes of elevation over azimuth point that stand there, as far as they
-    /// are known: beyond 90 degrees of elevation over the zenith to the other side.
+    /// The direction for these angles of an elevation-over-azimuth mount, as far as they
+    /// are known. Beyond 90° of elevation it is over the zenith on the other side.
     pub fn of_axes(azimuth: Option<Angle>, elevation: Option<Angle>) -> Self {
         let side = AzEl::of_axes(azimuth.unwrap_or_default(), elevation.unwrap_or_default());
         Self {
@@ -137,8 +131,8 @@ impl Pointing {
 }
 
 impl Pointing {
-    /// How far it is from here to `other`: in the sky where all angles are known,
-    /// else by the azimuth alone; `None` without one.
+    /// Angle from here to `other`: in the sky where all angles are known, else in azimuth
+    /// alone; `None` without an azimuth.
     pub fn separation(self, other: Self) -> Option<Angle> {
         if let (Some(here), Some(there)) = (self.direction(), other.direction()) {
             return Some(here.separation(there));
@@ -154,23 +148,22 @@ impl From<AzEl> for Pointing {
 }
 
 impl Measured {
-    /// Where the antenna points, once both angles are known.
+    /// Direction of the antenna, once both angles are known.
     pub fn direction(&self) -> Option<AzEl> {
         self.pointing.direction()
     }
 
-    /// Whether any axis turns, or may turn.
+    /// Returns `true` if any axis turns, or may turn.
     pub fn moving(&self) -> bool {
         self.axes.iter().any(|axis| axis.motion != AxisMotion::Still)
     }
 }
 
-/// One axis as the device reports it.
+/// One axis as the unit reports it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// In degrees, counted as the mount counts; `None` when it is not known.
+    /// Degrees as the mount counts; `None` where unknown.
     pub angle_deg: Option<f64>,
-    /// Whether it turns.
     pub motion: AxisMotion,
     /// The limit switch at the upper end is set.
     pub plus_limit: bool,
@@ -178,53 +171,49 @@ pub struct Axis {
     pub minus_limit: bool,
 }
 
-/// Whether an axis turns.
+/// Motion of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AxisMotion {
-    /// It stands.
     Still,
-    /// Its angle grows.
+    /// The angle grows.
     Plus,
-    /// Its angle shrinks.
+    /// The angle shrinks.
     Minus,
-    /// The device reports a number without a meaning: treat it as moving.
+    /// A number without a known meaning: treat it as moving.
     Unknown(i64),
 }
 
-/// The device's own tracking program.
+/// The unit's own tracking program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Program {
-    /// It is switched on.
     pub enabled: bool,
-    /// What it is about.
     pub phase: Phase,
-    /// It starts by itself when its time comes; `None` when not told.
+    /// The program starts by itself when it is due; `None` where not reported.
     pub auto: Option<bool>,
 }
 
-/// What the device's tracking program is about.
+/// Phase of the unit's tracking program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
-    /// Its time has not come, or there is none.
+    /// The window has not begun, or there is none.
     OutOfWindow,
-    /// It follows.
     Tracking,
-    /// Its time is over.
+    /// The window is over.
     Completed,
-    /// It waits at the place where the pass begins.
+    /// The antenna waits at the start of the pass.
     AtStart,
-    /// The device reports a number without a meaning.
+    /// A number without a known meaning.
     Unknown(i64),
 }
 
-/// What went over the link since it came up.
+/// Counts of frames and lines on the link since it came up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Traffic {
     /// Good frames that answered a question.
     pub replies: u64,
     /// Good frames that nobody asked for.
     pub unsolicited: u64,
-    /// Lines that were no good frame.
+    /// Lines that were not good frames.
     pub damaged: u64,
     /// Good frames whose content made no sense.
     pub unreadable: u64,

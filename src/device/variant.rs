@@ -1,21 +1,20 @@
-//! What a unit can do and remembers, as the settings of its connection make it.
+//! Capabilities, settings and actions of a unit, as the settings of its connection
+//! determine them.
 
 use super::{Capabilities, panel::Action, settings::Group};
 
-/// What a unit can do and remembers. A make has another one where the settings of the
-/// connection change that, such as a rotator that turns no elevation.
+/// Capabilities, settings and actions of a unit. A make has several variants where the
+/// settings of the connection change them, such as for a rotator without elevation.
 #[derive(Debug)]
 pub struct Variant {
-    /// What it can do.
     pub capabilities: Capabilities,
-    /// What it remembers and can be told.
+    /// Settings of the unit.
     pub groups: &'static [&'static Group],
-    /// What only it can do.
+    /// Actions that only this unit has.
     pub actions: &'static [Action],
 }
 
 impl Variant {
-    /// The action with this key.
     pub fn action(&self, key: &str) -> Option<&'static Action> {
         self.actions.iter().find(|action| action.key == key)
     }

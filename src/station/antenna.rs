@@ -1,4 +1,4 @@
-//! One antenna: a controller on a link, and what its metal can do.
+//! One antenna: a controller on a link, with its mount, limits and settings.
 
 use std::time::Duration;
 
@@ -12,8 +12,8 @@ use crate::{
     device::Moves,
 };
 
-/// Names an antenna for good: kept in the station file, whatever the antenna is called and
-/// wherever its unit answers. No two antennas of a station have the same.
+/// Permanent id of an antenna in the station file: it stays when the name or address
+/// changes. No two antennas of a station have the same.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize,
 )]
@@ -21,10 +21,10 @@ use crate::{
 pub struct AntennaId(pub u32);
 
 impl AntennaId {
-    /// Of a station's first antenna.
+    /// Id of a station's first antenna.
     pub const FIRST: Self = Self(1);
 
-    /// The first from `from` on that none of `taken` is.
+    /// The first id from `from` on that is not in `taken`.
     #[must_use]
     pub fn free(from: Self, taken: &[Self]) -> Self {
         let mut id = from;
@@ -38,36 +38,29 @@ impl AntennaId {
 /// One controller on one link, with its mount, limits and park position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Antenna {
-    /// Names it for good.
     pub id: AntennaId,
     /// Shown on its chip.
     pub name: String,
-    /// Which controller, and where it answers.
     pub connection: Connection,
-    /// How the axes are arranged.
     pub mount: Mount,
     /// Full width of the beam at half power, degrees, 0.01 to 180.
     pub beam_width_deg: f64,
-    /// Where Park sends the antenna.
     pub park: Direction,
-    /// What the mount can do.
     pub limits: MotionLimits,
-    /// How often the controller is asked.
     pub poll: PollRates,
-    /// How this program follows a target with it.
+    /// Settings for program track.
     pub follow: TrackSettings,
-    /// What the monitor does when somebody else drives the antenna into what is
-    /// forbidden.
+    /// Reaction of the monitor when somebody else drives the antenna into a forbidden
+    /// direction.
     #[serde(skip_serializing_if = "is_default")]
     pub monitor: Monitor,
-    /// How far the antenna may sway between two looks while it stands, degrees,
-    /// 0 to 2.
+    /// Largest sway between two positions of a standing antenna, degrees, 0 to 2.
     #[serde(skip_serializing_if = "is_usual_sway")]
     pub sway_deg: f64,
-    /// What becomes of an intent when the link is back after an outage.
+    /// What happens to an intent when the link is back after an outage.
     #[serde(skip_serializing_if = "is_default")]
     pub resume: Resume,
-    /// After a longer outage the operator is asked in any case, seconds, 0 to 600.
+    /// Outage after which the operator is asked in any case, seconds, 0 to 600.
     #[serde(skip_serializing_if = "is_usual_outage")]
     pub resume_after_s: f64,
 }
@@ -87,7 +80,7 @@ fn is_usual_outage(resume_after_s: &f64) -> bool {
     resume_after_s.total_cmp(&DEFAULT_RESUME_AFTER_S).is_eq()
 }
 
-/// A direction in a file.
+/// A direction in the station file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Direction {
     /// From north over east, degrees, 0 to 360.
@@ -96,7 +89,7 @@ pub struct Direction {
     pub elevation_deg: f64,
 }
 
-/// What the mount can do and what the operator allows it.
+/// Motion limits: what the operator allows of a mount.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MotionLimits {
     /// Lowest elevation that is commanded, degrees, 0 to 90.
@@ -107,18 +100,18 @@ pub struct MotionLimits {
     pub maximum_step_deg: f64,
 }
 
-/// How often the controller is asked for its state.
+/// Rates at which a controller asks for the state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PollRates {
-    /// While the antenna stands, per second, 2 to 10: a motion by hand needs a
-    /// position younger than a second.
+    /// While the antenna stands, per second, 2 to 10. Motion by hand needs a position
+    /// younger than a second.
     pub idle_hz: f64,
     /// While it moves or tracks, per second, 2 to 10.
     pub moving_hz: f64,
 }
 
 impl PollRates {
-    /// The time between two questions.
+    /// Time between two questions.
     pub fn period(&self, moving: bool) -> Duration {
         let rate = if moving { self.moving_hz } else { self.idle_hz };
         // A rate that is out of range or not a number must not stop polling.
@@ -127,31 +120,28 @@ impl PollRates {
 }
 
 impl Antenna {
-    /// Its controller, silent until its link is up.
+    /// Creates the controller; it is silent until its link is up.
     pub fn controller(&self) -> Box<dyn Moves> {
         (self.connection.spec().open)(self)
     }
 
-    /// Whether two names are too alike for the operator to tell two antennas
+    /// Returns `true` if two names are too alike for the operator to tell two antennas
     /// apart.
     pub fn same_name(a: &str, b: &str) -> bool {
         a.trim().to_lowercase() == b.trim().to_lowercase()
     }
 
-    /// `name`, with the first number behind it that tells it from all others
-    /// where another antenna has it.
+    /// `name`, or if another antenna has it, `name` with the first free number from 2.
     pub fn free_name(name: &str, others: &[&str]) -> String {
         let is_free = |name: &String| others.iter().all(|other| !Self::same_name(name, other));
         let numbered = (2_u32..).map(|number| format!("{name} {number}"));
         std::iter::once(name.to_owned()).chain(numbered).find(is_free).unwrap_or_default()
     }
 
-    /// The width of the beam.
     pub fn beam_width(&self) -> Angle {
         Angle::from_degrees(self.beam_width_deg)
     }
 
-    /// Where Park sends the antenna.
     pub fn park_direction(&self) -> AzEl {
         AzEl::from_degrees(self.park.azimuth_deg, self.park.elevation_deg)
     }

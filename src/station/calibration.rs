@@ -1,22 +1,22 @@
-//! From the counts of a position sensor to degrees and back, by points that the
+//! Conversion between the counts of a position sensor and degrees, by points that the
 //! operator has measured.
 
 use serde::Serialize;
 
 use super::ranges;
 
-/// A count and the angle at which it was read.
+/// A sensor count and the angle at which it was read.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CountPoint {
-    /// As on the front panel, 0 to 65535.
+    /// Counts as on the front panel, 0 to 65535.
     pub counts: u16,
-    /// As the mount counts, degrees.
+    /// Degrees as the mount counts.
     pub degrees: f64,
 }
 
 impl CountPoint {
-    /// Whether points make a scale, in any order; the reason when they do not.
-    /// None at all are a scale that is not known yet.
+    /// Checks that points in any order make a scale; returns the reason if they do not. No
+    /// points are fine: the scale is not known yet.
     pub(crate) fn check(points: &[Self]) -> Result<(), String> {
         if points.is_empty() {
             return Ok(());
@@ -34,14 +34,13 @@ impl CountPoint {
     }
 }
 
-/// Two lines that grow by less than this differ from a flat one by noise only,
-/// degrees a count.
+/// A line with a smaller slope differs from a flat one by noise only, degrees a count.
 const FLAT_DEG: f64 = 1e-6;
 
 /// The straight line that fits measured points best (least squares).
 ///
-/// Degrees are those of the mount: 370 is another place than 10, so nothing is
-/// wrapped here.
+/// Degrees are those of the mount: 370 is another position than 10, so nothing is wrapped
+/// here.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CountLine {
     centre_counts: f64,
@@ -80,13 +79,13 @@ impl CountLine {
         };
         let centre_counts = mean(|point| point.counts.into());
         let centre_deg = mean(|point| point.degrees);
-        // Measured from the centre, for large counts would cost digits.
+        // Measured from the centre, because large counts would cost digits.
         let (across, along) = points.iter().fold((0.0, 0.0), |(across, along), point| {
             let off = f64::from(point.counts) - centre_counts;
             (across + off * (point.degrees - centre_deg), along + off * off)
         });
         let deg_per_count = across / along;
-        // Not a number is refused too.
+        // NaN is refused too.
         if deg_per_count.abs() >= FLAT_DEG && deg_per_count.is_finite() {
             Ok(Self { centre_counts, centre_deg, deg_per_count })
         } else {
@@ -100,20 +99,20 @@ impl CountLine {
         self.centre_deg + (f64::from(counts) - self.centre_counts) * self.deg_per_count
     }
 
-    /// The counts nearest to an angle, degrees as the mount counts; `None` where
-    /// the sensor has none, outside 0 to 65535.
+    /// The counts nearest to an angle, degrees as the mount counts; `None` where they are
+    /// outside 0 to 65535.
     pub fn counts(&self, degrees: f64) -> Option<u16> {
         let counts = self.centre_counts + (degrees - self.centre_deg) / self.deg_per_count;
         let counts = counts.round();
         (0.0..=f64::from(u16::MAX)).contains(&counts).then_some(counts as u16)
     }
 
-    /// The angle grows while the counts fall.
+    /// Returns `true` if the angle grows while the counts fall.
     pub fn is_reversed(&self) -> bool {
         self.deg_per_count < 0.0
     }
 
-    /// How far each point lies off the line, degrees, in the order of `points`.
+    /// How far each point lies above the line, degrees, in the order of `points`.
     pub fn residuals_deg(&self, points: &[CountPoint]) -> Vec<f64> {
         points.iter().map(|point| point.degrees - self.degrees(point.counts)).collect()
     }

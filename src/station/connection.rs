@@ -1,39 +1,38 @@
-//! Which controller an antenna has, where it answers and what it has to know.
+//! Connection of an antenna: make, address and settings of the make.
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
 use super::{ControllerSpec, CountPoint, Setting, Value};
 use crate::device::Variant;
 
-/// Which controller, where it answers, and the settings that its make has.
+/// Make, address and the settings that the make has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Connection {
     spec: &'static ControllerSpec,
-    /// Where the controller answers: a host and a port such as
-    /// `192.168.10.21:4001`, or a serial port such as `/dev/ttyUSB0` or `COM3`.
+    /// A host and a port such as `192.168.10.21:4001`, or a serial port such as
+    /// `/dev/ttyUSB0` or `COM3`.
     pub address: String,
-    /// In the order of the settings of the make.
+    /// In the order of the make's settings.
     values: Vec<Value>,
 }
 
 impl Connection {
-    /// To `address`, with the usual settings.
+    /// A connection to `address` with default settings.
     pub(super) fn new(spec: &'static ControllerSpec, address: &str) -> Self {
         let values = spec.settings.iter().map(|setting| setting.usual.clone()).collect();
         Self { spec, address: address.to_owned(), values }
     }
 
-    /// The make at the other end.
     pub fn spec(&self) -> &'static ControllerSpec {
         self.spec
     }
 
-    /// What the unit can do and remembers, with these settings.
+    /// The unit's variant with these settings.
     pub fn variant(&self) -> &'static Variant {
         (self.spec.variant)(self)
     }
 
-    /// The value of a setting; the usual one where its make has no such.
+    /// The value of a setting; its default where the make does not have the setting.
     pub fn value<'a>(&'a self, setting: &'a Setting) -> &'a Value {
         self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(setting.usual)
     }
@@ -53,15 +52,14 @@ impl Connection {
         *number
     }
 
-    /// The points of a setting; none where it holds no such.
+    /// The points of a setting; empty where it holds none.
     pub fn points<'a>(&'a self, setting: &'a Setting) -> &'a [CountPoint] {
         let Value::Points(points) = self.value(setting) else { return &[] };
         points
     }
 
-    /// Puts a value that the setting can hold. One that it cannot hold, or a
-    /// setting that its make does not have, changes nothing; the reason stands
-    /// behind the name of the setting.
+    /// Sets a value. If the setting cannot hold it, or the make does not have the setting,
+    /// nothing changes. The reason is worded to follow the name of the setting.
     pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), String> {
         let value = value.into();
         setting.check(&value)?;
@@ -111,7 +109,7 @@ fn write<M: SerializeMap>(held: &[Held<'_>], map: &mut M) -> Result<(), M::Error
         .try_for_each(|(setting, value)| map.serialize_entry(setting.key, value))
 }
 
-/// Whether `address` is a host and a port; the reason when it is not.
+/// Checks that `address` is a host and a port; returns the reason if it is not.
 pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
     let Some((host, port)) = address.rsplit_once(':') else {
         return Err("must be a host and a port, such as 192.168.10.21:4001");
@@ -125,13 +123,13 @@ pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
     }
 }
 
-/// Whether `address` is a serial port or else a host and a port; the reason when
-/// it is neither.
+/// Checks that `address` is a serial port, or a host and a port; returns the reason if it
+/// is neither.
 pub(crate) fn check_line(address: &str) -> Result<(), &'static str> {
     if address.is_empty() {
         return Err("must be a serial port, such as /dev/ttyUSB0 or COM3, or a host and a port");
     }
-    // Names of ports by their place on the machine hold colons too.
+    // Port names by their place on the machine hold colons too.
     let is_port = address.starts_with(['/', '\\']) || !address.contains(':');
     if is_port { Ok(()) } else { check_address(address) }
 }

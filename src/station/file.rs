@@ -1,4 +1,4 @@
-//! The settings file on disk: read whole, replaced whole.
+//! The station file on disk, always read and replaced as a whole.
 
 use std::{
     fs, io,
@@ -10,46 +10,43 @@ use serde::Serialize;
 use super::{ControllerSpec, Note, Station, from_toml};
 use crate::whole_file;
 
-/// The version that this program writes. A file of a later one is left alone.
+/// Version that this program writes. A file of a later one is left alone.
 const VERSION: i64 = 1;
 
-/// What was found at the place of the settings.
+/// A station file that was read.
 #[derive(Debug)]
 pub struct Loaded {
     pub station: Station,
-    /// What was not taken over as it stands in the file.
+    /// Entries that were not taken over as they stand in the file.
     pub notes: Vec<Note>,
 }
 
-/// Why settings that exist were not read. They stay as they are on disk.
+/// Why the station file was not read. It stays as it is on disk.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// There are no settings yet.
     #[error("there are no settings yet")]
     Missing,
     /// The operating system refused.
     #[error("the settings cannot be read: {source}: {}", path.display())]
     Read { source: io::Error, path: PathBuf },
-    /// Not TOML.
     #[error("the settings are not valid TOML: {source}: {}", path.display())]
     Syntax {
-        /// Where in the text.
+        /// Error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
-    /// A later program wrote them.
+    /// A newer program wrote the file.
     #[error("the settings have version {found}, this program knows {VERSION}: {}", path.display())]
     Newer {
-        /// Their version.
+        /// Version of the file.
         found: i64,
         path: PathBuf,
     },
 }
 
-/// Why settings were not written. The old ones are still there.
+/// Why the station file was not written. The old one is still there.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// The station cannot be put into TOML.
     #[error("the settings cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
     /// The operating system refused.
@@ -57,13 +54,13 @@ pub enum SaveError {
     Write { source: io::Error, path: PathBuf },
 }
 
-/// Where the settings of this user live; `None` on a machine without a home.
+/// Path of this user's station file; `None` on a machine without a home.
 pub fn settings_path() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel")
         .map(|dirs| dirs.config_dir().join("station.toml"))
 }
 
-/// Reads the station at `path`, whose controllers are of these makes.
+/// Reads the station at `path`, with controllers of the makes in `specs`.
 pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, LoadError> {
     let text = fs::read_to_string(path).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => LoadError::Missing,
@@ -79,9 +76,9 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
     Ok(Loaded { station, notes })
 }
 
-/// Puts the station at `path`; a failure at any moment leaves the old settings
-/// whole. What stood there before is kept beside it with the ending `.old`,
-/// because reading forgives more than it can carry over.
+/// Writes the station to `path`. A failure at any moment leaves the old file whole. The
+/// previous file is kept beside it with the ending `.old`, because reading forgives more
+/// than it can carry over.
 pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
     #[derive(Serialize)]
     struct Versioned<'a> {

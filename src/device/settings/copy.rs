@@ -1,8 +1,8 @@
-//! The settings of a device as a file: written from what was read, and
-//! compared with what the device holds now.
+//! The settings of a unit as a file: written from what was read, and compared with what the
+//! unit holds now.
 //!
-//! The file is TOML, one table for each group. A password is never in it, and
-//! a service setting is only shown, never taken from it.
+//! The file is TOML with one table for each group. It never holds a password; service
+//! settings are shown, but never taken from it.
 
 use std::fmt::Write as _;
 
@@ -12,107 +12,99 @@ use serde::{Deserialize, Serialize};
 use super::{Access, Field, Group, Guard, Held, Kind, Unfit, Value};
 use crate::name::{self, Name};
 
-/// The version that this program writes.
+/// Version of the files that this program writes.
 const VERSION: i64 = 1;
 
-/// Whose settings a copy holds.
+/// Origin of a copy.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CopyHead {
-    /// The antenna, as the station file names it.
+    /// Antenna name in the station file.
     pub antenna: String,
-    /// Where its controller answers.
+    /// Address of the controller.
     pub address: String,
-    /// Kind of the controller, such as `satrak`.
+    /// Make of the controller, such as `satrak`.
     pub controller: String,
-    /// When the copy was made.
     pub saved_at: Timestamp,
 }
 
-/// A copy that was read.
+/// A copy read from a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SettingsCopy {
-    /// Whose it is.
     pub head: CopyHead,
-    /// Every value in it that a device of this kind has, in the order of the
-    /// forms.
+    /// Values in the file that a unit of this make has, in the order of the forms.
     pub values: Vec<CopiedValue>,
-    /// Names in it that no such device has, as `group.field`.
+    /// Names in the file that no unit of this make has, as `group.field`.
     pub unknown: Vec<String>,
 }
 
-/// A value of a copy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CopiedValue {
-    /// Key of its group.
+    /// Key of the group.
     #[serde(deserialize_with = "name::one")]
     pub group: Name,
-    /// Key of its field.
+    /// Key of the field.
     #[serde(deserialize_with = "name::one")]
     pub field: Name,
-    /// The value, or why it cannot be used.
+    /// The value, or the reason why it cannot be used.
     pub value: Result<Value, Unfit>,
-    /// As it stands in the file.
+    /// Value as in the file.
     written: toml::Value,
 }
 
-/// A setting that stands otherwise in a copy than on the device.
+/// A setting that differs between a copy and the unit.
 #[derive(Debug, Clone)]
 pub struct Difference {
-    /// Its group.
     pub group: &'static Group,
-    /// Its field.
     pub field: &'static Field,
-    /// What the copy says, or why it cannot be used.
+    /// Value in the copy, or the reason why it cannot be used.
     pub copied: Result<Value, Unfit>,
-    /// What the device holds; `None` where that is not known.
+    /// Value on the unit; `None` where unknown.
     pub held: Option<Value>,
-    /// Whether it may be taken over.
     pub verdict: Verdict,
 }
 
-/// Whether a value may be taken from a copy.
+/// Decision on taking a value from a copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
-    /// It may.
+    /// The value may be taken.
     Free,
     /// A service setting: only shown.
     Service,
-    /// It cannot be used; see its error.
+    /// The value cannot be used; its error says why.
     Unfit,
-    /// What the device holds is not known.
+    /// The unit's value was not read.
     NotRead,
 }
 
-/// Why a file is no copy.
+/// Why a file is not a copy of settings.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CopyError {
-    /// No TOML.
     #[error("it is no TOML: {0}")]
     Syntax(String),
     /// Another file, or a damaged one.
     #[error("it is no copy of settings: {0} is missing")]
     NoCopy(&'static str),
-    /// A later program wrote it.
+    /// A newer program wrote the file.
     #[error("it has version {0}, this program knows {VERSION}; use the newer program")]
     Newer(i64),
-    /// Of another kind of controller.
+    /// The copy is of another make.
     #[error("it holds settings of a {found}, not of a {wanted}")]
     OtherController {
-        /// In the file.
+        /// Make in the file.
         found: String,
-        /// Of the antenna.
+        /// Make of the antenna.
         wanted: String,
     },
 }
 
-/// Whether a copy holds this field.
+/// Returns `true` for the fields that a copy holds.
 fn is_copied(field: &Field) -> bool {
     field.access == Access::Edit && !matches!(field.kind, Kind::Password(_))
 }
 
 impl SettingsCopy {
-    /// The text of a copy of what is `held` of `groups`. Groups that were not
-    /// read are named with the reason.
+    /// Text of a copy with the values of `groups` in `held`. A group that was not read is
+    /// named in a comment with the reason.
     pub fn text(head: &CopyHead, groups: &[&'static Group], held: &Held) -> String {
         let text = |text: &str| toml::Value::String(text.to_owned());
         let mut lines = format!(
@@ -142,8 +134,8 @@ impl SettingsCopy {
         lines
     }
 
-    /// Reads the text of a copy for a device of the kind `controller` with
-    /// these groups. One bad value costs no other.
+    /// Reads a copy for a unit of make `controller` with these groups. A bad value does not
+    /// spoil the others.
     pub fn read(
         text: &str,
         controller: &str,
@@ -183,14 +175,14 @@ impl SettingsCopy {
         Ok(Self { head, values, unknown: unknown(&table, groups) })
     }
 
-    /// What stands otherwise on the device.
+    /// The settings that differ on the unit.
     pub fn differences(&self, groups: &[&'static Group], held: &Held) -> Vec<Difference> {
         let difference = |copied: &CopiedValue| {
             let group = *groups.iter().find(|group| group.key == copied.group)?;
             let field = group.field(copied.field)?;
             let of_group = held.get(group.key).and_then(|state| state.held.as_ref());
             let held = of_group.and_then(|read| read.values.get(field.key)).cloned();
-            // What cannot be sent, such as an empty text, may be there all the same.
+            // A value that cannot be sent, such as an empty text, may still be on the unit.
             let is_held = |held: &Value| match &copied.value {
                 Ok(value) => field.kind.same(value, held),
                 Err(_) => as_toml(field, held) == copied.written,
@@ -215,7 +207,7 @@ fn first_line(error: &toml::de::Error) -> String {
     error.message().lines().next().unwrap_or_default().to_owned()
 }
 
-/// Choices stand by their names, times and texts as the operator reads them.
+/// Writes choices by name, and times and texts as the operator reads them.
 fn as_toml(field: &Field, value: &Value) -> toml::Value {
     match value {
         Value::Flag(on) => toml::Value::Boolean(*on),

@@ -1,4 +1,4 @@
-//! When a setting that decides where the antenna points has to wait.
+//! Reasons why a setting that decides where the antenna points has to wait.
 
 use std::time::Duration;
 
@@ -9,31 +9,30 @@ use crate::{
     device::{AntennaState, Capabilities},
 };
 
-/// A position that is older says nothing of an antenna that may move.
+/// Age from which a position says nothing about an antenna that may move.
 const RECENT: Duration = Duration::from_secs(5);
 
 /// Why a setting that decides where the antenna points is not sent now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Hindrance {
-    /// A stop is under way.
     #[error("a stop is under way: wait until the antenna stands")]
     Stopping,
-    /// Nothing was read on this link, or nothing lately.
+    /// On this link, the position was not read lately, or the unit's program was not read.
     #[error("it is not known whether the antenna stands: wait until its position is read")]
     Unknown,
-    /// The device's own program is on.
+    /// The unit tracks by itself.
     #[error("the unit tracks: stop it first")]
     Tracks,
-    /// The device starts to track by itself.
+    /// The unit starts to track by itself.
     #[error("auto-track is on: switch it off first")]
     AutoTrack,
-    /// The antenna moves, or was told to.
+    /// The antenna moves, or may move.
     #[error("the antenna moves: stop it first")]
     Moves,
 }
 
 impl Hindrance {
-    /// What the state of a device says against such a setting at `now`.
+    /// The reason, by the state of a unit, not to send such a setting at `now`.
     pub fn of(state: &AntennaState, can: Capabilities, now: Instant) -> Option<Self> {
         let since = state.link_since;
         let measured = state

@@ -1,22 +1,22 @@
-//! The changes that a device was asked for: one is under way, the others wait.
+//! Queue of setting changes for a unit: one is under way, the others wait.
 
 use std::collections::VecDeque;
 
 use super::{Change, Group, SettingsWrite, WriteError, WriteStep};
 use crate::{clock::Moment, device::AntennaState};
 
-/// The changes of one device. How far each is stands in [`AntennaState::held`].
+/// The changes of one unit. [`AntennaState::held`] shows the step of each.
 #[derive(Debug)]
 pub(crate) struct ChangeQueue {
     groups: &'static [&'static Group],
     under_way: Option<SettingsWrite>,
     waiting: VecDeque<Change>,
-    /// The unit is locked out: no setting goes to it.
+    /// The unit is locked out: no setting is sent to it.
     are_locked: bool,
 }
 
 impl ChangeQueue {
-    /// Of a device with these groups.
+    /// A queue for a unit with these groups.
     pub(crate) fn new(groups: &'static [&'static Group]) -> Self {
         Self { groups, under_way: None, waiting: VecDeque::new(), are_locked: false }
     }
@@ -33,7 +33,7 @@ impl ChangeQueue {
         self.under_way.as_ref()
     }
 
-    /// None is under way, and none waits.
+    /// Returns `true` if no change is under way or waits.
     pub(crate) fn is_empty(&self) -> bool {
         self.under_way.is_none() && self.waiting.is_empty()
     }
@@ -43,7 +43,7 @@ impl ChangeQueue {
         self.waiting.push_back(change);
     }
 
-    /// Takes up the next change when none is under way.
+    /// Starts the next change if none is under way.
     pub(crate) fn begin(&mut self, state: &mut AntennaState, now: Moment) {
         while self.under_way.is_none()
             && let Some(change) = self.waiting.pop_front()
@@ -58,7 +58,7 @@ impl ChangeQueue {
         }
     }
 
-    /// Takes the change under way a step on; an error ends it. Returns whether it ended.
+    /// Applies `step` to the change under way; an error ends it. Returns whether it ended.
     pub(crate) fn advance(
         &mut self,
         state: &mut AntennaState,
@@ -76,7 +76,7 @@ impl ChangeQueue {
         is_over
     }
 
-    /// The change under way is over.
+    /// Ends the change under way with `result`.
     pub(crate) fn end(
         &mut self,
         result: Result<(), WriteError>,
@@ -88,7 +88,7 @@ impl ChangeQueue {
         }
     }
 
-    /// `change` is not sent.
+    /// Records that `change` is not sent.
     pub(crate) fn refuse(
         &self,
         change: Change,
@@ -99,7 +99,8 @@ impl ChangeQueue {
         self.written(change, Err(why), state, now);
     }
 
-    /// The link is gone: what may be on the device is not known.
+    /// Ends all changes because the link is gone. A change that was sent may be on the
+    /// unit.
     pub(crate) fn abandon(&mut self, state: &mut AntennaState, now: Moment) {
         if let Some(settings_write) = self.under_way.take() {
             let is_lost = settings_write.may_be_sent();

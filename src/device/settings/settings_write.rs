@@ -1,25 +1,23 @@
-//! A change on its way to a device, whatever the device: looks whether it still
-//! holds what the operator saw, sends, and reads back. Nothing is sent twice.
+//! One change of settings on its way to a unit: reads the present values, sends the new
+//! ones, and reads them back. Nothing is sent twice.
 
 use super::{Access, Change, Field, Group, Guard, ReadFailure, Values, WriteError, WriteStep};
 
 /// A change that is under way.
 #[derive(Debug)]
 pub(crate) struct SettingsWrite {
-    /// What was asked for.
     pub(crate) change: Change,
-    /// The group of it.
     pub(crate) group: &'static Group,
     step: Step,
-    /// As read before anything was sent.
+    /// Values read before anything was sent.
     before: Values,
-    /// What came of sending and reading back so far.
+    /// Outcome of sending and reading back so far.
     result: Result<(), WriteError>,
-    /// How many questions after the read-back are over.
+    /// Number of finished questions after the read-back.
     checked: usize,
 }
 
-/// What a change waits for.
+/// The answer that a change waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Step {
     /// The present values.
@@ -28,13 +26,12 @@ pub(crate) enum Step {
     Send,
     /// The values after it.
     ReadBack,
-    /// Nothing any more.
+    /// Answers to questions after the read-back, if any.
     Done,
 }
 
 impl SettingsWrite {
-    /// The first step of `change` on a device with these groups; an error when it
-    /// cannot be begun.
+    /// Begins `change` on a unit with these groups, or says why it cannot begin.
     pub(crate) fn new(
         change: &Change,
         groups: &'static [&'static Group],
@@ -53,12 +50,11 @@ impl SettingsWrite {
         Ok(Self { change: change.clone(), group, step, before, result: Ok(()), checked: 0 })
     }
 
-    /// What it waits for.
     pub(crate) fn step(&self) -> Step {
         self.step
     }
 
-    /// How far it is, for the operator.
+    /// Progress for the operator.
     pub(crate) fn shown(&self) -> WriteStep {
         match self.step {
             Step::Look => WriteStep::Looking,
@@ -67,27 +63,28 @@ impl SettingsWrite {
         }
     }
 
-    /// It may be sent only while nothing moves.
+    /// Returns `true` if the change may be sent only while nothing moves.
     pub(crate) fn needs_standstill(&self) -> bool {
         self.group.guard(&self.change.values) == Guard::Service
     }
 
-    /// The key of a field that decides where the antenna points.
+    /// Key of the first field of the change that decides where the antenna points.
     pub(crate) fn moving_field(&self) -> Option<&'static str> {
         self.group.moving_field(&self.change.values).map(|field| field.key)
     }
 
-    /// Whether the device may have taken something of it.
+    /// Returns `true` if the unit may have taken any of the change.
     pub(crate) fn may_be_sent(&self) -> bool {
         self.step != Step::Look
     }
 
-    /// What the device held before.
+    /// Values that the unit held before the change.
     pub(crate) fn before(&self) -> &Values {
         &self.before
     }
 
-    /// The present values came.
+    /// Takes the present values. They end the change if they are not those the operator
+    /// saw.
     pub(crate) fn looked(&mut self, held: Values) -> Result<(), WriteError> {
         self.before = held;
         if self.has_changed_meanwhile() {
@@ -97,13 +94,13 @@ impl SettingsWrite {
         Ok(())
     }
 
-    /// The device has taken the command.
+    /// The unit accepted the command.
     pub(crate) fn accepted(&mut self) {
         self.step = Step::ReadBack;
     }
 
-    /// The values after the command came; the fields with these keys do not hold
-    /// what was asked for.
+    /// Takes the values read back. `differing` are the keys of the fields that do not hold
+    /// the requested values.
     pub(crate) fn read_back(&mut self, held: &Values, differing: Vec<&'static str>) {
         self.result = match std::mem::replace(&mut self.result, Ok(())) {
             Ok(()) | Err(WriteError::Unanswered) if differing.is_empty() => Ok(()),
@@ -116,7 +113,7 @@ impl SettingsWrite {
         self.step = Step::Done;
     }
 
-    /// The device said no to what it waits for.
+    /// The unit refused the question or command of the present step.
     pub(crate) fn refused(&mut self, code: String) -> Result<(), WriteError> {
         match self.step {
             Step::Look => return Err(WriteError::Unread(ReadFailure::Refused(code))),
@@ -130,7 +127,7 @@ impl SettingsWrite {
         Ok(())
     }
 
-    /// No answer came, or none that can be read.
+    /// No readable answer came to the question or command of the present step.
     pub(crate) fn unanswered(&mut self) -> Result<(), WriteError> {
         match self.step {
             Step::Look => return Err(WriteError::Unread(ReadFailure::Unanswered)),
@@ -151,8 +148,8 @@ impl SettingsWrite {
         }
     }
 
-    /// A question after the read-back was answered; whether the device can work with the
-    /// values is in `verdict`.
+    /// Takes the answer to a question after the read-back. `verdict` says whether the unit
+    /// can work with the values.
     pub(crate) fn judge(&mut self, verdict: Result<(), WriteError>) {
         self.checked += 1;
         if self.result.is_ok() {
@@ -160,17 +157,16 @@ impl SettingsWrite {
         }
     }
 
-    /// How many questions after the read-back are over.
     pub(crate) fn checked(&self) -> usize {
         self.checked
     }
 
-    /// What came of it.
+    /// The outcome so far.
     pub(crate) fn result(&self) -> Result<(), WriteError> {
         self.result.clone()
     }
 
-    /// Values that are only reported may change at any time.
+    /// Compares the editable fields only: reported values may change at any time.
     fn has_changed_meanwhile(&self) -> bool {
         let Some(seen) = &self.change.seen else { return false };
         let is_editable = |field: &&Field| field.access == Access::Edit;
