@@ -1,6 +1,6 @@
-//! A running station: its antennas, elements, passes, alarms and the work on units, on
-//! a thread of its own. A client sends [`Command`]s and takes [`Snapshot`]s and
-//! [`Event`]s; the station does not know whether there is one.
+//! A running station on its own thread: antennas, elements, passes, alarms and the work on
+//! units. Clients send [`Command`]s and take [`Snapshot`]s and [`Event`]s; the station
+//! runs without any just as well.
 
 pub mod alarms;
 pub mod antenna;
@@ -69,39 +69,38 @@ use crate::{
     station::{self, AntennaId, LoadError, LockOuts, Station},
 };
 
-/// What the sessions tell is taken at most this often: a change is shown with the next
+/// Reports of the sessions are taken at most this often. A change still shows with the next
 /// frame of a window.
 const BREATH: Duration = Duration::from_millis(10);
 
-/// A motion that the station could not take up for so long is not wanted any more.
+/// A motion request that has waited this long is not carried out.
 const TOO_LATE: Duration = Duration::from_secs(2);
 
-/// Where a station keeps what it keeps.
+/// Places of a station's files and its role among the Azels of this machine.
 #[derive(Debug, Clone, Default)]
 pub struct Settings {
-    /// Where the station file is; `None` for the user's own.
+    /// Path of the station file; `None` for the user's own.
     pub path: Option<PathBuf>,
-    /// Where elements from servers are kept; `None` for the user's own folder.
+    /// Folder for elements from servers; `None` for the user's own.
     pub library: Option<PathBuf>,
-    /// Where host keys, old uploads and secrets are kept; `None` for the user's
-    /// own places.
+    /// Places of host keys, old uploads and secrets; `None` for the user's own.
     pub upload_places: Option<uploads::Places>,
-    /// The program that is started as the dead-man; `None` for none.
+    /// Program to start as the dead-man; `None` for none.
     pub dead_man: Option<PathBuf>,
-    /// Where motions by hand are marked; `None` for nowhere.
+    /// Folder for marks of motions by hand; `None` for none.
     pub marks: Option<PathBuf>,
-    /// Where the station and its units are claimed, and in which role; `None` where no
-    /// other Azel is looked for.
+    /// Folder for claims of the station and its units, and the role of this process; `None`
+    /// to ignore other Azels.
     pub claims: Option<(PathBuf, HolderKind)>,
 }
 
 impl Settings {
-    /// Where the station file is, if this user has a place for one.
+    /// Path of the station file, if this user has a place for one.
     pub fn station_path(&self) -> Option<PathBuf> {
         self.path.clone().or_else(station::settings_path)
     }
 
-    /// Where elements from servers are kept, if this user has a place for them.
+    /// Folder for elements from servers, if this user has a place for it.
     pub fn library_path(&self) -> Option<PathBuf> {
         let station = self.station_path();
         let places = Places::new(station.as_deref(), self.library.clone());
@@ -109,7 +108,7 @@ impl Settings {
     }
 }
 
-/// Where a station tells its client what happens.
+/// Channel for events to the client.
 struct Outbox {
     events: mpsc::Sender<Event>,
     wake: Wake,
@@ -119,7 +118,7 @@ struct Outbox {
 struct Engine {
     /// UTC of this turn.
     now: Timestamp,
-    /// The steady clock of this turn, for ages.
+    /// Steady clock of this turn, for ages.
     steady: Instant,
     time_sync: TimeSync,
     station: Arc<Station>,
@@ -127,7 +126,7 @@ struct Engine {
     catalog_revision: u64,
     sources: Sources,
     antennas: Vec<Antenna>,
-    /// How many sessions were begun.
+    /// Number of sessions opened so far.
     sessions: u64,
     attention: Attention,
     searches: Searches,
@@ -137,7 +136,7 @@ struct Engine {
     alarms: Alarms,
     copies: Copies,
     closing: Option<Closing>,
-    // The sessions end before their thread does, and that before their units.
+    // Drop order: the sessions end before their thread does, and that before their units.
     driver: Driver,
     demo: Option<DemoStation>,
     clock: Clock,
@@ -154,18 +153,19 @@ struct Engine {
     source_desk: source_tests::Desk,
     lock_outs: LockOuts,
     claims: Option<Claims>,
-    /// Where it takes STOP from other programs, once it has the station file.
+    /// Where this station takes STOP from other programs, once it has claimed the station
+    /// file.
     socket: Option<PathBuf>,
     station_claim: StationClaim,
-    /// The second of the clock in which the claims were looked at.
+    /// The second of the clock in which the claims were last checked.
     claims_looked_at: i64,
-    /// The settings on disk could not be read: only the operator may replace them.
+    /// The station file could not be read: only the operator may replace it.
     settings_unread: bool,
-    /// The number of what a client asked for, while it is carried out.
+    /// Number of the client's request, while it is carried out.
     asked: Option<u64>,
     told: Vec<Event>,
     outbox: Outbox,
-    /// What its socket does with it.
+    /// Handed to the socket.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
     client: Client,
     publish: watch::Sender<Published>,
@@ -174,24 +174,24 @@ struct Engine {
 /// One antenna and its session.
 struct Antenna {
     shown: AntennaModel,
-    /// Tells this session from others of the same antenna.
+    /// Tells sessions of the same antenna apart.
     session: u64,
     handle: AntennaHandle,
 }
 
-/// Who has the station file open.
+/// Claim on the station file.
 enum StationClaim {
-    /// There is no file yet, or no claim is made.
+    /// There is no file yet, or claims are switched off.
     None,
-    /// This station.
+    /// Held by this station.
     Ours { _claim: Claim },
-    /// Another Azel of this machine.
+    /// Held by another Azel of this machine.
     Theirs(HeldBy),
 }
 
-/// The station with simulated antennas, before and after they run.
+/// The demo station with simulated antennas, before and after the simulators run.
 enum DemoStation {
-    /// The addresses are known once the simulators run.
+    /// Not running yet: the addresses are known once the simulators run.
     Coming,
     Running {
         _demo: Demo,
@@ -199,7 +199,7 @@ enum DemoStation {
 }
 
 impl Engine {
-    /// A station as its settings say.
+    /// A station with these settings.
     fn new(
         settings: &Settings,
         outside: Outside,
@@ -284,7 +284,7 @@ impl Engine {
         Ok((engine, client))
     }
 
-    /// Runs until nobody is there to send requests.
+    /// Runs until the last sender of requests is gone.
     async fn run(mut self, mut inbox: mpsc::Receiver<Request>) {
         let woken = Arc::clone(&self.woken);
         loop {
@@ -295,7 +295,8 @@ impl Engine {
                     None => break,
                 },
                 () = woken.notified() => {
-                    // More comes in at the same moment; a request is not kept waiting.
+                    // More may come in at the same moment; a request does not have to wait
+                    // for it.
                     match self.clock.timeout(BREATH, inbox.recv()).await {
                         Ok(None) => break,
                         taken => taken.ok().flatten(),
@@ -319,17 +320,17 @@ impl Engine {
                 request = inbox.try_recv().ok();
             }
             if is_jog_alone {
-                // A key that is held changes nothing but its lease, many times a second.
+                // A held key only renews its lease, many times a second.
                 continue;
             }
-            // What has woken it until now is taken by this turn.
+            // Wakes until now are handled by this turn.
             tokio::select! {
                 biased;
                 () = woken.notified() => {}
                 () = std::future::ready(()) => {}
             }
             self.turn();
-            // STOP in the meantime has not reached a session that was opened meanwhile.
+            // A STOP pressed meanwhile has not reached a session that was opened meanwhile.
             self.take_urgent();
             self.publish();
             (self.outbox.wake)();
@@ -337,7 +338,7 @@ impl Engine {
         self.take_urgent();
     }
 
-    /// Takes what does not wait behind requests.
+    /// Handles items that must not wait behind requests.
     fn take_urgent(&mut self) {
         let urgent = std::mem::take(&mut *self.client.urgent());
         for stopped in &urgent.stops {
@@ -360,7 +361,7 @@ impl Engine {
         let Request { command, number, at } = request;
         let age = self.steady.saturating_duration_since(at);
         if is_jog && age > JOG_LEASE {
-            // The key may be up by now; its release comes behind it.
+            // The key may be up by now; its release comes next.
             return;
         }
         if command.may_move() && age > TOO_LATE {
@@ -377,7 +378,7 @@ impl Engine {
         (self.now, self.steady) = (now.utc, now.steady);
     }
 
-    /// Shows the station as it is now.
+    /// Publishes the present state of the station.
     fn publish(&mut self) {
         let last = Arc::clone(&self.publish.borrow().snapshot);
         let snapshot = Arc::new(Snapshot {
@@ -414,7 +415,7 @@ impl Engine {
             ends.collect()
         };
         self.publish.send_replace(Published { snapshot, ends });
-        // What they tell of is shown by now.
+        // The published snapshot now shows what the events are about.
         for event in std::mem::take(&mut self.told) {
             if self.outbox.events.try_send(event).is_err() {
                 tracing::warn!("an event is not told: nobody reads them");
@@ -422,13 +423,13 @@ impl Engine {
         }
     }
 
-    /// Tells the client, once what it is about is shown.
+    /// Sends an event to the client with the next publication.
     fn tell(&mut self, event: Event) {
         self.told.push(event);
     }
 
     fn load_station(&mut self) {
-        // What ran until now ends once something else is taken into use.
+        // The running demo ends once another station is in use.
         let _demo = self.demo.take();
         let loaded = match &self.settings_path {
             Some(path) => station::load(path, makes::SPECS),
@@ -453,24 +454,25 @@ impl Engine {
                 let text = error.to_string();
                 tracing::error!("{text}");
                 self.alarms.raise(None, AlarmKind::Settings(text), self.now);
-                // Nothing is connected and nothing is overwritten by itself.
+                // Nothing is connected or overwritten without the operator.
                 self.settings_unread = true;
                 self.use_station(Station::default());
             }
         }
     }
 
-    /// Takes a station into use. Antennas that stay as they are keep their session.
+    /// Takes a station into use. Unchanged antennas keep their session.
     fn use_station(&mut self, station: Station) {
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
-        // The antenna may be the same one at a new address: then STOP is owed to both.
+        // The antenna may be the same one at a new address: then both units are owed a
+        // STOP.
         let debts = self.driver.debts().clone();
         let owed: Vec<String> = (before.iter())
             .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
-        // A unit has one place for a client: the old session leaves first.
+        // A unit accepts one client: the old session leaves first.
         before.retain(|antenna| {
             antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
         });
@@ -493,7 +495,7 @@ impl Engine {
         self.station = Arc::new(station);
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.shown.id()).collect();
         self.alarms.keep_only(&ids);
-        // STOP goes to the new sessions from now on.
+        // From now on STOP reaches the new sessions.
         self.publish();
     }
 
@@ -502,7 +504,7 @@ impl Engine {
         self.open_claimed(config, bounds, claim)
     }
 
-    /// Opens an antenna whose unit is claimed, or leaves it to who has it.
+    /// Opens an antenna with a claim on its unit, or leaves the unit to its holder.
     fn open_claimed(
         &mut self,
         config: station::Antenna,
@@ -513,7 +515,7 @@ impl Engine {
         let (handle, held_by) = match claim {
             Ok(claim) => {
                 let lock_out = self.lock_outs.of(&config.connection).cloned();
-                // The unit is ours until its session has ended.
+                // The claim lasts until the session has ended.
                 let until_the_end = Box::new(claim);
                 (self.driver.open(&config, bounds, lock_out, until_the_end), None)
             }
@@ -524,13 +526,13 @@ impl Engine {
         Antenna { shown, session: self.sessions, handle }
     }
 
-    /// The place of an antenna, if the station still has it.
+    /// Index of an antenna, if the station still has it.
     fn place(&self, id: AntennaId) -> Option<usize> {
         self.antennas.iter().position(|antenna| antenna.shown.id() == id)
     }
 }
 
-/// A station that breaks down stops what it has moved, before its sessions go.
+/// A station that panics stops its antennas before their sessions go.
 impl Drop for Engine {
     fn drop(&mut self) {
         if std::thread::panicking() {
@@ -541,16 +543,16 @@ impl Drop for Engine {
     }
 }
 
-/// What is shared, made anew where it has changed.
+/// Shares `last` if it is unchanged, else a new copy of `now`.
 fn shared<T: Clone + PartialEq>(now: &T, last: &Arc<T>) -> Arc<T> {
     if *now == **last { Arc::clone(last) } else { Arc::new(now.clone()) }
 }
 
-/// To a little before the next full second, with which a window draws anew.
+/// Time to shortly before the next full second, at which a window redraws.
 fn to_next_second(now: Timestamp) -> Duration {
     const BEFORE_NS: u64 = 10_000_000;
     let into_ns = u64::from(now.subsec_nanosecond().unsigned_abs());
     let to_ns = (2_000_000_000 - BEFORE_NS - into_ns) % 1_000_000_000;
-    // A clock that stands must not make a turn at once, again and again.
+    // A clock that stands still must not cause turn after turn at once.
     Duration::from_nanos(to_ns).max(Duration::from_millis(5))
 }

@@ -1,4 +1,4 @@
-//! What a unit reports about its on-board track.
+//! On-board track of a unit, as the unit reports it.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};

@@ -85,7 +85,7 @@ impl AntennaState {
 /// A position that a unit reported.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// When the device measured it, as well as the way over the link tells.
+    /// Time of the measurement, estimated from the round trip over the link.
     pub at: Timestamp,
     /// When it was first asked for. The position may not show what the unit did after this
     /// instant.

@@ -1,4 +1,4 @@
-//! What the operator must not miss.
+//! Alarms: events and states that the operator must not miss.
 
 use std::{sync::Arc, time::Duration};
 
@@ -18,10 +18,9 @@ use crate::{
     station::{AntennaId, Note, NoteReason},
 };
 
-/// Older ones are forgotten, seen ones first.
+/// Maximum number of alarms. Beyond it the oldest go, seen ones first.
 const MAX: usize = 100;
 
-/// How much it matters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Priority {
     /// Something will go wrong or was not done.
@@ -30,12 +29,12 @@ pub enum Priority {
     Warning,
 }
 
-/// What happened. The words are the view's.
+/// Kind of an alarm. The view puts it into words.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum AlarmKind {
     /// No link to the antenna.
     LinkLost(LinkLoss),
-    /// It moves three seconds after STOP.
+    /// The antenna still moves three seconds after STOP.
     StopNotConfirmed,
     /// The unit refused STOP, with this code.
     StopRefused(String),
@@ -43,113 +42,105 @@ pub enum AlarmKind {
     JogLeaseOver,
     /// A jog was stopped because the position grew too old.
     JogPositionOld,
-    /// Stopped, but the unit may start by itself.
+    /// The antenna has stopped, but the unit may start by itself.
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
-    /// Locked out, and it cannot be read back that the unit does not start by itself.
+    /// The unit is locked out, but no read-back proves that it does not start by itself.
     LockOutUnproved,
-    /// The list of units that are locked out could not be read or written; in words.
+    /// The list of locked-out units could not be read or written; in words.
     LockOuts(String),
-    /// The unit refused, with this code.
+    /// The unit refused a request, with this code.
     Refused(Asked, String),
-    /// The unit did not answer.
+    /// The unit did not answer a request.
     Unanswered(Asked),
-    /// The satellite cannot be tracked.
+    /// The satellite cannot be tracked on board.
     CannotTrack(TrackTarget, PrepareError),
-    /// A target cannot be followed position by position, or no further.
+    /// Program track of this target cannot begin, or cannot go on.
     CannotProgramTrack(String, TrackProblem),
-    /// The unit tracks by itself, and not where the satellite is.
+    /// The unit tracks on board, and not where the satellite is.
     OffTarget {
-        /// So far it was off when it was noticed.
+        /// Error when it was noticed.
         off: Angle,
         /// The likeliest cause.
         cause: Option<Ranked>,
     },
-    /// By what the unit tells of itself it would miss a pass; the likeliest cause.
+    /// By the unit's own settings it would miss a pass; with the likeliest cause.
     UnitDiffers(Ranked),
-    /// The unit tracks by itself, and where it should point is not known here.
+    /// The unit tracks on board, but its target direction is unknown here.
     NotCompared {
-        /// What it says that it tracks, of which no elements are known; `None` where it
-        /// does not say.
+        /// Name of the satellite that the unit reports, without known elements; `None`
+        /// where it reports none.
         satellite: Option<String>,
     },
     /// Tracking ended before LOS.
     TrackingEnded,
-    /// A motion ended somewhere else.
+    /// A motion ended short of its target.
     EndedShort,
-    /// The unit tracks without having been asked to by this console.
+    /// The unit tracks without a request from this console.
     StartedByItself,
-    /// The unit moves without having been asked to by this console.
+    /// The unit moves without a request from this console.
     MovesByItself,
-    /// A matter of safety.
     Safety(Safety),
-    /// A STOP is owed to a unit of no antenna of the station.
+    /// A STOP is owed to a unit that belongs to no antenna of the station.
     Owed(Unit),
-    /// The part of the program that talks to the antennas has not responded for
-    /// this long.
+    /// The thread that talks to the antennas has not responded for this long.
     DriverStands(Duration),
-    /// The part of the program that runs the station has shown nothing new for this
-    /// long; what is shown is as old.
+    /// The station's thread has published nothing new for this long; the displayed state is
+    /// as old.
     StationStands(Duration),
-    /// Another Azel of this machine has this station open: nothing is driven from here.
+    /// Another Azel of this machine has this station open: nothing can be driven from here.
     StationElsewhere(HeldBy),
     /// Another Azel of this machine drives this unit.
     UnitElsewhere(HeldBy),
-    /// STOP is not known to have been carried out by the Azel that drives an antenna.
+    /// The Azel that drives an antenna did not confirm STOP.
     StopNotElsewhere,
-    /// Work of the program itself broke off.
+    /// A background job of the program broke off.
     BrokeOff(Work),
-    /// A source of elements, by its name, is not read: the last reading of it
-    /// ended the program.
+    /// The source of elements with this name is not read: its last reading ended the
+    /// program.
     SourceSetAside(String),
-    /// The part of the program that talks to the antenna is too busy to take
-    /// what was asked for.
+    /// The program was too busy to take a request.
     NotTaken,
-    /// A fault or warning of the unit, as it names them itself.
+    /// A fault or warning that the unit names itself.
     Check(Check),
     /// The unit's clock is this far ahead of ours, seconds.
     ClockOff(f64),
     /// The unit's clock was never set.
     ClockNotSet,
-    /// Its position cannot be read, for this reason.
+    /// The position of the unit cannot be read, for this reason.
     Unreadable(#[serde(deserialize_with = "name::one")] Name),
-    /// A setting of the station file that was not taken over.
+    /// An entry of the station file was not taken over.
     Setting(Note),
-    /// The settings could not be read or written; in words.
+    /// The station file could not be read or written; in words.
     Settings(String),
     /// The elements could not be read; in words.
     Elements(String),
 }
 
-/// Work that can break off.
+/// Background work that can break off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
-    /// The reading of the sources of elements.
     Elements,
-    /// The search for passes.
     Passes,
 }
 
-/// One entry of the list.
+/// One entry of the alarm list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alarm {
-    /// Never used twice.
+    /// Unique in this station.
     pub id: u64,
-    /// The antenna that it is about.
+    /// `None` where it concerns no single antenna.
     pub antenna: Option<AntennaId>,
-    /// What happened.
     pub kind: AlarmKind,
-    /// When.
     pub time: Timestamp,
-    /// The operator has acknowledged it.
+    /// The operator has acknowledged the alarm.
     pub seen: bool,
-    /// It is over.
+    /// The reason of the alarm is over.
     pub cleared: bool,
 }
 
 impl Alarm {
-    /// How much it matters.
     pub fn priority(&self) -> Priority {
         match &self.kind {
             AlarmKind::LinkLost(_)
@@ -178,27 +169,27 @@ impl Alarm {
     }
 }
 
-/// All alarms, the newest last. A copy shares them.
+/// All alarms, the newest last. Clones share the list.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Alarms {
     list: Arc<Vec<Alarm>>,
     next_id: u64,
-    /// One has come since the list was opened.
+    /// An alarm has come since the list was last opened.
     pub unopened: bool,
 }
 
 impl Alarms {
-    /// The alarms, the newest last.
+    /// The newest last.
     pub fn list(&self) -> &[Alarm] {
         &self.list
     }
 
-    /// Adds one, unless the same is standing already or one that explains it. It
-    /// takes the place of what it makes obsolete.
+    /// Adds an alarm, unless the same one or one that explains it stands already. It
+    /// replaces alarms that it makes obsolete.
     pub fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, time: Timestamp) {
         if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind {
             let same = |alarm: &Alarm| !alarm.cleared && same_matter(&alarm.kind, &kind);
-            // How long it stands grows while the alarm does.
+            // The duration grows while the alarm stands.
             if let Some(place) = self.list.iter().position(same) {
                 if let Some(standing) = Arc::make_mut(&mut self.list).get_mut(place) {
                     standing.kind = kind;
@@ -227,7 +218,7 @@ impl Alarms {
         self.unopened = true;
     }
 
-    /// Forgets those of antennas that the station has no more.
+    /// Removes alarms of antennas that the station no longer has.
     pub fn keep_only(&mut self, antennas: &[AntennaId]) {
         let is_known = |alarm: &Alarm| alarm.antenna.is_none_or(|id| antennas.contains(&id));
         if !self.list.iter().all(is_known) {
@@ -235,7 +226,7 @@ impl Alarms {
         }
     }
 
-    /// What `is_over` says is over.
+    /// Clears the alarms of `antenna` for which `is_over` returns `true`.
     pub fn clear(&mut self, antenna: Option<AntennaId>, is_over: impl Fn(&AlarmKind) -> bool) {
         let ends =
             |alarm: &Alarm| alarm.antenna == antenna && !alarm.cleared && is_over(&alarm.kind);
@@ -246,11 +237,11 @@ impl Alarms {
         for alarm in list.iter_mut().filter(|alarm| ends(alarm)) {
             alarm.cleared = true;
         }
-        // What is over and was seen need not stay.
+        // Alarms that are over and seen need not stay.
         list.retain(|alarm| !(alarm.cleared && alarm.seen));
     }
 
-    /// The operator has seen this one.
+    /// Marks an alarm as seen by the operator.
     pub fn acknowledge(&mut self, id: u64) {
         let list = Arc::make_mut(&mut self.list);
         for alarm in list.iter_mut() {
@@ -261,14 +252,14 @@ impl Alarms {
         list.retain(|alarm| !(alarm.seen && (alarm.cleared || alarm.kind.is_momentary())));
     }
 
-    /// The newest that was not seen.
+    /// Id of the newest unseen alarm.
     pub fn newest_unseen(&self) -> Option<u64> {
         self.list.iter().rev().find(|alarm| !alarm.seen).map(|alarm| alarm.id)
     }
 }
 
 impl AlarmKind {
-    /// It tells of a moment rather than of a state that goes on.
+    /// Returns `true` for an alarm about a moment rather than about a lasting state.
     fn is_momentary(&self) -> bool {
         !matches!(
             self,
@@ -298,7 +289,7 @@ impl AlarmKind {
     }
 }
 
-/// Figures change while the matter stays.
+/// Compares two alarms, ignoring figures that change while the matter stays.
 fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
@@ -316,7 +307,7 @@ fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     }
 }
 
-/// Whether `cause` says all that `effect` says, and why.
+/// Returns `true` if `cause` says all that `effect` says, and why.
 fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     matches!(
         (cause, effect),
@@ -325,8 +316,8 @@ fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
     )
 }
 
-/// Whether `news` says more than what stands: a unit that cannot be read does
-/// answer, and one that moves matters more than its link.
+/// Returns `true` if `news` says more than `standing`: a unit whose position cannot be read
+/// does answer, and a silent one that moves matters more than its link.
 fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     matches!(
         (news, standing),
@@ -337,8 +328,8 @@ fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
     )
 }
 
-/// Whether what was raised of a check is over by now: it is good, or something
-/// else. A unit that does not say is not taken for one that is well.
+/// Returns `true` if the check behind an alarm is over by now: it is gone, or has another
+/// state. A unit that does not report it may still have the fault.
 pub fn is_over(raised: &Check, now: &[Check]) -> bool {
     let same = now.iter().find(|check| check.name == raised.name);
     same.is_none_or(|check| check.state != raised.state && check.state != CheckState::Unknown)
@@ -350,8 +341,8 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
         Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
         Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // The first is said where it was asked for; many antennas have such an axis.
-        // The others stand for as long as the snapshot says so.
+        // `StoppedByFlags` is shown where the motion was asked for; many antennas have such
+        // an axis. The other two stand for as long as the snapshot says so.
         Event::Safety(matter)
             if !matches!(
                 matter,

@@ -1,5 +1,5 @@
-//! One antenna of a running station: what its session told last, what is predicted
-//! for it, and how far the two are apart.
+//! One antenna of a running station: the last snapshot of its session, the prediction for
+//! it, and the error between the two.
 
 mod errors;
 mod stake;
@@ -24,55 +24,51 @@ use crate::{
     station::{Antenna, AntennaId, ControllerSpec},
 };
 
-/// Rates are taken over at least this long, so that rounding does not show.
+/// Shortest span for measured rates, so that rounding does not show.
 const RATE_SPAN_S: f64 = 0.9;
 
-/// Where a target stood when the antenna was measured.
+/// Predicted direction of a target at the time of a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
-    /// Its catalog number, for a satellite.
+    /// Catalog number of a satellite; `None` for another target.
     pub catalog_number: Option<u32>,
-    /// When.
     pub at: Timestamp,
-    /// Where.
     pub direction: AzEl,
 }
 
-/// One antenna.
+/// One antenna as clients see it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct AntennaModel {
-    /// What it is.
     #[serde(with = "written::antenna")]
     pub config: Antenna,
-    /// What its session told last.
+    /// Last snapshot of its session.
     pub snapshot: Arc<Snapshot>,
-    /// Our own prediction at the time of the last measurement.
+    /// Prediction for the time of the last measurement.
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
     /// Measured rates of azimuth and elevation, degrees a second.
     pub rates_deg_s: Option<(f64, f64)>,
-    /// How its unit would track the selected pass by itself.
+    /// How its unit would track the selected or next pass on board.
     pub judged: Option<Judged>,
-    /// The last event that the operator should read, and when it came.
+    /// The last event for the operator to read, with its time.
     pub news: Option<(Event, Timestamp)>,
-    /// When STOP was pressed that no snapshot tells of yet.
+    /// Time of a STOP that no snapshot shows yet.
     pub stop_pressed: Option<Instant>,
-    /// When STOP was pressed last, as far as the station knows.
+    /// Time of the last STOP that the station knows of.
     pub last_stop: Option<Instant>,
-    /// What it was asked to track last.
+    /// The last track it was asked for.
     pub ordered_track: Option<TrackAgain>,
-    /// A track that STOP has ended, to be offered again.
+    /// A track that STOP ended, offered again.
     pub track_again: Option<TrackAgain>,
-    /// A jog was refused because no dead-man can be had, and the operator has not
-    /// allowed it since.
+    /// A jog was refused for lack of a dead-man, and the operator has not allowed it since.
     pub asks_unguarded: bool,
-    /// An action was refused because nobody here knows where it leads, and nothing
-    /// else was asked for since.
+    /// An action was refused because nobody here knows where it leads, and no other request
+    /// came since.
     pub asks_unseen: Option<Act>,
-    /// Another Azel of this machine drives its unit.
+    /// The other Azel of this machine that drives its unit.
     pub held_by: Option<HeldBy>,
-    /// By which orbit its session judges what its unit does by itself.
+    /// Orbit by which its session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
     recent: VecDeque<Measured>,
 }
@@ -100,41 +96,39 @@ impl AntennaModel {
         }
     }
 
-    /// Names it for good.
+    /// Permanent id.
     pub fn id(&self) -> AntennaId {
         self.config.id
     }
 
-    /// Goes on showing STOP as pressed that the station has not heard of yet.
+    /// Keeps showing a pressed STOP that the station has not heard of yet.
     pub fn keep_pressed(&mut self, pressed: Option<Instant>) {
         let is_news = |pressed: &Instant| self.last_stop.is_none_or(|last| last < *pressed);
         self.stop_pressed = pressed.filter(is_news).or(self.stop_pressed);
     }
 
-    /// Whether it can be sent to its park position now.
+    /// Returns `true` if the antenna can be sent to its park position now.
     pub fn can_park(&self) -> bool {
         let snapshot = &self.snapshot;
         let can = self.variant().capabilities;
         can.takes_positions && snapshot.link.is_open() && snapshot.lock_out.is_none()
     }
 
-    /// The make of its controller.
     pub fn spec(&self) -> &'static ControllerSpec {
         self.config.connection.spec()
     }
 
-    /// What its unit can do and remembers.
     pub fn variant(&self) -> &'static Variant {
         self.config.connection.variant()
     }
 
-    /// What its controller remembers.
+    /// Groups of settings of its unit.
     pub fn groups(&self) -> &'static [&'static Group] {
         self.variant().groups
     }
 
-    /// Compares what the snapshot measured with what is predicted. `followed` finds a
-    /// satellite by its number.
+    /// Compares the measurement in the snapshot with the prediction. `followed` finds a
+    /// satellite by its catalog number.
     pub fn refresh<'a>(
         &mut self,
         site: Site,
@@ -155,8 +149,8 @@ impl AntennaModel {
         self.prediction = if self.follows() {
             self.followed_prediction()
         } else {
-            // What the unit does not follow yet, or has not risen, is waited for, not
-            // missed.
+            // A satellite that the unit does not track yet, or that has not risen, is no
+            // error.
             self.tracked_number().filter(|_| self.is_on_course()).and_then(|number| {
                 let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
                 (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
@@ -188,7 +182,7 @@ impl AntennaModel {
             if !(RATE_SPAN_S / 2.0..=10.0).contains(&span_s) {
                 return None;
             }
-            // Over the zenith the angles of the sky jump and the axes do not.
+            // Over the zenith the angles of the sky jump; the axes do not.
             if self.config.mount.is_flipped(measured.axes[1].angle_deg)
                 != self.config.mount.is_flipped(before.axes[1].angle_deg)
             {
@@ -205,7 +199,7 @@ impl AntennaModel {
         self.recent.push_back(measured);
     }
 
-    /// The session has the target and compares with it.
+    /// Prediction of program track: the session has the target and compares with it.
     fn followed_prediction(&self) -> Option<Prediction> {
         let view = self.snapshot.program_track.as_ref()?;
         let predicted = view.predicted?;
@@ -216,14 +210,14 @@ impl AntennaModel {
         })
     }
 
-    /// Whether this program follows a target with it, or waits for one.
+    /// Returns `true` while program track follows a target or waits for one.
     pub fn follows(&self) -> bool {
         let view = self.snapshot.program_track.as_ref();
         view.is_some_and(|view| view.phase != TrackPhase::Over)
     }
 
-    /// The satellite that is followed, or is about to be: by the unit itself the
-    /// one it holds, whatever we asked for.
+    /// Catalog number of the satellite that is tracked, or about to be. With on-board track
+    /// it is the one that the unit holds, whatever we asked for.
     pub fn tracked_number(&self) -> Option<u32> {
         let state = &self.snapshot.state;
         if self.follows() {
@@ -238,15 +232,15 @@ impl AntennaModel {
             .flatten()
     }
 
-    /// Whether the unit is to point at what it tracks by itself. It is not before its
-    /// tracking window opens, and not when the pass is over.
+    /// Returns `true` if the unit should point at its target now: not before its tracking
+    /// window opens, and not when the pass is over.
     fn is_on_course(&self) -> bool {
         self.snapshot.state.program.is_some_and(|program| {
             program.enabled && matches!(program.phase, Phase::Tracking | Phase::Unknown(_))
         })
     }
 
-    /// Whether a target is followed right now, by the unit or by this program.
+    /// Returns `true` while a target is tracked, on board or by this program.
     pub fn tracks(&self) -> bool {
         let snapshot = &self.snapshot;
         let by_unit = snapshot
@@ -257,8 +251,8 @@ impl AntennaModel {
         by_unit || view.is_some_and(|view| view.phase == TrackPhase::Tracking)
     }
 
-    /// It moves, or is told from here to be somewhere. Without a link nobody knows,
-    /// and other settings may be what brings it back.
+    /// Returns `true` if the antenna moves or has a track. Without a link it returns
+    /// `false`: nobody knows, and other settings may bring the link back.
     pub fn is_busy(&self) -> bool {
         let snapshot = &self.snapshot;
         let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
@@ -266,7 +260,7 @@ impl AntennaModel {
         snapshot.link.is_open() && (moves || tracks)
     }
 
-    /// The target that is followed stands where the mount does not get to.
+    /// Returns `true` if the target of program track is where the mount cannot reach.
     pub fn is_out_of_reach(&self) -> bool {
         let predicted = self.snapshot.program_track.as_ref().and_then(|view| view.predicted);
         let mount = self.config.mount;
@@ -279,7 +273,7 @@ impl AntennaModel {
         })
     }
 
-    /// How far the last measurement was from the prediction for its time.
+    /// Error of the last measurement against the prediction for its time.
     pub fn error(&self) -> Option<ErrorSample> {
         let prediction = self.prediction?;
         let measured = self.snapshot.state.measured?;

@@ -1,4 +1,4 @@
-//! Carries out what a client asked for.
+//! Carries out the commands of clients.
 
 use std::sync::Arc;
 
@@ -81,7 +81,7 @@ impl Engine {
         }
     }
 
-    /// Whether a STOP came after a motion was asked for.
+    /// Returns `true` if a STOP came after the motion was asked for.
     fn is_void(&self, command: &Command) -> bool {
         let antenna = command.antenna().and_then(|id| self.place(id));
         let antenna = antenna.and_then(|place| self.antennas.get(place));
@@ -90,8 +90,7 @@ impl Engine {
         command.may_move() && self.asked.is_some_and(is_void)
     }
 
-    /// Whether what is asked for is for an antenna that another Azel drives, which is
-    /// told then.
+    /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
     fn is_elsewhere(&mut self, command: &Command) -> bool {
         let named =
             |name: &str| self.antennas.iter().position(|antenna| antenna.shown.config.name == name);
@@ -107,14 +106,14 @@ impl Engine {
         true
     }
 
-    /// Does `work` with the place of an antenna, if the station still has it.
+    /// Runs `work` with the index of an antenna, if the station still has it.
     fn with(&mut self, id: AntennaId, work: impl FnOnce(&mut Self, usize)) {
         if let Some(index) = self.place(id) {
             work(self, index);
         }
     }
 
-    /// Past every queue, also to a unit that has to be connected for it.
+    /// Stops one antenna past every queue, even a unit that must be connected for it.
     pub(super) fn stop_one(&mut self, index: usize) {
         if let Some(antenna) = self.antennas.get(index) {
             let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
@@ -139,7 +138,7 @@ impl Engine {
         }
         match command {
             driver::Command::AllowUnguarded => antenna.shown.asks_unguarded = false,
-            // By the operator's word, whatever the unit says of itself.
+            // The operator vouches for standstill, whatever the unit reports.
             driver::Command::SeenStanding => {
                 let alarms = &mut self.alarms;
                 alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
@@ -149,7 +148,7 @@ impl Engine {
         let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
         let Err(command) = antenna.handle.send_as(command, number) else { return };
         tracing::error!(?command, "the session is too busy to take a command");
-        // What ends a motion must not get lost: stop instead.
+        // A command that ends a motion must not get lost: stop instead.
         if matches!(command, driver::Command::Standby | driver::Command::EndJog) {
             self.stop_one(index);
         }
@@ -165,18 +164,18 @@ impl Engine {
     }
 
     fn follow_pass(&mut self, index: usize, pass: PassKey) {
-        // A pass that is over since it was asked for is not replaced by another.
+        // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let follow = predicted.follow(self.station.elevation_floor());
         self.send(index, driver::Command::ProgramTrack(Box::new(follow)));
     }
 
-    /// A pass that is not over.
+    /// A listed pass that is not over.
     pub(super) fn pass(&self, key: PassKey) -> Option<&PredictedPass> {
         self.pass_lists.find(key).filter(|predicted| predicted.pass.los.time > self.now)
     }
 
-    /// One at a time: two would write the same files.
+    /// Starts reading the elements. One job at a time: two would write the same files.
     pub(super) fn begin_elements(&mut self, task: Task) {
         if self.elements_job.is_some() || self.sources.is_locked {
             return;
@@ -191,8 +190,8 @@ impl Engine {
         }
     }
 
-    /// The demo station has no file, and one that could not be read is left
-    /// alone: there the change lasts as long as the program.
+    /// Marks or unmarks a favourite. The change lasts only as long as the program for the
+    /// demo station, and where the station file could not be read or another Azel holds it.
     fn set_favourite(&mut self, number: u32, is_favourite: bool) {
         let mut station = Station::clone(&self.station);
         station.favourites.retain(|known| *known != number);
@@ -214,7 +213,7 @@ impl Engine {
         self.tell(Event::Changed);
     }
 
-    /// The new settings are used once they are safe on disk.
+    /// Saves a station, and uses it once it is safe on disk.
     fn save_station(&mut self, station: station::Station) {
         let now = self.now;
         let was_theirs = matches!(self.station_claim, StationClaim::Theirs(_));

@@ -1,6 +1,6 @@
-//! What only one Azel of this machine may hold at a time: a station file, and each unit.
-//! A claim is a locked file, which the operating system frees with the process, however
-//! that ends.
+//! Claims: a station file and each unit may be held by one Azel of this machine at a time.
+//! A claim is a locked file; the operating system frees it with the process, however that
+//! ends.
 
 use std::{
     collections::BTreeMap,
@@ -17,33 +17,31 @@ use sha2::{Digest as _, Sha256};
 
 use crate::station::Antenna;
 
-/// Who holds something.
+/// The process that holds a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Holder {
-    /// What it is: the window or `azel serve`.
     pub kind: HolderKind,
-    /// Its process.
+    /// Process id.
     pub process: u32,
-    /// Since when.
     pub since: Timestamp,
-    /// Where it takes STOP.
+    /// Socket on which it takes STOP.
     pub socket: Option<PathBuf>,
-    /// What it calls the antenna, where it holds a unit.
+    /// Its name of the antenna, where it holds a unit.
     pub antenna: Option<String>,
 }
 
-/// What kind of Azel holds something.
+/// Kind of Azel that holds a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HolderKind {
-    /// One with a window.
+    /// An Azel with a window.
     #[default]
     Window,
     /// `azel serve`.
     Serve,
 }
 
-/// Another Azel of this machine holds it; it may not say who it is.
+/// Another Azel of this machine that holds a claim; `None` where it does not say who it is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HeldBy(pub Option<Holder>);
 
@@ -60,32 +58,32 @@ impl std::fmt::Display for HeldBy {
     }
 }
 
-/// Something is held for as long as this or a copy of it lives: a session keeps one until
-/// it has ended.
+/// A claim lasts as long as this or a clone of it lives: a session keeps one until it has
+/// ended.
 pub(super) type Claim = Arc<File>;
 
-/// Why something cannot be claimed.
+/// Why a claim failed.
 pub(super) enum Unclaimed {
-    /// Another one holds it.
+    /// Another Azel holds it.
     Held(HeldBy),
-    /// The file cannot be had.
+    /// The lock file cannot be opened, locked or written.
     Io(io::Error),
 }
 
-/// The folder of claims, and in whose name they are made.
+/// Folder of the claims, and the holder in whose name they are made.
 #[derive(Debug)]
 pub(super) struct Claims {
     folder: PathBuf,
     kind: HolderKind,
-    /// Where STOP is taken.
+    /// Socket on which STOP is taken.
     socket: Option<PathBuf>,
-    /// What is held here, by the names of the files: two antennas of one line share it,
-    /// and a new session of a unit has it before the old one has ended.
+    /// Claims held here, by the names of their files: two antennas on one line share a
+    /// claim, and a new session of a unit has it before the old one has ended.
     held: Mutex<BTreeMap<String, Weak<File>>>,
 }
 
 impl Claims {
-    /// Makes the folder, which nobody else may look into.
+    /// Creates the folder; on Unix nobody else may look into it.
     pub(super) fn new(
         folder: PathBuf,
         kind: HolderKind,
@@ -126,7 +124,7 @@ impl Claims {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 let mut text = String::new();
-                // Whoever it is, it is held.
+                // The claim is held even if the holder's text cannot be read.
                 let _ = file.read_to_string(&mut text);
                 return Err(Unclaimed::Held(HeldBy(serde_json::from_str(&text).ok())));
             }
@@ -148,25 +146,25 @@ impl Claims {
     }
 }
 
-/// The socket of whoever holds the station file at `path`. A name in a folder of its own,
-/// because the path of a socket must be short.
+/// Socket of the holder of the station file at `path`. It has a name in a folder of its
+/// own, because the path of a socket must be short.
 #[cfg(unix)]
 pub fn socket_path(folder: &Path, path: &Path) -> PathBuf {
     let path = whole_path(path);
     folder.join(format!("{}.sock", digest("station", path.to_string_lossy().as_bytes())))
 }
 
-/// Where claims and sockets of this user are; `None` on a machine without a home.
+/// Folder of this user's claims and sockets; `None` on a machine without a home.
 pub fn claims_folder() -> Option<PathBuf> {
     let dirs = directories::ProjectDirs::from("", "", "azel")?;
     let own = dirs.runtime_dir().map(Path::to_path_buf);
     Some(own.unwrap_or_else(|| dirs.data_dir().join("run")))
 }
 
-/// The one name of a station file, however it is spelled.
+/// The canonical path of a station file, even where the file does not exist yet.
 fn whole_path(path: &Path) -> PathBuf {
     let whole = path.canonicalize().or_else(|_| {
-        // The file need not be there yet.
+        // The file may not exist yet.
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = folder.unwrap_or(Path::new(".")).canonicalize()?;
         Ok::<_, io::Error>(folder.join(path.file_name().unwrap_or_default()))
@@ -205,7 +203,7 @@ mod tests {
             panic!("free")
         };
         assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
-        // Whoever holds it may have it again, and has it until the last one is gone.
+        // The holder may claim again, and holds it until the last clone is gone.
         let again = first.station(&path).ok().unwrap();
         drop(held);
         assert!(second.station(&path).is_err());

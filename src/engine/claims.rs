@@ -1,5 +1,5 @@
-//! A station file and a unit have one Azel of this machine at a time. Whoever comes second
-//! shows the station and drives nothing, until the first has ended.
+//! Uses the claims: the second Azel of this machine on a station or unit shows the station
+//! and drives nothing until the first has ended.
 
 use std::{
     io,
@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl Engine {
-    /// Claims the station file before it is read.
+    /// Sets up the claims and claims the station file before it is read.
     pub(super) fn take_claims(&mut self, wanted: Option<(PathBuf, HolderKind)>) {
         let Some((folder, kind)) = wanted else { return };
         #[cfg(unix)]
@@ -29,7 +29,7 @@ impl Engine {
         match Claims::new(folder, kind, socket.clone()) {
             Ok(claims) => (self.claims, self.socket) = (Some(claims), socket),
             Err(error) => {
-                // One Azel alone needs no claim, and must not stand still for it.
+                // A lone Azel needs no claim and must not stand still for it.
                 self.tell_unclaimed("other programs cannot be kept off the units", &error);
             }
         }
@@ -38,7 +38,7 @@ impl Engine {
         }
     }
 
-    /// Claims the station file; why not, in words.
+    /// Claims the station file, or raises an alarm that says why not.
     pub(super) fn claim_station(&mut self) {
         if matches!(self.station_claim, StationClaim::Ours { .. }) {
             return;
@@ -72,7 +72,8 @@ impl Engine {
         self.alarms.raise(None, AlarmKind::Settings(text), self.now);
     }
 
-    /// Claims the unit of an antenna: no claim where none is made, or who has it.
+    /// Claims the unit of an antenna. `None` where no claim is made; an error names the
+    /// holder.
     pub(super) fn claim_unit(&self, antenna: &station::Antenna) -> Result<Option<Claim>, HeldBy> {
         if let StationClaim::Theirs(by) = &self.station_claim {
             return Err(by.clone());
@@ -87,13 +88,13 @@ impl Engine {
         }
     }
 
-    /// STOP goes to whoever drives these antennas, which are not driven from here.
+    /// Sends STOP to the Azels that drive these antennas.
     pub(super) fn stop_elsewhere(&self, antennas: &[AntennaId]) {
         let held = self.antennas.iter().map(|antenna| &antenna.shown);
         for antenna in held.filter(|antenna| antennas.contains(&antenna.id())) {
             let Some(HeldBy(holder)) = &antenna.held_by else { continue };
             let holder = holder.clone();
-            // Under the name that it has there.
+            // The holder's name of the antenna.
             let name = holder.as_ref().and_then(|holder| holder.antenna.clone());
             let name = name.unwrap_or_else(|| antenna.config.name.clone());
             let client = self.client.clone();
@@ -110,7 +111,7 @@ impl Engine {
         }
     }
 
-    /// Takes over what another one has left.
+    /// Takes over the station or units of an Azel that has ended, at most once a second.
     pub(super) fn watch_claims(&mut self) {
         let is_second = self.now.as_second() != self.claims_looked_at;
         if !is_second {
@@ -138,7 +139,7 @@ impl Engine {
                     continue;
                 }
             };
-            // Whoever had it may have locked it out.
+            // The previous holder may have locked the unit out.
             self.load_lock_outs();
             let bounds = Bounds::of(&self.station, &config);
             let opened = self.open_claimed(config, bounds, Ok(claim));
@@ -150,8 +151,8 @@ impl Engine {
         }
     }
 
-    /// Takes over the station file where the other one has ended: it may have changed it.
-    /// Whether it is ours now.
+    /// Takes over and reloads the station file if its holder has ended, as the holder may
+    /// have changed it. Returns `true` if this station holds it now.
     pub(super) fn take_over_station(&mut self) -> bool {
         self.claim_station();
         if !matches!(self.station_claim, StationClaim::Ours { .. }) {
@@ -165,7 +166,7 @@ impl Engine {
     }
 }
 
-/// Whether whoever serves `socket` has stopped its antenna of this name, with proof.
+/// Returns `true` if the Azel behind `socket` stopped its antenna of this name, with proof.
 fn stop_there(socket: Option<&Path>, antenna: String) -> bool {
     #[cfg(unix)]
     if let Some(socket) = socket {

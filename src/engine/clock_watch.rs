@@ -1,4 +1,4 @@
-//! Asks now and then whether the clock of this computer is kept right.
+//! Checks periodically that the clock of this computer is synchronised.
 
 use std::time::Duration;
 
@@ -8,10 +8,10 @@ use crate::{
     job::Wake,
 };
 
-/// A clock that nobody keeps drifts by some milliseconds in this time.
+/// Time between two checks: an unsynchronised clock drifts by some milliseconds in it.
 const PERIOD: Duration = Duration::from_mins(2);
 
-/// The question that is under way, and when the next one is due.
+/// The check under way, and the time of the last one.
 #[derive(Default)]
 pub(super) struct ClockWatch {
     asked: Option<Instant>,
@@ -19,7 +19,7 @@ pub(super) struct ClockWatch {
 }
 
 impl ClockWatch {
-    /// The newest answer, once it has come.
+    /// Returns a new answer once it has come, and starts the next check when it is due.
     pub(super) fn poll(&mut self, now: Instant, wake: &Wake) -> Option<TimeSync> {
         let answer = Job::take(&mut self.job).map(|end| end.unwrap_or(TimeSync::NotKnown));
         let due = self.asked.is_none_or(|asked| now.saturating_duration_since(asked) >= PERIOD);

@@ -1,4 +1,4 @@
-//! The end while antennas move: first what the operator has said, then the end.
+//! Closing while antennas move: carry out the operator's choice, then end.
 
 use std::time::Duration;
 
@@ -11,33 +11,32 @@ use crate::{
     station::{AntennaId, OnClose, Station},
 };
 
-/// A STOP is told as not proved before that.
+/// A STOP is reported as not proved before this time.
 const STOPPED_IN: Duration = Duration::from_secs(6);
-/// By then a session has taken up what it was asked.
+/// A session has taken up a command by this time.
 const TAKEN_IN: Duration = Duration::from_secs(2);
 
-/// What becomes of antennas that move or are tracked at the end.
+/// Treatment of antennas that move or track at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CloseHow {
     /// They are stopped and hold.
     Hold,
-    /// They are parked; what cannot be parked is stopped.
+    /// They are parked; those that cannot be parked are stopped.
     Park,
-    /// What a unit tracks by itself goes on; what else moves is stopped.
+    /// On-board track goes on; everything else that moves is stopped.
     Leave,
 }
 
-/// The end comes when these antennas are done.
+/// A closing under way: the program ends when these antennas are done.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Closing {
-    /// What the operator has said.
+    /// The operator's choice.
     pub how: CloseHow,
-    /// The antennas that are waited for.
     pub waits_for: Vec<(AntennaId, Wanted)>,
     since: Instant,
 }
 
-/// What is waited for.
+/// Condition that a closing waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Wanted {
     /// Proved standstill.
@@ -47,7 +46,7 @@ pub enum Wanted {
 }
 
 impl CloseHow {
-    /// What the station says; `None` where the operator is asked.
+    /// The choice in the station file; `None` where the operator is asked.
     pub fn of(station: &Station) -> Option<Self> {
         Some(match station.on_close? {
             OnClose::Hold => Self::Hold,
@@ -58,7 +57,7 @@ impl CloseHow {
 }
 
 impl Engine {
-    /// Does what the operator has said and closes when it is done.
+    /// Carries out the operator's choice and closes when it is done.
     pub(super) fn close_after(&mut self, how: CloseHow) {
         let mut waits_for = Vec::new();
         for index in 0..self.antennas.len() {
@@ -74,8 +73,8 @@ impl Engine {
                 waits_for.push((id, Wanted::Parked));
                 continue;
             }
-            // What was told as not proved once is not waited for again: a unit that
-            // cannot be reached must not hold up the end.
+            // An antenna already reported as not stopped is not waited for again: an
+            // unreachable unit must not hold up the end.
             let was_told = matches!(antenna.snapshot.stop, StopState::NotConfirmed { .. });
             self.stop_one(index);
             if !was_told {
@@ -85,7 +84,7 @@ impl Engine {
         self.closing = Some(Closing { how, waits_for, since: self.steady });
     }
 
-    /// Takes what an antenna has told while it is waited for.
+    /// Takes an event of an antenna that the closing waits for.
     pub(super) fn take_closing_event(&mut self, id: AntennaId, event: &Event) {
         let Some(closing) = &mut self.closing else { return };
         let Some(place) = closing.waits_for.iter().position(|(of, _)| *of == id) else { return };
@@ -106,12 +105,12 @@ impl Engine {
         if is_done {
             closing.waits_for.remove(place);
         } else {
-            // What went wrong stands on its card and in the alarms.
+            // The antenna's card and the alarms show what went wrong.
             self.closing = None;
         }
     }
 
-    /// Ends a closing that does not come to its end.
+    /// Ends the closing: drops one that fails, and reports one that is done.
     pub(super) fn watch_closing(&mut self) {
         let Some(closing) = &self.closing else { return };
         let age = self.steady.saturating_duration_since(closing.since);
@@ -132,7 +131,7 @@ impl Engine {
         }
     }
 
-    /// The program ends and nobody can be asked.
+    /// Ends without a question: stops antennas unless the station file says to leave them.
     pub(super) fn end_unasked(&mut self) {
         match CloseHow::of(&self.station) {
             // Parking takes longer than the operating system waits.

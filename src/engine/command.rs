@@ -1,4 +1,4 @@
-//! What a client of a station asks for.
+//! Commands of clients to a station.
 
 use std::path::PathBuf;
 
@@ -16,94 +16,83 @@ use crate::{
     station::{AntennaId, Station},
 };
 
-/// What a client of a station asks for. A STOP is none of these: it goes past them.
+/// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
-    /// Something for an antenna.
+    /// A command for an antenna.
     Antenna(AntennaId, driver::Command),
-    /// Track a pass.
+    /// Track a pass: on board where the unit can, else by program track.
     Track {
-        /// With which antenna.
         antenna: AntennaId,
-        /// Which pass.
         pass: PassKey,
-        /// The operator knows that the unit would miss.
+        /// The operator knows that the unit would miss the satellite.
         is_agreed: bool,
     },
-    /// Follow a pass from here, position by position, also where the unit could track it
-    /// by itself.
+    /// Track a pass by program track, even where the unit could track on board.
     ProgramTrackPass {
-        /// With which antenna.
         antenna: AntennaId,
-        /// Which pass.
         pass: PassKey,
     },
-    /// List passes from this maximum elevation on, degrees.
+    /// List passes with at least this maximum elevation, degrees.
     SetElevationFloor(f64),
-    /// End the search for the passes of this list; what is listed stays.
+    /// End the search for the passes of this list; listed passes stay.
     CancelSearch(Scope),
-    /// Begin the cancelled search again.
+    /// Restart the cancelled search.
     ResumeSearch(Scope),
-    /// Mark this satellite as a favourite, or no longer.
+    /// Mark or unmark a satellite as a favourite.
     SetFavourite {
         /// Catalog number.
         number: u32,
-        /// Whether it is to be one.
         is_favourite: bool,
     },
-    /// Take up this source of elements.
+    /// Add a source of elements.
     AddSource(Source),
-    /// Give up the source of elements with this name.
+    /// Remove the source of elements with this name.
     RemoveSource(String),
     /// Read all sources anew, and ask the servers of some.
     RefreshSources {
-        /// The names of those whose servers are asked, where they may be.
+        /// Names of the sources whose servers are asked, where they may be.
         names: Vec<String>,
-        /// The operator wants it although they were asked lately.
+        /// Ask even if they were asked lately.
         forced: bool,
     },
-    /// The alarm list is open.
+    /// The operator has opened the alarm list.
     OpenedAlarms,
-    /// This alarm was seen.
+    /// The operator has seen this alarm.
     AcknowledgeAlarm(u64),
-    /// Save what is known of the settings of this antenna.
+    /// Save the settings that were read from this antenna's unit.
     SaveSettings(AntennaId),
-    /// Compare the settings of this antenna with a file.
+    /// Compare the settings of this antenna's unit with a file.
     CompareSettings(AntennaId),
     /// Read this copy of settings for the comparison.
     ReadCopy {
-        /// Of which antenna.
         antenna: AntennaId,
-        /// Where it is.
         path: PathBuf,
     },
-    /// End the comparison.
     CloseCopy,
-    /// Save these settings and use them.
+    /// Save this station and use it.
     SaveStation(#[serde(with = "written::station")] Box<Station>),
-    /// About a file of elements for a unit.
+    /// About an upload of elements to a unit.
     Upload(uploads::Ask),
-    /// About a test of a source that a unit is told to use.
+    /// About a test of an element source that a unit shall use.
     TestSource(TestAsk),
-    /// End once this is done with the antennas that move.
+    /// End once the moving antennas are treated like this.
     CloseAfter(CloseHow),
-    /// Do not end after all.
+    /// Cancel the closing.
     StayOpen,
-    /// What the client looks at.
+    /// The list and pass that the client shows.
     Look(Attention),
 }
 
-/// What a client looks at, and what is therefore worked out.
+/// The list and pass that a client shows; they decide which passes are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Attention {
-    /// Which passes it lists.
     pub list: ListChoice,
-    /// The pass that is selected.
     pub selected: Option<PassKey>,
 }
 
 impl Command {
-    /// The antenna that it would move, if it is about one.
+    /// The antenna of the command, for commands to one antenna.
     pub fn antenna(&self) -> Option<AntennaId> {
         match self {
             Self::Antenna(antenna, _)
@@ -113,7 +102,7 @@ impl Command {
         }
     }
 
-    /// Whether it may move an antenna. A stop at the same time voids it.
+    /// Returns `true` if the command may move an antenna. A later STOP voids it.
     pub fn may_move(&self) -> bool {
         match self {
             Self::Antenna(_, command) => {

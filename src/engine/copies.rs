@@ -1,5 +1,5 @@
-//! Copies of the settings of units as files: saved, listed and read on a thread
-//! of their own.
+//! Copies of the settings of units as files: saved, listed and read on a thread of their
+//! own.
 
 use std::{
     fs, io,
@@ -16,80 +16,79 @@ use crate::{
     whole_file,
 };
 
-/// A copy larger than this is none.
+/// Maximum size of a copy.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The copies of the settings of units.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Copies {
-    /// What came of the last saving.
+    /// Outcome of the last save.
     pub saved: Option<Saving>,
-    /// The copy that is compared with an antenna; `None` while none is.
+    /// The copy compared with an antenna; `None` without a comparison.
     pub open: Option<OpenCopy>,
 }
 
-/// What came of a saving.
+/// Outcome of a save.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Saving {
     /// Name of the antenna.
     pub antenna: String,
-    /// When it ended.
     pub at: Timestamp,
-    /// Where the copy is; or what went wrong, in words.
+    /// Path of the copy, or the error in words.
     pub result: Result<PathBuf, String>,
 }
 
-/// A comparison on its way.
+/// A comparison of a copy with an antenna.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OpenCopy {
     /// Name of the antenna.
     pub antenna: String,
-    /// The copies of this antenna, the newest first.
+    /// Copies of this antenna, newest first.
     pub listed: Vec<PathBuf>,
-    /// The copy that was read, with its path; or what went wrong, in words.
+    /// The copy that was read, with its path, or the error in words.
     pub read: Option<(PathBuf, Result<SettingsCopy, String>)>,
 }
 
-/// What is to be done on the thread.
+/// A job for the thread.
 pub(super) enum Task {
     Save { antenna: String, text: String, path: PathBuf },
     List { antenna: String },
     Read { path: PathBuf, controller: &'static str, groups: &'static [&'static Group] },
 }
 
-/// What came of it.
+/// Outcome of a job.
 pub(super) enum Outcome {
     Saved { antenna: String, result: Result<PathBuf, String> },
     Listed(Vec<PathBuf>),
     Read(PathBuf, Result<SettingsCopy, String>),
 }
 
-/// A change of a service setting waits for the copy of what was there before.
+/// Changes of service settings that wait until the previous values are saved as a copy.
 #[derive(Debug)]
 pub(super) struct Waiting {
     pub(super) antenna: String,
     pub(super) changes: Vec<Change>,
 }
 
-/// The work that is under way, and what waits for it.
+/// The job under way, and the jobs that wait.
 #[derive(Default)]
 pub(super) struct CopyWork {
     folder: Option<PathBuf>,
     job: Option<Job<Outcome>>,
-    /// What comes of the job if it breaks off.
+    /// Outcome to report if the job breaks off.
     if_broken: Option<Outcome>,
     queue: Vec<Task>,
     pub(super) waiting: Option<Waiting>,
 }
 
 impl CopyWork {
-    /// The copies stand beside the station file.
+    /// Copies go to a folder beside the station file.
     pub(super) fn beside(station: Option<&Path>) -> Self {
         let folder = station.map(|station| station.with_file_name("settings-copies"));
         Self { folder, ..Self::default() }
     }
 
-    /// Begins to save what is known of `antenna`, or says why not.
+    /// Queues a save of the settings read from `antenna`, or says why not.
     pub(super) fn save(&mut self, antenna: &AntennaModel, now: Timestamp) -> Result<(), String> {
         let folder = self.folder.as_ref().ok_or("this user has no folder for settings")?;
         let name = &antenna.config.name;
@@ -110,21 +109,21 @@ impl CopyWork {
         Ok(())
     }
 
-    /// Asks for the names of the copies of an antenna.
+    /// Queues a search for the copies of an antenna.
     pub(super) fn list(&mut self, antenna: &str) {
         self.queue.push(Task::List { antenna: antenna.to_owned() });
     }
 
-    /// Reads a copy for `antenna`.
+    /// Queues the reading of a copy for `antenna`.
     pub(super) fn read(&mut self, path: PathBuf, antenna: &AntennaModel) {
         let (controller, groups) = (antenna.spec().key, antenna.groups());
         self.queue.push(Task::Read { path, controller, groups });
     }
 
-    /// The result that has come in, and the next piece of work begun.
+    /// Returns the outcome of a finished job, or starts the next one.
     pub(super) fn turn(&mut self, wake: &Wake) -> Option<Outcome> {
         if let Some(end) = Job::take(&mut self.job) {
-            // The next piece begins with the next turn, which the wake brings.
+            // The next job begins with the next turn; the wake brings it.
             wake();
             return end.ok().or(self.if_broken.take());
         }
@@ -140,7 +139,7 @@ impl CopyWork {
                 Err(error) => {
                     let why = format!("no thread for the copies of settings: {error}");
                     tracing::error!("{why}");
-                    // What waits for a copy must hear that there is none.
+                    // Changes that wait for a copy must learn that there is none.
                     return of.map(|antenna| Outcome::Saved { antenna, result: Err(why) });
                 }
             }
@@ -149,7 +148,7 @@ impl CopyWork {
     }
 }
 
-/// What comes of a piece of work that broke off: what waits for it must hear.
+/// Outcome of a job that breaks off, for those who wait for it.
 fn broken(task: &Task) -> Outcome {
     let why = BrokeOff.to_string();
     match task {
@@ -190,7 +189,7 @@ fn text(path: &Path) -> io::Result<String> {
     fs::read_to_string(path)
 }
 
-/// The newest first: the time is in the name.
+/// Copies of an antenna, newest first: the time is in the name.
 fn list(folder: &Path, antenna: &str) -> Vec<PathBuf> {
     let start = format!("{}-", slug(antenna));
     let is_copy = |path: &PathBuf| {
@@ -204,7 +203,7 @@ fn list(folder: &Path, antenna: &str) -> Vec<PathBuf> {
     paths
 }
 
-/// A name that every file system takes.
+/// A file name that every file system takes.
 fn slug(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect()
 }

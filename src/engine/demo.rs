@@ -1,6 +1,5 @@
-//! The demo station's antennas: simulators in this process, behind real
-//! sockets on the loopback and a pseudo-terminal. The rest of the program does
-//! not know.
+//! Simulated antennas of the demo station: simulators in this process, behind real sockets
+//! on the loopback and a pseudo-terminal. The rest of the program does not know.
 
 use std::{
     collections::BTreeMap,
@@ -20,12 +19,11 @@ use crate::{
     station::Station,
 };
 
-/// Any free port that only this machine reaches.
+/// Any free port, reachable from this machine only.
 const LOOPBACK: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 0);
 
-/// Running simulators. Dropping it ends them.
+/// Running simulators. Dropping this ends them.
 pub(super) struct Demo {
-    /// Where they answer.
     pub(super) addresses: DemoAddresses,
     _end: tokio::sync::oneshot::Sender<()>,
 }
@@ -60,7 +58,7 @@ impl Demo {
     }
 }
 
-/// The simulators and where they answer.
+/// The simulators' addresses, and the future that serves them.
 async fn serve(satrak: satrak::Options) -> io::Result<(DemoAddresses, Serving)> {
     let satrak = satrak::Simulator::bind(LOOPBACK, satrak).await?;
     let genius = rotator_genius::Simulator::bind(LOOPBACK, genius()).await?;
@@ -80,7 +78,7 @@ async fn serve(satrak: satrak::Options) -> io::Result<(DemoAddresses, Serving)> 
     Ok((addresses, Box::pin(serving)))
 }
 
-/// Azimuth all around and elevation to the zenith.
+/// Travel: azimuth all around, elevation to the zenith.
 fn genius() -> rotator_genius::Options {
     let azimuth = rotator_genius::RotatorOptions {
         limit_cw: WholeDegrees::MAX,
@@ -92,8 +90,8 @@ fn genius() -> rotator_genius::Options {
     }
 }
 
-/// On a pseudo-terminal, as on a serial port, where there are such; else as
-/// behind a serial server. The work of serving it, and where it answers.
+/// The simulated RC2000C on a pseudo-terminal where there are such, else behind a TCP port
+/// like a serial server. Returns the future that serves it, and its address.
 async fn rc2000c() -> io::Result<(Serving, String)> {
     let options = rc2000c::Options::default();
     #[cfg(unix)]

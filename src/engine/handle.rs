@@ -1,4 +1,4 @@
-//! The near end of a running station.
+//! Handles on a running station for its owner and its clients.
 
 use std::{
     io,
@@ -17,18 +17,18 @@ use crate::{
     station::AntennaId,
 };
 
-/// How many requests may wait: a client sends a few a frame.
+/// Maximum number of waiting requests: a client sends a few per frame.
 const REQUESTS: usize = 256;
-/// How many events may wait.
+/// Maximum number of waiting events.
 const EVENTS: usize = 256;
-/// A station ends within this: its sessions say their last STOP.
+/// Maximum time for a station to end: its sessions send their last STOP.
 const FAREWELL: Duration = Duration::from_secs(8);
 
-/// A station that shows nothing new for so long stands.
+/// A station that publishes nothing for this long counts as stuck.
 const STANDS: Duration = Duration::from_secs(2);
 
-/// What goes to the thread of a station: a command, its number among all that was asked
-/// for, and when it was asked for.
+/// A request to the thread of a station: a command, its serial number, and the time of the
+/// request.
 pub(super) struct Request {
     pub(super) command: Command,
     pub(super) number: u64,
@@ -36,76 +36,74 @@ pub(super) struct Request {
 }
 
 impl Request {
-    /// A key is held.
+    /// Returns `true` for a held jog key.
     pub(super) fn is_jog(&self) -> bool {
         matches!(self.command, Command::Antenna(_, driver::Command::Jog { .. }))
     }
 }
 
-/// What must reach the station however many requests wait.
+/// Items that must reach the station however many requests wait.
 #[derive(Default)]
 pub(super) struct Urgent {
     pub(super) stops: Vec<Stopped>,
-    /// The station ends, and nobody can be asked.
+    /// The program ends, and nobody can be asked.
     pub(super) ends_unasked: bool,
-    /// A request found no room.
+    /// The queue of requests was full.
     pub(super) has_turned_away: bool,
-    /// STOP is not known to have been carried out by the Azel that drives an antenna.
+    /// The Azel that drives an antenna did not confirm STOP.
     pub(super) is_stop_lost: bool,
 }
 
-/// A STOP that has gone to the sessions already.
+/// A STOP that was already sent to the sessions.
 #[derive(Debug, Clone)]
 pub struct Stopped {
-    /// When.
     pub at: Instant,
-    /// The antennas that it went to.
+    /// Antennas that it was sent to.
     pub antennas: Vec<AntennaId>,
-    /// Those that another Azel drives, which it is sent on to.
+    /// Antennas that another Azel drives; the STOP is passed on to it.
     pub elsewhere: Vec<AntennaId>,
-    /// Those of `antennas` that tracked then.
+    /// Antennas of `antennas` that tracked then.
     pub(super) tracked: Vec<AntennaId>,
-    /// It was for all that are connected or were moved.
+    /// STOP for all antennas that are connected or were moved.
     pub(super) is_for_all: bool,
-    /// Sessions that began later have not heard it.
+    /// Newest session at that time; later ones have not had this STOP.
     pub(super) newest_session: u64,
 }
 
-/// Something that a client is to know once.
+/// An event for the client.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
-    /// The station was saved at this time, or why not.
+    /// The station was saved at this time, or the reason why not.
     Saved(Result<jiff::Timestamp, String>),
-    /// The station has changed, and not by being saved.
+    /// The station has changed other than by a save.
     Changed,
-    /// What was to be done before the end is done.
+    /// The closing is done: the program may end.
     MayEnd,
 }
 
-/// What a station publishes.
+/// The state that a station publishes.
 #[derive(Clone)]
 pub(super) struct Published {
     pub(super) snapshot: Arc<Snapshot>,
-    /// By the place of the antenna.
+    /// One for each antenna, in their order.
     pub(super) ends: Arc<[AntennaEnds]>,
 }
 
-/// What goes past the station to and from an antenna.
+/// Direct connections to an antenna's session, past the station.
 pub(super) struct AntennaEnds {
     pub(super) id: AntennaId,
     pub(super) session: u64,
-    /// Another Azel drives it.
+    /// Another Azel drives the antenna.
     pub(super) is_elsewhere: bool,
     pub(super) stopper: Stopper,
     pub(super) wire: WireLog,
 }
 
-/// What any client of a station can do. It does not keep the station running.
+/// Interface of any client to a station. It does not keep the station running.
 #[derive(Clone)]
 pub struct Client {
     requests: mpsc::WeakSender<Request>,
     urgent: Arc<Mutex<Urgent>>,
-    /// Wakes the station.
     woken: Arc<Notify>,
     orders: Orders,
     published: watch::Receiver<Published>,
@@ -123,13 +121,13 @@ impl Client {
         Self { requests, urgent: Arc::default(), woken, orders, published, clock }
     }
 
-    /// The clocks of the station.
+    /// Time by the clocks of the station.
     pub fn now(&self) -> Moment {
         self.clock.now()
     }
 
-    /// Hands over a command. It comes back when the station is too busy to take it or
-    /// has ended; a station that is too busy tells the operator when it is not any more.
+    /// Queues a command. Returns it when the station has ended or is too busy; a station
+    /// that was too busy raises an alarm later.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         let number = self.orders.next();
         let Some(requests) = self.requests.upgrade() else { return Err(command) };
@@ -141,19 +139,19 @@ impl Client {
         Ok(())
     }
 
-    /// Stops every antenna that is connected or was moved from here: past every queue,
-    /// never refused. What was asked of the others is void too.
+    /// Stops every antenna that is connected or was moved from here, past every queue;
+    /// never refused. Requests for the other antennas are void too.
     pub fn stop_all(&self) -> Stopped {
         self.stop_those(None)
     }
 
-    /// Stops one antenna, also where that takes a connection.
+    /// Stops one antenna, even where that needs a connection.
     pub fn stop(&self, antenna: AntennaId) -> Stopped {
         self.stop_those(Some(antenna))
     }
 
     fn stop_those(&self, one: Option<AntennaId>) -> Stopped {
-        // What the station has now, whatever is shown.
+        // The present antennas of the station, whatever is displayed.
         let ends = Arc::clone(&self.published.borrow().ends);
         let mut stopped = Stopped {
             at: self.clock.now().steady,
@@ -169,7 +167,7 @@ impl Client {
                 is_elsewhere = true;
                 stopped.elsewhere.push(*id);
             } else if one.map_or_else(|| stopper.is_wanted(), |one| *id == one) {
-                // The session may be quicker than these lines.
+                // The session may be quicker than the next lines.
                 if stopper.tracks() {
                     stopped.tracked.push(*id);
                 }
@@ -179,12 +177,12 @@ impl Client {
                 stopper.forget();
             }
         }
-        // One of an antenna that is opened anew right now is not among them.
+        // An antenna that is being reopened right now is not in `ends`.
         if let Some(one) = one.filter(|_| stopped.antennas.is_empty() && !is_elsewhere) {
             stopped.antennas.push(one);
         }
-        // The station is not woken for it: it would take a processor from the session that
-        // has something better to do, and that wakes it with what it has done.
+        // The station is not woken here: that would take a processor from the session,
+        // which has more urgent work and wakes the station afterwards.
         self.urgent().stops.push(stopped.clone());
         if is_elsewhere {
             self.woken.notify_one();
@@ -197,19 +195,19 @@ impl Client {
         self.urgent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is published last.
+    /// The last published snapshot.
     pub fn snapshot(&self) -> Arc<Snapshot> {
         Arc::clone(&self.published.borrow().snapshot)
     }
 
-    /// Waits for the next snapshot; `false` when the station has ended.
+    /// Waits for the next snapshot. Returns `false` when the station has ended.
     pub async fn changed(&mut self) -> bool {
         self.published.changed().await.is_ok()
     }
 }
 
-/// The near end of a running station. Dropping it ends the station: each jog with a
-/// stop first.
+/// The owner's handle on a running station. Dropping it ends the station, and each jog
+/// first with a stop.
 pub struct Handle {
     client: Client,
     requests: mpsc::Sender<Request>,
@@ -219,8 +217,8 @@ pub struct Handle {
 }
 
 impl Handle {
-    /// Starts a station on a thread of its own. `wake` is called from it after every
-    /// change that is worth showing.
+    /// Starts a station on a thread of its own, which calls `wake` after every change worth
+    /// showing.
     pub fn start(settings: Settings, outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
         let outside = outside.into();
         let (requests, inbox) = mpsc::channel(REQUESTS);
@@ -247,12 +245,12 @@ impl Handle {
         Ok(Self { client, requests, shown, events, ended })
     }
 
-    /// What else may send commands and stop.
+    /// For other parts that send commands or STOP.
     pub fn client(&self) -> &Client {
         &self.client
     }
 
-    /// Takes what is published last; `false` where that is known already.
+    /// Takes the last published state. Returns `false` if it was taken before.
     pub fn take(&mut self) -> bool {
         let is_new = self.client.published.has_changed().unwrap_or_default();
         if is_new {
@@ -261,42 +259,42 @@ impl Handle {
         is_new
     }
 
-    /// What was taken last.
+    /// The last taken snapshot.
     pub fn snapshot(&self) -> &Arc<Snapshot> {
         &self.shown.snapshot
     }
 
-    /// For how long the station has shown nothing new, from two seconds on: it does
-    /// each second.
+    /// Time for which the station has published nothing, from two seconds on. It normally
+    /// publishes every second.
     pub fn stood_for(&self) -> Option<Duration> {
         let shown = self.client.published.borrow().snapshot.at.steady;
         let stood = self.client.now().steady.saturating_duration_since(shown);
         (stood >= STANDS).then_some(stood)
     }
 
-    /// What went over the link of an antenna.
+    /// The wire log of an antenna.
     pub fn wire(&self, antenna: AntennaId) -> Option<WireLog> {
         let of = self.shown.ends.iter().find(|ends| ends.id == antenna);
         of.map(|ends| ends.wire.clone())
     }
 
-    /// The oldest event that was not read yet.
+    /// Takes the oldest unread event.
     pub fn next_event(&mut self) -> Option<Event> {
         self.events.try_recv().ok()
     }
 
-    /// Whether the station runs: it does not only where it broke down.
+    /// Returns `false` if the station is no longer running, as after a panic.
     pub fn runs(&self) -> bool {
         !self.requests.is_closed()
     }
 
-    /// Does what the station file says for the end, where nobody can be asked.
+    /// Ends as the station file says, without asking anybody.
     pub fn end_unasked(&self) {
         self.client.urgent().ends_unasked = true;
         self.client.woken.notify_one();
     }
 
-    /// Begins to end the station. What is published last stays.
+    /// Begins to end the station. The last published state stays available.
     pub fn begin_end(&mut self) {
         let (closed, _) = mpsc::channel(1);
         self.requests = closed;
@@ -306,7 +304,7 @@ impl Handle {
 impl Drop for Handle {
     fn drop(&mut self) {
         self.begin_end();
-        // One that broke down tells nothing.
+        // A station that panicked reports nothing.
         if self.ended.recv_timeout(FAREWELL) == Err(RecvTimeoutError::Timeout) {
             tracing::error!("the station did not end in time");
         }

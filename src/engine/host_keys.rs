@@ -1,5 +1,4 @@
-//! Host keys that only the operator can decide about, in plain words for the
-//! window, and what is done with the answer.
+//! Host keys that need a decision of the operator, and the decision itself.
 
 use std::io;
 
@@ -11,22 +10,21 @@ use crate::{
     transfer::{ConnectError, KnownHosts, OfferedKey, Peer},
 };
 
-/// A host key that is not the known one.
+/// A host key that differs from the known one, or a host without one.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DoubtfulKey {
-    /// The host as the file of known hosts names it.
+    /// Host as named in the file of known hosts.
     pub address: String,
-    /// The kind of key, such as `ssh-ed25519`.
+    /// Kind of key, such as `ssh-ed25519`.
     pub algorithm: String,
     /// `SHA256:…`, as `ssh-keygen -l` shows it on the host.
     pub fingerprint: String,
-    /// Fingerprints of the keys that it should have; empty where nothing is
-    /// known of the host.
+    /// Fingerprints of the expected keys; empty for an unknown host.
     pub pinned: Vec<String>,
 }
 
 impl DoubtfulKey {
-    /// The host has another key than before, which is refused.
+    /// Returns `true` if the host has another key than before, which is refused.
     pub fn is_changed(&self) -> bool {
         !self.pinned.is_empty()
     }
@@ -41,8 +39,7 @@ impl DoubtfulKey {
     }
 }
 
-/// The key behind `error`, if it is about one that the operator can decide
-/// about; or else the error.
+/// The key behind `error` if the operator can decide about it, or else the error.
 pub(super) fn doubtful(
     error: ConnectError,
 ) -> Result<(Box<OfferedKey>, DoubtfulKey), ConnectError> {
@@ -55,15 +52,15 @@ pub(super) fn doubtful(
     Ok((offered, key))
 }
 
-/// What the operator has decided.
+/// Decision of the operator.
 pub(super) enum Decision {
-    /// It is the right key.
+    /// Trust this key.
     Trust(Box<OfferedKey>),
-    /// All known keys of the host are to be forgotten.
+    /// Forget all known keys of the host.
     Forget(Peer),
 }
 
-/// Writes the decision down. The result is why that failed, if it did.
+/// Starts writing the decision to the file of known hosts. The job returns why that failed.
 pub(super) fn decide(
     known: &KnownHosts,
     decision: Decision,

@@ -1,5 +1,4 @@
-//! Which units are locked out: the file beside the station file, and the sessions
-//! that are to know.
+//! Locked-out units: the file beside the station file, and the sessions that need to know.
 
 use std::{path::Path, sync::Arc};
 
@@ -10,7 +9,7 @@ use crate::{
 };
 
 impl Engine {
-    /// Reads the list anew. One that cannot be read locks out every unit.
+    /// Reads the list anew. An unreadable list locks out every unit.
     pub(super) fn load_lock_outs(&mut self) {
         let folder = self.settings_path.as_deref().and_then(Path::parent);
         let path = folder.map(|folder| folder.join(LOCK_OUTS_FILE));
@@ -27,7 +26,7 @@ impl Engine {
         }
     }
 
-    /// Locks out the unit of an antenna, or locks it out no longer.
+    /// Sets or removes the lock-out of an antenna's unit.
     pub(super) fn set_lock_out(&mut self, index: usize, lock_out: Option<LockOut>) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let config = &antenna.shown.config;
@@ -45,7 +44,7 @@ impl Engine {
         }
     }
 
-    /// Other antennas are taken into use: a lock-out stays with its antenna.
+    /// Carries lock-outs over to other antennas: a lock-out stays with its antenna.
     pub(super) fn keep_locked_out(&mut self, after: &[Antenna]) {
         let antennas = self.antennas.iter();
         let before: Vec<Antenna> = antennas.map(|antenna| antenna.shown.config.clone()).collect();
@@ -54,7 +53,7 @@ impl Engine {
         }
     }
 
-    /// The units of the demo station have no lasting address.
+    /// Saves the list, except for the demo station, whose units have no lasting address.
     fn keep_lock_outs(&mut self) {
         if self.demo.is_some() {
             return;
@@ -75,8 +74,8 @@ impl Engine {
         }
     }
 
-    /// Tells a session what it does not know yet, until the session says the same: a STOP
-    /// voids what is taken off.
+    /// Sends a session its lock-out until its snapshot shows the same: a STOP voids an
+    /// unlock.
     pub(super) fn tell_lock_out(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         if antenna.shown.held_by.is_some() {

@@ -1,5 +1,5 @@
-//! Passes that units track by themselves: the window that a unit is sent, and what
-//! its antenna makes of it by what the unit tells of itself.
+//! On-board track: the window for the unit, and a judgement of its pass by the unit's own
+//! settings.
 
 use std::sync::Arc;
 
@@ -24,21 +24,20 @@ use crate::{
     station,
 };
 
-/// A pass is searched over its own stay, and a little more: its ends are exact to a
-/// millisecond.
+/// Margin of a search around a known pass, whose ends are exact to a millisecond.
 const EDGE_S: f64 = 0.002;
 
-/// What was found of a unit, and by what.
+/// Judgement of a unit, with the pass and the unit's settings behind it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Judged {
-    /// How it would follow; `None` where the pass is none for its antenna.
+    /// How it would track; `None` where its antenna cannot track the pass.
     pub found: Option<Arc<Supervision>>,
     of: (PassKey, OnBoard),
 }
 
-/// From when to when `antenna` may point to the satellite of `predicted`: whole
-/// seconds within the first stay above its lowest elevation that is not over. An
-/// error where there is none.
+/// Window in which `antenna` may point to the satellite of `predicted`: whole seconds
+/// within the first stay above its minimum elevation that is not over. An error where there
+/// is none.
 pub fn window(
     predicted: &PredictedPass,
     antenna: &station::Antenna,
@@ -71,7 +70,7 @@ fn last_second(time: Timestamp) -> Timestamp {
     Timestamp::from_second(time.as_second()).unwrap_or(time)
 }
 
-/// What the unit of `antenna` is told to track the pass of `predicted`.
+/// The on-board pass for the unit of `antenna`.
 fn pass_for(
     predicted: &PredictedPass,
     antenna: &station::Antenna,
@@ -83,7 +82,7 @@ fn pass_for(
     let target = TrackTarget {
         catalog_number: elements.catalog_number(),
         name: elements.name().to_owned(),
-        // When a pass is under way its window begins now.
+        // For a pass under way the window begins now.
         from: from.max(add_seconds(now, -1.0)),
         until,
     };
@@ -91,10 +90,10 @@ fn pass_for(
 }
 
 impl Engine {
-    /// Lets the unit of an antenna track a pass by itself. `is_agreed` says that the
-    /// operator knows that it may miss.
+    /// Starts on-board track of a pass. `is_agreed`: the operator knows that the unit may
+    /// miss.
     pub(super) fn track_on_board(&mut self, index: usize, pass: PassKey, is_agreed: bool) {
-        // A pass that is over since it was asked for is not replaced by another.
+        // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let (site, now) = (self.station.site, self.now);
         let Some(antenna) = self.antennas.get(index) else { return };
@@ -111,8 +110,7 @@ impl Engine {
         }
     }
 
-    /// Judges how the unit of an antenna would follow the pass that is selected, or
-    /// comes next.
+    /// Judges how the unit of an antenna would track the selected or else the next pass.
     pub(super) fn judge_unit(&mut self, index: usize) {
         let judged = self.antennas.get(index).and_then(|antenna| self.judged(&antenna.shown));
         if let Some(antenna) = self.antennas.get_mut(index) {
@@ -120,7 +118,7 @@ impl Engine {
         }
     }
 
-    /// What is found of the unit of `antenna`: as before where nothing has changed.
+    /// The judgement of the unit of `antenna`, kept where nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
         let unit = &antenna.snapshot.state.on_board;
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
@@ -142,8 +140,7 @@ impl Engine {
 }
 
 impl Engine {
-    /// Tells the session of an antenna by which orbit to judge what its unit does by
-    /// itself.
+    /// Sends the session of an antenna the orbit by which to judge on-board track.
     pub(super) fn tell_orbit(&mut self, index: usize) {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -164,7 +161,7 @@ impl Engine {
         antenna.handle.know_orbit(orbit);
     }
 
-    /// Alarms that follow from how a unit tracks by itself, or would.
+    /// Raises and clears alarms about on-board track, present or judged.
     pub(super) fn watch_on_board(&mut self, index: usize) {
         let Some(Antenna { shown: antenna, .. }) = self.antennas.get(index) else { return };
         let (alarms, now, of) = (&mut self.alarms, self.now, Some(antenna.id()));
@@ -191,8 +188,8 @@ impl Engine {
 }
 
 impl AntennaModel {
-    /// What the operator has to watch alone: the unit tracks by itself what cannot be
-    /// compared with elements.
+    /// Alarm for on-board track that cannot be compared with elements: the operator must
+    /// watch it alone.
     fn not_compared(&self) -> Option<AlarmKind> {
         let Snapshot { state, program_track, link, .. } = &*self.snapshot;
         let tracks = state.program.is_some_and(|program| program.enabled);
@@ -202,25 +199,25 @@ impl AntennaModel {
         match &state.on_board.satellite {
             Some(held) if held.catalog_number == 0 && held.name.is_empty() => None,
             Some(held) => Some(AlarmKind::NotCompared { satellite: Some(held.name.clone()) }),
-            // A unit that is given satellites from here tells soon which it holds.
+            // A unit that takes satellites from here soon reports which one it holds.
             None if self.variant().capabilities.has_program => None,
             None => Some(AlarmKind::NotCompared { satellite: None }),
         }
     }
 
-    /// How its unit would follow by what it tells of itself, or does.
+    /// Judgement of the present on-board track, or else of the next one.
     pub fn supervision(&self) -> Option<&Supervision> {
         let running = self.snapshot.on_board.as_ref().map(|view| &*view.found);
         running.or(self.judged.as_ref().and_then(|judged| judged.found.as_deref()))
     }
 
-    /// The same where by it the satellite is missed.
+    /// The judgement, if by it the satellite is missed.
     pub fn misses(&self) -> Option<&Supervision> {
         self.supervision().filter(|found| !found.is_within_beam)
     }
 }
 
-/// Without what differs from one reading to the next.
+/// Without figures that change from one reading to the next.
 fn rounded(unit: &OnBoard) -> OnBoard {
     let tenths = |seconds: f64| (seconds * 5.0).round() / 5.0;
     OnBoard {
@@ -262,7 +259,7 @@ mod tests {
         Station { antennas, ..Station::default() }
     }
 
-    /// The first pass over 60 degrees as the station lists it.
+    /// The first pass above 60 degrees as the station lists it.
     fn predicted_pass(station: &Station) -> PredictedPass {
         let elements = bundled().unwrap().get(25_544).unwrap().clone();
         let propagator = Propagator::new(&elements).unwrap();

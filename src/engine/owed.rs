@@ -1,12 +1,12 @@
-//! STOPs that are owed to units of no antenna of the station: what was deleted or
-//! given another address while it moved.
+//! STOPs owed to units that no antenna of the station has: the antenna was deleted, or
+//! given another address, while it moved.
 
 use jiff::Timestamp;
 
 use super::alarms::{AlarmKind, Alarms};
 use crate::{driver::Unit, station::Antenna};
 
-/// The units among `owed` that no antenna has.
+/// The units of `owed` that no antenna has.
 pub(super) fn strangers<'a>(
     mut owed: Vec<Unit>,
     antennas: impl Iterator<Item = &'a Antenna>,
@@ -18,7 +18,7 @@ pub(super) fn strangers<'a>(
     owed
 }
 
-/// Tells of `strangers`, each until its STOP is paid.
+/// Raises an alarm for each of `strangers`, and clears those whose STOP is paid.
 pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<Unit>, now: Timestamp) {
     alarms.clear(None, |kind| matches!(kind, AlarmKind::Owed(unit) if !strangers.contains(unit)));
     for unit in strangers {

@@ -1,4 +1,4 @@
-//! The passes to come, computed in the background.
+//! Predicted passes, computed in the background.
 
 mod choice;
 mod list;
@@ -29,23 +29,23 @@ use crate::{
     station::Station,
 };
 
-/// How far ahead the passes of the favourites are known: the strip shows as
-/// much, whatever the list does.
+/// Hours ahead for the passes of the favourites: the strip shows this much, whatever the
+/// list shows.
 const FAVOURITES_H: u32 = 48;
 
-/// Which pass: the satellite and its AOS.
+/// Key of a pass: catalog number of the satellite and AOS.
 pub type PassKey = (u32, Timestamp);
 
-/// The passes to come.
+/// The pass lists.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct PassLists {
-    /// Those of the followed satellites.
+    /// Passes of the favourites.
     pub favourites: PassList,
-    /// Those of all satellites, searched for when the operator wants the list.
+    /// Passes of all satellites, searched for when the operator wants the list.
     pub all: PassList,
 }
 
-/// The searches for them.
+/// The searches for the pass lists.
 #[derive(Default)]
 pub(in crate::engine) struct Searches {
     favourites: Search,
@@ -53,7 +53,7 @@ pub(in crate::engine) struct Searches {
 }
 
 impl Searches {
-    /// Takes what has been found and begins what is to be searched for.
+    /// Takes the passes that were found, and begins the searches that are needed.
     pub(in crate::engine) fn refresh(
         &mut self,
         catalog: &Arc<Catalog>,
@@ -77,12 +77,10 @@ impl Searches {
         }
     }
 
-    /// The lists.
     pub(in crate::engine) fn shown(&self) -> PassLists {
         PassLists { favourites: self.favourites.shown(), all: self.all.shown() }
     }
 
-    /// The search for the list of `scope`.
     pub(in crate::engine) fn of_mut(&mut self, scope: Scope) -> &mut Search {
         match scope {
             Scope::Favourites => &mut self.favourites,
@@ -90,14 +88,13 @@ impl Searches {
         }
     }
 
-    /// A search broke off.
+    /// Returns `true` if the last search of a list broke off.
     pub(in crate::engine) fn broke_off(&self) -> bool {
         self.favourites.broke_off() || self.all.broke_off()
     }
 }
 
 impl PassLists {
-    /// The list of `scope`.
     pub fn of(&self, scope: Scope) -> &PassList {
         match scope {
             Scope::Favourites => &self.favourites,
@@ -105,19 +102,20 @@ impl PassLists {
         }
     }
 
-    /// The pass of `key`, of a followed satellite or any other.
+    /// The pass of `key`, first among the favourites.
     pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
         self.favourites.find(key).or_else(|| self.all.find(key))
     }
 
-    /// The pass of a followed satellite that is under way or comes next.
+    /// The pass of a favourite that is under way or comes next; geosynchronous satellites
+    /// only if there is no other.
     pub fn next(&self, now: Timestamp) -> Option<&PredictedPass> {
         let moving = |predicted: &&PredictedPass| !predicted.satellite.elements.is_geosynchronous();
         let passes = self.favourites.upcoming(now);
         passes.iter().find(moving).or_else(|| passes.iter().next())
     }
 
-    /// The satellite with this number, if a list has it.
+    /// The satellite with this catalog number, if a list has it.
     pub fn satellite(&self, catalog_number: u32) -> Option<&Arc<ListedSatellite>> {
         let number = |known: &Arc<ListedSatellite>| known.elements.catalog_number();
         let followed = &self.favourites.satellites;
@@ -129,7 +127,7 @@ impl PassLists {
     }
 }
 
-/// Where a satellite goes in the next `span_s`, in steps of 30 s.
+/// Directions of a satellite while it is up in the next `span_s`, in steps of 30 s.
 pub fn ahead(satellite: &ListedSatellite, site: Site, now: Timestamp, span_s: f64) -> Vec<AzEl> {
     let steps = (span_s / 30.0) as usize;
     (0..=steps)

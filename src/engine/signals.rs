@@ -1,12 +1,12 @@
-//! Signals of the operating system.
+//! Operating-system signals: STOP and the end of the program.
 
 use std::{io, thread};
 
 use super::Client;
 use crate::driver;
 
-/// Watches for signals on a thread of its own: USR1 is STOP for all antennas, and the
-/// first one that asks for the end calls `end`.
+/// Watches for signals on a thread of its own: USR1 is STOP for all antennas, and the first
+/// signal to end the program calls `end`.
 pub fn watch(station: Client, end: impl FnOnce() + Send + 'static) -> io::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
     // STOP is heard until the process has ended.

@@ -1,5 +1,6 @@
-//! The socket of a station: other programs of the same user stop its antennas, lock them
-//! out and ask how they are. One line of JSON asks, one line answers.
+//! The socket of a station, by which other programs of the same user stop its antennas,
+//! lock them out and ask for their status. A question is one line of JSON, and so is its
+//! answer.
 
 use std::{io, os::unix::fs::PermissionsExt as _, path::Path, thread, time::Duration};
 
@@ -16,63 +17,62 @@ use crate::{
     station::{AntennaId, LockOut},
 };
 
-/// A question is not longer, bytes.
+/// Maximum length of a question, bytes.
 const MAX_BYTES: u64 = 64 * 1024;
-/// Whoever connects has to ask within this.
+/// Time for a client to send its question.
 const ASKS_WITHIN: Duration = Duration::from_secs(5);
-/// A session tells by then whether a STOP is proved, also of a unit that may sway.
+/// Time in which a session reports whether a STOP is proved, even for a unit that may sway.
 const PROVED_WITHIN: Duration = Duration::from_secs(12);
-/// A unit is stopped, and its own program switched off, before it is locked out.
+/// Time for a lock-out: the unit is stopped and its own program switched off first.
 const LOCKED_WITHIN: Duration = Duration::from_secs(15);
 
-/// What is asked.
+/// A question.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ask {
-    /// Stop an antenna, or all that are connected or were moved.
+    /// Stop one antenna, or all that are connected or were moved.
     Stop {
-        /// Its name; `None` for all.
+        /// Name of the antenna; `None` for all.
         antenna: Option<String>,
     },
-    /// How the antennas are.
+    /// Report the status of all antennas.
     Status,
-    /// Lock out an antenna, or no longer.
+    /// Lock out an antenna, or remove its lock-out.
     LockOut {
-        /// Its name.
+        /// Name of the antenna.
         antenna: String,
-        /// Who locks it out, and why; `None` to take that off.
+        /// Holder and reason of the lock-out; `None` to remove it.
         lock_out: Option<LockOut>,
     },
 }
 
-/// What is answered.
+/// An answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// To whom STOP went, and whether their standstill is proved.
+    /// Antennas that STOP went to, with the proof of their standstill.
     Stopped(Vec<Stopped>),
-    /// How the antennas are.
     Status(Vec<AntennaStatus>),
-    /// It is locked out, or is no longer; `proved`: it stands and will not start by
+    /// The lock-out is set or removed. `proved`: the antenna stands and will not start by
     /// itself.
     LockOut {
         /// Read back from the unit.
         proved: bool,
     },
-    /// It cannot be done, and why.
+    /// The question cannot be carried out, for this reason.
     Refused(String),
 }
 
 /// A STOP that went to an antenna.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stopped {
-    /// Its name.
+    /// Name of the antenna.
     pub antenna: String,
-    /// The unit has told that it stands since.
+    /// The unit has reported standstill since.
     pub proved: bool,
 }
 
-/// Asks whoever serves the socket at `path`, and waits for the answer.
+/// Sends `ask` to the process that serves the socket at `path`, and waits for the answer.
 pub fn ask(path: &Path, ask: &Ask) -> io::Result<Answer> {
     use std::io::{BufRead as _, Write as _};
     let mut stream = std::os::unix::net::UnixStream::connect(path)?;
@@ -88,7 +88,8 @@ pub fn ask(path: &Path, ask: &Ask) -> io::Result<Answer> {
 
 /// Serves the socket at `path` on a thread of its own until the station ends.
 pub(super) fn serve(path: &Path, station: Client) -> io::Result<()> {
-    // What is left there is of a process that has ended: the station is claimed.
+    // A socket left there belongs to a process that has ended, because the station is
+    // claimed.
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}
@@ -188,7 +189,7 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
         let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
         antenna.map_or_else(String::new, |antenna| antenna.config.name.clone())
     };
-    // Whoever drives it was told, and what came of it is not known here.
+    // STOP was passed on to the Azel that drives these; its outcome is not known here.
     told.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
         antenna: name(id),

@@ -1,5 +1,5 @@
-//! "Test from here": fetches the source that a unit is told to use, from this
-//! computer, and looks at it as the unit will. One at a time.
+//! "Test from here": fetches, on this computer, the source that a unit shall use, and looks
+//! at it as the unit will. One test at a time.
 
 mod desk;
 
@@ -12,78 +12,72 @@ use super::host_keys::DoubtfulKey;
 use crate::secret::Secret;
 use crate::transfer::{ElementSource, FileProtocol, Peer, UnitView};
 
-/// What is shown of the last test.
+/// The last test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SourceTests {
-    /// What was tested; `None` before the first time.
+    /// The tested source; `None` before the first test.
     pub order: Option<SourceOrder>,
-    /// Where it stands.
     pub stage: TestStage,
 }
 
-/// Where a test stands.
+/// Stage of a test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum TestStage {
-    /// There is none.
+    /// No test yet.
     #[default]
     Idle,
-    /// The file is being fetched.
     Working,
-    /// The operator has to decide about the host's key, seen for the first time.
+    /// The operator must decide about the host's key, seen for the first time.
     AsksAboutHostKey(DoubtfulKey),
-    /// The file is here.
+    /// The file was fetched.
     Seen {
-        /// What the unit will make of it.
+        /// The file as the unit will see it.
         view: Box<UnitView>,
-        /// When it was fetched.
+        /// Time of the fetch.
         at: Timestamp,
     },
-    /// Nothing came.
+    /// The fetch failed.
     Failed {
-        /// Why.
+        /// The reason.
         text: String,
-        /// The key of the host that was refused.
+        /// The host key that was refused.
         changed_key: Option<DoubtfulKey>,
     },
 }
 
 impl TestStage {
-    /// Something is under way, or waits for an answer.
+    /// Returns `true` while a test is under way or waits for an answer.
     pub fn is_open(&self) -> bool {
         matches!(self, Self::Working | Self::AsksAboutHostKey(_))
     }
 }
 
-/// What is to be tested.
+/// A source to test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceOrder {
-    /// Name of the antenna whose unit will fetch it.
+    /// Name of the antenna whose unit will fetch the source.
     pub antenna: String,
-    /// Where it is.
     pub source: TestedSource,
-    /// The name of the satellite that the unit will look for.
+    /// Name of the satellite that the unit will look for.
     pub satellite: String,
 }
 
-/// Where elements are.
+/// A source of elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestedSource {
     /// An `http` or `https` address.
     Web {
-        /// As the unit is told.
+        /// As given to the unit.
         url: String,
     },
     /// A file on a server.
     Server {
-        /// The server.
         peer: Peer,
-        /// How it is spoken to.
         protocol: FileProtocol,
-        /// The user there.
+        /// User name on the server.
         user: String,
-        /// The user's password.
         password: Secret,
-        /// The file.
+        /// Path of the file.
         file: String,
     },
 }
@@ -99,7 +93,7 @@ impl TestedSource {
         }
     }
 
-    /// The host whose key may be asked about.
+    /// The host whose key may need a decision.
     fn peer(&self) -> Option<&Peer> {
         match self {
             Self::Web { .. } => None,
@@ -108,15 +102,15 @@ impl TestedSource {
     }
 }
 
-/// What a view asks for.
+/// A request of a view.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum TestAsk {
-    /// Test this. While another test is open, nothing happens.
+    /// Test this source. Ignored while another test is open.
     Begin(Box<SourceOrder>),
-    /// The key that was shown is the right one.
+    /// The shown key is the right one.
     TrustHostKey,
-    /// The known keys of the host that was refused are to be forgotten.
+    /// Forget the known keys of the host that was refused.
     ForgetHostKey,
-    /// Nobody wants it any more.
+    /// End the test, or answer its question with no.
     Cancel,
 }

@@ -1,5 +1,5 @@
-//! Where the elements come from: the bundled ones and the operator's sources.
-//! Reading, keeping and asking servers are done on a thread of their own.
+//! Sources of elements: the bundled ones and the operator's. They are read, saved and
+//! fetched on a thread of their own.
 
 use std::path::{Path, PathBuf};
 
@@ -13,42 +13,38 @@ use crate::{
     orbit::{Catalog, Source, SourceReport, bundled},
 };
 
-/// The sources, as they were when they were last read.
+/// The sources as last read.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sources {
-    /// All of them, in the order of the operator.
+    /// All sources, in the operator's order.
     pub list: Vec<Source>,
-    /// What came of each, in the same order; empty while the library cannot be
+    /// One report for each source, in the same order; empty while the library cannot be
     /// used.
     pub reports: Vec<SourceReport>,
-    /// What is being done.
     pub work: SourceWork,
-    /// What went wrong with the list or the library as a whole.
+    /// Problem with the list or the library as a whole.
     pub problem: Option<String>,
-    /// The list cannot be read: it is left as it is and takes no change.
+    /// The list cannot be read: it is left as it is and accepts no change.
     pub is_locked: bool,
 }
 
-/// What is being done for the sources.
+/// Work under way on the sources.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SourceWork {
-    /// Nothing.
     #[default]
     Nothing,
-    /// Files are being read.
     Reading,
-    /// Servers are being asked.
     Asking,
 }
 
 impl Sources {
-    /// Whether a change would be taken now.
+    /// Returns `true` if a change would be accepted now.
     pub fn is_free(&self) -> bool {
         self.work == SourceWork::Nothing && !self.is_locked
     }
 }
 
-/// Where the list and the library are; `None` on a machine without a home.
+/// Paths of the list and the library; `None` on a machine without a home.
 #[derive(Debug, Clone)]
 pub(super) struct Places {
     list: Option<PathBuf>,
@@ -56,7 +52,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// The list stands beside the station file.
+    /// Puts the list beside the station file.
     pub(super) fn new(station: Option<&Path>, library: Option<PathBuf>) -> Self {
         Self {
             list: station.map(|station| station.with_file_name("sources.toml")),
@@ -64,34 +60,33 @@ impl Places {
         }
     }
 
-    /// The folder of the library.
+    /// Folder of the library.
     pub(super) fn library(&self) -> Option<&Path> {
         self.library.as_deref()
     }
 }
 
-/// What is to be done before everything is read anew.
+/// Work to do before everything is read anew.
 #[derive(Debug, Default)]
 pub(super) struct Task {
-    /// The list to keep, when it is another one.
+    /// A new list to save.
     pub(super) list: Option<Vec<Source>>,
-    /// The names of the sources whose servers are to be asked, where they may be.
+    /// Names of the sources whose servers are asked, where they may be.
     pub(super) ask: Vec<String>,
-    /// The operator wants it although they were asked lately.
+    /// Ask even if they were asked lately.
     pub(super) forced: bool,
 }
 
-/// What was read.
+/// Result of reading.
 pub(super) struct Outcome {
-    /// The elements of all sources.
+    /// Elements of all sources.
     pub(super) catalog: Catalog,
-    /// Why the bundled elements are not among them.
+    /// Why the bundled elements are missing.
     pub(super) bundled_problem: Option<String>,
-    /// The sources.
     pub(super) sources: Sources,
 }
 
-/// Begins `task` at `now`.
+/// Starts `task` at `now`.
 pub(super) fn start(
     places: &Places,
     task: Task,
@@ -117,7 +112,7 @@ fn carry_out(
             None => Some("this user has no folder for settings".to_owned()),
         };
     }
-    // What stands on disk counts, whatever was asked for.
+    // Only the list on disk counts, whatever was requested.
     match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
         Ok(list) => sources.list = list,
         Err(error) => (sources.problem, sources.is_locked) = (Some(error.to_string()), true),
@@ -248,7 +243,7 @@ mod tests {
         desk.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
         let marker = desk.folder.path().join("data/unfinished.toml");
         assert!(!marker.exists(), "the reading came to its end");
-        // What a program that was ended at this point leaves.
+        // The state that a program leaves if it ends at this point.
         fs::write(&marker, toml::to_string(&serde_json::json!({ "source": [own] })).unwrap())
             .unwrap();
         for _ in 0..2 {
@@ -275,7 +270,7 @@ mod tests {
     fn a_list_that_cannot_be_kept_leaves_the_one_on_disk() {
         let desk = Desk::new();
         let own = desk.newer_file();
-        // A file stands where the folder should be.
+        // A file is where the folder should be.
         fs::write(desk.folder.path().join("config"), "").unwrap();
         let outcome = desk.run(&Task { list: Some(vec![own]), ..Task::default() });
         assert!(outcome.sources.problem.is_some() && outcome.sources.list.is_empty());

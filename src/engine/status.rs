@@ -1,4 +1,4 @@
-//! How the antennas of a station are, in a form for scripts and other programs.
+//! Status of the antennas, in a form for scripts and other programs.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,28 +9,27 @@ use crate::{
     driver::{LinkState, StopState},
 };
 
-/// How an antenna is.
+/// Status of an antenna.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AntennaStatus {
-    /// Its name.
+    /// Name of the antenna.
     pub antenna: String,
-    /// Its link.
     pub link: LinkStatus,
-    /// What is wanted of it: `standby`, `manual`, `position`, `track` or `park`.
+    /// The operator's intent: `standby`, `manual`, `position`, `track` or `park`.
     pub intent: String,
     /// Measured azimuth, degrees.
     pub azimuth_deg: Option<f64>,
     /// Measured elevation, degrees.
     pub elevation_deg: Option<f64>,
-    /// When that was measured.
+    /// Time of the measurement.
     pub measured_at: Option<Timestamp>,
-    /// Whether it moves, by the last measurement.
+    /// Motion at the last measurement.
     pub moves: Option<bool>,
-    /// What is tracked, by the unit or from here.
+    /// Name of the tracked target, with on-board or program track.
     pub tracks: Option<String>,
-    /// A STOP is owed to it.
+    /// A STOP is owed.
     pub owes_stop: bool,
-    /// Who has locked it out, and why.
+    /// Holder and reason of the lock-out.
     pub locked_out: Option<String>,
 }
 
@@ -38,27 +37,26 @@ pub struct AntennaStatus {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LinkStatus {
-    /// Nobody wants one.
+    /// No link is wanted.
     Off,
-    /// It is tried for the first time.
+    /// First attempt to connect.
     Connecting,
-    /// It answers.
+    /// The unit answers.
     Up,
-    /// Its last answer is old.
+    /// The last answer is old.
     Stale,
-    /// Gone; it is tried again.
+    /// The link is gone and tried again.
     Lost,
     /// Another Azel of this machine drives the unit.
     Elsewhere,
 }
 
 impl AntennaStatus {
-    /// Of all antennas.
+    /// Status of all antennas.
     pub fn of_all(station: &Snapshot) -> Vec<Self> {
         station.antennas.iter().map(Self::of).collect()
     }
 
-    /// Of one antenna.
     pub fn of(antenna: &AntennaModel) -> Self {
         let snapshot = &antenna.snapshot;
         let measured = snapshot.state.measured;

@@ -1,4 +1,4 @@
-//! A track that STOP has ended is offered again for a while.
+//! Offers a track again, for a while, that STOP has ended.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -11,23 +11,22 @@ use crate::{
     station::AntennaId,
 };
 
-/// For so long it is offered, seconds.
+/// Time for which a track is offered, seconds.
 const OFFERED_S: f64 = 600.0;
 
-/// A track, and what begins it.
+/// A track that can be offered again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackAgain {
     /// Name of the target.
     pub name: String,
-    /// What the operator asked for.
+    /// Command that starts the track again.
     pub command: Command,
-    /// When there is nothing more to track.
+    /// End of the track.
     pub until: Timestamp,
 }
 
 impl Engine {
-    /// Keeps in mind what an antenna was asked to track. Whatever else is chosen ends
-    /// the offer.
+    /// Remembers the track that an antenna was asked for. Any other choice ends the offer.
     pub(super) fn note_track(&mut self, command: &Command) {
         let (id, ordered) = match command {
             Command::Track { antenna, pass, is_agreed: false }
@@ -56,8 +55,7 @@ impl Engine {
         self.antennas.get_mut(place).map(|antenna| &mut antenna.shown)
     }
 
-    /// A target that waits for the operator's word is offered as one that STOP has
-    /// ended.
+    /// Offers a target that waits for the operator's decision like one that STOP has ended.
     pub(super) fn offer_resume(&mut self, index: usize, name: &str) {
         let until = add_seconds(self.now, OFFERED_S);
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -65,12 +63,12 @@ impl Engine {
         antenna.shown.track_again = Some(TrackAgain { name: name.to_owned(), command, until });
     }
 
-    /// STOP has gone to the sessions.
+    /// Records a STOP that has gone to the sessions.
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
         self.upload_desk.stopped();
         self.stop_elsewhere(&stopped.elsewhere);
         self.drop_waiting_settings();
-        // While the antennas are parked for the end: the operator is needed here.
+        // STOP while the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.how == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);
         for antenna in &mut self.antennas {
@@ -79,7 +77,7 @@ impl Engine {
             let is_meant = stopped.antennas.contains(&id)
                 || stopped.is_for_all && antenna.handle.stopper().is_wanted();
             if is_new && is_meant {
-                // Its session was not there yet.
+                // The session was opened after the STOP.
                 antenna.handle.stop();
             }
             if !stopped.antennas.contains(&id) {
@@ -99,7 +97,7 @@ impl Engine {
         }
     }
 
-    /// Ends the offers whose time is over.
+    /// Drops offers that are no longer valid.
     pub(super) fn forget_tracks(&mut self) {
         let (now, pass_lists) = (self.now, &self.pass_lists);
         for antenna in &mut self.antennas {
@@ -118,7 +116,7 @@ impl Engine {
     }
 }
 
-/// When the pass that is followed is over; never for what does not set.
+/// End of the pass that is tracked or comes next; never for a target that does not set.
 fn end_of(follow: &ProgramTrack, now: Timestamp) -> Timestamp {
     let passes = follow.passes.iter();
     passes.map(|(_, los)| *los).find(|los| *los > now).unwrap_or(Timestamp::MAX)

@@ -1,4 +1,4 @@
-//! One turn: take what has come in and keep what is shown right.
+//! One turn: takes all reports that have come in and brings the published state up to date.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use crate::{
     station::Station,
 };
 
-/// A unit whose clock is further off than this misses a low satellite.
+/// Clock error from which a unit misses a low satellite, seconds.
 const CLOCK_OFF_S: f64 = 1.0;
 
 impl Engine {
-    /// Takes everything that has come in since the last turn.
+    /// Takes all reports that have come in since the last turn.
     pub(super) fn turn(&mut self) {
         self.set_time();
         let time_sync = self.clock_watch.poll(self.steady, &self.wake);
@@ -72,7 +72,7 @@ impl Engine {
         let Ok(outcome) = end else {
             alarms.raise(None, AlarmKind::BrokeOff(Work::Elements), now);
             self.sources.work = SourceWork::Nothing;
-            // Once: the source that it broke off at is set aside now.
+            // Only one retry: the source at which it broke off is set aside now.
             if !std::mem::replace(&mut self.elements_broke_off, true) {
                 self.begin_elements(Task::default());
             } else if matches!(self.catalog, CatalogState::Loading) {
@@ -110,7 +110,7 @@ impl Engine {
 
     fn start_demo(&mut self) {
         let CatalogState::Ready(catalog) = &self.catalog else { return };
-        // Whatever can be selected can be tracked.
+        // The simulated unit can track whatever the operator can select.
         let elements = catalog.iter().cloned().collect();
         match Demo::start(&self.station, elements) {
             Ok(demo) => {
@@ -170,14 +170,14 @@ impl Engine {
                 antenna.asks_unseen = Some(act.clone());
             }
             if event == Event::Stopped {
-                // The snapshots between press and standstill may all have been missed.
+                // All snapshots between the press and standstill may have been missed.
                 antenna.stop_pressed = None;
             }
             antenna.news = Some((event, now));
         }
     }
 
-    /// Alarms that follow from the state rather than from an event.
+    /// Raises and clears alarms that depend on the state rather than on an event.
     fn watch_state(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         let snapshot = Arc::clone(&antenna.shown.snapshot);
@@ -207,7 +207,7 @@ impl Engine {
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {
-            // Nobody wants to know while the unit is left to others.
+            // No such alarms are wanted while the unit is left to others.
             alarms.clear(of, |kind| matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_)));
         } else {
             for check in checks.iter() {

@@ -1,9 +1,9 @@
-//! Files of elements for the units: one upload or roll-back at a time, from the
-//! choice of satellites to the unit's own word that it has found them.
+//! Uploads of element files to units: one upload or roll-back at a time, from the choice of
+//! satellites until the unit reports that it has found them.
 //!
-//! Invariants: nothing is called proved before the file was read back in its
-//! place and the unit has named the satellite out of it; what takes time runs
-//! on threads of its own; no secret stands in what is shown.
+//! Invariants: nothing counts as proved before the file was read back in its place and the
+//! unit has named the satellite in it; slow work runs on threads of its own; no secret is
+//! in the displayed state.
 
 mod choice;
 mod desk;
@@ -28,55 +28,54 @@ use super::host_keys::DoubtfulKey;
 use crate::secret::Secret;
 use crate::transfer::{FileObject, KeptFile, Progress, Uploaded};
 
-/// What is shown of uploads.
+/// Displayed state of uploads.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Uploads {
-    /// Name of the antenna that the last order is for.
+    /// Name of the antenna of the last order.
     pub antenna: String,
-    /// The last order puts back what was there before.
+    /// The last order puts back an earlier file.
     pub is_roll_back: bool,
-    /// Where it stands.
     pub stage: Stage,
-    /// What the operator should know besides.
+    /// Further messages to the operator.
     pub warnings: Vec<Warning>,
-    /// What can be put back.
+    /// Files that can be put back.
     pub kept: Kept,
 }
 
-/// Where an order stands.
+/// Stage of an order.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub enum Stage {
-    /// There is none.
+    /// No order.
     #[default]
     Idle,
-    /// The unit tracks, or may begin to: the operator has to agree.
+    /// The unit tracks, or may begin to: the operator must agree.
     AsksAboutTracking(Busy),
-    /// The file is on its way.
+    /// The upload is under way.
     Working {
-        /// How far it is; `None` until the unit took the log-in.
+        /// `None` until the unit has accepted the log-in.
         progress: Option<Progress>,
-        /// The operator does not want it any more.
+        /// The operator has cancelled the order.
         is_cancelled: bool,
     },
-    /// The operator has to decide about the host's key, seen for the first time.
+    /// The operator must decide about the host's key, seen for the first time.
     AsksAboutHostKey(DoubtfulKey),
-    /// The operator has to type a password or a passphrase.
+    /// The operator must type a password or a passphrase.
     AsksForSecret(SecretWanted),
-    /// The file is on the unit, which is told to use it.
+    /// The file is on the unit, and the unit is being set to use it.
     Selecting(Box<Uploaded>),
     /// The unit uses the file.
     Proved(Box<Proved>),
-    /// It did not end well.
+    /// The order failed or was cancelled.
     Failed(Failure),
 }
 
 impl Stage {
-    /// Something is under way, or waits for an answer.
+    /// Returns `true` while an order is under way or waits for an answer.
     pub fn is_open(&self) -> bool {
         !matches!(self, Self::Idle | Self::Proved(_) | Self::Failed(_))
     }
 
-    /// Whether a cancel would still be followed.
+    /// Returns `true` if a cancel would still take effect.
     pub fn can_cancel(&self) -> bool {
         use crate::transfer::UploadStep;
         match self {
@@ -88,100 +87,97 @@ impl Stage {
     }
 }
 
-/// What is to be typed.
+/// A secret that the operator must type.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SecretWanted {
-    /// Whose: the user, or the path of a key file.
+    /// The user, or the path of a key file.
     pub user: String,
-    /// Where.
+    /// Address of the unit.
     pub address: String,
-    /// The passphrase of a key file, not a password.
+    /// A passphrase of a key file is wanted, not a password.
     pub is_passphrase: bool,
-    /// Why the last one was no good.
+    /// Why the last secret was refused.
     pub refused: Option<String>,
-    /// Why it cannot be kept in the keyring.
+    /// Why the secret cannot be kept in the keyring.
     pub keyring_problem: Option<String>,
 }
 
-/// A file on a unit, and the unit's word that it uses it.
+/// A file on a unit, and the unit's report that it uses it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Proved {
-    /// The file.
     pub uploaded: Uploaded,
     /// The satellite that the unit found in it.
     pub satellite: FileObject,
-    /// When the unit said so.
+    /// Time of the unit's report.
     pub at: Timestamp,
 }
 
-/// How an order ended that did not end well.
+/// End of an order that failed or was cancelled.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Failure {
-    /// Why, and what is on the unit now.
+    /// The reason, and the state of the unit.
     pub text: String,
-    /// The operator wanted it.
+    /// The operator has cancelled the order.
     pub is_cancel: bool,
-    /// The file that is on the unit all the same.
+    /// The file, where it is on the unit nevertheless.
     pub uploaded: Option<Box<Uploaded>>,
-    /// The key of the host that was refused.
+    /// The host key that was refused.
     pub changed_key: Option<DoubtfulKey>,
 }
 
-/// What the operator should know besides.
+/// A message beside the outcome of an order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Warning {
-    /// The password is the one that every unit has from its maker.
+    /// The password is the one that the maker sets in every unit.
     FactoryPassword,
-    /// The secret was not kept, and why.
+    /// The secret was not kept, for this reason.
     NotKept(String),
 }
 
 /// The files that can be put back on a unit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Kept {
-    /// Host and port of the unit and name of the file that was asked about.
+    /// Host and port of the unit, and the name of the file there.
     pub of: (String, String),
-    /// The newest first, or why there is no list; `None` while it is read.
+    /// Newest first, or why there is no list; `None` while it is read.
     pub list: Option<Result<Vec<KeptEntry>, String>>,
 }
 
 /// A file that can be put back.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KeptEntry {
-    /// What and when.
+    /// File and time.
     pub file: KeptFile,
-    /// What is in it, or why it cannot be had.
+    /// Objects in the file, or why it cannot be read.
     pub objects: Result<Vec<FileObject>, String>,
 }
 
-/// What a view asks for.
+/// A request of a view.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Ask {
-    /// Carry this out. While another order is open, nothing happens.
+    /// Carry out this order. Ignored while another order is open.
     Begin(Box<Order>),
-    /// The tracking of the unit may end.
+    /// The unit's tracking may end.
     AgreeToTracking,
-    /// The key that was shown is the right one.
+    /// The shown key is the right one.
     TrustHostKey,
-    /// The known keys of the host that was refused are to be forgotten.
+    /// Forget the known keys of the host that was refused.
     ForgetHostKey,
     /// Go on with this secret.
     Secret {
-        /// What was typed.
         secret: Secret,
         /// Keep it in the keyring of the operating system.
         keep: bool,
     },
-    /// Nobody wants it any more: ends what is under way, answers a question
-    /// with no.
+    /// Cancel the work under way, or answer a question with no.
     Cancel,
-    /// What came of the last order was read.
+    /// The operator has read the outcome of the last order.
     Dismiss,
-    /// List what can be put back.
+    /// List the files that can be put back.
     ListKept {
         /// Host and port of the unit.
         unit: String,
-        /// Name of the file there.
+        /// Name of the file on the unit.
         file: String,
     },
 }

@@ -1,5 +1,5 @@
-//! Changes of settings on their way to a session: those of service settings wait
-//! until what was there before is safe in a file.
+//! Passes changes of settings to a session. Changes of service settings wait until the
+//! previous values are saved in a file.
 
 use super::{
     Engine,
@@ -12,14 +12,14 @@ use crate::{
 };
 
 impl Engine {
-    /// Whether a change must wait for a copy of what it replaces.
+    /// Returns `true` if a change must wait for a copy of the values it replaces.
     fn needs_copy(&self, index: usize, change: &Change) -> bool {
         let Some(antenna) = self.antennas.get(index) else { return false };
         let group = antenna.shown.groups().iter().find(|group| group.key == change.group);
         change.is_unlocked && group.is_some_and(|it| it.guard(&change.values) == Guard::Service)
     }
 
-    /// Hands a change to the session, a service setting after a copy was saved.
+    /// Sends a change to the session; a service setting only after a copy was saved.
     pub(super) fn write_settings(&mut self, index: usize, change: Change) {
         if !self.needs_copy(index, &change) {
             return self.send(index, driver::Command::WriteSettings(change));
@@ -37,7 +37,7 @@ impl Engine {
         }
     }
 
-    /// A STOP voids what still waits for its copy.
+    /// Drops changes that still wait for their copy: a STOP voids them.
     pub(super) fn drop_waiting_settings(&mut self) {
         let Some(waiting) = self.copy_work.waiting.take() else { return };
         let names = self.antennas.iter().map(|antenna| antenna.shown.config.name.as_str());
@@ -53,7 +53,7 @@ impl Engine {
         self.alarms.raise(of, AlarmKind::Settings(text), self.now);
     }
 
-    /// Saves what is known of the settings of an antenna.
+    /// Saves the settings that were read from an antenna's unit.
     pub(super) fn save_copy(&mut self, index: usize) {
         let Some(antenna) = self.antennas.get(index) else { return };
         if let Err(why) = self.copy_work.save(&antenna.shown, self.now) {
@@ -70,7 +70,7 @@ impl Engine {
         self.copies.open = Some(OpenCopy { antenna: name, listed: Vec::new(), read: None });
     }
 
-    /// Takes what the thread of the copies has done.
+    /// Takes the outcomes of the copies' thread.
     pub(super) fn take_copies(&mut self) {
         let Some(outcome) = self.copy_work.turn(&self.wake) else { return };
         let now = self.now;
@@ -92,7 +92,7 @@ impl Engine {
         }
     }
 
-    /// Sends what waited for the copy of `antenna`, unless there is none.
+    /// Sends the changes that waited for the copy of `antenna`, unless the copy failed.
     fn after_copy(&mut self, antenna: &str, failure: Option<String>) {
         let Some(waiting) = self.copy_work.waiting.take_if(|it| it.antenna == antenna) else {
             return;

@@ -1,5 +1,4 @@
-//! How parts of snapshots and commands are written down whose types are only complete with
-//! the makes that this program knows.
+//! Serialisation of parts of snapshots and commands whose types need the list of makes.
 
 /// A station, as in its file.
 pub(super) mod station {
@@ -28,7 +27,7 @@ pub(super) mod station {
     }
 }
 
-/// An antenna, as in the file of a station.
+/// An antenna, as in the station file.
 pub(super) mod antenna {
     use serde::{Deserializer, Serialize, Serializer, de::Error as _};
 
@@ -54,7 +53,7 @@ pub(super) mod antenna {
     }
 }
 
-/// How the units of a make take files of elements: the key of the make.
+/// Element files of a make, written as the key of the make.
 pub(super) mod element_files {
     use serde::{Deserialize, Deserializer, Serializer, de::Error as _, ser::Error as _};
 

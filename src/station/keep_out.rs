@@ -1,27 +1,26 @@
-//! Where no antenna of the site may point.
+//! Keep-outs and Sun avoidance: where antennas must not point.
 
 use serde::{Serialize, Serializer};
 
 use super::{Antenna, Station};
 use crate::astro::{Angle, AzEl, Zone};
 
-/// A region of the sky in which metal must not point.
+/// A zone of the sky into which antennas must never point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeepOut {
-    /// Not empty, and no other keep-out of the station has it.
+    /// Not empty, and unique among the keep-outs of the station.
     pub name: String,
-    /// Why it is there, in the operator's words; may be empty.
+    /// Reason in the operator's words; may be empty.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub reason: String,
-    /// What happens when an antenna comes in.
     pub entered: Entered,
-    /// The antenna it holds for, by name; `None` for the whole site.
+    /// Name of the antenna it holds for; `None` for the whole site.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
-    /// What the operator adds to half of the beam and to the overshoot of the
-    /// drives, degrees, 0 to 30.
+    /// Margin that the operator adds to half of the beam and to the overrun of the drives,
+    /// degrees, 0 to 30.
     pub margin_deg: f64,
-    /// Its edges. In the file a list of corners, each an azimuth and an elevation.
+    /// Edges of the zone. In the file a list of corners, each an azimuth and an elevation.
     #[serde(rename = "corners", serialize_with = "as_corners")]
     pub zone: Zone,
 }
@@ -35,35 +34,35 @@ pub enum Entered {
     Hard,
     /// An alarm is raised.
     Warn,
-    /// The way leads along the margin; refused where there is none.
+    /// A detour along the margin is taken; the motion is refused where there is none.
     GoRound,
 }
 
 /// How far antennas stay away from the Sun.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SunAvoidance {
-    /// Angle between the Sun and the direction of an antenna, degrees, 0.1 to 60.
+    /// Smallest angle between the Sun and the direction of an antenna, degrees, 0.1 to 60.
     pub radius_deg: f64,
-    /// For how long ahead the way of the Sun is kept free, minutes, 0 to 120.
+    /// Time ahead for which the Sun's way is kept free, minutes, 0 to 120.
     pub ahead_min: f64,
 }
 
 impl SunAvoidance {
-    /// The usual time ahead, minutes.
+    /// Default of [`Self::ahead_min`], minutes.
     pub const DEFAULT_AHEAD_MIN: f64 = 10.0;
 }
 
 impl KeepOut {
-    /// The usual margin, degrees.
+    /// Default of [`Self::margin_deg`], degrees.
     pub const DEFAULT_MARGIN_DEG: f64 = 1.0;
 
-    /// Whether it holds for the antenna of that name.
+    /// Returns `true` if the keep-out holds for the antenna of that name.
     pub fn holds_for(&self, antenna: &str) -> bool {
         self.antenna.as_deref().is_none_or(|name| Antenna::same_name(name, antenna))
     }
 
-    /// Whether everything that `other` keeps antennas out of is kept out of by this
-    /// one too, at least as strictly.
+    /// Returns `true` if this keep-out keeps antennas out of everything that `other` does,
+    /// at least as strictly.
     pub fn holds_all_of(&self, other: &Self) -> bool {
         const STEP: Angle = Angle::from_degrees(0.25);
         let same_antennas = match (&self.antenna, &other.antenna) {
@@ -72,35 +71,33 @@ impl KeepOut {
             (Some(own), Some(others)) => Antenna::same_name(own, others),
         };
         let is_strict = self.entered != Entered::Warn || other.entered == Entered::Warn;
-        // Around each point of the edge the whole margin of the other one has room.
+        // Around each point of the edge, the whole margin of the other one has room.
         let room = self.margin() - other.margin() + Angle::from_degrees(1e-6);
         let is_within = |point: AzEl| self.zone.clearance(point) <= room;
         let same_zone = self.zone == other.zone && self.margin_deg >= other.margin_deg;
         same_antennas && is_strict && (same_zone || other.zone.edges_sampled(STEP).all(is_within))
     }
 
-    /// What the operator adds.
     pub fn margin(&self) -> Angle {
         Angle::from_degrees(self.margin_deg)
     }
 
-    /// Azimuth and elevation of the corners, degrees to nine decimals: an angle in
-    /// radians does not keep the last digit of its degrees.
+    /// Azimuth and elevation of the corners, degrees rounded to nine decimals, because an
+    /// angle in radians does not keep the last digit of its degrees.
     pub fn corners_deg(zone: &Zone) -> Vec<(f64, f64)> {
         let rounded = |angle: Angle| (angle.degrees() * 1e9).round() / 1e9;
         zone.corners().iter().map(|at| (rounded(at.azimuth), rounded(at.elevation))).collect()
     }
 
-    /// The zone of corners of azimuth and elevation in degrees; the reason where
-    /// they make none.
+    /// The zone with these corners (azimuth, elevation), degrees.
     pub fn zone_of(corners_deg: &[(f64, f64)]) -> Result<Zone, crate::astro::ZoneError> {
         Zone::new(corners_deg.iter().map(|(az, el)| AzEl::from_degrees(*az, *el)).collect())
     }
 }
 
 impl Station {
-    /// What keeps antennas away from less in `after` than here, by name. A keep-out
-    /// that grows, or a new one, is none of these.
+    /// Name of a keep-out, or the Sun avoidance, that is weaker or missing in `after`. A
+    /// keep-out that grows, or a new one, does not count.
     pub fn loosened_in(&self, after: &Self) -> Option<&str> {
         let is_held = |old: &&KeepOut| after.keep_outs.iter().any(|new| new.holds_all_of(old));
         let sun = self.sun_avoidance.filter(|old| {

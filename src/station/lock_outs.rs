@@ -1,7 +1,7 @@
-//! Units that are locked out for maintenance, in a file of their own beside the
-//! station file.
+//! Units that are locked out for maintenance, in a file of their own beside the station
+//! file.
 //!
-//! Invariant: what cannot be read locks everything, never nothing.
+//! Invariant: a file that cannot be read locks everything, never nothing.
 
 use std::{collections::BTreeMap, fs, io, path::Path};
 
@@ -11,21 +11,21 @@ use serde::{Deserialize, Serialize};
 use super::{Antenna, Connection, SaveError};
 use crate::whole_file;
 
-/// The name of the file, beside the station file.
+/// Name of the file beside the station file.
 pub const LOCK_OUTS_FILE: &str = "lock-outs.toml";
-/// The version that this program writes.
+/// Version that this program writes.
 const VERSION: i64 = 1;
 
-/// A unit is worked on: nothing but questions and STOP may go to it.
+/// Lock-out of a unit while somebody works on it: only questions and STOP may go to it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LockOut {
-    /// Who has locked it out.
+    /// Who locked it out.
     pub by: String,
     pub reason: String,
     pub since: Timestamp,
 }
 
-/// The unit at an address, whatever its antenna is called.
+/// The unit at an address, whatever the name of its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Unit {
     make: String,
@@ -39,11 +39,11 @@ impl Unit {
     }
 }
 
-/// All units that are locked out.
+/// All locked-out units.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LockOuts {
     units: BTreeMap<Unit, LockOut>,
-    /// The file could not be read: of every unit that is not named.
+    /// Lock-out of all other units, because the file could not be read.
     others: Option<LockOut>,
 }
 
@@ -66,8 +66,8 @@ struct Line {
 }
 
 impl LockOuts {
-    /// Reads the file at `path`. Where there is none, nothing is locked out. One
-    /// that cannot be read locks out every unit; the second value says why.
+    /// Reads the file at `path`. A missing file locks out nothing. An unreadable one locks
+    /// out every unit; the second value says why.
     pub fn load(path: &Path, now: Timestamp) -> (Self, Option<String>) {
         let read = match fs::read_to_string(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
@@ -105,8 +105,8 @@ impl LockOuts {
         self.units.get(&Unit::of(connection)).or(self.others.as_ref())
     }
 
-    /// Locks out the unit at `connection`, or locks it out no longer. Where the file
-    /// could not be read, the other units of `station` stay locked out by name.
+    /// Sets or removes the lock-out of the unit at `connection`. If the file could not be
+    /// read, the other units of `station` stay locked out by name.
     pub fn set<'a>(
         &mut self,
         connection: &Connection,
@@ -125,9 +125,9 @@ impl LockOuts {
         }
     }
 
-    /// The antennas of the station are others now. What is locked out stays so with
-    /// its antenna too, also at a new address or of a new make: whoever
-    /// works on it may be at either. Tells whether that adds anything.
+    /// Carries lock-outs over to changed antennas. A locked-out unit stays so, and its
+    /// antenna's new address or make is locked out too: the person at work may be at
+    /// either. Returns whether that adds anything.
     pub fn stay_with_antennas(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
         let known = self.units.len();
         for old in before {
@@ -141,7 +141,7 @@ impl LockOuts {
         self.units.len() > known
     }
 
-    /// Replaces the file at `path` as a whole; the one before is kept.
+    /// Replaces the file at `path` as a whole and keeps the previous one.
     pub fn save(&self, path: &Path) -> Result<(), SaveError> {
         let line = |(unit, lock_out): (&Unit, &LockOut)| {
             let (Unit { make, address }, LockOut { by, reason, since }) =
@@ -228,7 +228,7 @@ mod tests {
             assert_eq!(again.of(&dish), None);
             assert!(again.of(&mast).is_some(), "nobody has said so of this one");
         }
-        // What a folder is cannot be read either.
+        // A folder cannot be read as a file either.
         let (lock_outs, problem) = LockOuts::load(folder.path(), now());
         assert!(problem.is_some() && lock_outs.of(&dish).is_some());
     }
@@ -253,7 +253,7 @@ mod tests {
             assert_eq!(lock_outs.of(&changed.connection), Some(&lock_out("gear")), "{changed:?}");
             assert!(lock_outs.of(&dish.connection).is_some(), "the unit itself stays so");
             assert_eq!(lock_outs.of(&mast.connection), None);
-            // It is taken off by a hold, each by itself.
+            // The operator removes each lock-out by itself, with a hold.
             lock_outs.set(&changed.connection, None, std::iter::empty());
             assert_eq!(lock_outs.of(&changed.connection), None);
         }

@@ -1,14 +1,14 @@
-//! How the axes of an antenna are arranged and how far they travel.
+//! Mount of an antenna: arrangement and travel of its axes.
 
 use serde::Serialize;
 
 use crate::astro::{Angle, AzEl};
 
-/// How the axes are arranged.
+/// Arrangement and travel of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub enum Mount {
-    /// Two crossed axes, the lower one horizontal; the keyholes lie at its ends.
+    /// Two crossed axes (X/Y), the lower one horizontal; the keyholes lie at its ends.
     Xy {
         /// Azimuth to which the lower axis points, degrees, 0 to 180.
         lower_axis_azimuth_deg: f64,
@@ -18,19 +18,16 @@ pub enum Mount {
         /// Upper end of the travel, degrees.
         travel_to_deg: f64,
     },
-    /// Elevation over azimuth. With a rotator for the azimuth alone the elevation
-    /// is not used.
+    /// Elevation over azimuth. A rotator for the azimuth alone does not use the elevation.
     AzEl {
         /// Counter-clockwise end of the azimuth axis, degrees from north over
         /// east, -360 to 360.
         azimuth_from_deg: f64,
-        /// Clockwise end, degrees; above 360 where the axis turns by more than a
-        /// turn.
+        /// Clockwise end, degrees; above 360 where the axis turns by more than one turn.
         azimuth_to_deg: f64,
         /// Lower end of the elevation axis, degrees.
         elevation_from_deg: f64,
-        /// Upper end, degrees; beyond 90, up to 180, where the mount flips the
-        /// zenith.
+        /// Upper end, degrees; beyond 90, up to 180, where the mount can flip.
         elevation_to_deg: f64,
     },
 }
@@ -51,8 +48,8 @@ impl Mount {
         }
     }
 
-    /// Whether the axes get to `direction`, on either side of the zenith. Of an X/Y
-    /// mount this says yes also to its keyholes.
+    /// Returns `true` if the axes reach `direction`, flipped or not. For an X/Y mount this
+    /// is always true, even in its keyholes.
     pub fn reaches(&self, direction: AzEl) -> bool {
         let Self::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = *self else { return true };
         let [_, (lowest_deg, highest_deg)] = self.travel_deg();
@@ -63,19 +60,19 @@ impl Mount {
         })
     }
 
-    /// Whether the elevation axis travels over the zenith to the other side.
+    /// Returns `true` if the elevation axis travels over the zenith to the other side.
     pub fn can_flip(&self) -> bool {
         matches!(self, Self::AzEl { elevation_to_deg, .. } if *elevation_to_deg > 90.0)
     }
 
-    /// Whether an elevation axis that stands there is flipped.
+    /// Returns `true` if an elevation axis at this angle is flipped.
     pub fn is_flipped(&self, elevation_axis_deg: Option<f64>) -> bool {
         self.can_flip() && elevation_axis_deg.is_some_and(|axis_deg| axis_deg > 90.0)
     }
 
-    /// The mount with the ends of its axes drawn in to those that the device keeps
-    /// to, degrees as the mount counts. Ends that leave an axis no travel are left
-    /// out.
+    /// This mount with its travel cut to the unit's own ends, degrees as the mount counts.
+    /// Ends that would leave an axis no travel are ignored, and so are all ends for an X/Y
+    /// mount.
     #[must_use]
     pub fn within(self, ends_deg: [Option<(f64, f64)>; 2]) -> Self {
         if matches!(self, Self::Xy { .. }) {
@@ -93,9 +90,9 @@ impl Mount {
         Self::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg }
     }
 
-    /// The position of the azimuth axis that points to `azimuth`, the one nearest
-    /// to `near_deg`. Where no position of the axis does, and for a mount without
-    /// such an axis, the azimuth as it is.
+    /// The position of the azimuth axis that points to `azimuth`, the one nearest to
+    /// `near_deg`. Where the axis has no such position, and for a mount without such an
+    /// axis, `azimuth` itself.
     pub fn axis_azimuth(&self, azimuth: Angle, near_deg: Option<f64>) -> Angle {
         let Self::AzEl { azimuth_from_deg: from, azimuth_to_deg: to, .. } = *self else {
             return azimuth;

@@ -1,5 +1,5 @@
-//! Reads a station from TOML: what is missing gets its default, what is
-//! invalid gets its default with a note, what is unknown is named in a note.
+//! Reads a station from TOML. A missing value gets its default, an invalid one its default
+//! and a note, and an unknown key is named in a note.
 
 mod antenna;
 mod keep_out;
@@ -12,38 +12,35 @@ use toml::{Table, Value};
 use super::{Antenna, AntennaId, ControllerSpec, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
-/// Something in the file that was not taken over as it stands.
+/// An entry of the file that was not taken over as it stands.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
-    /// Where in the file, such as `antenna[0].beam_width_deg`.
+    /// Place in the file, such as `antenna[0].beam_width_deg`.
     pub place: String,
-    /// What is the matter.
     pub reason: NoteReason,
 }
 
-/// Why a field was not taken over.
+/// Why an entry was not taken over.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NoteReason {
-    /// The value cannot be used; the default stands in its place.
+    /// The value cannot be used; the default replaces it.
     Invalid(String),
-    /// No such setting; a typing error perhaps.
+    /// No such setting exists; perhaps a typing error.
     Unknown,
-    /// What is to keep antennas away from something cannot be used, so that it
-    /// does not.
+    /// A keep-out or the Sun avoidance cannot be used, so it does not hold.
     DoesNotHold {
-        /// What the operator calls it.
+        /// Name that the operator gave it.
         name: String,
-        /// What is wrong with it.
         why: String,
     },
 }
 
-/// The station of a parsed settings file whose controllers are of these makes,
-/// and what was not taken over.
+/// The station of a parsed station file with controllers of these makes, and notes on
+/// entries that were not taken over.
 pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
     let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
     let default = Station::default();
-    // Read by `file`, which refuses what a newer program wrote.
+    // Checked in `file`, which refuses files of a newer program.
     fields.table.remove("version");
     let mut station = Station {
         name: fields.text("name", &default.name),
@@ -60,7 +57,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         sun_avoidance: fields.sun_avoidance(),
         antennas: fields.antennas(specs),
     };
-    // They name antennas.
+    // Keep-outs name antennas.
     station.keep_outs = fields.keep_outs(&station.antennas);
     fields.name_the_unknown();
     (station, fields.notes)
@@ -92,7 +89,7 @@ impl Fields<'_> {
         }
     }
 
-    /// A number within `range`, whole or with decimals.
+    /// A number within `range`, with or without decimals.
     fn number(&mut self, key: &str, range: &RangeInclusive<f64>, default: f64) -> f64 {
         let value = match self.table.remove(key) {
             None => return default,
@@ -161,7 +158,7 @@ impl Fields<'_> {
                 continue;
             };
             let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-            // Those that are given count before those that are missing.
+            // Ids given later in the file are taken before a missing one is filled in.
             let later = given.iter().skip(index + 1).flatten().copied();
             let taken: Vec<AntennaId> =
                 antennas.iter().map(|other| other.id).chain(later).collect();
@@ -181,7 +178,7 @@ impl Fields<'_> {
         antennas
     }
 
-    /// The fields of the table `key`, if there is one.
+    /// Reads the fields of the table `key`; a missing table counts as empty.
     fn inner<T>(&mut self, key: &str, read: impl FnOnce(&mut Fields<'_>) -> T) -> T {
         let mut table = match self.table.remove(key) {
             None => Table::new(),
@@ -207,7 +204,7 @@ impl Fields<'_> {
     }
 }
 
-/// The id that stands in the table of an antenna.
+/// The id given in the table of an antenna.
 fn given_id(antenna: &Value) -> Option<AntennaId> {
     let id = antenna.get("id")?.as_integer()?;
     u32::try_from(id).ok().map(AntennaId)

@@ -1,4 +1,4 @@
-//! How far an antenna was from where it should have been, over the present track.
+//! Errors between measured and predicted direction over the present track.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -7,38 +7,37 @@ use serde::{Deserialize, Serialize};
 
 use crate::astro::{Angle, time::seconds_between};
 
-/// The errors of this long are kept for the profile of a pass.
+/// Time for which errors are kept, for the profile of a pass.
 const KEPT_S: f64 = 3600.0;
-/// So many samples are shared at once.
+/// Samples in a chunk; clones share chunks.
 const CHUNK: usize = 256;
 
-/// How far a measured direction was from the predicted one.
+/// Error of a measured direction against the predicted one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ErrorSample {
-    /// When.
     pub time: Timestamp,
-    /// Between the beam axis and the satellite.
+    /// Angle between the beam axis and the satellite.
     pub off_beam: Angle,
-    /// Measured less predicted azimuth, the short way round.
+    /// Measured minus predicted azimuth, the short way round.
     pub azimuth: Angle,
-    /// Measured less predicted elevation.
+    /// Measured minus predicted elevation.
     pub elevation: Angle,
 }
 
-/// The errors of the present track, oldest first. A copy shares all but the newest few
-/// hundred with what it was copied from.
+/// The errors of the present track, oldest first. A clone shares all but the newest few
+/// hundred with the original.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Errors {
     chunks: VecDeque<Arc<Vec<ErrorSample>>>,
 }
 
 impl Errors {
-    /// The oldest first.
+    /// Oldest first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &ErrorSample> {
         self.chunks.iter().flat_map(|chunk| chunk.iter())
     }
 
-    /// The newest.
+    /// The newest error.
     pub fn back(&self) -> Option<&ErrorSample> {
         self.chunks.back().and_then(|chunk| chunk.last())
     }
@@ -47,7 +46,7 @@ impl Errors {
         self.chunks.clear();
     }
 
-    /// Adds the newest and forgets what is too old, a chunk at a time.
+    /// Adds an error and drops old ones, a chunk at a time.
     pub(super) fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {
             Some(chunk) => Arc::make_mut(chunk).push(sample),

@@ -1,26 +1,25 @@
-//! What goes on with an antenna: it ends, or goes on unwatched, when the antenna is
-//! locked out or the station ends.
+//! Activity of an antenna that ends, or goes on unwatched, when the antenna is locked out
+//! or the station ends.
 
 use super::AntennaModel;
 use crate::driver::{Intent, StopState};
 
-/// What goes on with an antenna.
+/// Activity of an antenna that is at stake.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stake {
-    /// The unit tracks this by itself.
+    /// On-board track of the satellite with this name.
     OnBoard(Option<String>),
-    /// This program follows the target of this name with it.
+    /// Program track of the target with this name.
     ProgramTracked(String),
-    /// It moves.
     Moves,
-    /// A stop is owed to it.
+    /// A stop is owed.
     OwesStop,
-    /// It was moved from here and is not known to stand since.
+    /// It was moved from here and has not been proved to stand since.
     Unproved,
 }
 
 impl AntennaModel {
-    /// What goes on; `None` where it is known to stand and nothing is asked of it.
+    /// The activity at stake; `None` where the antenna stands and nothing is asked of it.
     pub fn stake(&self) -> Option<Stake> {
         let (snapshot, state) = (&self.snapshot, &self.snapshot.state);
         if matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {

@@ -1,29 +1,29 @@
-//! Which passes the list shows.
+//! Scope and span of the pass list.
 
 use serde::{Deserialize, Serialize};
 
-/// How far ahead the list may look, hours.
+/// Spans to choose from, hours.
 pub const SPANS_H: [u32; 4] = [6, 12, 24, 48];
 
 /// The satellites whose passes are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
-    /// The satellites that the operator follows.
+    /// The favourites.
     #[default]
     Favourites,
-    /// All satellites there are elements of.
+    /// All satellites with elements.
     All,
 }
 
-/// Which passes the list shows. Each scope has its own span: a day of the whole
-/// catalog is a hundred thousand passes.
+/// Scope and spans of the pass list. Each scope has its own span, because one day of the
+/// whole catalog has a hundred thousand passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListChoice {
     pub scope: Scope,
-    /// How far ahead for the favourites, hours; one of [`SPANS_H`].
+    /// Span for the favourites, hours; one of [`SPANS_H`].
     pub favourites_h: u32,
-    /// How far ahead for all satellites, hours; one of [`SPANS_H`].
+    /// Span for all satellites, hours; one of [`SPANS_H`].
     pub all_h: u32,
 }
 
@@ -34,7 +34,7 @@ impl Default for ListChoice {
 }
 
 impl ListChoice {
-    /// How far ahead the list looks, hours.
+    /// Span of the present scope, hours.
     pub fn span_h(&self) -> u32 {
         match self.scope {
             Scope::Favourites => self.favourites_h,
@@ -42,7 +42,7 @@ impl ListChoice {
         }
     }
 
-    /// Looks so many hours ahead from now on, in the scope that is shown.
+    /// Sets the span of the present scope, hours.
     pub fn set_span_h(&mut self, span_h: u32) {
         match self.scope {
             Scope::Favourites => self.favourites_h = span_h,

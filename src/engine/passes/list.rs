@@ -1,5 +1,5 @@
-//! The list of passes of some satellites, and the search for the next one in the
-//! background. A list stays until the next one is complete.
+//! A pass list, and the search for the next one in the background. A list stays until the
+//! next one is complete.
 
 use std::{
     ops::Range,
@@ -20,26 +20,25 @@ use crate::{
     orbit::Pass,
 };
 
-/// A list older than this is made anew.
+/// Age at which a list is made anew.
 const STALE_S: f64 = 600.0;
-/// The AOS of one pass in two lists is at most so far apart.
+/// Largest difference in AOS of one pass between two lists.
 const SAME_AOS_S: f64 = 60.0;
 
-/// Passes of some satellites. A copy shares them.
+/// Passes of some satellites. Clones share them.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PassList {
     /// The satellites, in the order of the station or by catalog number.
     #[serde(skip)]
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
-    /// Passes by AOS, then by catalog number. In a list of all satellites those that
-    /// are always up come last. Some of them may be over.
+    /// Passes by AOS, then by catalog number. In a list of all satellites, those that are
+    /// always up come last. Some passes may be over.
     #[serde(skip)]
     pub passes: Arc<Vec<PredictedPass>>,
-    /// Another number whenever the passes are others.
+    /// Changes with every new list.
     pub revision: u64,
-    /// When the search for this list began; `None` before the first list.
+    /// Start of the search for this list; `None` before the first list.
     pub made_at: Option<Timestamp>,
-    /// What is being done for the next list.
     pub work: Work,
 }
 
@@ -72,24 +71,24 @@ struct Running {
     job: Option<Job<Found>>,
 }
 
-/// What is being done for the next list.
+/// State of the search for the next list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Work {
-    /// Nothing: the list is the wanted one.
+    /// No search: the list is up to date.
     Nothing,
     /// A search is under way.
     UnderWay {
         /// Satellites that are done.
         done: usize,
-        /// All satellites; 0 while they are being prepared.
+        /// All satellites; 0 while they are prepared.
         of: usize,
     },
-    /// The operator has cancelled it.
+    /// The operator has cancelled the search.
     Cancelled,
 }
 
 impl Search {
-    /// The list and what is being done for the next one.
+    /// The list, with the state of the search for the next one.
     pub(super) fn shown(&self) -> PassList {
         let work = match (&self.running, &self.halted) {
             (Some(Running { progress, .. }), _) => Work::UnderWay {
@@ -102,24 +101,24 @@ impl Search {
         PassList { work, ..self.list.clone() }
     }
 
-    /// The last search broke off. The list before stays.
+    /// Returns `true` if the last search broke off. The previous list stays.
     pub(in crate::engine) fn broke_off(&self) -> bool {
         self.broke_off
     }
 
-    /// Ends the search under way. The next begins when the operator wants it
-    /// or something else is asked for.
+    /// Ends the search under way. The next one begins when the operator wants it or the
+    /// search key changes.
     pub(in crate::engine) fn cancel(&mut self) {
         self.halted = self.running.take().map(|search| search.key);
     }
 
-    /// Begins the cancelled search again, with the next refresh.
+    /// Restarts the cancelled search with the next refresh.
     pub(in crate::engine) fn resume(&mut self) {
         self.halted = None;
     }
 
-    /// Takes a finished list, and begins a new search when the list was made from
-    /// something else than `key` or has grown old.
+    /// Takes a finished list, and begins a new search when the list was made for another
+    /// key or has grown old.
     pub(super) fn refresh(&mut self, key: &SearchKey, now: Timestamp, wake: &Wake) {
         self.take_finished();
         let is_young = |at: Timestamp| seconds_between(at, now).abs() < STALE_S;
@@ -135,7 +134,8 @@ impl Search {
         }
     }
 
-    /// Forgets the list when it was made from another place than `key`.
+    /// Ends the search, and drops the list if it was made for another observer than that of
+    /// `key`.
     pub(super) fn keep_only_from(&mut self, key: &SearchKey) {
         self.running = None;
         if self.made_of.as_ref().is_some_and(|made_of| made_of.observer != key.observer) {
@@ -171,7 +171,8 @@ impl Search {
             return;
         };
         let Ok(found) = end else {
-            // The same elements would break the next search too: the operator begins it.
+            // The same elements would break the next search too: only the operator restarts
+            // it.
             self.cancel();
             self.broke_off = true;
             return;
@@ -190,7 +191,7 @@ impl Search {
 }
 
 impl PassList {
-    /// Some of the passes by their places, each with the catalog number of its satellite.
+    /// The passes at these places, each with its catalog number.
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = (u32, Pass)> {
         let passes = self.passes.iter().take(places.end).skip(places.start);
         passes.map(|predicted| (predicted.number(), predicted.pass))
@@ -201,19 +202,18 @@ impl PassList {
         UpcomingPasses::of(self, &self.passes, now)
     }
 
-    /// Those of them that begin in the next `span_h` hours, in a list by AOS.
+    /// The passes that are not over and begin within `span_h` hours, for a list by AOS.
     pub fn within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
         let count = self.passes.partition_point(|predicted| predicted.pass.aos.time < end);
         UpcomingPasses::of(self, self.passes.get(..count).unwrap_or_default(), now)
     }
 
-    /// The place of the pass of `key` in the list. After a new list its AOS may
-    /// differ by a little.
+    /// Place of the pass of `key` in the list. Its AOS may differ a little in a new list.
     fn place(&self, (number, aos): PassKey) -> Option<usize> {
         let (dated, always_up) = self.parts();
         let is_its = |predicted: &PredictedPass| predicted.number() == number;
-        // A list begins with the passes that are cut at its start.
+        // The first passes of a list are those cut at its start.
         let cut = dated.iter().take_while(|predicted| predicted.pass.starts_before).enumerate();
         let standing = (dated.len()..).zip(always_up);
         let mut early = cut.chain(standing);
@@ -229,13 +229,12 @@ impl PassList {
             .find_map(|(place, predicted)| is_its(predicted).then_some(place))
     }
 
-    /// The passes by AOS, and those behind them that are always up.
+    /// The passes by AOS, and the always-up passes behind them.
     fn parts(&self) -> (&[PredictedPass], &[PredictedPass]) {
         let behind = self.passes.iter().rev().take_while(|predicted| predicted.is_always_up());
         self.passes.split_at(self.passes.len() - behind.count())
     }
 
-    /// The pass of `key`.
     pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
         self.passes.get(self.place(key)?)
     }
@@ -246,7 +245,7 @@ impl PassList {
 pub struct UpcomingPasses<'a> {
     list: &'a PassList,
     passes: &'a [PredictedPass],
-    /// The places of those that are over, in order.
+    /// Places of the passes that are over, in order.
     over: Vec<usize>,
 }
 
@@ -255,24 +254,22 @@ impl<'a> UpcomingPasses<'a> {
         let behind = passes.iter().rev().take_while(|predicted| predicted.is_always_up()).count();
         let dated = passes.len() - behind;
         let is_over = |predicted: &PredictedPass| predicted.pass.los.time <= now;
-        // What is over has begun: the rest of a long list need not be looked at.
+        // A pass that is over has begun: the rest of a long list need not be searched.
         let begun = passes.iter().take(dated).take_while(|of| of.pass.aos.time <= now).count();
         let candidates = (0..begun).chain(dated..passes.len());
         let over = candidates.filter(|place| passes.get(*place).is_some_and(is_over)).collect();
         Self { list, passes, over }
     }
 
-    /// How many there are.
     pub fn len(&self) -> usize {
         self.passes.len() - self.over.len()
     }
 
-    /// Another value whenever the rows of one revision of the list are others.
+    /// Changes whenever the rows change within one revision of the list.
     pub fn version(&self) -> (usize, usize) {
         (self.passes.len(), self.over.len())
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -289,7 +286,6 @@ impl<'a> UpcomingPasses<'a> {
         self.passes.get(place)
     }
 
-    /// In the order of the rows.
     pub fn iter(&self) -> impl Iterator<Item = &'a PredictedPass> {
         let mut over = self.over.iter().peekable();
         self.passes.iter().enumerate().filter_map(move |(place, predicted)| {
@@ -297,7 +293,7 @@ impl<'a> UpcomingPasses<'a> {
         })
     }
 
-    /// The row of the pass of `key`. After a new list its AOS may differ by a little.
+    /// Row of the pass of `key`. Its AOS may differ a little in a new list.
     pub fn row(&self, key: PassKey) -> Option<usize> {
         let place = self.list.place(key).filter(|place| *place < self.passes.len())?;
         let before = self.over.binary_search(&place).err()?;

@@ -1,5 +1,5 @@
-//! One pass of one satellite. What is drawn of it is made when it is first
-//! looked at: a list may hold a hundred thousand passes.
+//! One pass of one satellite. Its outline is computed at first use, because a list may hold
+//! a hundred thousand passes.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,39 +13,36 @@ use crate::{
     station::{Antenna, Station},
 };
 
-/// A track is drawn from at most this many samples.
+/// Maximum number of samples in a drawn track.
 const MAX_SAMPLES: f64 = 600.0;
-/// For so long ahead the passes of a satellite that is tracked from here are known.
+/// Span ahead for the later passes of a satellite in program track.
 const LATER_S: f64 = 7.0 * 86_400.0;
 
-/// Samples of the outline are at least so far apart: one point of a thumbnail.
+/// Smallest distance between samples of the outline: one point of a thumbnail.
 const OUTLINE_STEP_DEG: f64 = 3.0;
 
 /// A satellite of a list.
 #[derive(Debug)]
 pub struct ListedSatellite {
-    /// Its elements.
     pub elements: Elements,
-    /// Where it goes.
     pub propagator: Propagator,
 }
 
 impl ListedSatellite {
-    /// The name without what stands in brackets behind it.
+    /// The name up to the first opening bracket.
     pub fn short_name(&self) -> &str {
         let name = self.elements.name();
         name.split_once(" (").map_or(name, |(short, _)| short)
     }
 }
 
-/// The site, the horizon and the antennas of a station, as passes depend on them.
+/// Site, horizon and antennas of a station, as far as passes depend on them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observer {
-    /// The place.
     pub site: Site,
     /// Elevation of AOS and LOS.
     pub aos_elevation: Angle,
-    /// Limits of the mount of each antenna, in their order.
+    /// Mount limits of the antennas, in their order.
     pub antennas: Vec<MountLimits>,
 }
 
@@ -63,22 +60,20 @@ impl Observer {
     }
 }
 
-/// A pass with all that is shown of it.
+/// A pass with everything that is shown of it.
 #[derive(Debug, Clone)]
 pub struct PredictedPass {
-    /// Its satellite.
     pub satellite: Arc<ListedSatellite>,
-    /// Its three events.
     pub pass: Pass,
     observer: Arc<Observer>,
     outline: OnceLock<Box<Outline>>,
 }
 
-/// What is shown of a pass.
+/// Computed figures of a pass.
 #[derive(Debug, Clone)]
 struct Outline {
     path: Vec<Sample>,
-    /// By the place of the antenna.
+    /// By the index of the antenna.
     trackability: Vec<Trackability>,
     track: OnceLock<Vec<Sample>>,
 }
@@ -89,16 +84,15 @@ impl PredictedPass {
         Self { satellite, pass, observer, outline: OnceLock::new() }
     }
 
-    /// Which pass this is.
     pub fn key(&self) -> PassKey {
         (self.number(), self.pass.aos.time)
     }
 
-    /// What an antenna has to follow for this pass and those of its satellite in the
-    /// next days that get as high as `floor`.
+    /// The program track for this pass and, in the next days, later passes of its satellite
+    /// that reach `floor`.
     pub fn follow(&self, floor: Angle) -> ProgramTrack {
         let mut los = self.pass.los.time;
-        // The end of the search has cut it: it goes on.
+        // The end of the search has cut this pass: look for its true LOS.
         let from = if self.pass.ends_after { self.pass.tca.time } else { los };
         let search = PassSearch {
             aos_elevation: self.observer.aos_elevation,
@@ -127,28 +121,28 @@ impl PredictedPass {
         self.satellite.elements.catalog_number()
     }
 
-    /// Whether the satellite neither rises nor sets in the time of the list.
+    /// Returns `true` if the satellite neither rises nor sets within the list.
     pub fn is_always_up(&self) -> bool {
         self.pass.starts_before && self.pass.ends_after
     }
 
-    /// Whether the satellite is up at `now`.
+    /// Returns `true` if the satellite is up at `now`.
     pub fn in_progress(&self, now: Timestamp) -> bool {
         self.pass.aos.time <= now && now < self.pass.los.time
     }
 
-    /// The way across the sky, AOS to LOS, every 2 s or a little more. Made and
-    /// kept at the first call.
+    /// Samples from AOS to LOS, every 2 s or a little more; computed at the first call and
+    /// kept.
     pub fn track(&self) -> &[Sample] {
         self.outline().track.get_or_init(|| self.sampled())
     }
 
-    /// The same with no more points than a small picture needs.
+    /// The track with no more points than a small picture needs.
     pub fn path(&self) -> &[Sample] {
         &self.outline().path
     }
 
-    /// What this antenna makes of it; `None` without one.
+    /// Trackability of the pass with this antenna; `None` without one.
     pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
         self.outline().trackability.get(antenna).copied()
     }

@@ -1,5 +1,5 @@
-//! The search for the passes of a list. Runs on a thread of its own and shares
-//! the work with the pool.
+//! The search for the passes of a list, on a thread of its own with the work shared among
+//! the thread pool.
 
 use std::sync::{
     Arc,
@@ -16,22 +16,22 @@ use crate::{
     orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
 };
 
-/// A pass that is under way has begun this long ago at most, but for those of
-/// satellites that hardly move.
+/// Time before now from which passes are searched: a pass under way began later, except
+/// with satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
-/// The station is told of the progress in so many steps.
+/// Number of progress reports to the station.
 const STEPS: usize = 100;
 
 /// The satellites whose passes are searched for.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum SearchScope {
-    /// These, in this order.
+    /// These catalog numbers, in this order.
     Favourites(Vec<u32>),
-    /// All of the catalog.
+    /// All satellites of the catalog.
     All,
 }
 
-/// All that the passes of a list depend on, but the time.
+/// Everything that the passes of a list depend on, except the time.
 #[derive(Clone)]
 pub(super) struct SearchKey {
     pub(super) catalog: Arc<Catalog>,
@@ -51,7 +51,7 @@ impl PartialEq for SearchKey {
 }
 
 impl SearchKey {
-    /// Whether the satellites are the same, with the same elements.
+    /// Returns `true` if the satellites are the same, with the same elements.
     pub(super) fn has_satellites_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.catalog, &other.catalog) && self.scope == other.scope
     }
@@ -82,21 +82,20 @@ fn prepared(elements: &Elements) -> Option<Arc<ListedSatellite>> {
     }
 }
 
-/// How far a search has come. Written by its threads.
+/// Progress of a search, written by its threads.
 #[derive(Default)]
 pub(super) struct Progress {
     pub(super) done: AtomicUsize,
     pub(super) of: AtomicUsize,
 }
 
-/// What a search has found.
+/// Result of a search.
 pub(super) struct Found {
     pub(super) satellites: Arc<Vec<Arc<ListedSatellite>>>,
     pub(super) passes: Vec<PredictedPass>,
 }
 
-/// Searches from `now` on. `satellites`: those of `key`, when they are
-/// prepared already.
+/// Searches from `now` on. `satellites` are those of `key`, if they were prepared before.
 pub(super) fn search(
     key: &SearchKey,
     satellites: Option<Arc<Vec<Arc<ListedSatellite>>>>,
@@ -132,13 +131,13 @@ pub(super) fn search(
         })
         .collect();
     let is_all = key.scope == SearchScope::All;
-    // Hundreds that never set would hide the first pass of a whole catalog.
+    // Hundreds of satellites that never set would hide the first pass of a whole catalog.
     let is_late = |predicted: &PredictedPass| is_all && predicted.is_always_up();
     passes.par_sort_by_key(|predicted| {
         (is_late(predicted), predicted.pass.aos.time, predicted.number())
     });
     if !is_all {
-        // All of them stand in the strip from the first frame on.
+        // The strip shows all of them from the first frame on.
         passes.par_iter().for_each(|predicted| {
             predicted.path();
         });

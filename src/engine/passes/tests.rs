@@ -17,7 +17,7 @@ fn now() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
 }
 
-/// Lists of a station that follows one of the satellites of a small catalog.
+/// Lists of a station with one favourite, from a small catalog.
 struct Desk {
     searches: Searches,
     pass_lists: PassLists,
@@ -61,7 +61,7 @@ impl Desk {
         self.pass_lists = self.searches.shown();
     }
 
-    /// Until nothing is under way any more.
+    /// Refreshes until no search is under way.
     fn finish(&mut self) {
         self.refresh();
         while [Scope::Favourites, Scope::All]
@@ -91,7 +91,7 @@ fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
     let shifted = (key.0, add_seconds(key.1, 2.0));
     assert_eq!(desk.pass_lists.find(shifted).map(PredictedPass::key), Some(key));
     assert!(desk.pass_lists.find((key.0, add_seconds(key.1, 600.0))).is_none());
-    // One that never sets is found whenever its pass began in an older list.
+    // A pass that never sets is found, whenever it began in an older list.
     let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
     assert!(desk.pass_lists.find(always).is_some());
     assert!(desk.pass_lists.satellite(ISS).is_some() && desk.pass_lists.satellite(7).is_none());

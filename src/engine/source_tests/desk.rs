@@ -1,4 +1,4 @@
-//! Carries the tests out, on threads of their own.
+//! Carries out the tests, on threads of their own.
 
 use std::{io, sync::Arc};
 
@@ -13,7 +13,7 @@ use crate::{
     transfer::{FetchError, OfferedKey, Transfer, Trust, UnitView, fetch, what_a_unit_sees},
 };
 
-/// The one place of tests.
+/// Runs tests, one at a time.
 pub(in crate::engine) struct Desk {
     places: Option<Places>,
     clock: Clock,
@@ -28,7 +28,7 @@ impl Desk {
         Self { places, clock, wake, offered: None, transfer: None, deciding: None }
     }
 
-    /// Carries out what a view asked for.
+    /// Carries out a request of a view.
     pub(in crate::engine) fn ask(&mut self, ask: TestAsk, shown: &mut SourceTests) {
         match (ask, &shown.stage) {
             (TestAsk::Begin(order), stage) if !stage.is_open() => {
@@ -58,7 +58,7 @@ impl Desk {
         }
     }
 
-    /// Takes what has come in.
+    /// Takes results that have come in.
     pub(in crate::engine) fn poll(&mut self, shown: &mut SourceTests) {
         if let Some(decided) = Job::take(&mut self.deciding) {
             match decided.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {

@@ -1,4 +1,4 @@
-//! The satellites that are to go to a unit, checked before anything is tried.
+//! The satellites chosen for a unit, checked before anything is sent.
 
 use jiff::Timestamp;
 
@@ -8,31 +8,30 @@ use crate::{
     transfer::{TleFile, TleFileError},
 };
 
-/// The chosen satellites and the file that they make.
+/// The chosen satellites and the file made of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// Each of them, in the order of the choice.
+    /// In the order of the choice.
     pub objects: Vec<ChosenObject>,
-    /// All of them in one file, or why there is none.
+    /// All satellites in one file, or why there is no file.
     pub file: Result<TleFile, TleFileError>,
 }
 
 /// One chosen satellite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChosenObject {
-    /// Its catalog number.
     pub catalog_number: u32,
-    /// Its name in the catalog; empty for none.
+    /// Name in the catalog; empty for none.
     pub name: String,
-    /// The epoch of its elements; `None` when there are none.
+    /// Epoch of the elements; `None` without elements.
     pub epoch: Option<Timestamp>,
-    /// Why it cannot go to a unit; `None` when it can.
+    /// Why the satellite cannot go to a unit; `None` when it can.
     pub problem: Option<TleFileError>,
 }
 
 impl Chosen {
-    /// The objects with these catalog numbers out of `catalog`, for a unit that
-    /// takes such files. One without elements is listed and is not in the file.
+    /// The objects with these catalog numbers from `catalog`, for a unit that takes such
+    /// files. An object without elements is listed, but not in the file.
     pub fn of(catalog: &Catalog, numbers: &[u32], takes: &ElementFiles) -> Self {
         let objects = numbers.iter().map(|number| match catalog.get(*number) {
             None => ChosenObject {

@@ -1,5 +1,4 @@
-//! Carries out what an order needs, on threads of their own, and shows how far
-//! it is.
+//! Carries out the steps of an order on threads of their own, and shows its progress.
 
 use std::{io, sync::Arc, time::Duration};
 
@@ -16,19 +15,19 @@ use crate::{
     transfer::Transfer,
 };
 
-/// A session answers long before this, whatever becomes of its link. If it does
-/// not, the operator is told rather than left waiting.
+/// Time limit for the unit's answer. A session answers long before, whatever happens to its
+/// link; without an answer the operator gets a message.
 const SELECTING: Duration = Duration::from_secs(90);
 
-/// What the session of an antenna is told.
+/// A request to the session of an antenna.
 pub(in crate::engine) enum Told {
-    /// To end tracking, and not to begin it by itself.
+    /// End tracking, and switch auto-track off.
     Rest,
-    /// To use a file.
+    /// Use a file.
     Use(Selection),
 }
 
-/// The one place of orders.
+/// Carries out orders, one at a time.
 pub(in crate::engine) struct Desk {
     places: Option<Places>,
     clock: Clock,
@@ -56,8 +55,8 @@ impl Desk {
         }
     }
 
-    /// Carries out what a view asked for. `unit_of` tells how the unit of an
-    /// antenna is. What comes back is for the session of the shown antenna.
+    /// Carries out a request of a view. `unit_of` returns the state of an antenna's unit.
+    /// The result is a request to the session of the shown antenna.
     pub(in crate::engine) fn ask(
         &mut self,
         ask: Ask,
@@ -95,12 +94,12 @@ impl Desk {
         self.carry_out(next, shown)
     }
 
-    /// The operator has stopped the antennas.
+    /// Takes note that the operator has stopped the antennas.
     pub(in crate::engine) fn stopped(&mut self) {
         self.flow.stopped();
     }
 
-    /// Takes what has come in. What comes back is for the session of the shown
+    /// Takes results that have come in. The result is a request to the session of the shown
     /// antenna.
     pub(in crate::engine) fn poll(
         &mut self,
@@ -161,7 +160,7 @@ impl Desk {
         }
     }
 
-    /// The unit cannot be told to use the file.
+    /// Ends the order: the unit cannot be set to use the file, for the reason `text`.
     pub(in crate::engine) fn not_selected(&mut self, text: String, shown: &mut Uploads) {
         self.flow.selected(Err(text), self.clock.utc(), shown);
     }
@@ -189,7 +188,7 @@ impl Desk {
 
     fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<Told> {
         let unit = UnitNow::default();
-        // A failure leads to nothing more.
+        // There is no next step after a failure.
         let _ = self.flow.reported(Report::failed(text), &unit, shown);
         None
     }
@@ -215,7 +214,7 @@ impl Desk {
     }
 }
 
-/// The result of `job`, once.
+/// Takes the result of `job`.
 fn take(job: &mut Option<Job<Result<(), String>>>) -> Option<Result<(), String>> {
     Job::take(job).map(|end| end.unwrap_or_else(|broke_off| Err(broke_off.to_string())))
 }

@@ -1,5 +1,5 @@
-//! The way of a file to a unit, on a thread of its own: keyring, connection,
-//! host key, log-in, upload and proof.
+//! One attempt to bring a file to a unit, on a thread of its own: keyring, connection, host
+//! key, log-in, upload and proof.
 
 use std::{io, sync::Arc};
 
@@ -17,45 +17,43 @@ use crate::{
     },
 };
 
-/// One attempt to carry an order out.
 pub(super) struct Errand {
     pub(super) order: Order,
-    /// What the operator has typed for it.
+    /// The secret that the operator typed.
     pub(super) secret: Option<Secret>,
 }
 
-/// How an attempt ended.
+/// End of an attempt.
 #[derive(Debug)]
 pub(super) enum Outcome {
     /// The file is on the unit.
     Uploaded(Box<Uploaded>),
-    /// The host has another key than the known one, or none is known.
+    /// The host has another key than the known one, or no key is known.
     HostKey(ConnectError),
-    /// The operator has to type the secret.
+    /// The operator must type the secret.
     Secret {
-        /// Why the last one is no good.
+        /// Why the last secret was refused.
         refused: Option<String>,
     },
-    /// Nobody wanted it any more.
+    /// The operator cancelled; the text is the state of the unit.
     Cancelled(String),
-    /// It went wrong.
     Failed(String),
 }
 
-/// What an attempt tells.
+/// Report of an attempt.
 #[derive(Debug)]
 pub(super) struct Report {
     pub(super) outcome: Outcome,
-    /// The unit took the log-in.
+    /// The unit accepted the log-in.
     pub(super) is_logged_in: bool,
-    /// The password is the one that every unit has from its maker.
+    /// The password is the one that the maker sets in every unit.
     pub(super) is_factory: bool,
-    /// Why the keyring could not be asked.
+    /// Why the keyring could not be read.
     pub(super) keyring_problem: Option<String>,
 }
 
 impl Report {
-    /// It went wrong before anything was done.
+    /// A failure before anything was done.
     pub(super) fn failed(text: String) -> Self {
         Self {
             outcome: Outcome::Failed(text),
@@ -66,7 +64,6 @@ impl Report {
     }
 }
 
-/// Begins `errand`.
 pub(super) fn start(
     errand: Errand,
     places: &Places,
@@ -75,7 +72,7 @@ pub(super) fn start(
 ) -> io::Result<Transfer<Report>> {
     let (places, clock) = (places.clone(), clock.clone());
     Transfer::start("azel-upload", wake, move |mut tell, cancel| {
-        // Outside the runtime, as keyrings want it.
+        // Outside the runtime, as keyrings need it.
         let (secret, keyring_problem) = find_secret(&errand, &places);
         async move {
             let mut attempt =
@@ -90,7 +87,7 @@ pub(super) fn start(
     })
 }
 
-/// What was typed, or else what the session or the keyring remembers.
+/// The typed secret, or else the one in the session's memory or the keyring.
 fn find_secret(errand: &Errand, places: &Places) -> (Option<SecretString>, Option<String>) {
     if let Some(secret) = &errand.secret {
         return (Some(secret.inner().clone()), None);
@@ -133,7 +130,8 @@ impl Attempt<'_> {
             }
             (None, Some(password)) => Proof::Password(password.clone()),
             (None, None) => {
-                // The host first: who it is matters before a password is typed for it.
+                // Check the host first: it must be the right one before a password is typed
+                // for it.
                 let known = &places.known_hosts;
                 return match check_host_key(&order.unit, known, places.limits, cancel).await {
                     Ok(()) => Outcome::Secret { refused: None },
@@ -150,7 +148,7 @@ impl Attempt<'_> {
         };
         self.is_logged_in = true;
         if let Some(secret) = &secret {
-            // Memory takes everything.
+            // The keyring in memory never fails.
             let _ = places.session.set(&order.account(), secret);
         }
         let wanted = Upload { unit: order.unit.clone(), file: order.file.clone(), elements };
@@ -187,12 +185,12 @@ impl Attempt<'_> {
     }
 
     fn forget(&self) {
-        // Memory forgets everything.
+        // The keyring in memory never fails.
         let _ = self.places.session.remove(&self.order.account());
     }
 }
 
-/// Keeps `secret` in the keyring. The result is why that failed, if it did.
+/// Saves `secret` in the keyring. The job returns why that failed.
 pub(super) fn keep_secret(
     places: &Places,
     account: Account,

@@ -1,5 +1,5 @@
-//! What follows on what: an order from the operator's word to the unit's.
-//! No threads and no clock; the desk carries out what comes out of here.
+//! State machine of an order, from the operator's request to the unit's report. It has no
+//! threads and no clock; the desk carries out the steps that it returns.
 
 use jiff::Timestamp;
 
@@ -14,32 +14,32 @@ use crate::{
     transfer::{OfferedKey, Uploaded},
 };
 
-/// What is to be done next.
+/// The next step of an order.
 pub(super) enum Next {
-    /// This attempt.
+    /// Run this attempt.
     Run(Box<Errand>),
-    /// What the operator has decided about a host key.
+    /// Carry out the operator's decision about a host key.
     Decide(Decision),
-    /// The unit is to end tracking, and not to begin it by itself: what decides
-    /// where it points passes the gate at rest.
+    /// End the unit's tracking and auto-track: the gate passes a setting that decides where
+    /// the unit points only at rest.
     Rest,
-    /// The unit is to use this.
+    /// Let the unit use this file.
     Select(Selection),
 }
 
-/// One order on its way.
+/// State of one order.
 #[derive(Default)]
 pub(super) struct Flow {
     order: Option<Order>,
     secret: Option<Secret>,
-    /// The secret is to be kept once it has opened the door.
+    /// Keep the secret once it has opened the log-in.
     keeps: bool,
-    /// Why the keyring could not be asked; it is asked once.
+    /// Why the keyring could not be read; it is asked once.
     keyring_problem: Option<String>,
     offered: Option<Box<OfferedKey>>,
-    /// The tracking of the unit may end.
+    /// The unit's tracking may end.
     is_agreed: bool,
-    /// On the unit, which does not use it yet.
+    /// On the unit, but not in use yet.
     uploaded: Option<Box<Uploaded>>,
     selection: Option<Selection>,
     /// The selection waits until the unit is at rest.
@@ -94,8 +94,8 @@ impl Flow {
         }
     }
 
-    /// The operator has stopped the antennas: nothing may end or begin to track
-    /// any more without being asked about again.
+    /// The operator has stopped the antennas: from now on no tracking may end or begin
+    /// without a new question.
     pub(super) fn stopped(&mut self) {
         self.is_agreed = false;
     }
@@ -109,7 +109,7 @@ impl Flow {
         Some(Next::Decide(Decision::Trust(offered)))
     }
 
-    /// The order begins again afterwards, with the question about the new key.
+    /// Forgets the host's keys; the order then begins again and asks about the new key.
     pub(super) fn forget_host(&mut self, shown: &mut Uploads) -> Option<Next> {
         let Stage::Failed(Failure { changed_key: Some(_), .. }) = &shown.stage else { return None };
         let peer = self.order.as_ref()?.unit.clone();
@@ -144,12 +144,12 @@ impl Flow {
         self.run(shown)
     }
 
-    /// What is to be kept in the keyring, once.
+    /// The secret to keep in the keyring, returned once.
     pub(super) fn secret_to_keep(&mut self) -> Option<Secret> {
         std::mem::take(&mut self.keeps).then(|| self.secret.clone()).flatten()
     }
 
-    /// Whether what is under way is to be told.
+    /// Cancels. Returns `true` if the work under way must be cancelled too.
     pub(super) fn cancel(&mut self, shown: &mut Uploads) -> bool {
         let can_cancel = shown.stage.can_cancel();
         match &mut shown.stage {
@@ -222,8 +222,8 @@ impl Flow {
         None
     }
 
-    /// Only now is the unit's own state asked about: it may have begun to track
-    /// while the file was on its way.
+    /// Lets the unit use the file. Its state is checked only now, because it may have begun
+    /// to track during the upload.
     fn use_file(
         &mut self,
         uploaded: Box<Uploaded>,
@@ -260,7 +260,7 @@ impl Flow {
         Some(if self.awaits_rest { Next::Rest } else { Next::Select(selection) })
     }
 
-    /// Goes on once the unit is at rest.
+    /// Continues once the unit is at rest.
     pub(super) fn rested(&mut self, unit: &UnitNow) -> Option<Next> {
         self.awaits_rest &= self.selection.is_some();
         if !self.awaits_rest || unit.hindrance.is_some() {
@@ -270,7 +270,7 @@ impl Flow {
         self.selection.clone().map(Next::Select)
     }
 
-    /// Takes the unit's answer, if it is here.
+    /// Takes the unit's answer, if it has come.
     pub(super) fn answered(&mut self, unit: &UnitNow, shown: &mut Uploads) {
         let selection = self.selection.as_ref();
         let end = selection.zip(unit.answer.as_ref()).and_then(|(one, answer)| one.end(answer));
@@ -279,7 +279,7 @@ impl Flow {
         }
     }
 
-    /// The unit has said whether it uses the file.
+    /// Takes the result of the selection.
     pub(super) fn selected(
         &mut self,
         result: Result<(), String>,

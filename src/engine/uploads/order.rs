@@ -1,4 +1,4 @@
-//! What the operator wants on a unit.
+//! An order of the operator for a unit.
 
 use std::path::PathBuf;
 
@@ -10,38 +10,38 @@ use crate::{
     transfer::{Account, FileName, KeptFile, Peer, TleFile},
 };
 
-/// A file of elements for a unit, and the way there.
+/// An element file for a unit, with the way to get it there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Order {
-    /// Name of the antenna whose unit it is.
+    /// Name of the unit's antenna.
     pub antenna: String,
     /// How the unit takes files.
     #[serde(with = "written::element_files")]
     pub takes: &'static ElementFiles,
-    /// Where the unit's files are served.
+    /// Server of the unit's files.
     pub unit: Peer,
-    /// The folder of elements there.
+    /// Folder of the element files on the unit.
     pub folder: String,
-    /// The file in it.
+    /// Name of the file in the folder.
     pub file: FileName,
-    /// Who logs in.
+    /// User name for the log-in.
     pub user: String,
-    /// Logs in with this private key; `None` for a password.
+    /// Private key for the log-in; `None` for a password.
     pub key_file: Option<PathBuf>,
-    /// What is to be in the file.
+    /// Content of the file.
     pub cargo: Cargo,
-    /// The satellite that the unit is to follow; `None` for the one that it
-    /// holds, or the first of the file.
+    /// Catalog number of the satellite to track; `None` for the one that the unit holds, or
+    /// the first of the file.
     pub satellite: Option<u32>,
 }
 
-/// What is to be in a file.
+/// Content of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cargo {
-    /// These elements.
+    /// New elements.
     New(TleFile),
-    /// What was there before.
+    /// An earlier file, put back.
     Kept(KeptFile),
 }
 
@@ -51,7 +51,7 @@ impl Serialize for Order {
     }
 }
 
-/// Refuses a file that would not be in its folder.
+/// Refuses a file name that leads out of its folder.
 impl<'de> Deserialize<'de> for Order {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let order = Self::deserialize(from)?;
@@ -61,7 +61,7 @@ impl<'de> Deserialize<'de> for Order {
 }
 
 impl Order {
-    /// Under which the password or passphrase is kept.
+    /// Account under which the password or passphrase is kept.
     pub fn account(&self) -> Account {
         let user = self
             .key_file

@@ -1,22 +1,21 @@
-//! Where host keys, old uploads and secrets are kept.
+//! Stores for host keys, old uploads and secrets.
 
 use std::{fmt, sync::Arc};
 
 use crate::transfer::{KeptFiles, Keyring, KnownHosts, Limits, MemoryKeyring, SystemKeyring};
 
-/// Where host keys, old uploads and secrets are kept, and how long a unit may
-/// take.
+/// Stores for host keys, old uploads and secrets, and time limits for a unit.
 #[derive(Clone)]
 pub struct Places {
-    /// The pinned host keys.
+    /// Pinned host keys.
     pub known_hosts: KnownHosts,
-    /// The last files of every unit.
+    /// Previous files of every unit.
     pub kept: KeptFiles,
-    /// Secrets that the operator wants kept.
+    /// Secrets that the operator wants to keep.
     pub keyring: Arc<dyn Keyring>,
     /// Secrets that are kept until the program ends.
     pub session: Arc<MemoryKeyring>,
-    /// How long the steps may take.
+    /// Time limits of the steps.
     pub limits: Limits,
 }
 

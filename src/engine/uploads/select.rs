@@ -1,4 +1,4 @@
-//! Tells a unit to use a file that was put on it.
+//! Sets a unit to use an uploaded file, and judges its answer.
 
 use std::sync::Arc;
 
@@ -17,20 +17,20 @@ use crate::{
     transfer::{FileObject, Uploaded},
 };
 
-/// Tickets of selections; those of the forms are lower.
+/// Tickets of selections begin here; those of the forms are lower.
 pub(super) const TICKETS: u64 = 1 << 63;
 
-/// Why the operator has to agree before a unit is told to use a file.
+/// Why the operator must agree before a unit is set to use a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Busy {
-    /// It tracks. It is stopped.
+    /// The unit tracks; the track will be stopped.
     Tracks,
-    /// Its auto-track is on: it may begin to track by itself. It is switched off.
+    /// Auto-track is on: the unit may begin to track. It will be switched off.
     MayTrack,
 }
 
 impl Busy {
-    /// What the unit of `antenna` is about.
+    /// The reason for the unit of `antenna`, if any.
     fn of(antenna: &AntennaModel) -> Option<Self> {
         let program = antenna.snapshot.state.program?;
         if program.enabled {
@@ -40,36 +40,36 @@ impl Busy {
     }
 }
 
-/// How the unit of an antenna is.
+/// Present state of an antenna's unit.
 #[derive(Debug, Clone, Default)]
 pub(in crate::engine) struct UnitNow {
-    /// UTC of this.
+    /// Time of this state.
     pub(super) at: Timestamp,
-    /// Why the operator has to agree before it is told to use a file.
+    /// Why the operator must agree before the unit is set to use a file.
     pub(super) busy: Option<Busy>,
-    /// It is locked out for maintenance: by whom and why.
+    /// Holder and reason of a lock-out.
     pub(super) locked_out: Option<String>,
-    /// Why the driver would not tell it to use a file now.
+    /// Why the driver would refuse to let it use a file now.
     pub(super) hindrance: Option<Hindrance>,
-    /// The catalog number of the satellite that it holds.
+    /// Catalog number of the satellite that the unit holds.
     pub(super) held: Option<u32>,
-    /// The last selection that is over.
+    /// Answer to the last finished selection.
     pub(super) answer: Option<Answer>,
 }
 
-/// How a selection ended.
+/// End of a selection.
 #[derive(Debug, Clone)]
 pub(super) struct Answer {
     written: Arc<Written>,
-    /// What the unit holds now.
+    /// Values that the unit holds now.
     held: Option<HeldGroup>,
     checks: Arc<[Check]>,
-    /// When the checks were read.
+    /// Time at which the checks were read.
     checked_at: Option<Timestamp>,
 }
 
 impl UnitNow {
-    /// As the session of `antenna` knows it.
+    /// The state known to the session of `antenna`.
     pub(in crate::engine) fn of(
         antenna: Option<&AntennaModel>,
         at: Timestamp,
@@ -95,23 +95,20 @@ impl UnitNow {
     }
 }
 
-/// A satellite of a file that a unit is to use.
+/// A satellite in a file that a unit shall use.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::engine) struct Selection {
-    /// Tells one from another; [`TICKETS`] and up.
+    /// Unique for each selection; [`TICKETS`] and up.
     pub(super) ticket: u64,
-    /// How the unit takes files.
     pub(super) takes: &'static ElementFiles,
-    /// When it was made.
+    /// Time of the selection.
     pub(super) since: Timestamp,
-    /// The file.
     pub(super) file: String,
-    /// The satellite.
     pub(super) satellite: FileObject,
 }
 
 impl Selection {
-    /// What the session is told. The present track ends.
+    /// The command for the session. It ends the present track.
     pub(in crate::engine) fn command(&self) -> driver::Command {
         let values = (self.takes.choose)(&self.file, &self.satellite.name);
         driver::Command::WriteSettings(Change {
@@ -123,8 +120,8 @@ impl Selection {
         })
     }
 
-    /// When and how it ended; `None` while it has not. Good only when the unit
-    /// has named the very object and its checks were read since.
+    /// End and outcome of the selection; `None` while it goes on. The outcome is good only
+    /// when the unit has named this very object, and its checks were read since.
     pub(super) fn end(&self, answer: &Answer) -> Option<(Timestamp, Result<(), String>)> {
         let written = &answer.written;
         if written.change.ticket != self.ticket {
@@ -156,8 +153,8 @@ impl Selection {
     }
 }
 
-/// The satellite to use out of `uploaded`: the `wanted` one, or the one that
-/// the unit holds, or the first.
+/// The satellite of `uploaded` to use: the `wanted` one, else the one that the unit holds,
+/// else the first.
 pub(super) fn pick(
     uploaded: &Uploaded,
     wanted: Option<u32>,

@@ -1,4 +1,4 @@
-//! Where uploads meet the antennas' sessions.
+//! Connects uploads with the sessions of the antennas.
 
 use super::{Ask, Told, UnitNow};
 use crate::{

@@ -1,4 +1,4 @@
-//! Reads one antenna.
+//! Reads one antenna of the station file.
 
 use std::ops::RangeInclusive;
 
@@ -11,7 +11,7 @@ use crate::station::{
 };
 
 impl Fields<'_> {
-    /// An antenna needs a controller and an address: nothing stands in for them.
+    /// Reads an antenna. Controller and address are required; they have no default.
     pub(super) fn antenna(
         &mut self,
         specs: &[&'static ControllerSpec],
@@ -49,7 +49,7 @@ impl Fields<'_> {
         })
     }
 
-    /// The id that is given, unless another antenna has it; else a free one.
+    /// The id in the file, unless another antenna has it; else a free one.
     fn antenna_id(&mut self, before: &[Antenna], taken: &[AntennaId]) -> AntennaId {
         let free = AntennaId::free(AntennaId::FIRST, taken);
         let Some(value) = self.table.remove("id") else { return free };
@@ -61,7 +61,7 @@ impl Fields<'_> {
         })
     }
 
-    /// An antenna with this connection and the usual figures of its make.
+    /// An antenna with this connection and the defaults of its make.
     fn connected(&mut self, specs: &[&'static ControllerSpec]) -> Option<Antenna> {
         let controller = self.text("controller", "");
         let address = self.text("address", "");
@@ -217,7 +217,7 @@ impl Fields<'_> {
         }
     }
 
-    /// The arrangement follows from the controller; another in the file is told.
+    /// The arrangement follows from the controller; a different one in the file is noted.
     fn mount_type(&mut self, kind: &str) {
         match self.table.remove("type") {
             None => {}
@@ -227,7 +227,7 @@ impl Fields<'_> {
     }
 }
 
-/// What the upper end of an axis may be whose lower end is `from`.
+/// Range of the upper end of an axis whose lower end is `from`.
 fn above(
     from: f64,
     span: &RangeInclusive<f64>,
@@ -236,7 +236,7 @@ fn above(
     (from + span.start()).max(*range.start())..=(from + span.end()).min(*range.end())
 }
 
-/// What the controller of an antenna may be.
+/// Error text that names the known makes.
 fn any_of(specs: &[&ControllerSpec]) -> String {
     let keys: Vec<String> = specs.iter().map(|spec| format!("{:?}", spec.key)).collect();
     match keys.split_last() {

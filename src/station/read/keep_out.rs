@@ -1,6 +1,5 @@
-//! Reads keep-outs and the avoidance of the Sun. What cannot be read does not
-//! hold, which the operator must know: it is more than a setting that got its
-//! default.
+//! Reads keep-outs and Sun avoidance. An entry that cannot be read does not hold, and the
+//! operator must know: that is worse than a setting at its default.
 
 use toml::Value;
 
@@ -8,8 +7,8 @@ use super::{Fields, NoteReason};
 use crate::station::{Antenna, Entered, KeepOut, SunAvoidance, ranges};
 
 impl Fields<'_> {
-    /// The keep-outs. Where a value is wrong, the stricter one stands in for it; a
-    /// keep-out without usable corners is left out with a note.
+    /// Reads the keep-outs. A wrong value is replaced by the stricter one; a keep-out
+    /// without usable corners is left out with a note.
     pub(super) fn keep_outs(&mut self, antennas: &[Antenna]) -> Vec<KeepOut> {
         let tables = match self.table.remove("keep_out") {
             None => return Vec::new(),
@@ -70,7 +69,7 @@ impl Fields<'_> {
         Ok(KeepOut { name, reason, entered, antenna, margin_deg, zone })
     }
 
-    /// A margin that is too large is the largest one, not the usual one.
+    /// A margin that is too large becomes the largest one, not the default.
     fn margin_deg(&mut self) -> f64 {
         let written = self.table.get("margin_deg").and_then(|value| {
             value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
@@ -81,7 +80,7 @@ impl Fields<'_> {
         self.number("margin_deg", &ranges::MARGIN_DEG, default)
     }
 
-    /// A keep-out of an antenna that is not there holds for the whole site.
+    /// A keep-out of an unknown antenna holds for the whole site.
     fn antenna_of_keep_out(&mut self, antennas: &[Antenna]) -> Option<String> {
         let value = self.table.remove("antenna")?;
         let found = value

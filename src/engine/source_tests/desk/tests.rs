@@ -15,7 +15,7 @@ use crate::{
 
 const NOAA_20: u32 = 43_013;
 
-/// A desk, what it shows, and what tells of each wake.
+/// A desk, its displayed state, and a channel that receives its wakes.
 fn desk(folder: &tempfile::TempDir) -> (Desk, SourceTests, mpsc::Receiver<()>) {
     let places = Places {
         known_hosts: KnownHosts::new(folder.path().join("known_hosts")),
@@ -26,7 +26,7 @@ fn desk(folder: &tempfile::TempDir) -> (Desk, SourceTests, mpsc::Receiver<()>) {
     };
     let (send, woken) = mpsc::sync_channel(16);
     let wake: Wake = Arc::new(move || {
-        // More than one wake is no more than one.
+        // Several wakes count as one.
         let _ = send.try_send(());
     });
     (Desk::new(Some(places), Clock::system(), wake), SourceTests::default(), woken)
@@ -38,7 +38,7 @@ fn begin(url: String, satellite: &str) -> TestAsk {
     TestAsk::Begin(Box::new(SourceOrder { antenna, source, satellite }))
 }
 
-/// Serves `body` once.
+/// Serves `body` for one request.
 fn serve(body: Vec<u8>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/weather.txt", listener.local_addr().unwrap());

@@ -55,7 +55,7 @@ fn report(outcome: Outcome) -> Report {
     Report { outcome, is_logged_in: true, is_factory: false, keyring_problem: None }
 }
 
-/// An order on its way, and what is shown of it.
+/// An order, and its displayed state.
 #[derive(Default)]
 struct Desk {
     flow: Flow,
@@ -72,7 +72,7 @@ impl Desk {
         self.flow.reported(report(outcome), &self.unit, &mut self.shown)
     }
 
-    /// Tracking and auto-track end first, and the unit is told when they have.
+    /// Tracking and auto-track end before the unit is set to use the file.
     fn assert_rests_before_it_is_told(&mut self, go_on: impl FnOnce(&mut Self) -> Option<Next>) {
         self.unit.hindrance = Some(Hindrance::Tracks);
         assert!(matches!(go_on(self), Some(Next::Rest)));
@@ -242,7 +242,7 @@ fn a_changed_host_key_is_refused_until_the_old_one_is_forgotten() {
     let next = desk.flow.forget_host(&mut desk.shown);
     assert!(matches!(next, Some(Next::Decide(Decision::Forget(host))) if host == peer()));
     assert_runs(desk.flow.decided(Ok(()), &mut desk.shown));
-    // Nothing to forget without such a refusal.
+    // Without such a refusal there are no keys to forget.
     assert!(desk.flow.forget_host(&mut desk.shown).is_none());
 }
 
