@@ -39,7 +39,7 @@ pub const PROMPT: Duration = Duration::from_millis(600);
 /// Default of [`Device::patience`].
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Default of [`Device::poll_period`]. A controller asks for the position at least twice a
-/// second, because motion by hand needs one younger than a second.
+/// second, because motion by hand needs a position younger than a second.
 const LONGEST_POLL_PERIOD: Duration = Duration::from_millis(500);
 
 /// A motion that a controller can be asked for.

@@ -122,7 +122,7 @@ pub enum Finding {
     Unfinished,
     /// No line: a reply did not come in time.
     NoReply {
-        /// Time since the question.
+        /// Waiting time for the reply.
         waited: Duration,
         /// The question is sent a second time.
         is_repeated: bool,

@@ -112,7 +112,7 @@ pub enum AlarmKind {
     Unreadable(#[serde(deserialize_with = "name::one")] Name),
     /// An entry of the station file was not taken over.
     Setting(Note),
-    /// The station file could not be read or written; in words.
+    /// Settings could not be read, written or sent; in words.
     Settings(String),
     /// The elements could not be read; in words.
     Elements(String),

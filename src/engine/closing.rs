@@ -131,7 +131,8 @@ impl Engine {
         }
     }
 
-    /// Ends without a question: stops antennas unless the station file says to leave them.
+    /// Ends without a question: stops active antennas unless the station file says to leave
+    /// them.
     pub(super) fn end_unasked(&mut self) {
         match CloseHow::of(&self.station) {
             // Parking takes longer than the operating system waits.

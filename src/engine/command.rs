@@ -84,7 +84,7 @@ pub enum Command {
     Look(Attention),
 }
 
-/// The list and pass that a client shows; they decide which passes are computed.
+/// The list and pass that a client shows; they decide what is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Attention {
     pub list: ListChoice,

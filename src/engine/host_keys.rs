@@ -10,7 +10,7 @@ use crate::{
     transfer::{ConnectError, KnownHosts, OfferedKey, Peer},
 };
 
-/// A host key that differs from the known one, or a host without one.
+/// A host key that is not the known one, or the key of an unknown host.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DoubtfulKey {
     /// Host as named in the file of known hosts.

@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use super::{Antenna, Station};
 use crate::astro::{Angle, AzEl, Zone};
 
-/// A zone of the sky into which antennas must never point.
+/// A zone of the sky into which antennas must not point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeepOut {
     /// Not empty, and unique among the keep-outs of the station.
