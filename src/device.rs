@@ -4,6 +4,7 @@
 //! Invariant: a [`Moves`] can start motion, so only the driver's gate holds one; everyone
 //! else sees its [`Device`] side.
 
+mod calibration;
 mod capabilities;
 mod element_files;
 mod on_board;
@@ -19,6 +20,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
+pub use calibration::{CalibrationError, CountLine, CountPoint};
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill};
 pub use element_files::ElementFiles;
 pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, UnitClock};

@@ -2,7 +2,6 @@
 //! forgives what it can and never loses what it cannot read.
 
 mod antenna;
-mod calibration;
 mod connection;
 mod controller_spec;
 mod file;
@@ -16,7 +15,6 @@ mod track_settings;
 mod watch;
 
 pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
-pub use calibration::{CalibrationError, CountLine, CountPoint};
 pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
@@ -25,7 +23,7 @@ pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use read::{Note, NoteReason, from_toml};
-pub use setting::{Holds, Setting, Table, Value};
+pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
 

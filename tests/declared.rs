@@ -12,7 +12,7 @@ use azel::{
     driver::{Command, Event},
     makes,
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
-    station::{Antenna, ControllerSpec, Holds, Station},
+    station::{Antenna, ControllerSpec, Station},
 };
 use jiff::Timestamp;
 
@@ -27,10 +27,10 @@ fn antennas(spec: &'static ControllerSpec) -> Vec<Antenna> {
     let usual = spec.antenna("Dish", "in memory");
     let mut antennas = vec![usual.clone()];
     for setting in spec.settings {
-        let Holds::OneOf(choices) = &setting.holds else { continue };
-        for (choice, _) in *choices {
+        let kind = &setting.field.kind;
+        for choice in kind.choices().unwrap_or_default() {
             let mut antenna = usual.clone();
-            antenna.connection.put(setting, choice.clone()).unwrap();
+            antenna.connection.put(setting, kind.read(choice).unwrap()).unwrap();
             antennas.push(antenna);
         }
     }
@@ -50,8 +50,10 @@ fn some_value(field: &Field) -> Value {
     match field.kind {
         Kind::Flag => Value::Flag(false),
         Kind::Choice(choices) => Value::Choice(choices[0].0),
-        Kind::Integer { least, .. } => Value::Integer(least),
-        Kind::Decimal { least, .. } => Value::Decimal(least),
+        Kind::Integer { min, .. } => Value::Integer(min),
+        Kind::Decimal { min, .. } | Kind::Number { min, .. } => Value::Decimal(min),
+        Kind::Word(choices) => choices[0].0.into(),
+        Kind::Points => Value::Points(Vec::new()),
         Kind::Place { .. } => Value::Decimal(0.0),
         Kind::Text(_) => Value::Text("A".to_owned()),
         Kind::Password(_) => Value::Secret(Secret::new("A")),

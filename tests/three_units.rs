@@ -8,9 +8,10 @@ use std::time::Duration;
 use azel::{
     astro::{Angle, AzEl},
     controller::rc2000c::Calibration,
+    device::{CountLine, CountPoint},
     driver::{AntennaHandle, Command, LinkState, StopState},
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
-    station::{Antenna, CountLine, CountPoint, Mount, Station},
+    station::{Antenna, Mount, Station},
 };
 use jiff::Timestamp;
 use tokio::time::{Instant, sleep};

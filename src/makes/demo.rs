@@ -2,8 +2,9 @@
 
 use crate::{
     controller::{rc2000c::Calibration, satrak::ELEMENT_FILE},
+    device::CountPoint,
     sim::satrak::BUNDLED_FILE,
-    station::{Antenna, AntennaId, CountPoint, Mount, Station},
+    station::{Antenna, AntennaId, Mount, Station},
 };
 
 /// Where the three simulated controllers answer.

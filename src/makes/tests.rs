@@ -8,7 +8,8 @@ use crate::{
         rc2000c::{BAUD, BUS_ADDRESS},
         rotator_genius::{ROTATORS, Rotators},
     },
-    station::{Connection, Holds, Setting},
+    device::settings::Value,
+    station::{Connection, Setting},
 };
 
 #[test]
@@ -20,14 +21,13 @@ fn each_make_fits_what_it_says_of_itself() {
     for spec in SPECS {
         assert_eq!(spec.check_address(spec.default_address), Ok(()), "{spec:?}");
         for setting in spec.settings {
-            assert_eq!(setting.check(setting.usual), Ok(()), "{spec:?}: {}", setting.key);
-            let is_left_out = matches!(setting.holds, Holds::Text | Holds::Points);
-            assert_eq!(setting.usual.is_empty(), is_left_out, "{spec:?}: {}", setting.key);
+            let fits = setting.field.kind.check(&(setting.default)());
+            assert_eq!(fits, Ok(()), "{spec:?}: {}", setting.field.key);
         }
         let tables = spec.settings.chunk_by(|a, b| a.table == b.table);
         let tables = tables.map(|settings| settings[0].table.map(|table| table.key));
         let beside = spec.settings.iter().filter(|setting| setting.table.is_none());
-        let mut names: Vec<&str> = tables.flatten().chain(beside.map(|of| of.key)).collect();
+        let mut names: Vec<&str> = tables.flatten().chain(beside.map(|of| of.field.key)).collect();
         names.extend(["controller", "address"]);
         let count = names.len();
         names.sort_unstable();
@@ -40,13 +40,16 @@ fn each_make_fits_what_it_says_of_itself() {
 fn what_a_setting_cannot_hold_changes_nothing() {
     let mut connection = rc2000c::SPEC.connection("COM3");
     let before = connection.clone();
-    let put = |connection: &mut Connection, setting: &Setting, value: u32| {
-        connection.put(setting, value).unwrap_err()
+    let put = |connection: &mut Connection, setting: &Setting, value: Value| {
+        connection.put(setting, value).unwrap_err().to_string()
     };
-    assert_eq!(put(&mut connection, &BUS_ADDRESS, 48), "must be a whole number from 49 to 111");
+    assert_eq!(
+        put(&mut connection, &BUS_ADDRESS, 48.into()),
+        "must be a whole number from 49 to 111"
+    );
     let speeds = "must be one of 300, 600, 1200, 2400, 4800, 9600";
-    assert_eq!(put(&mut connection, &BAUD, 19_200), speeds);
+    assert_eq!(put(&mut connection, &BAUD, Value::Choice(19_200)), speeds);
     let why = connection.put(&ROTATORS, Rotators::First).unwrap_err();
-    assert_eq!(why, "is no setting of \"rc2000c\"");
+    assert_eq!(why.to_string(), "is no setting of \"rc2000c\"");
     assert_eq!(connection, before);
 }

@@ -2,8 +2,14 @@
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{ControllerSpec, CountPoint, Setting, Value};
-use crate::device::Variant;
+use super::{
+    ControllerSpec, Setting,
+    setting::{Spelled, is_empty},
+};
+use crate::device::{
+    CountPoint, Variant,
+    settings::{Unfit, Value},
+};
 
 /// Make, address and the settings that the make has.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +25,7 @@ pub struct Connection {
 impl Connection {
     /// A connection to `address` with default settings.
     pub(super) fn new(spec: &'static ControllerSpec, address: &str) -> Self {
-        let values = spec.settings.iter().map(|setting| setting.usual.clone()).collect();
+        let values = spec.settings.iter().map(|setting| (setting.default)()).collect();
         Self { spec, address: address.to_owned(), values }
     }
 
@@ -32,44 +38,47 @@ impl Connection {
         (self.spec.variant)(self)
     }
 
-    /// The value of a setting; its default where the make does not have the setting.
-    pub fn value<'a>(&'a self, setting: &'a Setting) -> &'a Value {
-        self.place(setting).and_then(|place| self.values.get(place)).unwrap_or(setting.usual)
+    /// The value of a setting; `None` where the make does not have the setting.
+    pub fn value(&self, setting: &Setting) -> Option<&Value> {
+        self.place(setting).and_then(|place| self.values.get(place))
     }
 
     /// The text or word of a setting; empty where it holds neither.
-    pub fn text<'a>(&'a self, setting: &'a Setting) -> &'a str {
+    pub fn text(&self, setting: &Setting) -> &str {
         match self.value(setting) {
-            Value::Text(text) => text,
-            Value::Word(word) => word,
-            Value::Whole(_) | Value::Points(_) => "",
+            Some(Value::Text(text)) => text,
+            _ => "",
         }
     }
 
-    /// The whole number of a setting; 0 where it holds none.
+    /// The whole number or the code of a setting; 0 where it holds neither, or none that fits.
     pub fn whole(&self, setting: &Setting) -> u32 {
-        let Value::Whole(number) = self.value(setting) else { return 0 };
-        *number
+        match self.value(setting) {
+            Some(Value::Integer(number) | Value::Choice(number)) => {
+                u32::try_from(*number).unwrap_or(0)
+            }
+            _ => 0,
+        }
     }
 
     /// The points of a setting; empty where it holds none.
-    pub fn points<'a>(&'a self, setting: &'a Setting) -> &'a [CountPoint] {
-        let Value::Points(points) = self.value(setting) else { return &[] };
+    pub fn points(&self, setting: &Setting) -> &[CountPoint] {
+        let Some(Value::Points(points)) = self.value(setting) else { return &[] };
         points
     }
 
     /// Sets a value. If the setting cannot hold it, or the make does not have the setting,
     /// nothing changes. The reason is worded to follow the name of the setting.
-    pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), String> {
+    pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), Unfit> {
         let value = value.into();
-        setting.check(&value)?;
+        setting.field.kind.check(&value)?;
         let place = self.place(setting).and_then(|place| self.values.get_mut(place));
-        *place.ok_or_else(|| format!("is no setting of {:?}", self.spec.key))? = value;
+        *place.ok_or_else(|| Unfit::Text(format!("is no setting of {:?}", self.spec.key)))? = value;
         Ok(())
     }
 
     fn place(&self, setting: &Setting) -> Option<usize> {
-        let is_it = |of: &&Setting| (of.key, of.table) == (setting.key, setting.table);
+        let is_it = |of: &&Setting| (of.field.key, of.table) == (setting.field.key, setting.table);
         self.spec.settings.iter().position(is_it)
     }
 }
@@ -104,9 +113,9 @@ impl Serialize for OfTable<'_> {
 }
 
 fn write<M: SerializeMap>(held: &[Held<'_>], map: &mut M) -> Result<(), M::Error> {
-    held.iter()
-        .filter(|(_, value)| !value.is_empty())
-        .try_for_each(|(setting, value)| map.serialize_entry(setting.key, value))
+    held.iter().filter(|(_, value)| !is_empty(value)).try_for_each(|(setting, value)| {
+        map.serialize_entry(setting.field.key, &Spelled(setting, value))
+    })
 }
 
 /// Checks that `address` is a host and a port; returns the reason if it is not.

@@ -56,6 +56,3 @@ pub const ELEVATION_FROM_DEG: RangeInclusive<f64> = -90.0..=89.0;
 pub const ELEVATION_TO_DEG: RangeInclusive<f64> = 0.0..=180.0;
 /// Travel from the lower to the upper end, degrees.
 pub const ELEVATION_SPAN_DEG: RangeInclusive<f64> = 1.0..=270.0;
-
-/// Angle of a calibration point, degrees as the mount counts.
-pub const CALIBRATED_DEG: RangeInclusive<f64> = -360.0..=1440.0;

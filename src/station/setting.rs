@@ -1,27 +1,23 @@
-//! A setting of a connection that one make of controller alone has, described
-//! once: the station file and the form are driven by the same description.
+//! A setting of a connection that only one make of controller has, described once for the
+//! station file and for the form.
 
-use std::ops::RangeInclusive;
+use serde::{Deserialize, Serialize, Serializer};
 
-use serde::{Deserialize, Serialize};
-
-use super::CountPoint;
+use crate::device::{
+    CountPoint,
+    settings::{Field, Kind, Unfit, Value},
+};
 
 /// One setting of a connection.
 #[derive(Debug)]
 pub struct Setting {
-    /// Names it in its table of the station file.
-    pub key: &'static str,
-    /// The table in which it stands within that of the connection; `None` where
-    /// it stands there itself. Settings of one table follow on each other.
+    /// Its key in the station file, what it can hold and its label in the form.
+    pub field: Field,
+    /// The table of the station file that it stands in, within that of the connection; `None`
+    /// where it stands in that one itself. Settings of one table follow on each other.
     pub table: Option<Table>,
-    /// Before its value in the form.
-    pub label: &'static str,
-    /// What it can hold.
-    pub holds: Holds,
-    /// What it holds where nothing is said.
-    pub usual: &'static Value,
-    /// What is to be said of a value, in a sentence.
+    pub default: fn() -> Value,
+    /// A sentence about a value, to stand below it.
     pub note: fn(&Value) -> Option<&'static str>,
 }
 
@@ -34,185 +30,97 @@ pub struct Table {
     pub title: &'static str,
 }
 
-/// What a setting can hold.
-#[derive(Debug)]
-pub enum Holds {
-    /// Any text; an empty one, which is the usual one, is not written to the file.
-    Text,
-    /// One of these words or whole numbers, each with its name in the form.
-    OneOf(&'static [(Value, &'static str)]),
-    /// A whole number within these ends.
-    Whole(RangeInclusive<u32>),
-    /// Two measured points or more that make a scale, or none; none, which is
-    /// usual, are not written to the file.
-    Points,
-}
-
-/// The value of a setting.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Value {
-    /// Of [`Holds::Text`].
-    Text(String),
-    /// Of [`Holds::OneOf`].
-    Word(&'static str),
-    /// Of [`Holds::Whole`] or [`Holds::OneOf`].
-    Whole(u32),
-    /// Of [`Holds::Points`].
-    Points(Vec<CountPoint>),
-}
-
-static NO_TEXT: Value = Value::Text(String::new());
-static NO_POINTS: Value = Value::Points(Vec::new());
-
-impl Value {
-    /// It holds nothing that could be written.
-    pub(crate) fn is_empty(&self) -> bool {
-        match self {
-            Self::Text(text) => text.is_empty(),
-            Self::Points(points) => points.is_empty(),
-            Self::Word(_) | Self::Whole(_) => false,
-        }
-    }
-}
-
-impl From<&str> for Value {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<u32> for Value {
-    fn from(number: u32) -> Self {
-        Self::Whole(number)
-    }
-}
-
-impl From<Vec<CountPoint>> for Value {
-    fn from(points: Vec<CountPoint>) -> Self {
-        Self::Points(points)
-    }
-}
-
 impl Setting {
-    const fn new(
-        key: &'static str,
-        label: &'static str,
-        holds: Holds,
-        usual: &'static Value,
-    ) -> Self {
-        Self { key, table: None, label, holds, usual, note: |_| None }
+    /// A default that says nothing (an empty text, no points) is not written to the file.
+    pub const fn new(field: Field, default: fn() -> Value) -> Self {
+        Self { field, table: None, default, note: |_| None }
     }
 
-    /// Any text; usually none.
-    pub const fn text(key: &'static str, label: &'static str) -> Self {
-        Self::new(key, label, Holds::Text, &NO_TEXT)
-    }
-
-    /// One of `choices`, each with its name in the form.
-    pub const fn one_of(
-        key: &'static str,
-        label: &'static str,
-        choices: &'static [(Value, &'static str)],
-        usual: &'static Value,
-    ) -> Self {
-        Self::new(key, label, Holds::OneOf(choices), usual)
-    }
-
-    /// A whole number within these ends.
-    pub const fn whole(
-        key: &'static str,
-        label: &'static str,
-        range: RangeInclusive<u32>,
-        usual: &'static Value,
-    ) -> Self {
-        Self::new(key, label, Holds::Whole(range), usual)
-    }
-
-    /// Measured points that make a scale; usually none.
-    pub const fn points(key: &'static str, label: &'static str) -> Self {
-        Self::new(key, label, Holds::Points, &NO_POINTS)
-    }
-
-    /// Within a table of its own.
+    /// With a table of its own, or that of its neighbours.
     #[must_use]
     pub const fn in_table(self, table: Table) -> Self {
         Self { table: Some(table), ..self }
     }
 
-    /// With what is to be said of a value.
     #[must_use]
     pub const fn noted(self, note: fn(&Value) -> Option<&'static str>) -> Self {
         Self { note, ..self }
     }
 
-    /// Whether it can hold `value`; the reason, to stand behind its name, when it
-    /// cannot.
-    pub fn check(&self, value: &Value) -> Result<(), String> {
-        match (&self.holds, value) {
-            (Holds::Text, Value::Text(_)) => Ok(()),
-            (Holds::Points, Value::Points(points)) => CountPoint::check(points),
-            (Holds::OneOf(choices), value) if choices.iter().any(|(of, _)| of == value) => Ok(()),
-            (Holds::Whole(range), Value::Whole(number)) if range.contains(number) => Ok(()),
-            _ => Err(self.wanted()),
-        }
-    }
-
-    /// What stands for it in the station file, not yet checked.
-    pub(super) fn read(&self, value: toml::Value) -> Result<Value, String> {
-        let read = match &self.holds {
-            Holds::Text => value.as_str().filter(|text| !text.trim().is_empty()).map(Value::from),
-            Holds::OneOf(choices) => {
-                let found = choices.iter().find(|(choice, _)| choice.stands_for(&value));
-                found.map(|(choice, _)| choice.clone())
+    /// Reads the value of the station file; a reason reads on from the key.
+    pub(super) fn read(&self, value: toml::Value) -> Result<Value, Unfit> {
+        let kind = &self.field.kind;
+        let read = match (kind, value) {
+            (Kind::Points, value) => points(value)?,
+            (Kind::Flag, toml::Value::Boolean(on)) => Value::Flag(on),
+            (Kind::Choice(_), toml::Value::Integer(code)) => Value::Choice(code),
+            (Kind::Integer { .. }, toml::Value::Integer(number)) => Value::Integer(number),
+            (Kind::Decimal { .. } | Kind::Number { .. }, toml::Value::Float(number)) => {
+                Value::Decimal(number)
             }
-            Holds::Whole(_) => {
-                let number = value.as_integer().and_then(|number| u32::try_from(number).ok());
-                number.map(Value::Whole)
+            (Kind::Decimal { .. } | Kind::Number { .. }, toml::Value::Integer(number)) => {
+                Value::Decimal(number as f64)
             }
-            Holds::Points => Some(Value::Points(points(value)?)),
+            (Kind::Word(_), toml::Value::String(word)) => Value::Text(word),
+            (_, toml::Value::String(text)) if !text.trim().is_empty() => kind.read(&text)?,
+            _ => return Err(self.unfit()),
         };
-        read.ok_or_else(|| self.wanted())
+        kind.check(&read).map_err(|why| if has_own_spelling(kind) { self.unfit() } else { why })?;
+        Ok(read)
     }
 
-    /// What is wanted where something else stands, to stand behind its name.
-    pub fn wanted(&self) -> String {
-        match &self.holds {
-            Holds::Text => "must be a text that is not empty".to_owned(),
-            Holds::OneOf(choices) => {
-                let written = |(choice, name): &(Value, &str)| match choice {
-                    Value::Word(word) => format!("{word:?}"),
-                    Value::Whole(number) => number.to_string(),
-                    Value::Text(_) | Value::Points(_) => (*name).to_owned(),
-                };
-                let all: Vec<String> = choices.iter().map(written).collect();
-                format!("must be one of {}", all.join(", "))
+    /// As the station file spells its values.
+    fn unfit(&self) -> Unfit {
+        let kind = &self.field.kind;
+        match kind {
+            Kind::Choice(choices) => {
+                let codes: Vec<String> = choices.iter().map(|(code, _)| code.to_string()).collect();
+                Unfit::Choice(codes.join(", "))
             }
-            Holds::Whole(range) => {
-                format!("must be a whole number from {} to {}", range.start(), range.end())
+            Kind::Word(choices) => {
+                let words: Vec<String> =
+                    choices.iter().map(|(word, _)| format!("{word:?}")).collect();
+                Unfit::Choice(words.join(", "))
             }
-            Holds::Points => "must be measured points".to_owned(),
+            Kind::Flag => Unfit::Choice("true, false".to_owned()),
+            Kind::Text(_) => Unfit::Text("must be a text that is not empty".to_owned()),
+            _ => kind.unfit(),
         }
     }
 }
 
-impl Value {
-    fn stands_for(&self, written: &toml::Value) -> bool {
-        match self {
-            Self::Word(word) => written.as_str() == Some(word),
-            Self::Whole(number) => written.as_integer() == Some(i64::from(*number)),
-            Self::Text(_) | Self::Points(_) => false,
-        }
+/// The station file does not spell its values as the form does.
+fn has_own_spelling(kind: &Kind) -> bool {
+    matches!(kind, Kind::Choice(_) | Kind::Word(_))
+}
+
+fn points(value: toml::Value) -> Result<Value, Unfit> {
+    let points = Vec::<CountPoint>::deserialize(value);
+    points.map(Value::Points).map_err(|error| Unfit::Text(error.message().to_owned()))
+}
+
+/// Says nothing, and is left out of the station file.
+pub(super) fn is_empty(value: &Value) -> bool {
+    match value {
+        Value::Text(text) => text.is_empty(),
+        Value::Points(points) => points.is_empty(),
+        _ => false,
     }
 }
 
-fn points(value: toml::Value) -> Result<Vec<CountPoint>, String> {
-    #[derive(Deserialize)]
-    struct Point {
-        counts: u16,
-        degrees: f64,
+/// A value as the station file spells it.
+pub(super) struct Spelled<'a>(pub(super) &'a Setting, pub(super) &'a Value);
+
+impl Serialize for Spelled<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let Self(setting, value) = self;
+        match value {
+            Value::Flag(on) => on.serialize(out),
+            Value::Choice(number) | Value::Integer(number) => number.serialize(out),
+            Value::Decimal(number) => number.serialize(out),
+            Value::Text(text) => text.serialize(out),
+            Value::Points(points) => points.serialize(out),
+            Value::Secret(_) | Value::Time(_) => setting.field.kind.text(value).serialize(out),
+        }
     }
-    let points: Result<Vec<Point>, toml::de::Error> = value.try_into();
-    let points = points.map_err(|error| error.message().to_owned())?;
-    Ok(points.iter().map(|&Point { counts, degrees }| CountPoint { counts, degrees }).collect())
 }

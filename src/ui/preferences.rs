@@ -6,7 +6,6 @@ mod draft;
 mod fields;
 mod form;
 mod horizon;
-mod points;
 mod station_fields;
 
 use egui::{

@@ -18,7 +18,7 @@ pub use safety::{
 };
 
 use crate::{
-    device::{Asked, Motion},
+    device::{Asked, Motion, settings::Unfit},
     driver::Intent,
     engine::antenna::Stake,
     makes,
@@ -76,6 +76,17 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
 }
 
 /// Name of an intent.
+/// Why a value cannot be used, with the unit behind the ends of a range.
+pub fn unfit(why: &Unfit, unit: &str) -> String {
+    match why {
+        Unfit::Number { .. } | Unfit::Integer { .. } if !unit.is_empty() => {
+            let gap = if unit == "°" { "" } else { " " };
+            format!("{why}{gap}{unit}")
+        }
+        _ => why.to_string(),
+    }
+}
+
 pub fn intent(intent: Intent) -> &'static str {
     match intent {
         Intent::Standby => "Standby",

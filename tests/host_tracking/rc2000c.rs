@@ -3,10 +3,11 @@
 use azel::{
     astro::{Angle, time::add_seconds},
     controller::rc2000c::Calibration,
+    device::CountPoint,
     driver::{Command, Event},
     plan::TrackStats,
     sim::rc2000c::{Control, Options},
-    station::{Antenna, CountPoint, Mount},
+    station::{Antenna, Mount},
 };
 
 use super::{

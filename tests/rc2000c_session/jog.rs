@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use azel::{
     controller::rc2000c::BAUD,
+    device::settings::Value,
     device::{Asked, Motion},
     driver::{Command, Event, LinkState, Refusal},
     plan::Barrier,
@@ -121,7 +122,7 @@ async fn a_session_that_was_held_up_ends_the_jog_and_does_not_renew_it() {
 #[tokio::test(start_paused = true)]
 async fn a_line_of_1200_baud_is_fast_enough_to_jog_without_a_break() {
     let mut slow = antenna();
-    slow.connection.put(&BAUD, 1200).unwrap();
+    slow.connection.put(&BAUD, Value::Choice(1200)).unwrap();
     let mut rig = Rig::connected(&Options { baud: 1200, ..Options::default() }, &slow).await;
     rig.send(Command::Manual);
     rig.seconds(0.5).await;

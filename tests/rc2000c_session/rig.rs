@@ -4,13 +4,14 @@ use azel::{
     clock::Instant,
     controller::rc2000c::Calibration,
     device::{
+        CountPoint,
         panel::{Act, CheckState},
         settings::Value,
     },
     driver::{Command, Event, Found, Snapshot},
     protocol::rc2000c::Frame,
     sim::rc2000c::{Control, Options},
-    station::{Antenna, CountPoint, Mount},
+    station::{Antenna, Mount},
 };
 use jiff::Timestamp;
 

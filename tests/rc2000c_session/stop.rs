@@ -5,6 +5,7 @@ use std::time::Duration;
 use azel::{
     astro::Angle,
     controller::rc2000c::BAUD,
+    device::settings::Value,
     driver::{Command, Event, Intent, LinkState, StopState},
     sim::rc2000c::{Fault, Options, Quirk},
 };
@@ -127,7 +128,7 @@ async fn orders_that_wait_are_dropped_by_a_stop() {
 async fn a_stop_is_proved_on_the_slowest_lines_too() {
     for baud in [300, 600, 1200] {
         let mut slow = antenna();
-        slow.connection.put(&BAUD, baud).unwrap();
+        slow.connection.put(&BAUD, Value::Choice(baud.into())).unwrap();
         let mut rig = Rig::start(&Options { baud, ..Options::default() }, &slow);
         rig.send(Command::Connect);
         rig.until_found().await;

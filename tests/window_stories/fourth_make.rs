@@ -16,7 +16,7 @@ use azel::{
     makes,
     model::View,
     plan::Bounds,
-    station::{self, Antenna, ControllerSpec, Station, Value},
+    station::{self, Antenna, ControllerSpec, Station},
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -69,7 +69,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
     assert_eq!(connection.whole(&SHAFTS), 4);
 
     let mut station = loaded.station.clone();
-    station.antennas[0].connection.put(&GEAR, Value::Word("high")).unwrap();
+    station.antennas[0].connection.put(&GEAR, "high").unwrap();
     station::save(&station, &path).unwrap();
     let again = station::load(&path, &all_specs()).unwrap();
     assert_eq!((again.station, again.notes), (station, Vec::new()));

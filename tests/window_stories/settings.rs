@@ -91,8 +91,8 @@ fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
     for size in SIZES {
         let mut window = desk(size, read());
         for (typed, why) in [
-            ("91", "Minimum elevation is not between 0 and 90."),
-            ("x", "Minimum elevation is not a number."),
+            ("91", "Minimum elevation must be a number from 0 to 90°."),
+            ("x", "Minimum elevation must be a number from 0 to 90°."),
         ] {
             write(&mut window, "Minimum elevation", typed);
             assert_eq!(state_of(&window, "Minimum elevation"), "Invalid");

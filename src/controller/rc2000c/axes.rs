@@ -3,9 +3,9 @@
 use super::Calibration;
 use crate::{
     astro::Angle,
-    device::{Axis, AxisMotion, Pointing},
+    device::{Axis, AxisMotion, CountLine, Pointing},
     protocol::rc2000c::{AutoMove, AxisDrive, Direction, LimitEnd, Position, Sense, Status},
-    station::{CountLine, Mount},
+    station::Mount,
 };
 
 /// An axis that stands may read one step more or less.

@@ -2,10 +2,13 @@
 
 use super::{Rc2000c, actions};
 use crate::{
-    device::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant},
+    device::{
+        Capabilities, CountPoint, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
+        settings::{Field, Key, Unfit, Value},
+    },
     station::{
-        AfterPass, Antenna, Connection, ControllerSpec, CountPoint, Direction, Link, MotionLimits,
-        Mount, PollRates, Setting, Table, TrackSettings, Usual, Value,
+        AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
+        PollRates, Setting, Table, TrackSettings, Usual,
     },
 };
 
@@ -75,34 +78,38 @@ pub static VARIANT: Variant = Variant {
 
 /// Bits a second of the line. A serial server is set to it by its own means; here
 /// it tells how long replies take.
-pub static BAUD: Setting = Setting::one_of(
-    "baud",
-    "Line speed, baud",
-    &[
-        (Value::Whole(300), "300"),
-        (Value::Whole(600), "600"),
-        (Value::Whole(1200), "1200"),
-        (Value::Whole(2400), "2400"),
-        (Value::Whole(4800), "4800"),
-        (Value::Whole(9600), "9600"),
-    ],
-    &Value::Whole(9600),
-);
+pub static BAUD: Setting =
+    Setting::new(Field::edit(Key::choice("baud", BAUDS), "Line speed, baud"), || {
+        Value::Choice(9600)
+    });
+
+const BAUDS: &[(i64, &str)] =
+    &[(300, "300"), (600, "600"), (1200, "1200"), (2400, "2400"), (4800, "4800"), (9600, "9600")];
 
 /// Its address on the bus.
 pub static BUS_ADDRESS: Setting =
-    Setting::whole("bus_address", "Bus address", 49..=111, &Value::Whole(50));
+    Setting::new(Field::edit(Key::integer("bus_address", 49, 111), "Bus address"), || {
+        Value::Integer(50)
+    });
 
 /// What its counts mean.
 const CALIBRATION: Table = Table { key: "calibration", title: "Calibration" };
 
 /// What the counts of the azimuth mean.
 pub static AZIMUTH_POINTS: Setting =
-    Setting::points("azimuth", "Azimuth counts").in_table(CALIBRATION).noted(not_calibrated);
+    Setting::new(Field::edit(Key::points("azimuth"), "Azimuth counts"), || {
+        Value::Points(Vec::new())
+    })
+    .in_table(CALIBRATION)
+    .noted(not_calibrated);
 
 /// What the counts of the elevation mean.
 pub static ELEVATION_POINTS: Setting =
-    Setting::points("elevation", "Elevation counts").in_table(CALIBRATION).noted(not_calibrated);
+    Setting::new(Field::edit(Key::points("elevation"), "Elevation counts"), || {
+        Value::Points(Vec::new())
+    })
+    .in_table(CALIBRATION)
+    .noted(not_calibrated);
 
 fn not_calibrated(value: &Value) -> Option<&'static str> {
     let is_empty = matches!(value, Value::Points(points) if points.is_empty());
@@ -130,7 +137,7 @@ impl Calibration {
     }
 
     /// Puts it into the settings of `connection`, or says why it cannot be.
-    pub fn put_into(self, connection: &mut Connection) -> Result<(), String> {
+    pub fn put_into(self, connection: &mut Connection) -> Result<(), Unfit> {
         connection.put(&AZIMUTH_POINTS, self.azimuth)?;
         connection.put(&ELEVATION_POINTS, self.elevation)
     }

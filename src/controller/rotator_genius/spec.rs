@@ -2,10 +2,13 @@
 
 use super::{GROUPS, Genius, actions};
 use crate::{
-    device::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant},
+    device::{
+        Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
+        settings::{Field, Key, Value},
+    },
     station::{
         AfterPass, Antenna, Connection, ControllerSpec, Direction, Link, MotionLimits, Mount,
-        PollRates, Setting, TrackSettings, Usual, Value,
+        PollRates, Setting, TrackSettings, Usual,
     },
 };
 
@@ -91,20 +94,28 @@ pub static ALONE: Variant = Variant {
 };
 
 /// What the two rotators turn: a value of [`Rotators`].
-pub static ROTATORS: Setting = Setting::one_of(
-    "rotators",
-    "Rotators of this antenna",
-    &[
-        (Value::Word("pair"), "Azimuth, elevation"),
-        (Value::Word("first"), "First one"),
-        (Value::Word("second"), "Second one"),
-    ],
-    &Value::Word("pair"),
+pub static ROTATORS: Setting = Setting::new(
+    Field::edit(
+        Key::word(
+            "rotators",
+            &[
+                (PAIR_WORD, "Azimuth, elevation"),
+                (FIRST_WORD, "First one"),
+                (SECOND_WORD, "Second one"),
+            ],
+        ),
+        "Rotators of this antenna",
+    ),
+    || Rotators::Pair.into(),
 )
 .noted(|value| {
-    let is_alone = *value != Value::Word("pair");
+    let is_alone = *value != Rotators::Pair.into();
     is_alone.then_some("It turns the azimuth; the other rotator turns something else.")
 });
+
+const PAIR_WORD: &str = "pair";
+const FIRST_WORD: &str = "first";
+const SECOND_WORD: &str = "second";
 
 /// What the two rotators of a Rotator Genius turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,8 +132,8 @@ impl Rotators {
     /// Those of a Genius at the other end of `connection`.
     pub fn of(connection: &Connection) -> Self {
         match connection.text(&ROTATORS) {
-            "first" => Self::First,
-            "second" => Self::Second,
+            FIRST_WORD => Self::First,
+            SECOND_WORD => Self::Second,
             _ => Self::Pair,
         }
     }
@@ -130,10 +141,10 @@ impl Rotators {
 
 impl From<Rotators> for Value {
     fn from(rotators: Rotators) -> Self {
-        Self::Word(match rotators {
-            Rotators::Pair => "pair",
-            Rotators::First => "first",
-            Rotators::Second => "second",
+        Self::from(match rotators {
+            Rotators::Pair => PAIR_WORD,
+            Rotators::First => FIRST_WORD,
+            Rotators::Second => SECOND_WORD,
         })
     }
 }

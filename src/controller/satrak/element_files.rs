@@ -18,7 +18,7 @@ pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     check_name: |what, name| {
         TextValue::new(what, name).map(|_| ()).map_err(|problem| problem.to_string())
     },
-    setting: ELEMENT_FILE.key,
+    setting: ELEMENT_FILE.field.key,
     group: FILE.key,
     choose: |file, satellite| {
         Values::from([

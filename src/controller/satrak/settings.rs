@@ -146,9 +146,7 @@ fn url(text: &str) -> Result<(), Unfit> {
 fn unfit(error: ValueError) -> Unfit {
     match error {
         ValueError::Text { problem, .. } => Unfit::Text(problem.to_string()),
-        ValueError::Range { least, most, .. } => {
-            Unfit::Range { least: least.to_string(), most: most.to_string() }
-        }
+        ValueError::Range { least, most, .. } => Unfit::Number { min: least, max: most },
         other => Unfit::Text(other.to_string()),
     }
 }

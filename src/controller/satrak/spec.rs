@@ -2,7 +2,10 @@
 
 use super::{ELEMENT_FILES, GROUPS, Satrak, words};
 use crate::{
-    device::{Capabilities, JogSpeeds, SecondAxis, Standstill, Variant},
+    device::{
+        Capabilities, JogSpeeds, SecondAxis, Standstill, Variant,
+        settings::{Field, Key, Value},
+    },
     station::{
         AfterPass, Antenna, ControllerSpec, Direction, Link, MotionLimits, Mount, PollRates,
         Setting, TrackSettings, Usual,
@@ -75,7 +78,10 @@ pub static VARIANT: Variant = Variant {
 
 /// The element file on the unit from which satellites are chosen; empty for the
 /// one that the unit uses already.
-pub static ELEMENT_FILE: Setting = Setting::text("element_file", "Element file on the unit");
+pub static ELEMENT_FILE: Setting = Setting::new(
+    Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
+    || Value::Text(String::new()),
+);
 
 impl Antenna {
     /// A Satrak at `address` with the usual figures.

@@ -217,7 +217,9 @@ fn as_toml(field: &Field, value: &Value) -> toml::Value {
             Ok(_) => toml::Value::String(field.kind.text(value)),
             Err(_) => toml::Value::Integer(*code),
         },
-        Value::Text(_) | Value::Time(_) => toml::Value::String(field.kind.text(value)),
+        Value::Text(_) | Value::Time(_) | Value::Points(_) => {
+            toml::Value::String(field.kind.text(value))
+        }
         Value::Secret(_) => toml::Value::String(String::new()),
     }
 }
@@ -228,7 +230,7 @@ fn from_toml(field: &Field, value: &toml::Value) -> Result<Value, Unfit> {
         toml::Value::Integer(number) => field.kind.read(&number.to_string()),
         toml::Value::Float(number) => field.kind.read(&number.to_string()),
         toml::Value::String(text) => field.kind.read(text),
-        _ => Err(Unfit::NotAChoice),
+        _ => Err(Unfit::Text("must be one value".to_owned())),
     }
 }
 

@@ -44,29 +44,24 @@ pub enum Kind {
     Flag,
     /// One of these codes, each with its name.
     Choice(&'static [(i64, &'static str)]),
-    /// A whole number within these ends.
-    Integer {
-        /// Lowest that is taken.
-        least: i64,
-        /// Highest that is taken.
-        most: i64,
-    },
-    /// A number within these ends.
-    Decimal {
-        /// Lowest that is taken.
-        least: f64,
-        /// Highest that is taken.
-        most: f64,
-        /// Decimal places that are shown and compared.
-        places: usize,
-    },
+    /// One of these words, each with its name.
+    Word(&'static [(&'static str, &'static str)]),
+    /// A whole number.
+    Integer { min: i64, max: i64 },
+    /// A number that is shown and compared with so many decimal places, and sent with three
+    /// at most.
+    Decimal { min: f64, max: f64, places: usize },
+    /// A number as precise as it is typed.
+    Number { min: f64, max: f64 },
     /// An angle with a letter for its sign, such as `41.02N`.
     Place {
         /// Largest magnitude, degrees.
-        most: f64,
+        max: f64,
         /// Letters of positive and negative.
         letters: [char; 2],
     },
+    /// Two measured points or more that make a scale, or none.
+    Points,
     /// A text that passes this check.
     Text(fn(&str) -> Result<(), Unfit>),
     /// A secret that passes this check. Never shown, logged or saved.

@@ -3,6 +3,7 @@
 use jiff::Timestamp;
 
 use super::{Kind, Secret, Unfit, Value, Values};
+use crate::device::CountPoint;
 
 /// The key of a field whose value is a `T`, and what that value can be.
 #[derive(Debug)]
@@ -48,12 +49,12 @@ impl Key<bool> {
 
 impl Key<i64> {
     /// A whole number within these ends.
-    pub const fn integer(name: &'static str, least: i64, most: i64) -> Self {
+    pub const fn integer(name: &'static str, min: i64, max: i64) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Integer(number) => Some(*number),
             _ => None,
         };
-        Self { name, kind: Kind::Integer { least, most }, wrap: Value::Integer, unwrap }
+        Self { name, kind: Kind::Integer { min, max }, wrap: Value::Integer, unwrap }
     }
 
     /// One of these codes, each with its name.
@@ -68,13 +69,13 @@ impl Key<i64> {
 
 impl Key<f64> {
     /// A number within these ends, with so many decimal places.
-    pub const fn decimal(name: &'static str, least: f64, most: f64, places: usize) -> Self {
-        Self::of_kind(name, Kind::Decimal { least, most, places })
+    pub const fn decimal(name: &'static str, min: f64, max: f64, places: usize) -> Self {
+        Self::of_kind(name, Kind::Decimal { min, max, places })
     }
 
     /// An angle up to this magnitude, degrees, with a letter for each sign.
-    pub const fn place(name: &'static str, most: f64, letters: [char; 2]) -> Self {
-        Self::of_kind(name, Kind::Place { most, letters })
+    pub const fn place(name: &'static str, max: f64, letters: [char; 2]) -> Self {
+        Self::of_kind(name, Kind::Place { max, letters })
     }
 
     const fn of_kind(name: &'static str, kind: Kind) -> Self {
@@ -89,11 +90,34 @@ impl Key<f64> {
 impl Key<String> {
     /// A text that passes this check.
     pub const fn text(name: &'static str, check: fn(&str) -> Result<(), Unfit>) -> Self {
+        Self::of_kind(name, Kind::Text(check))
+    }
+
+    /// One of these words, each with its name.
+    pub const fn word(
+        name: &'static str,
+        choices: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        Self::of_kind(name, Kind::Word(choices))
+    }
+
+    const fn of_kind(name: &'static str, kind: Kind) -> Self {
         let unwrap = |value: &Value| match value {
             Value::Text(text) => Some(text.clone()),
             _ => None,
         };
-        Self { name, kind: Kind::Text(check), wrap: Value::Text, unwrap }
+        Self { name, kind, wrap: Value::Text, unwrap }
+    }
+}
+
+impl Key<Vec<CountPoint>> {
+    /// Measured points that make a scale.
+    pub const fn points(name: &'static str) -> Self {
+        let unwrap = |value: &Value| match value {
+            Value::Points(points) => Some(points.clone()),
+            _ => None,
+        };
+        Self { name, kind: Kind::Points, wrap: Value::Points, unwrap }
     }
 }
 

@@ -5,8 +5,11 @@ use std::collections::BTreeMap;
 use jiff::{Timestamp, civil::DateTime, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
-use super::Kind;
-use crate::{name::Name, secret::Secret};
+use super::{Kind, points};
+use crate::{device::CountPoint, name::Name, secret::Secret};
+
+const ON: &str = "On";
+const OFF: &str = "Off";
 
 /// Values of a group by the keys of their fields.
 pub type Values = BTreeMap<Name, Value>;
@@ -20,87 +23,149 @@ pub enum Value {
     Choice(i64),
     /// Of a [`Kind::Integer`].
     Integer(i64),
-    /// Of a [`Kind::Decimal`], or of a [`Kind::Place`] in degrees.
+    /// Of a [`Kind::Decimal`] or [`Kind::Number`], or of a [`Kind::Place`] in degrees.
     Decimal(f64),
-    /// Of a [`Kind::Text`].
+    /// Of a [`Kind::Text`], or the word of a [`Kind::Word`].
     Text(String),
     /// Of a [`Kind::Password`].
     Secret(Secret),
     /// Of a [`Kind::Time`].
     Time(Timestamp),
+    /// Of [`Kind::Points`].
+    Points(Vec<CountPoint>),
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<i64> for Value {
+    fn from(number: i64) -> Self {
+        Self::Integer(number)
+    }
+}
+
+impl From<Vec<CountPoint>> for Value {
+    fn from(points: Vec<CountPoint>) -> Self {
+        Self::Points(points)
+    }
 }
 
 /// Why a value cannot be used; reads on from the name of its field.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum Unfit {
-    /// No number where one is wanted.
-    #[error("is not a number")]
-    NotANumber,
-    /// No whole number where one is wanted.
-    #[error("is not a whole number")]
-    NotWhole,
-    /// Outside its ends.
-    #[error("is not between {least} and {most}")]
-    Range {
-        /// Lowest that is taken, in words.
-        least: String,
-        /// Highest that is taken, in words.
-        most: String,
-    },
-    /// No latitude or longitude.
-    #[error("is no place such as 41.02{0}")]
-    NotAPlace(char),
-    /// No time.
-    #[error("is no time such as 2026-08-12 11:30:00")]
-    NotATime,
-    /// No name of a choice.
-    #[error("is none of its choices")]
-    NotAChoice,
-    /// A text that the protocol cannot carry.
+    #[error("must be a number from {} to {}", signed(min), signed(max))]
+    Number { min: f64, max: f64 },
+    #[error("must be a whole number from {} to {}", signed(min), signed(max))]
+    Integer { min: i64, max: i64 },
+    #[error("must be an angle up to {max}°, such as 41.02{letter}")]
+    Place { max: f64, letter: char },
+    #[error("must be a time such as 2026-08-12 11:30:00")]
+    Time,
+    /// The choices, in words.
+    #[error("must be one of {0}")]
+    Choice(String),
+    /// A sentence without its subject and its full stop.
     #[error("{0}")]
     Text(String),
+}
+
+/// With a true minus sign.
+fn signed(number: &impl ToString) -> String {
+    number.to_string().replace('-', "\u{2212}")
 }
 
 impl Kind {
     /// Reads what the operator typed.
     pub fn read(&self, text: &str) -> Result<Value, Unfit> {
         let trimmed = text.trim();
-        match *self {
+        let read = match *self {
+            Self::Text(check) => return check(text).map(|()| Value::Text(text.to_owned())),
+            Self::Password(check) => return check(text).map(|()| Value::Secret(Secret::new(text))),
+            Self::Points => return points::read(text).map(Value::Points),
             Self::Flag => match trimmed {
-                "On" => Ok(Value::Flag(true)),
-                "Off" => Ok(Value::Flag(false)),
-                _ => Err(Unfit::NotAChoice),
+                ON => Some(Value::Flag(true)),
+                OFF => Some(Value::Flag(false)),
+                _ => None,
             },
-            Self::Choice(choices) => choices
-                .iter()
-                .find(|(_, name)| *name == trimmed)
-                .map(|(code, _)| Value::Choice(*code))
-                .ok_or(Unfit::NotAChoice),
-            Self::Integer { least, most } => {
-                let value: i64 = number(trimmed).parse().map_err(|_| Unfit::NotWhole)?;
-                let range = || Unfit::Range { least: least.to_string(), most: most.to_string() };
-                (least..=most).contains(&value).then_some(Value::Integer(value)).ok_or_else(range)
+            Self::Choice(choices) => {
+                let named = choices.iter().find(|(_, name)| *name == trimmed);
+                named.map(|(code, _)| Value::Choice(*code))
             }
-            Self::Decimal { least, most, .. } => decimal(trimmed, least, most).map(Value::Decimal),
-            Self::Place { most, letters } => place(trimmed, most, letters).map(Value::Decimal),
-            Self::Text(check) => check(text).map(|()| Value::Text(text.to_owned())),
-            Self::Password(check) => check(text).map(|()| Value::Secret(Secret::new(text))),
+            Self::Word(choices) => {
+                let named = choices.iter().find(|(_, name)| *name == trimmed);
+                named.map(|(word, _)| Value::Text((*word).to_owned()))
+            }
+            Self::Integer { min, max } => {
+                let number = plain(trimmed).parse().ok();
+                number.filter(|number| (min..=max).contains(number)).map(Value::Integer)
+            }
+            Self::Decimal { min, max, .. } => decimal(trimmed, min, max).map(Value::Decimal),
+            Self::Number { min, max } => {
+                number(trimmed).filter(|number| (min..=max).contains(number)).map(Value::Decimal)
+            }
+            Self::Place { max, letters } => place(trimmed, max, letters).map(Value::Decimal),
             Self::Time => {
-                let time: Result<DateTime, _> = trimmed.trim_end_matches(['Z', 'z']).parse();
-                let time = time.ok().and_then(|time| TimeZone::UTC.to_timestamp(time).ok());
-                time.map(Value::Time).ok_or(Unfit::NotATime)
+                let time: Option<DateTime> = trimmed.trim_end_matches(['Z', 'z']).parse().ok();
+                time.and_then(|time| TimeZone::UTC.to_timestamp(time).ok()).map(Value::Time)
             }
+        };
+        read.ok_or_else(|| self.unfit())
+    }
+
+    /// The reason to refuse what it cannot hold.
+    pub(crate) fn unfit(&self) -> Unfit {
+        match *self {
+            Self::Flag | Self::Choice(_) | Self::Word(_) => {
+                Unfit::Choice(self.choices().unwrap_or_default().join(", "))
+            }
+            Self::Integer { min, max } => Unfit::Integer { min, max },
+            Self::Decimal { min, max, .. } | Self::Number { min, max } => {
+                Unfit::Number { min, max }
+            }
+            Self::Place { max, letters: [letter, _] } => Unfit::Place { max, letter },
+            Self::Text(_) | Self::Password(_) => Unfit::Text("must be a text".to_owned()),
+            Self::Points => Unfit::Text("must be measured points".to_owned()),
+            Self::Time => Unfit::Time,
         }
+    }
+
+    /// Checks that it can hold `value`, as it can whatever it reads.
+    pub fn check(&self, value: &Value) -> Result<(), Unfit> {
+        let read = self.read(&self.text(value))?;
+        (read == *value).then_some(()).ok_or_else(|| self.unfit())
+    }
+
+    /// The names that can be chosen; `None` where anything can be typed.
+    pub fn choices(&self) -> Option<Vec<&'static str>> {
+        match self {
+            Self::Flag => Some(vec![OFF, ON]),
+            Self::Choice(choices) => Some(choices.iter().map(|(_, name)| *name).collect()),
+            Self::Word(choices) => Some(choices.iter().map(|(_, name)| *name).collect()),
+            _ => None,
+        }
+    }
+
+    /// The text of a field that nothing was chosen or typed in: its first choice, or none.
+    pub fn untouched(&self) -> String {
+        let first = self.choices().and_then(|choices| choices.first().copied());
+        first.unwrap_or_default().to_owned()
     }
 
     /// The value as the operator reads and types it. A password is nothing.
     pub fn text(&self, value: &Value) -> String {
         match (self, value) {
-            (_, Value::Flag(on)) => if *on { "On" } else { "Off" }.to_owned(),
+            (_, Value::Flag(on)) => if *on { ON } else { OFF }.to_owned(),
             (Self::Choice(choices), Value::Choice(code)) => choices
                 .iter()
                 .find(|(known, _)| known == code)
                 .map_or_else(|| format!("unknown ({code})"), |(_, name)| (*name).to_owned()),
+            (Self::Word(choices), Value::Text(word)) => {
+                let known = choices.iter().find(|(known, _)| known == word);
+                known.map_or_else(|| format!("unknown ({word})"), |(_, name)| (*name).to_owned())
+            }
             (Self::Decimal { places, .. }, Value::Decimal(number)) => decimals(*number, *places),
             (Self::Place { letters: [plus, minus], .. }, Value::Decimal(angle)) => {
                 let letter = if *angle < 0.0 { minus } else { plus };
@@ -113,6 +178,7 @@ impl Kind {
             (_, Value::Time(time)) => {
                 TimeZone::UTC.to_datetime(*time).strftime("%Y-%m-%d %H:%M:%S").to_string()
             }
+            (_, Value::Points(points)) => points::write(points),
         }
     }
 
@@ -133,9 +199,14 @@ fn decimals(number: f64, places: usize) -> String {
     if has > places { shortest } else { format!("{number:.places$}") }
 }
 
-/// A comma for a point, a true minus sign and thin spaces are what people type
-/// and paste.
-fn number(text: &str) -> String {
+/// A number with a point or a comma, with either minus sign and blanks between its digits,
+/// as people type and paste it.
+pub(crate) fn number(text: &str) -> Option<f64> {
+    // Minus zero would look like a change.
+    plain(text).parse().ok().filter(|number: &f64| number.is_finite()).map(|number| number + 0.0)
+}
+
+fn plain(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_whitespace())
         .map(|c| match c {
@@ -146,50 +217,43 @@ fn number(text: &str) -> String {
         .collect()
 }
 
-fn decimal(text: &str, least: f64, most: f64) -> Result<f64, Unfit> {
-    let value: f64 = number(text).parse().map_err(|_| Unfit::NotANumber)?;
-    if !value.is_finite() {
-        return Err(Unfit::NotANumber);
-    }
-    let range = || Unfit::Range { least: least.to_string(), most: most.to_string() };
-    // As fine as any controller takes it; and minus zero would look like a change.
-    let value = (value * 1000.0).round() / 1000.0 + 0.0;
-    (least..=most).contains(&value).then_some(value).ok_or_else(range)
+/// As precise as any controller takes it.
+fn decimal(text: &str, min: f64, max: f64) -> Option<f64> {
+    let rounded = number(text).map(|number| (number * 1000.0).round() / 1000.0 + 0.0);
+    rounded.filter(|number| (min..=max).contains(number))
 }
 
-fn place(text: &str, most: f64, [plus, minus]: [char; 2]) -> Result<f64, Unfit> {
-    let wrong = || Unfit::NotAPlace(plus);
-    let letter = text.chars().next_back().ok_or_else(wrong)?.to_ascii_uppercase();
+fn place(text: &str, max: f64, [plus, minus]: [char; 2]) -> Option<f64> {
+    let letter = text.chars().next_back()?.to_ascii_uppercase();
     let (digits, sign) = match letter {
-        letter if letter == plus => (text.strip_suffix(|_| true), 1.0),
-        letter if letter == minus => (text.strip_suffix(|_| true), -1.0),
-        _ => (Some(text), 1.0),
+        letter if letter == plus => (text.strip_suffix(|_| true)?, 1.0),
+        letter if letter == minus => (text.strip_suffix(|_| true)?, -1.0),
+        _ => (text, 1.0),
     };
     let has_letter = letter == plus || letter == minus;
-    let least = if has_letter { 0.0 } else { -most };
-    match decimal(digits.ok_or_else(wrong)?, least, most) {
-        Ok(angle) => Ok(angle * sign),
-        Err(Unfit::NotANumber) => Err(wrong()),
-        Err(other) => Err(other),
-    }
+    let min = if has_letter { 0.0 } else { -max };
+    decimal(digits, min, max).map(|angle| angle * sign)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LATITUDE: Kind = Kind::Place { most: 90.0, letters: ['N', 'S'] };
-    const OFFSET: Kind = Kind::Decimal { least: -10.0, most: 10.0, places: 2 };
+    const LATITUDE: Kind = Kind::Place { max: 90.0, letters: ['N', 'S'] };
+    const OFFSET: Kind = Kind::Decimal { min: -10.0, max: 10.0, places: 2 };
 
     #[test]
     fn numbers_are_read_as_people_type_them() {
         assert_eq!(OFFSET.read(" \u{2212}0,15 "), Ok(Value::Decimal(-0.15)));
         assert_eq!(OFFSET.read("-0"), Ok(Value::Decimal(0.0)));
-        assert_eq!(OFFSET.read("NaN"), Err(Unfit::NotANumber));
-        assert!(matches!(OFFSET.read("10.01"), Err(Unfit::Range { .. })));
-        let lead = Kind::Integer { least: 0, most: 3_600_000 };
+        for bad in ["NaN", "10.01", "", "1e999"] {
+            assert_eq!(OFFSET.read(bad), Err(Unfit::Number { min: -10.0, max: 10.0 }), "{bad}");
+        }
+        let lead = Kind::Integer { min: 0, max: 3_600_000 };
         assert_eq!(lead.read("90\u{2009}000"), Ok(Value::Integer(90_000)));
-        assert_eq!(lead.read("1.5"), Err(Unfit::NotWhole));
+        assert_eq!(lead.read("1.5"), Err(Unfit::Integer { min: 0, max: 3_600_000 }));
+        let exact = Kind::Number { min: -90.0, max: 90.0 };
+        assert_eq!(exact.read("41,0234567"), Ok(Value::Decimal(41.023_456_7)));
     }
 
     #[test]
@@ -207,7 +271,7 @@ mod tests {
     fn times_come_back_as_typed() {
         let time = Kind::Time.read("2026-08-12 11:30:05Z").unwrap();
         assert_eq!(Kind::Time.text(&time), "2026-08-12 11:30:05");
-        assert_eq!(Kind::Time.read("2026-02-30 11:30:00"), Err(Unfit::NotATime));
+        assert_eq!(Kind::Time.read("2026-02-30 11:30:00"), Err(Unfit::Time));
     }
 
     #[test]
@@ -222,7 +286,7 @@ mod tests {
     fn a_code_without_a_name_is_shown_as_it_came() {
         let kind = Kind::Choice(&[(0, "Off"), (1, "On")]);
         assert_eq!(kind.text(&Value::Choice(7)), "unknown (7)");
-        assert_eq!(kind.read("unknown (7)"), Err(Unfit::NotAChoice));
+        assert_eq!(kind.read("unknown (7)"), Err(Unfit::Choice("Off, On".to_owned())));
         assert!(kind.same(&Value::Choice(7), &Value::Choice(7)));
     }
 

@@ -12,10 +12,10 @@ use crate::{
         rc2000c::{BAUD, BUS_ADDRESS, Calibration},
         rotator_genius::{ROTATORS, Rotators},
     },
+    device::{CountPoint, settings::Value},
     station::{
-        self, AfterPass, Antenna, AntennaId, CountPoint, Entered, KeepOut, LoadError, Loaded,
-        Monitor, Mount, Note, NoteReason, OnClose, Resume, SaveError, Station, SunAvoidance,
-        TrackSettings, save,
+        self, AfterPass, Antenna, AntennaId, Entered, KeepOut, LoadError, Loaded, Monitor, Mount,
+        Note, NoteReason, OnClose, Resume, SaveError, Station, SunAvoidance, TrackSettings, save,
     },
 };
 
@@ -144,7 +144,7 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
         elevation: Vec::new(),
     };
     let mut rc2000c = Antenna::rc2000c("Dish", "serial.example:4002");
-    rc2000c.connection.put(&BAUD, 1200).unwrap();
+    rc2000c.connection.put(&BAUD, Value::Choice(1200)).unwrap();
     rc2000c.connection.put(&BUS_ADDRESS, 111).unwrap();
     calibration.put_into(&mut rc2000c.connection).unwrap();
     let mut station = Station { antennas: vec![genius, rc2000c], ..Station::default() };

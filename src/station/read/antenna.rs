@@ -86,10 +86,10 @@ impl Fields<'_> {
 
     fn settings(&mut self, settings: &[&Setting], connection: &mut Connection) {
         for setting in settings {
-            let Some(value) = self.table.remove(setting.key) else { continue };
+            let Some(value) = self.table.remove(setting.field.key) else { continue };
             let put = setting.read(value).and_then(|value| connection.put(setting, value));
             if let Err(why) = put {
-                self.invalid(setting.key, why);
+                self.invalid(setting.field.key, why.to_string());
             }
         }
     }

@@ -18,6 +18,7 @@ use crate::{
             input::Input,
             paint,
         },
+        words,
     },
 };
 
@@ -54,11 +55,7 @@ pub(super) struct MoreState {
 impl MoreState {
     fn text(&self, action: &Action, field: &Field) -> String {
         let typed = self.typed.get(&(action.key, field.key)).cloned();
-        typed.unwrap_or_else(|| match field.kind {
-            Kind::Flag => "Off".to_owned(),
-            Kind::Choice([(_, first), ..]) => (*first).to_owned(),
-            _ => String::new(),
-        })
+        typed.unwrap_or_else(|| field.kind.untouched())
     }
 
     fn type_in(&mut self, action: &'static Action, field: &'static Field, text: String) {
@@ -70,7 +67,7 @@ impl MoreState {
     fn read(&self, action: &'static Action) -> Result<Act, String> {
         let read = |field: &'static Field| match field.kind.read(&self.text(action, field)) {
             Ok(value) => Ok((field.key, value)),
-            Err(unfit) => Err(format!("{} {unfit}.", field.label)),
+            Err(unfit) => Err(format!("{} {}.", field.label, words::unfit(&unfit, field.unit))),
         };
         let values: Values = action.fields.iter().map(read).collect::<Result<_, _>>()?;
         Ok(Act { action: action.key, values })
@@ -183,18 +180,14 @@ fn field_row(
     let unfit = refused && field.kind.read(&state.text(action, field)).is_err();
     let input = Input { rect, name: &name, border: unfit.then_some(t.bad) };
     let mut typed = state.text(action, field);
-    let choices: Vec<&str> = match field.kind {
-        Kind::Flag => vec!["Off", "On"],
-        Kind::Choice(choices) => choices.iter().map(|(_, name)| *name).collect(),
-        _ => {
-            if input.text(ui, &mut typed, matches!(field.kind, Kind::Password(_))) {
-                state.type_in(action, field, typed);
-            }
-            return;
-        }
+    let new = if let Some(choices) = field.kind.choices() {
+        input.choice(ui, &typed, &choices)
+    } else {
+        let is_password = matches!(field.kind, Kind::Password(_));
+        input.text(ui, &mut typed, is_password).then_some(typed)
     };
-    if let Some(chosen) = input.choice(ui, &typed, &choices) {
-        state.type_in(action, field, chosen);
+    if let Some(new) = new {
+        state.type_in(action, field, new);
     }
 }
 
@@ -262,12 +255,12 @@ mod tests {
         window.get_by_label("Turn the other").click();
         window.run();
         assert!(window.state().asked.is_empty());
-        window.get_by_label("Heading is not a whole number.");
+        window.get_by_label("Heading must be a whole number from 0 to 360°.");
         window.get_by_label("Turn the other: Heading").focus();
         window.run();
         window.get_by_label("Turn the other: Heading").type_text("270");
         window.run();
-        assert!(window.query_by_label("Heading is not a whole number.").is_none());
+        assert!(window.query_by_label("Heading must be a whole number from 0 to 360°.").is_none());
         window.get_by_label("Turn the other").click();
         window.run();
         let values = Values::from([("to", Value::Integer(270)), ("way", Value::Choice(0))]);

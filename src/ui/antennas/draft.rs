@@ -6,7 +6,7 @@ use jiff::Timestamp;
 
 use crate::{
     clock::Instant,
-    device::settings::{Access, Field, Kind, Unfit, Value, Values, Written},
+    device::settings::{Access, Field, Unfit, Value, Values, Written},
     ui::widgets::hold_button::HoldState,
 };
 
@@ -57,13 +57,7 @@ pub(super) enum Reading {
 /// What stands in a field while nothing is typed.
 fn default_text(field: &Field, held: Option<&Values>) -> String {
     if field.access == Access::Write {
-        return match field.kind {
-            Kind::Flag => "Off".to_owned(),
-            Kind::Choice(choices) => {
-                choices.first().map(|(_, name)| (*name).to_owned()).unwrap_or_default()
-            }
-            _ => String::new(),
-        };
+        return field.kind.untouched();
     }
     let value = held.and_then(|held| held.get(field.key));
     value.map(|value| field.kind.text(value)).unwrap_or_default()
@@ -224,7 +218,7 @@ mod tests {
         assert_eq!(new, Reading::New(Value::Decimal(5.0)));
         assert_eq!(draft_of("5").reading(&FIELDS[0], Some(&held(5.0))), Reading::Same);
         let unfit = draft_of("x").reading(&FIELDS[0], Some(&held(3.0)));
-        assert_eq!(unfit, Reading::Unfit(Unfit::NotANumber));
+        assert_eq!(unfit, Reading::Unfit(Unfit::Number { min: 0.0, max: 90.0 }));
     }
 
     #[test]

@@ -19,6 +19,7 @@ use crate::{
         text, theme,
         tokens::Tokens,
         widgets::{axes_table::UNKNOWN, hold_button, input::Input, paint},
+        words,
     },
 };
 
@@ -155,23 +156,19 @@ fn edit(
         };
         return input.inert(ui, words);
     }
-    let choices: Vec<&str> = match field.kind {
-        Kind::Flag => vec!["Off", "On"],
-        Kind::Choice(choices) => choices.iter().map(|(_, name)| *name).collect(),
-        _ => {
-            let eye = place.with_min_x(place.right() - 24.0);
-            let rect = if is_password { place.with_max_x(eye.left() - 2.0) } else { place };
-            if (Input { rect, ..input }).text(ui, &mut typed, is_password) {
-                draft.type_in(field, typed, held);
-            }
-            if is_password {
-                reveal(ui, eye, is_revealed);
-            }
-            return;
+    if let Some(choices) = field.kind.choices() {
+        if let Some(chosen) = input.choice(ui, &typed, &choices) {
+            draft.type_in(field, chosen, held);
         }
-    };
-    if let Some(chosen) = input.choice(ui, &typed, &choices) {
-        draft.type_in(field, chosen, held);
+        return;
+    }
+    let eye = place.with_min_x(place.right() - 24.0);
+    let rect = if is_password { place.with_max_x(eye.left() - 2.0) } else { place };
+    if (Input { rect, ..input }).text(ui, &mut typed, is_password) {
+        draft.type_in(field, typed, held);
+    }
+    if is_password {
+        reveal(ui, eye, is_revealed);
     }
 }
 
@@ -201,7 +198,12 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
     let t = theme::tokens(ui);
     match state {
         FieldState::Invalid(unfit) => {
-            row::note(ui, None, &format!("{} {unfit}.", field.label), t.bad);
+            row::note(
+                ui,
+                None,
+                &format!("{} {}.", field.label, words::unfit(unfit, field.unit)),
+                t.bad,
+            );
         }
         FieldState::NeedsService => {
             let words = format!("{}: unlock Service to send this value.", field.label);

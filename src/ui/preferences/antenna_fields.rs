@@ -146,16 +146,12 @@ fn follow() -> [Of; 4] {
         }),
         Of::choice(
             "After a pass",
-            &["Hold", "Park", "Wait for the next"],
-            |antenna| AFTER.iter().position(|after| *after == antenna.follow.after),
-            |antenna, index| {
-                antenna.follow.after = AFTER.get(index).copied().unwrap_or(antenna.follow.after);
-            },
+            &[(0, "Hold"), (1, "Park"), (2, "Wait for the next")],
+            &[AfterPass::Hold, AfterPass::Park, AfterPass::Next],
+            |antenna| &mut antenna.follow.after,
         ),
     ]
 }
-
-const AFTER: [AfterPass; 3] = [AfterPass::Hold, AfterPass::Park, AfterPass::Next];
 
 fn outage() -> [Of; 2] {
     [
@@ -165,11 +161,9 @@ fn outage() -> [Of; 2] {
         .when(takes_positions),
         Of::choice(
             "After a longer one",
-            &["Stand and ask", "Track on"],
-            |antenna| RESUME.iter().position(|resume| *resume == antenna.resume),
-            |antenna, index| {
-                antenna.resume = RESUME.get(index).copied().unwrap_or(antenna.resume);
-            },
+            &[(0, "Stand and ask"), (1, "Track on")],
+            &[Resume::Ask, Resume::Continue],
+            |antenna| &mut antenna.resume,
         )
         .when(takes_positions)
         .noted(|antenna| {
@@ -184,17 +178,13 @@ fn outage() -> [Of; 2] {
     ]
 }
 
-const RESUME: [Resume; 2] = [Resume::Ask, Resume::Continue];
-
 fn watch() -> [Of; 2] {
     [
         Of::choice(
             "When others drive it in",
-            &["STOP and alarm", "Alarm only"],
-            |antenna| MONITOR.iter().position(|monitor| *monitor == antenna.monitor),
-            |antenna, index| {
-                antenna.monitor = MONITOR.get(index).copied().unwrap_or(antenna.monitor);
-            },
+            &[(0, "STOP and alarm"), (1, "Alarm only")],
+            &[Monitor::Stop, Monitor::Alarm],
+            |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
             let words = "Into a keep-out or too close to the Sun, by the panel, another program or \
@@ -207,8 +197,6 @@ fn watch() -> [Of; 2] {
             }),
     ]
 }
-
-const MONITOR: [Monitor; 2] = [Monitor::Stop, Monitor::Alarm];
 
 /// This program can follow a target with it.
 fn takes_positions(antenna: &Antenna) -> bool {

@@ -1,12 +1,13 @@
 //! The fields of an antenna that its make sets: where its controller answers
 //! and what that has to know. All of them follow from the description of the make.
 
-use super::{
-    fields::{Checked, Description, Look, Placed},
-    points,
-};
+use super::fields::{Description, Placed};
 use crate::{
-    station::{Antenna, ControllerSpec, CountLine, CountPoint, Holds, Link, Setting, Value},
+    device::{
+        CountLine, CountPoint,
+        settings::{Kind, Unfit, Value},
+    },
+    station::{Antenna, ControllerSpec, Link, Setting},
     ui::format,
 };
 
@@ -29,8 +30,8 @@ pub(super) fn tables(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     spec.settings.iter().filter_map(placed).collect()
 }
 
-pub(super) fn not_empty(text: &str) -> Checked {
-    if text.is_empty() { Err("must not be empty") } else { Ok(()) }
+pub(super) fn not_empty(text: &str) -> Result<(), Unfit> {
+    if text.is_empty() { Err(Unfit::Text("must not be empty".to_owned())) } else { Ok(()) }
 }
 
 fn address(spec: &'static ControllerSpec) -> Of {
@@ -42,61 +43,29 @@ fn address(spec: &'static ControllerSpec) -> Of {
             ("Port or address".to_owned(), Some(words.to_owned()))
         }
     };
-    let write = |antenna: &Antenna| Some(antenna.connection.address.clone());
-    let read = |antenna: &mut Antenna, text: &str| {
-        spec.check_address(text)?;
-        text.clone_into(&mut antenna.connection.address);
+    let get = |antenna: &mut Antenna| Some(Value::Text(antenna.connection.address.clone()));
+    let put = |antenna: &mut Antenna, value| {
+        if let Value::Text(address) = value {
+            spec.check_address(&address)?;
+            antenna.connection.address = address;
+        }
         Ok(())
     };
-    Of::written(label, Look::Words, write, read).noted(move |_| note.clone())
+    Of::new(label, Kind::Text(|_| Ok(())), get, put).noted(move |_| note.clone())
 }
 
 fn field(setting: &'static Setting) -> Of {
-    let look = match &setting.holds {
-        Holds::Text => Look::Words,
-        Holds::OneOf(choices) => Look::Choice(choices.iter().map(|(_, name)| *name).collect()),
-        Holds::Whole(_) => Look::Number,
-        Holds::Points => Look::Lines { hint: "counts degrees, one pair a line" },
-    };
-    Of::written(
-        setting.label,
-        look,
-        |antenna| Some(text(&setting.holds, antenna.connection.value(setting))),
-        |antenna, text| antenna.connection.put(setting, value(setting, text)?),
+    Of::new(
+        setting.field.label,
+        setting.field.kind,
+        |antenna| antenna.connection.value(setting).cloned(),
+        |antenna, value| antenna.connection.put(setting, value).map_err(|why| why.to_string()),
     )
     .noted(|antenna| {
-        let value = antenna.connection.value(setting);
-        let of_setting = (setting.note)(value).map(str::to_owned);
-        of_setting.or_else(|| fit(antenna.connection.points(setting)))
+        let of_setting = antenna.connection.value(setting).and_then(setting.note);
+        let of_points = || fit(antenna.connection.points(setting));
+        of_setting.map(str::to_owned).or_else(of_points)
     })
-}
-
-/// A value as it is shown and typed.
-fn text(holds: &Holds, value: &Value) -> String {
-    if let Holds::OneOf(choices) = holds {
-        let chosen = choices.iter().find(|(choice, _)| choice == value);
-        return chosen.map(|(_, name)| (*name).to_owned()).unwrap_or_default();
-    }
-    match value {
-        Value::Text(text) => text.clone(),
-        Value::Word(word) => (*word).to_owned(),
-        Value::Whole(number) => number.to_string(),
-        Value::Points(points) => points::write(points),
-    }
-}
-
-/// The value that is meant by what is typed.
-fn value(setting: &Setting, text: &str) -> Result<Value, String> {
-    let value = match &setting.holds {
-        Holds::Text => Some(text.into()),
-        Holds::OneOf(choices) => {
-            let named = choices.iter().find(|(_, name)| *name == text);
-            named.map(|(choice, _)| choice.clone())
-        }
-        Holds::Whole(_) => text.parse().ok().map(Value::Whole),
-        Holds::Points => Some(points::read(text)?.into()),
-    };
-    value.ok_or_else(|| setting.wanted())
 }
 
 /// How well the points of one axis fit a straight line.

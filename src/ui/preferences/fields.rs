@@ -4,58 +4,52 @@
 
 use std::{borrow::Cow, ops::RangeInclusive};
 
-/// Where a value stands in a `T`; `None` where it has no such.
+use crate::{
+    device::settings::{Kind, Unfit, Value},
+    ui::words,
+};
+
+/// Where a value stands in a `T`; `None` where that `T` does not have it.
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
-/// Why a value cannot be used, to stand behind the name of its field.
+/// Why a value cannot be used; reads on from the name of its field.
 pub(super) type Checked = Result<(), &'static str>;
-/// What stands above fields that belong together, and one of them.
+/// The heading above fields that belong together, and one of them.
 pub(super) type Placed<T> = (&'static str, Description<T>);
 
-/// How a field looks.
-#[derive(Debug, PartialEq, Eq)]
-pub(super) enum Look {
-    /// For a name or an address.
-    Words,
-    /// For a number.
-    Number,
-    /// One text, wrapped to be seen whole.
-    Wrapped,
-    /// Many lines. The hint stands there while it is empty.
-    Lines { hint: &'static str },
-    /// One of these.
-    Choice(Vec<&'static str>),
-}
-
-type Write<T> = Box<dyn Fn(&T) -> Option<String>>;
-type Read<T> = Box<dyn Fn(&mut T, &str) -> Result<(), String>>;
-
-/// How a value is written and read back.
-enum Value<T> {
-    Number { range: RangeInclusive<f64>, place: Place<T, f64> },
-    Text { check: fn(&str) -> Checked, place: Place<T, String> },
-    Choice { words: &'static [&'static str], get: fn(&T) -> Option<usize>, set: fn(&mut T, usize) },
-    Written { write: Write<T>, read: Read<T> },
-}
+type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
+type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
+type Note<T> = Box<dyn Fn(&T) -> Option<String>>;
 
 /// One line of a form.
 pub(super) struct Description<T> {
     pub(super) label: Cow<'static, str>,
-    pub(super) look: Look,
+    pub(super) kind: Kind,
     /// Stands behind the field.
     pub(super) unit: &'static str,
-    value: Value<T>,
+    /// A text that is wrapped, to be seen whole.
+    pub(super) is_wrapped: bool,
+    get: Get<T>,
+    put: Put<T>,
     is_used: fn(&T) -> bool,
     check: fn(&T) -> Checked,
-    note: Write<T>,
+    note: Note<T>,
 }
 
 impl<T> Description<T> {
-    fn new(label: impl Into<Cow<'static, str>>, look: Look, value: Value<T>) -> Self {
+    /// A field of any kind. A value that is not put leaves all as it was.
+    pub(super) fn new(
+        label: impl Into<Cow<'static, str>>,
+        kind: Kind,
+        get: impl Fn(&mut T) -> Option<Value> + 'static,
+        put: impl Fn(&mut T, Value) -> Result<(), String> + 'static,
+    ) -> Self {
         Self {
             label: label.into(),
-            look,
+            kind,
             unit: "",
-            value,
+            is_wrapped: false,
+            get: Box::new(get),
+            put: Box::new(put),
             is_used: |_| true,
             check: |_| Ok(()),
             note: Box::new(|_| None),
@@ -67,39 +61,66 @@ impl<T> Description<T> {
         range: RangeInclusive<f64>,
         unit: &'static str,
         place: Place<T, f64>,
-    ) -> Self {
-        Self { unit, ..Self::new(label, Look::Number, Value::Number { range, place }) }
+    ) -> Self
+    where
+        T: 'static,
+    {
+        let kind = Kind::Number { min: *range.start(), max: *range.end() };
+        let get = move |whole: &mut T| place(whole).map(|number| Value::Decimal(*number));
+        let put = move |whole: &mut T, value| {
+            if let (Some(place), Value::Decimal(number)) = (place(whole), value) {
+                *place = number;
+            }
+            Ok(())
+        };
+        Self { unit, ..Self::new(label, kind, get, put) }
     }
 
-    /// Words that `check` takes, without the blanks around them.
+    /// Text without the blanks around it.
     pub(super) fn text(
-        label: &'static str,
-        check: fn(&str) -> Checked,
-        place: Place<T, String>,
-    ) -> Self {
-        Self::new(label, Look::Words, Value::Text { check, place })
-    }
-
-    /// One of `words`, by its place among them.
-    pub(super) fn choice(
-        label: &'static str,
-        words: &'static [&'static str],
-        get: fn(&T) -> Option<usize>,
-        set: fn(&mut T, usize),
-    ) -> Self {
-        Self::new(label, Look::Choice(words.to_vec()), Value::Choice { words, get, set })
-    }
-
-    /// Anything that has a way to be written and read. What is read with an error
-    /// leaves the value as it is.
-    pub(super) fn written(
         label: impl Into<Cow<'static, str>>,
-        look: Look,
-        write: impl Fn(&T) -> Option<String> + 'static,
-        read: impl Fn(&mut T, &str) -> Result<(), String> + 'static,
-    ) -> Self {
-        let value = Value::Written { write: Box::new(write), read: Box::new(read) };
-        Self::new(label, look, value)
+        check: fn(&str) -> Result<(), Unfit>,
+        place: Place<T, String>,
+    ) -> Self
+    where
+        T: 'static,
+    {
+        let get = move |whole: &mut T| place(whole).map(|text| Value::Text(text.clone()));
+        let put = move |whole: &mut T, value| {
+            if let (Some(place), Value::Text(text)) = (place(whole), value) {
+                *place = text;
+            }
+            Ok(())
+        };
+        Self::new(label, Kind::Text(check), get, put)
+    }
+
+    /// One of `values`. The codes of `choices` are their indices.
+    pub(super) fn choice<V: Copy + PartialEq + 'static>(
+        label: &'static str,
+        choices: &'static [(i64, &'static str)],
+        values: &'static [V],
+        place: fn(&mut T) -> &mut V,
+    ) -> Self
+    where
+        T: 'static,
+    {
+        let get = move |whole: &mut T| {
+            let index = values.iter().position(|value| value == place(whole));
+            index.and_then(|index| i64::try_from(index).ok()).map(Value::Choice)
+        };
+        let put = move |whole: &mut T, value| {
+            if let Value::Choice(code) = value {
+                let value = usize::try_from(code).ok().and_then(|index| values.get(index));
+                *place(whole) = value.copied().unwrap_or(*place(whole));
+            }
+            Ok(())
+        };
+        Self::new(label, Kind::Choice(choices), get, put)
+    }
+
+    pub(super) fn wrapped(self) -> Self {
+        Self { is_wrapped: true, ..self }
     }
 
     /// Not shown, and of no consequence, unless `is_used` says so.
@@ -119,55 +140,14 @@ impl<T> Description<T> {
 
     /// The text of the value, for a `whole` that has it.
     fn write(&self, whole: &mut T) -> Option<String> {
-        match &self.value {
-            Value::Number { place, .. } => place(whole).map(|number| number.to_string()),
-            Value::Text { place, .. } => place(whole).cloned(),
-            Value::Choice { words, get, .. } => {
-                words.get(get(whole)?).map(|word| (*word).to_owned())
-            }
-            Value::Written { write, .. } => write(whole),
-        }
+        (self.get)(whole).map(|value| self.kind.text(&value))
     }
 
     /// Puts a text in its place.
     fn read(&self, whole: &mut T, text: &str) -> Result<(), String> {
-        let text = text.trim();
-        match &self.value {
-            Value::Number { range, place } => {
-                let number = number(text).filter(|number| range.contains(number));
-                let number = number.ok_or_else(|| self.out_of(range))?;
-                put(place(whole), number);
-            }
-            Value::Text { check, place } => {
-                check(text)?;
-                put(place(whole), text.to_owned());
-            }
-            Value::Choice { words, set, .. } => {
-                let index = words.iter().position(|word| *word == text);
-                set(whole, index.ok_or("must be one of the choices")?);
-            }
-            Value::Written { read, .. } => read(whole, text)?,
-        }
-        Ok(())
+        let value = self.kind.read(text.trim()).map_err(|why| words::unfit(&why, self.unit))?;
+        (self.put)(whole, value)
     }
-
-    fn out_of(&self, range: &RangeInclusive<f64>) -> String {
-        let gap = if self.unit == "°" { "" } else { " " };
-        let words =
-            format!("must be a number from {} to {}{gap}{}", range.start(), range.end(), self.unit);
-        words.replace('-', "−")
-    }
-}
-
-fn put<V>(place: Option<&mut V>, value: V) {
-    if let Some(place) = place {
-        *place = value;
-    }
-}
-
-/// A number with a point or a comma, and with either minus.
-pub(super) fn number(text: &str) -> Option<f64> {
-    text.replace(',', ".").replace('−', "-").parse().ok()
 }
 
 /// A field with what is typed in it.

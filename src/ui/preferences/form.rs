@@ -7,9 +7,10 @@ use egui::{
 
 use super::{
     draft::Draft,
-    fields::{Field, Look, Standing},
+    fields::{Field, Standing},
 };
 use crate::{
+    device::settings::Kind,
     makes,
     model::Model,
     ui::{
@@ -175,15 +176,21 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
     }
     let label = &*field.description.label;
     let text = &mut field.text;
-    let edit = match &field.description.look {
-        Look::Wrapped => TextEdit::multiline(text)
+    if let Some(words) = field.description.kind.choices() {
+        return choice(ui, (group, label), text, &words, border);
+    }
+    let edit = match field.description.kind {
+        Kind::Points => {
+            return lines(ui, (group, label), text, "counts degrees, one pair a line", border);
+        }
+        Kind::Integer { .. } | Kind::Decimal { .. } | Kind::Number { .. } | Kind::Place { .. } => {
+            TextEdit::singleline(text).desired_width(NUMBER)
+        }
+        _ if field.description.is_wrapped => TextEdit::multiline(text)
             .return_key(None)
             .desired_rows(1)
             .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
-        Look::Lines { hint } => return lines(ui, (group, label), text, hint, border),
-        Look::Choice(words) => return choice(ui, (group, label), text, words, border),
-        Look::Number => TextEdit::singleline(text).desired_width(NUMBER),
-        Look::Words => TextEdit::singleline(text).desired_width(WORDS),
+        _ => TextEdit::singleline(text).desired_width(WORDS),
     };
     ui.add(edit.id_salt((group, label)))
 }

@@ -2,10 +2,11 @@
 
 use super::{
     connection_fields::not_empty,
-    fields::{Description, Look, Placed},
+    fields::{Description, Placed},
 };
 use crate::{
     astro::Site,
+    device::settings::{Kind, Value},
     station::{Antenna, OnClose, Station, ranges},
 };
 
@@ -70,19 +71,18 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
         Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
             Some(&mut ground.elevation_floor_deg)
         }),
-        Of::written(
+        Of::new(
             "Satellites",
-            Look::Wrapped,
-            |ground| Some(favourites(ground)),
-            read_favourites,
-        ),
+            Kind::Text(|_| Ok(())),
+            |ground| Some(Value::Text(favourites(ground))),
+            put_favourites,
+        )
+        .wrapped(),
         Of::choice(
             "When the window closes",
-            &["Ask", "Stop and hold", "Park first", "Let finish"],
-            |ground| ON_CLOSE.iter().position(|on_close| *on_close == ground.on_close),
-            |ground, index| {
-                ground.on_close = ON_CLOSE.get(index).copied().unwrap_or(ground.on_close);
-            },
+            &[(0, "Ask"), (1, "Stop and hold"), (2, "Park first"), (3, "Let finish")],
+            &ON_CLOSE,
+            |ground| &mut ground.on_close,
         )
         .noted(|ground| Some(about_closing(ground.on_close).to_owned())),
     ];
@@ -113,7 +113,8 @@ fn favourites(ground: &Ground) -> String {
     numbers.join(", ")
 }
 
-fn read_favourites(ground: &mut Ground, text: &str) -> Result<(), String> {
+fn put_favourites(ground: &mut Ground, value: Value) -> Result<(), String> {
+    let Value::Text(text) = value else { return Ok(()) };
     let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
     let numbers: Option<Vec<u32>> =
         parts.map(|part| part.parse().ok().filter(|number| *number <= 999_999_999)).collect();

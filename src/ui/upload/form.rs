@@ -48,7 +48,7 @@ impl Form {
     /// The form prefilled from the settings of `antenna`, whose unit accepts these files.
     pub(super) fn of(antenna: &Antenna, takes: &'static ElementFiles) -> Self {
         let connection = &antenna.connection;
-        let setting = connection.spec().settings.iter().find(|it| it.key == takes.setting);
+        let setting = connection.spec().settings.iter().find(|it| it.field.key == takes.setting);
         Self {
             takes,
             file: setting.map_or("", |setting| connection.text(setting)).to_owned(),

@@ -3,10 +3,11 @@
 use azel::{
     clock::Instant,
     controller::rc2000c::Calibration,
+    device::{CountLine, CountPoint},
     driver::Stream,
     protocol::rc2000c::Frame,
     sim::rc2000c::{Control, Fault, Options},
-    station::{Antenna, CountLine, CountPoint, Mount},
+    station::{Antenna, Mount},
 };
 
 use super::Make;

@@ -15,8 +15,9 @@ use azel::{
     device::{
         AntennaState, Axis, AxisMotion, Capabilities, ControllerEvent, Device, Extent, JogSpeeds,
         Measured, Motion, Moves, SecondAxis, Standstill, Variant,
+        settings::{Field, Key},
     },
-    station::{Connection, ControllerSpec, Link, Setting, Table, Usual, Value},
+    station::{Connection, ControllerSpec, Link, Setting, Table, Usual},
 };
 
 pub(crate) static SPEC: ControllerSpec = ControllerSpec {
@@ -36,19 +37,18 @@ pub(crate) static SPEC: ControllerSpec = ControllerSpec {
     open: |antenna| Box::new(Lever::of(&antenna.connection)),
 };
 
-pub(crate) static CODE: Setting = Setting::text("code", "Access code")
-    .noted(|value| (*value == "".into()).then_some("It takes no orders so."));
+pub(crate) static CODE: Setting =
+    Setting::new(Field::edit(Key::text("code", |_| Ok(())), "Access code"), || "".into())
+        .noted(|value| (*value == "".into()).then_some("It takes no orders so."));
 
-pub(crate) static GEAR: Setting = Setting::one_of(
-    "gear",
-    "Gear",
-    &[(Value::Word("low"), "Low gear"), (Value::Word("high"), "High gear")],
-    &Value::Word("low"),
+pub(crate) static GEAR: Setting = Setting::new(
+    Field::edit(Key::word("gear", &[("low", "Low gear"), ("high", "High gear")]), "Gear"),
+    || "low".into(),
 )
 .in_table(DRIVE);
 
 pub(crate) static SHAFTS: Setting =
-    Setting::whole("shafts", "Shafts", 1..=4, &Value::Whole(2)).in_table(DRIVE);
+    Setting::new(Field::edit(Key::integer("shafts", 1, 4), "Shafts"), || 2.into()).in_table(DRIVE);
 
 const DRIVE: Table = Table { key: "drive", title: "Drive" };
 

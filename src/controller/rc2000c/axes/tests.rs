@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
+    device::CountPoint,
     protocol::rc2000c::{Address, Decoder, Reply},
-    station::CountPoint,
 };
 
 /// An idle unit at 1525 and 750 counts.

@@ -6,8 +6,9 @@ use std::ops::RangeInclusive;
 
 use crate::{
     astro::{HorizonMask, Zone},
+    device::settings::number,
     station::{Antenna, Entered, KeepOut, Station, SunAvoidance, ranges},
-    ui::{preferences::fields::number, words},
+    ui::words,
 };
 
 /// Azimuth of a corner: once around and once more either way.

@@ -1,12 +1,17 @@
 //! Conversion between the counts of a position sensor and degrees, by points that the
 //! operator has measured.
 
-use serde::Serialize;
+use std::ops::RangeInclusive;
 
-use super::ranges;
+use serde::{Deserialize, Serialize};
+
+use super::settings::Unfit;
+
+/// Degrees at which a sensor may have been read, as the mount counts.
+const RANGE_DEG: RangeInclusive<f64> = -360.0..=1440.0;
 
 /// A sensor count and the angle at which it was read.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CountPoint {
     /// Counts as on the front panel, 0 to 65535.
     pub counts: u16,
@@ -17,19 +22,23 @@ pub struct CountPoint {
 impl CountPoint {
     /// Checks that points in any order make a scale; returns the reason if they do not. No
     /// points are fine: the scale is not known yet.
-    pub(crate) fn check(points: &[Self]) -> Result<(), String> {
+    pub(crate) fn check(points: &[Self]) -> Result<(), Unfit> {
         if points.is_empty() {
             return Ok(());
         }
-        let range = ranges::CALIBRATED_DEG;
-        if !points.iter().all(|point| range.contains(&point.degrees)) {
-            let words = format!("must hold angles from {} to {}°", range.start(), range.end());
-            return Err(words.replace('-', "−"));
+        if !points.iter().all(|point| RANGE_DEG.contains(&point.degrees)) {
+            let words =
+                format!("must hold angles from {} to {}°", RANGE_DEG.start(), RANGE_DEG.end());
+            return Err(Unfit::Text(words.replace('-', "−")));
         }
-        CountLine::through(points).map(|_| ()).map_err(|error| match error {
-            CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
-            CalibrationError::SameCounts(counts) => format!("must not hold {counts} counts twice"),
-            CalibrationError::Flat => "must hold angles that change with the counts".to_owned(),
+        CountLine::through(points).map(|_| ()).map_err(|error| {
+            Unfit::Text(match error {
+                CalibrationError::TooFew => "must hold two points or more, or none".to_owned(),
+                CalibrationError::SameCounts(counts) => {
+                    format!("must not hold {counts} counts twice")
+                }
+                CalibrationError::Flat => "must hold angles that change with the counts".to_owned(),
+            })
         })
     }
 }

@@ -1,7 +1,7 @@
-//! The table of a calibration as text: a count and an angle a line.
+//! Measured points as text: a count and an angle a line.
 
-use super::fields::number;
-use crate::station::CountPoint;
+use super::{Unfit, value::number};
+use crate::device::CountPoint;
 
 /// One point a line.
 pub(super) fn write(points: &[CountPoint]) -> String {
@@ -10,12 +10,13 @@ pub(super) fn write(points: &[CountPoint]) -> String {
 }
 
 /// The points of a text, and the reason when it holds anything else.
-pub(super) fn read(text: &str) -> Result<Vec<CountPoint>, String> {
+pub(super) fn read(text: &str) -> Result<Vec<CountPoint>, Unfit> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let points: Vec<CountPoint> = lines
         .map(|(index, line)| {
             point(line).ok_or_else(|| {
-                format!("line {} must be a count and an angle, such as 1240 45.5", index + 1)
+                let line = index + 1;
+                Unfit::Text(format!("line {line} must be a count and an angle, such as 1240 45.5"))
             })
         })
         .collect::<Result<_, _>>()?;
@@ -55,7 +56,7 @@ mod tests {
     #[test]
     fn a_wrong_line_is_named() {
         for (text, line) in [("1 2\n\nx 4", 3), ("1", 1), ("1 2\n3 4 5", 2), ("70000 1", 1)] {
-            let why = read(text).unwrap_err();
+            let why = read(text).unwrap_err().to_string();
             assert!(why.starts_with(&format!("line {line} ")), "{text}: {why}");
         }
         assert!(read("1 2").is_err() && read("1 2\n1 3").is_err());
