@@ -28,6 +28,7 @@ pub mod status;
 pub mod track_again;
 mod turn;
 pub mod uploads;
+mod use_station;
 mod write_settings;
 mod written;
 
@@ -62,11 +63,9 @@ pub use self::{
 };
 use crate::{
     clock::{Clock, Instant},
-    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
+    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync},
     job::{Job, Wake},
-    makes::{self, DemoAddresses},
-    plan::Bounds,
-    station::{self, AntennaId, LoadError, LockOuts, Station},
+    station::{self, LockOuts, Station},
 };
 
 /// Reports of the sessions are taken at most this often. A change still shows with the next
@@ -426,109 +425,6 @@ impl Engine {
     /// Sends an event to the client with the next publication.
     fn tell(&mut self, event: Event) {
         self.told.push(event);
-    }
-
-    fn load_station(&mut self) {
-        // The running demo ends once another station is in use.
-        let _demo = self.demo.take();
-        let loaded = match &self.settings_path {
-            Some(path) => station::load(path, makes::SPECS),
-            None => Err(LoadError::Missing),
-        };
-        match loaded {
-            Ok(loaded) => {
-                for note in loaded.notes {
-                    self.alarms.raise(None, AlarmKind::Setting(note), self.now);
-                }
-                self.use_station(loaded.station);
-            }
-            Err(LoadError::Missing) => {
-                self.station_claim = StationClaim::None;
-                self.demo = Some(DemoStation::Coming);
-                self.use_station(Station {
-                    antennas: Vec::new(),
-                    ..Station::demo(&DemoAddresses::default())
-                });
-            }
-            Err(error) => {
-                let text = error.to_string();
-                tracing::error!("{text}");
-                self.alarms.raise(None, AlarmKind::Settings(text), self.now);
-                // Nothing is connected or overwritten without the operator.
-                self.settings_unread = true;
-                self.use_station(Station::default());
-            }
-        }
-    }
-
-    /// Takes a station into use. Unchanged antennas keep their session.
-    fn use_station(&mut self, station: Station) {
-        self.keep_locked_out(&station.antennas);
-        let mut before = std::mem::take(&mut self.antennas);
-        // The antenna may be the same one at a new address: then both units are owed a
-        // STOP.
-        let debts = self.driver.debts().clone();
-        let owed: Vec<String> = (before.iter())
-            .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
-            .map(|antenna| antenna.shown.config.name.clone())
-            .collect();
-        // A unit accepts one client: the old session leaves first.
-        before.retain(|antenna| {
-            antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
-        });
-        for config in &station.antennas {
-            let bounds = Bounds::of(&station, config);
-            let kept = before.iter().position(|antenna| antenna.shown.config == *config);
-            let antenna = if let Some(kept) = kept {
-                let antenna = before.swap_remove(kept);
-                antenna.handle.keep_within(bounds);
-                antenna
-            } else {
-                let antenna = self.open_antenna(config.clone(), bounds);
-                if owed.contains(&config.name) {
-                    antenna.handle.stop();
-                }
-                antenna
-            };
-            self.antennas.push(antenna);
-        }
-        self.station = Arc::new(station);
-        let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.shown.id()).collect();
-        self.alarms.keep_only(&ids);
-        // From now on STOP reaches the new sessions.
-        self.publish();
-    }
-
-    fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
-        let claim = self.claim_unit(&config);
-        self.open_claimed(config, bounds, claim)
-    }
-
-    /// Opens an antenna with a claim on its unit, or leaves the unit to its holder.
-    fn open_claimed(
-        &mut self,
-        config: station::Antenna,
-        bounds: Bounds,
-        claim: Result<Option<Claim>, HeldBy>,
-    ) -> Antenna {
-        self.sessions += 1;
-        let (handle, held_by) = match claim {
-            Ok(claim) => {
-                let lock_out = self.lock_outs.of(&config.connection).cloned();
-                // The claim lasts until the session has ended.
-                let until_the_end = Box::new(claim);
-                (self.driver.open(&config, bounds, lock_out, until_the_end), None)
-            }
-            Err(held_by) => (Driver::leave_alone(&config), Some(held_by)),
-        };
-        let mut shown = AntennaModel::new(config, handle.snapshot());
-        shown.held_by = held_by;
-        Antenna { shown, session: self.sessions, handle }
-    }
-
-    /// Index of an antenna, if the station still has it.
-    fn place(&self, id: AntennaId) -> Option<usize> {
-        self.antennas.iter().position(|antenna| antenna.shown.id() == id)
     }
 }
 
