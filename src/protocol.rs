@@ -1,4 +1,4 @@
-//! Pure codecs of the controllers: typed requests and replies, bytes in and out.
+//! Codecs of the controllers: typed requests and replies to bytes and back, without I/O.
 
 mod parity;
 pub mod rc2000c;

@@ -1,21 +1,21 @@
-//! Even parity made in software, for ports and servers that carry eight data
-//! bits and no parity.
+//! Even parity in software, for ports and servers that carry eight data bits without
+//! parity.
 
-/// Who makes the parity of the line (seven data bits, even parity).
+/// Where the parity of the line (seven data bits, even parity) is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Parity {
-    /// The port does, or nobody: bytes pass unchanged.
+    /// In the port, or nowhere: bytes pass unchanged.
     #[default]
     Port,
-    /// This layer does: the eighth bit carries the parity.
+    /// In this module: the eighth bit carries the parity.
     Software,
 }
 
-/// Stands for a character that came with the wrong parity; never part of a frame.
+/// Replaces a character with wrong parity; never part of a frame.
 const BROKEN: u8 = 0xff;
 
 impl Parity {
-    /// Makes `bytes` of seven bits ready for the port.
+    /// Prepares `bytes` of seven bits for the port.
     pub fn prepare(self, bytes: &mut [u8]) {
         if self == Self::Software {
             for byte in bytes {
@@ -25,8 +25,8 @@ impl Parity {
         }
     }
 
-    /// Takes the parity off `bytes` from the port. A character with the wrong
-    /// parity becomes one that no frame has.
+    /// Takes the parity off `bytes` from the port. A character with wrong parity becomes one
+    /// that no frame has.
     pub fn check(self, bytes: &mut [u8]) {
         if self == Self::Software {
             for byte in bytes {

@@ -7,7 +7,7 @@
 //! Facts come from the vendor's document "4O3A Signature Rotator Genius TCP
 //! protocol, rev. 4", cited as "section 1.1", and from status replies recorded
 //! at two stations. The stream has no lengths and no terminators, and holds raw
-//! zero bytes. Devices send a status of 72 bytes where the document's example
+//! zero bytes. Units send a status of 72 bytes where the document's example
 //! has 64, so its form is decided by what stands at fixed places.
 
 mod configuration;

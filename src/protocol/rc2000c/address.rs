@@ -1,16 +1,15 @@
-//! The address of a controller on its bus.
+//! Address of a unit on its bus.
 
 use std::fmt;
 
 const MIN: u8 = 49;
 const MAX: u8 = 111;
 
-/// Address of a controller, 49 to 111 (appendix D). It goes over the line as
-/// one printable character.
+/// Address of a unit, 49 to 111 (appendix D), sent as one printable character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Address(u8);
 
-/// A number that is no address.
+/// A number that is not an address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("address {number} is not between {MIN} and {MAX}")]
 pub struct AddressError {
@@ -18,15 +17,15 @@ pub struct AddressError {
 }
 
 impl Address {
-    /// The address of a controller as it leaves the factory.
+    /// Factory setting.
     pub const FACTORY: Self = Self(50);
 
-    /// The address with this number, 49 to 111.
+    /// Address `number`, 49 to 111.
     pub const fn new(number: u8) -> Result<Self, AddressError> {
         if MIN <= number && number <= MAX { Ok(Self(number)) } else { Err(AddressError { number }) }
     }
 
-    /// The number, which is also the byte on the line.
+    /// Number of the address, which is also the byte on the line.
     pub const fn number(self) -> u8 {
         self.0
     }

@@ -11,21 +11,21 @@ pub(super) const STX: u8 = 0x02;
 pub(super) const ETX: u8 = 0x03;
 pub(super) const ACK: u8 = 0x06;
 pub(super) const NAK: u8 = 0x15;
-/// The longest frame: a status.
+/// Length of the longest frame, a status.
 pub const MAX_FRAME_BYTES: usize = 38;
-/// The longest command: an auto move.
+/// Length of the longest command, an auto move.
 pub const MAX_COMMAND_BYTES: usize = 16;
-/// All of a frame but its data: header, address, code, ETX, checksum.
+/// Bytes of a frame around its data: header, address, code, ETX, checksum.
 pub(super) const ENVELOPE_BYTES: usize = 5;
-/// The data of a reply from a controller whose remote mode is disabled.
+/// Data of a reply from a unit whose remote mode is disabled.
 pub(super) const OFFLINE: &[u8] = b"F";
 
-/// What a frame begins with.
+/// First byte of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Header {
     /// STX: a command. On the console's side it is an echo.
     Command,
-    /// ACK: the command was understood, or the controller is offline.
+    /// ACK: the command was understood, or the unit is offline.
     Ack,
     /// NAK: the command was refused.
     Nak,
@@ -53,9 +53,9 @@ impl Header {
 /// The commands of appendix E.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Command {
-    /// Which device is it.
+    /// Ask for the type of the unit.
     DeviceType = 0x30,
-    /// What does it do.
+    /// Ask for the status.
     Status = 0x31,
     /// Go to a satellite or a position.
     AutoMove = 0x32,
@@ -63,7 +63,7 @@ pub enum Command {
     Jog = 0x33,
     /// Turn the polarization.
     Polarization = 0x34,
-    /// Name a stored satellite.
+    /// Ask for the name of a stored satellite.
     SatelliteName = 0x35,
     /// Alarms, automatic polarization, track mode.
     Miscellaneous = 0x36,
@@ -81,17 +81,15 @@ impl Command {
         Self::Miscellaneous,
     ];
 
-    /// The command with this code.
     pub fn from_code(code: u8) -> Option<Self> {
         Self::ALL.into_iter().find(|command| command.code() == code)
     }
 
-    /// The code on the line.
     pub const fn code(self) -> u8 {
         self as u8
     }
 
-    /// Length of a whole good reply, bytes.
+    /// Length of a good reply in all, bytes.
     pub const fn reply_bytes(self) -> usize {
         match self {
             Self::DeviceType => 11,
@@ -105,7 +103,7 @@ impl Command {
     }
 }
 
-/// A frame whose form and checksum were right.
+/// A frame with correct form and checksum.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Frame {
     header: Header,
@@ -115,32 +113,31 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame around `data`, which holds printable characters only.
+    /// Frame around `data`, which must be printable characters.
     pub(super) fn new(header: Header, address: Address, code: u8, data: Vec<u8>) -> Self {
         Self { header, address, code, data }
     }
 
-    /// What it begins with.
     pub const fn header(&self) -> Header {
         self.header
     }
 
-    /// The controller that is meant or that speaks.
+    /// Address of the unit that receives or sends the frame.
     pub const fn address(&self) -> Address {
         self.address
     }
 
-    /// The command code, which a reply repeats. Not each is a [`Command`].
+    /// Command code, which a reply repeats. Not every code is a [`Command`].
     pub const fn code(&self) -> u8 {
         self.code
     }
 
-    /// The characters between code and ETX, 20h to 7Fh.
+    /// Characters between code and ETX, 20h to 7Fh.
     pub fn data(&self) -> &[u8] {
         &self.data
     }
 
-    /// The bytes on the line, each below 80h.
+    /// Bytes on the line, each below 80h.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = vec![self.header.byte(), self.address.number(), self.code];
         bytes.extend_from_slice(&self.data);
@@ -150,8 +147,8 @@ impl Frame {
     }
 }
 
-/// The checksum: XOR of every byte from the header to ETX (appendix E). It may
-/// equal any control byte.
+/// Checksum: XOR of every byte from the header to ETX (appendix E). It may equal any
+/// control byte.
 pub fn checksum(bytes: &[u8]) -> u8 {
     bytes.iter().fold(0, |sum, byte| sum ^ byte)
 }

@@ -6,41 +6,38 @@ use super::frame::{OFFLINE, is_device_type};
 use super::satellite_name::NAME_BYTES;
 use super::{Address, Command, Frame, Header, SatelliteName, Status};
 
-/// What a controller answers.
+/// A reply of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reply {
-    /// Which device it is.
     DeviceType(DeviceType),
-    /// Its state, in reply to `command`. For a motion this says that the
-    /// command was understood, not that it was carried out.
+    /// Status in reply to `command`. For a motion it says that the command was understood, not
+    /// that it was carried out.
     Status {
-        /// The command that it answers.
         command: Command,
         status: Status,
     },
     /// One entry of the list of satellites.
     SatelliteName(NameEntry),
-    /// The controller is configured to take no commands. Its frame begins with
-    /// ACK all the same.
+    /// The unit is configured to take no commands. Its frame begins with ACK all the same.
     Offline {
-        /// Code of the command that it answers.
+        /// Code of the command.
         code: u8,
     },
-    /// The command is unknown, has a wrong length or cannot be carried out; the
-    /// controller does not say which.
+    /// The command is unknown, has a wrong length or cannot be carried out; the unit does not
+    /// say which.
     Refused {
-        /// Code of the command that it answers.
+        /// Code of the command.
         code: u8,
     },
 }
 
-/// Why a frame is no reply.
+/// Reason why a frame is not a reply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ReplyError {
-    /// It is a command: the line echoes what we send.
+    /// A command: the line echoes what Azel sends.
     #[error("echo of command {code:02X}")]
     Echo {
-        /// Code of the command.
+        /// Code of the echoed command.
         code: u8,
     },
     /// A list entry without numbers.
@@ -54,16 +51,16 @@ pub enum ReplyError {
     },
 }
 
-/// Kind of mount, and version of the firmware.
+/// Kind of mount and firmware version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DeviceType {
-    /// The mount that the firmware is made for.
+    /// Mount that the firmware is made for.
     pub mount: MountKind,
     /// First two digits of the version, as characters.
     pub version: [u8; 2],
 }
 
-/// The mount that a controller is made for.
+/// Kind of mount that the firmware is made for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MountKind {
     /// RC2000C, elevation over azimuth.
@@ -72,7 +69,7 @@ pub enum MountKind {
     Polar,
     /// RC2000C, azimuth over elevation.
     AzimuthOverElevation,
-    /// Another device; its name on the line.
+    /// Another device, with its name on the line.
     Other([u8; 4]),
 }
 
@@ -98,7 +95,7 @@ impl MountKind {
 }
 
 impl fmt::Display for DeviceType {
-    /// As `2KCA 1.4`.
+    /// Formats as `2KCA 1.4`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [whole, tenth] = self.version.map(char::from);
         let name = self.mount.name();
@@ -109,16 +106,15 @@ impl fmt::Display for DeviceType {
 /// One entry of the list of satellites.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NameEntry {
-    /// Its place, counted from 1.
+    /// Index, counted from 1.
     pub index: u8,
-    /// How many entries the list has.
+    /// Number of entries in the list.
     pub count: u8,
-    /// The name, to be used as it is.
+    /// Name, to be sent as it is.
     pub name: SatelliteName,
 }
 
 impl Reply {
-    /// Reads a reply.
     pub fn parse(frame: &Frame) -> Result<Self, ReplyError> {
         let (code, data) = (frame.code(), frame.data());
         match frame.header() {
@@ -128,7 +124,7 @@ impl Reply {
             Header::Ack => {}
         }
         let unknown = ReplyError::Form { code };
-        // Some firmware repeats a wrong code here.
+        // Some firmware repeats a wrong code in this reply.
         if is_device_type(data) || code == Command::DeviceType.code() {
             return device_type(data).map(Self::DeviceType).ok_or(unknown);
         }
@@ -141,7 +137,7 @@ impl Reply {
         }
     }
 
-    /// The frame of the controller at `address`.
+    /// Frame from the unit at `address`.
     pub fn to_frame(&self, address: Address) -> Frame {
         let (header, code, data) = match self {
             Self::DeviceType(device) => {

@@ -14,60 +14,59 @@ pub use value::ValueError;
 
 use super::{Address, Command, Frame, Header};
 
-/// Stop of azimuth and elevation: speed and duration must be valid, though unused.
+/// Data of STOP for azimuth and elevation: speed and duration must be valid, though
+/// unused.
 const STOP: &[u8] = b"XS0000";
 
-/// Anything a console can ask. Every value was checked when it was built, so
-/// each request has bytes.
+/// Any request of a console. Its values were checked when it was built, so encoding cannot
+/// fail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Request {
-    /// Reads. Still, any command may take the panel from a local operator.
+    /// Reads. Even so, any command may take the panel from a local operator.
     Query(Query),
     /// Ends motion of azimuth and elevation; always allowed. Whether it ends an
     /// auto move, polarization or tracking is not documented.
     Stop,
     /// Can make metal move.
     Motion(Motion),
-    /// Changes what the controller will do.
+    /// Changes later behaviour of the unit.
     Setting(Setting),
 }
 
-/// What can be asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Query {
     /// Kind of mount and version of the firmware.
     DeviceType,
-    /// The whole state.
+    /// Complete status.
     Status,
-    /// One name of the list of satellites.
+    /// One name in the list of satellites.
     SatelliteName(NameIndex),
 }
 
-/// Place in the list of satellites, 1 to 50. An RC2000C has 35 of them, with a
-/// polar mount 50.
+/// Index in the list of satellites, 1 to 50. An RC2000C has 35 of them, with a polar mount
+/// 50.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NameIndex(u8);
 
 impl NameIndex {
     const MAX: u8 = 50;
 
-    /// A place from 1 to 50.
+    /// Index from 1 to 50.
     pub fn new(index: u8) -> Result<Self, ValueError> {
         value::checked("place in the list", index.into(), 1, Self::MAX.into())?;
         Ok(Self(index))
     }
 
-    /// Counted from 1.
     pub const fn number(self) -> u8 {
         self.0
     }
 }
 
-/// What changes nothing but later moves.
+/// Settings, which only affect later moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
-    /// Set the polarization with each satellite. While on, commands for the
-    /// polarization are refused.
+    /// Set the polarization with each satellite. While on, the unit refuses commands for the
+    /// polarization.
     AutoPolarization(bool),
     /// Band of a dual-band satellite; only while tracking.
     Band(Band),
@@ -81,7 +80,7 @@ pub enum Band {
 }
 
 impl Request {
-    /// The command, whose code the reply repeats.
+    /// Command, whose code the reply repeats.
     pub const fn command(&self) -> Command {
         match self {
             Self::Query(Query::DeviceType) => Command::DeviceType,
@@ -93,7 +92,7 @@ impl Request {
         }
     }
 
-    /// The frame for the controller at `address`.
+    /// Frame for the unit at `address`.
     pub fn to_frame(&self, address: Address) -> Frame {
         let data = match self {
             Self::Query(Query::DeviceType | Query::Status) => Vec::new(),
@@ -110,7 +109,7 @@ impl Request {
         Frame::new(Header::Command, address, self.command().code(), data)
     }
 
-    /// The bytes to send to the controller at `address`.
+    /// Bytes to send to the unit at `address`.
     pub fn to_bytes(&self, address: Address) -> Vec<u8> {
         self.to_frame(address).to_bytes()
     }

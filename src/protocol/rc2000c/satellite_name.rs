@@ -5,27 +5,25 @@ use std::fmt;
 /// Length of the field on the line.
 pub(super) const NAME_BYTES: usize = 10;
 
-/// Why a name cannot be sent.
+/// Reason why a name cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NameError {
-    /// More than ten characters.
     #[error("the name has more than {NAME_BYTES} characters")]
     TooLong,
-    /// A character that is no upper-case letter, digit or ASCII sign.
+    /// A character other than an upper-case letter, digit or ASCII sign.
     #[error("the name has a character other than A to Z, 0 to 9 and ASCII signs: {0:?}")]
     Character(char),
-    /// Nothing but blanks.
     #[error("the name is empty")]
     Empty,
 }
 
-/// Name of a stored satellite: ten characters of printable ASCII. It must match
-/// the stored one to the character, so blanks on its left side are kept.
+/// Name of a stored satellite: ten characters of printable ASCII. It must match the stored
+/// one to the character, so blanks on its left side are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SatelliteName([u8; NAME_BYTES]);
 
 impl SatelliteName {
-    /// The field when no name is shown.
+    /// Field when no name is shown.
     pub const BLANK: Self = Self([b' '; NAME_BYTES]);
 
     /// A name of 1 to 10 characters: upper-case letters, digits and ASCII signs,
@@ -43,27 +41,26 @@ impl SatelliteName {
         if name.trim().is_empty() { Err(NameError::Empty) } else { Ok(Self(field)) }
     }
 
-    /// A field of a frame: any characters that a frame may hold.
+    /// Name from a field of a frame: any characters that a frame may hold.
     pub(super) fn from_field(field: &[u8]) -> Option<Self> {
         field.try_into().ok().map(Self)
     }
 
-    /// The field of a frame.
+    /// Field of a frame.
     pub(super) const fn field(&self) -> &[u8; NAME_BYTES] {
         &self.0
     }
 
-    /// The name without the blanks on its right side.
+    /// Name without the blanks on its right side.
     pub fn as_str(&self) -> &str {
         std::str::from_utf8(&self.0).unwrap_or_default().trim_end_matches(' ')
     }
 
-    /// Nothing but blanks.
     pub fn is_blank(&self) -> bool {
         *self == Self::BLANK
     }
 
-    /// Ten digits, which a controller reads as a position.
+    /// Whether the name is ten digits, which a unit reads as a position.
     pub(super) fn is_all_digits(&self) -> bool {
         self.0.iter().all(u8::is_ascii_digit)
     }

@@ -1,4 +1,4 @@
-//! The status of a controller: 33 characters between code and ETX.
+//! Status of a unit: 33 characters between code and ETX.
 
 mod alarm;
 mod drive;
@@ -17,51 +17,43 @@ use position::Axis;
 
 /// Characters of a status in its frame.
 pub(super) const STATUS_BYTES: usize = 33;
-/// The fixed upper bits of most coded characters; a blank where nothing is coded.
+/// Fixed upper bits of most coded characters; a blank codes nothing.
 const BASE: u8 = 0x20;
-/// Stands for an unknown polarization mode, for a blank means one.
+/// Character for an unknown polarization mode, for a blank means one.
 const NO_MODE: u8 = b'?';
 
-/// What a controller reports of itself. What is not as documented is `Unknown`
-/// or `None` in its field alone; the frame keeps the characters.
+/// Status of a unit. A field that is not as documented is `Unknown` or `None`, and the
+/// others stay valid; the frame keeps the characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Status {
-    /// The satellite on the display, blank if there is none.
+    /// Satellite on the display, blank if there is none.
     pub satellite: SatelliteName,
-    /// How the display shows it.
     pub name_display: NameDisplay,
-    /// Where the azimuth is.
     pub azimuth: Position,
-    /// Where the elevation is.
     pub elevation: Position,
-    /// Where the polarization is.
     pub feed: FeedReading,
-    /// How the polarization is set.
     pub polarization_mode: Option<PolarizationMode>,
-    /// What the azimuth drive does; its positive sense is clockwise.
+    /// Positive is clockwise.
     pub azimuth_drive: AxisDrive,
-    /// What the elevation drive does; its positive sense is up.
+    /// Positive is up.
     pub elevation_drive: AxisDrive,
-    /// What the polarization does.
     pub polarization_motion: PolarizationMotion,
-    /// The most urgent alarm; the next one shows when it is cleared.
+    /// Most urgent alarm; the next one shows when it is cleared.
     pub alarm: Alarm,
-    /// The track mode. An RC2000A has none.
+    /// `None` from an RC2000A, which has no track mode.
     pub track: Option<Track>,
-    /// The receiver. An RC2000A has none.
+    /// `None` from an RC2000A, which has no receiver.
     pub receiver: Option<Receiver>,
 }
 
-/// How the display shows the name of a satellite.
+/// Style in which the display shows the name of a satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameDisplay {
     /// Upper case: the antenna points at it.
     OnSatellite,
     /// Lower case: the antenna points close to it.
     NearSatellite,
-    /// Not at all.
     Hidden,
-    /// A character without meaning.
     Unknown(u8),
 }
 
@@ -124,8 +116,8 @@ impl Status {
         })
     }
 
-    /// The characters between code and ETX. Without track mode and receiver there
-    /// are blanks, as an RC2000A sends them.
+    /// Characters between code and ETX. Blanks stand for an absent track mode and receiver, as
+    /// an RC2000A sends them.
     pub(super) fn data(&self) -> Vec<u8> {
         let mut data = Vec::with_capacity(STATUS_BYTES);
         data.extend_from_slice(self.satellite.field());
@@ -144,9 +136,8 @@ impl Status {
         data
     }
 
-    /// An axis or the polarization turns, or is about to, as far as the
-    /// controller says. An axis whose drive is still may yet run out: compare
-    /// its positions.
+    /// Whether an axis or the polarization turns or is about to, according to the unit. An
+    /// axis whose drive is still may yet coast: compare its positions.
     pub const fn is_moving(&self) -> bool {
         self.azimuth_drive.is_moving()
             || self.elevation_drive.is_moving()

@@ -1,14 +1,14 @@
-//! What the device can be told to remember of a rotator (section 1.1).
+//! Configuration of a rotator in the unit (section 1.1).
 
 use super::{RotatorKind, RotatorName, RotatorNumber, ValueError, WholeDegrees};
 
 /// Largest stop offset, degrees.
 pub const MAX_STOP_OFFSET_DEG: u8 = 10;
 
-/// The configuration of one rotator, which is always sent as a whole.
+/// Configuration of one rotator, which is always sent as a whole.
 ///
-/// It cannot be read back as a whole: a status shows limits, kind and name but
-/// not the stop offset. The field "Offset" of a status is another value.
+/// It cannot be read back as a whole: a status has the limits, kind and name but not the
+/// stop offset. The field "Offset" of a status is another value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Configuration {
     rotator: RotatorNumber,
@@ -20,8 +20,8 @@ pub struct Configuration {
 }
 
 impl Configuration {
-    /// Clockwise and counter-clockwise limit, kind, how many degrees before a
-    /// target the drive is cut off (0 to [`MAX_STOP_OFFSET_DEG`]), and name.
+    /// Clockwise and counter-clockwise limit, kind, stop offset (degrees before a target at
+    /// which the drive is cut off, 0 to [`MAX_STOP_OFFSET_DEG`]), and name.
     pub fn new(
         rotator: RotatorNumber,
         [limit_cw, limit_ccw]: [WholeDegrees; 2],
@@ -35,7 +35,6 @@ impl Configuration {
         Ok(Self { rotator, limit_cw, limit_ccw, kind, stop_offset_deg, name })
     }
 
-    /// Which one is configured.
     pub fn rotator(&self) -> RotatorNumber {
         self.rotator
     }
@@ -50,12 +49,11 @@ impl Configuration {
         self.limit_ccw
     }
 
-    /// Azimuth or elevation.
     pub fn kind(&self) -> RotatorKind {
         self.kind
     }
 
-    /// How many degrees before a target the drive is cut off.
+    /// Degrees before a target at which the drive is cut off.
     pub fn stop_offset_deg(&self) -> u8 {
         self.stop_offset_deg
     }
@@ -64,7 +62,8 @@ impl Configuration {
         &self.name
     }
 
-    /// 22 bytes. The document's example has 12, without the name of its own list.
+    /// Encodes 22 bytes. The document's example has 12: it lacks the name that the document
+    /// itself lists.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let front = format!(
             "|c{}{}{}{}{:02}",

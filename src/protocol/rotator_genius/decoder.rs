@@ -1,4 +1,4 @@
-//! From a byte stream to replies.
+//! Decoder from a byte stream to replies.
 
 use std::collections::VecDeque;
 
@@ -6,65 +6,64 @@ use super::layout::Shape;
 use super::reply::{Start, acknowledgement};
 use super::{Layout, Reply, Status};
 
-/// Longest run of unknown bytes that is reported in one piece.
+/// Maximum length of noise that is reported in one piece.
 pub const MAX_NOISE_BYTES: usize = 256;
-/// What may wait between two calls; more is lost. 56 status replies.
+/// Maximum of bytes that wait between two calls, as many as 56 status replies; more are
+/// lost.
 const MAX_PENDING_BYTES: usize = 4096;
 
-/// What was found in a stream.
+/// Items found in a stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Received {
     Reply(Reply),
-    /// Bytes that are no reply, 1 to [`MAX_NOISE_BYTES`]. The reader has found
-    /// its place again behind them.
+    /// Bytes of no reply, 1 to [`MAX_NOISE_BYTES`]. Behind them the decoder is in step again.
     Noise(Vec<u8>),
-    /// The status has another form than the ones before it. It is given up and
-    /// comes as noise; the next one in this form is taken.
+    /// The status has another form than the ones before it. It is given up as noise; the next
+    /// one in this form is accepted.
     LayoutChanged(Layout),
-    /// The stream began with `V` and a digit, as that of other products of the
-    /// maker, which then ask for a code.
+    /// The stream began with `V` and a digit, like that of the maker's other products, which
+    /// then ask for a code.
     OtherProtocol,
 }
 
-/// Cuts a byte stream into replies.
+/// Splits a byte stream into replies.
 ///
-/// Push what was read, then take until `None`. The stream may be cut and merged
-/// anywhere. Say [`Self::idle`] when nothing came for a while. Holds at most 4 KiB.
+/// Push the bytes that were read, then take items until `None`. The stream may be cut and
+/// merged anywhere. Call [`Self::idle`] when nothing has come for a while. Holds at most 4
+/// KiB.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: VecDeque<u8>,
     /// Bytes were lost after the end of `pending`.
     has_overflowed: bool,
-    /// Bytes in front of `pending` that are no reply.
+    /// Bytes in front of `pending` that belong to no reply.
     noise: Vec<u8>,
-    /// The first bytes of the stream are behind us.
+    /// The first bytes of the stream have been read.
     has_begun: bool,
-    /// The form of the last status.
+    /// Form of the last status.
     layout: Option<Layout>,
 }
 
-/// What stands at the beginning of the pending bytes.
+/// Item at the beginning of the pending bytes.
 enum Front {
     Reply(Reply, usize),
     OtherProtocol,
     LayoutChanged(Layout),
     Noise,
-    /// More bytes are needed to tell.
+    /// Undecided until more bytes come.
     Unfinished {
-        /// How many, when it is a status that lacks nothing but the end of its
-        /// last name.
+        /// Number of missing bytes, for a status that lacks only the end of its last name.
         missing_of_name: Option<usize>,
     },
 }
 
 impl Decoder {
-    /// A decoder at the start of a stream.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Takes bytes of the stream. What does not fit while nobody takes replies
-    /// is lost, and the reply that it cuts with it.
+    /// Takes bytes of the stream. Bytes that do not fit while nobody takes replies are lost,
+    /// together with the reply that they belong to.
     pub fn push(&mut self, bytes: &[u8]) {
         if self.has_overflowed {
             return;
@@ -74,16 +73,16 @@ impl Decoder {
         self.pending.extend(bytes.iter().take(room));
     }
 
-    /// How many bytes wait for the rest of their reply.
+    /// Number of bytes that wait for the rest of their reply.
     pub fn unfinished_bytes(&self) -> usize {
         self.pending.len()
     }
 
-    /// Ends what is unfinished, when nothing came for a while: 250 ms are plenty.
-    /// Gives what is left.
+    /// Ends unfinished replies after nothing has come for a while (250 ms are plenty), and
+    /// returns the items left.
     ///
-    /// A status that lacks only the end of the last name is completed with blanks.
-    /// Everything else is noise, so that no reply is made of two halves.
+    /// A status that lacks only the end of the last name is completed with blanks. Everything
+    /// else is noise, so that no reply is made of two halves.
     pub fn idle(&mut self) -> Vec<Received> {
         let mut seen: Vec<_> = self.by_ref().collect();
         if let Front::Unfinished { missing_of_name: Some(missing) } = self.front() {
@@ -170,7 +169,7 @@ impl Iterator for Decoder {
                 }
                 Front::LayoutChanged(layout) => {
                     self.layout = None;
-                    // Past its header, which would now be taken for a first status.
+                    // Skips the header, which would now pass for a first status.
                     self.give_up_one();
                     return Some(Received::LayoutChanged(layout));
                 }

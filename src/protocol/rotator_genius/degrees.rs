@@ -1,18 +1,17 @@
-//! Whole degrees, and numbers that are filled up with blanks.
+//! Whole degrees, and numbers padded with blanks.
 
 use std::fmt;
 
 use super::ValueError;
 
-/// An angle as the protocol carries it: whole degrees, 0 to 360.
+/// An angle of the protocol: whole degrees, 0 to 360.
 ///
-/// 360 is not folded into 0: on a mount with its stop in the north they can be
-/// opposite ends.
+/// 360 is not folded into 0: on a mount with its stop in the north they can be opposite
+/// ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WholeDegrees(u16);
 
 impl WholeDegrees {
-    /// The largest.
     pub const MAX: Self = Self(360);
 
     /// `degrees` from 0 to 360.
@@ -20,14 +19,14 @@ impl WholeDegrees {
         Self::nearest(f64::from(degrees))
     }
 
-    /// `degrees`, or 360 when they are more.
+    /// Clamps `degrees` to 360.
     pub const fn saturating(degrees: u16) -> Self {
         if degrees > Self::MAX.0 { Self::MAX } else { Self(degrees) }
     }
 
-    /// The nearest to `degrees`, which must lie between 0 and 360.
+    /// Rounds `degrees`, which must be between 0 and 360.
     pub fn nearest(degrees: f64) -> Result<Self, ValueError> {
-        // Written so that NaN falls out as well.
+        // This form refuses NaN too.
         if (0.0..=f64::from(Self::MAX.0)).contains(&degrees) {
             Ok(Self(degrees.round() as u16))
         } else {
@@ -35,17 +34,16 @@ impl WholeDegrees {
         }
     }
 
-    /// The number.
     pub const fn degrees(self) -> u16 {
         self.0
     }
 
-    /// Three digits, zeros in front, as the document's examples of commands.
+    /// Three digits with leading zeros, as in the document's examples of commands.
     pub(super) fn digits(self) -> String {
         format!("{:03}", self.0)
     }
 
-    /// From a field of a message.
+    /// Reads a field of a message.
     pub(super) fn parse(field: &[u8]) -> Option<Self> {
         let degrees = whole_number(field).and_then(|number| u16::try_from(number).ok())?;
         Self::new(degrees).ok()
@@ -58,7 +56,7 @@ impl fmt::Display for WholeDegrees {
     }
 }
 
-/// `field` without the blanks on either side.
+/// Strips the blanks on either side of `field`.
 pub(super) fn without_blanks(field: &[u8]) -> &[u8] {
     let is_blank = |byte: &u8| *byte == b' ';
     let from = field.iter().position(|byte| !is_blank(byte)).unwrap_or(field.len());
@@ -66,7 +64,7 @@ pub(super) fn without_blanks(field: &[u8]) -> &[u8] {
     field.get(from..until).unwrap_or_default()
 }
 
-/// The digits of a field with blanks on either side, at most four of them.
+/// Reads at most four digits with blanks on either side.
 pub(super) fn whole_number(field: &[u8]) -> Option<i16> {
     let digits = without_blanks(field);
     if !(1..=4).contains(&digits.len()) || !digits.iter().all(u8::is_ascii_digit) {
@@ -75,7 +73,7 @@ pub(super) fn whole_number(field: &[u8]) -> Option<i16> {
     Some(digits.iter().fold(0, |number, digit| number * 10 + i16::from(digit - b'0')))
 }
 
-/// As [`whole_number`], with a sign in front, blanks on either side of it.
+/// Like [`whole_number`], with a sign in front and blanks on either side of it.
 pub(super) fn signed_number(field: &[u8]) -> Option<i16> {
     match without_blanks(field) {
         [b'-', digits @ ..] => whole_number(digits).map(|number| -number),

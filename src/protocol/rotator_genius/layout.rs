@@ -1,15 +1,15 @@
-//! Where the fields of a status stand.
+//! Places of the fields in a status.
 
 use super::RotatorKind;
 use super::reply::Start;
 
-/// The two forms of a status.
+/// Form of a status: there are two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layout {
-    /// 72 bytes, by the list of fields in section 1.0: what devices send.
+    /// 72 bytes, by the list of fields in section 1.0. Units send this form.
     Wide,
-    /// 64 bytes, by the worked example in section 1.0: offsets of 2 and names of
-    /// 10 characters.
+    /// 64 bytes, by the worked example in section 1.0, with offsets of 2 and names of 10
+    /// characters.
     Narrow,
 }
 
@@ -30,18 +30,18 @@ impl Layout {
         }
     }
 
-    /// All fields of one rotator together.
+    /// Length of all fields of one rotator.
     pub(super) const fn rotator_length(self) -> usize {
         18 + self.offset_length() + self.name_length()
     }
 }
 
-/// `|h`, then the bytes "Active" and "Panic".
+/// Length of `|h` and the bytes "Active" and "Panic".
 const HEADER_LENGTH: usize = 4;
-/// Where "Configuration" stands among the fields of a rotator; "Moving" follows.
+/// Index of "Configuration" among the fields of a rotator; "Moving" follows.
 const KIND_AT: usize = 9;
 
-/// Which form a status has and how long its header is.
+/// Form of a status and length of its header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shape {
     pub(super) layout: Layout,
@@ -54,17 +54,17 @@ impl Shape {
         if self.has_panic_byte { HEADER_LENGTH } else { HEADER_LENGTH - 1 }
     }
 
-    /// All bytes of the status.
+    /// Length of the whole status.
     pub(super) const fn length(self) -> usize {
         self.header_length() + 2 * self.layout.rotator_length()
     }
 
-    /// The shape of the status at the beginning of `bytes`, which begin with `|h`.
+    /// Shape of the status at the beginning of `bytes`, which begin with `|h`.
     ///
-    /// No length and no version says it, so it is decided by the letters that
-    /// stand where a form has the kind of its rotators. Digits and blanks stand
-    /// there in the other form, names never do. A text layer on the way may have
-    /// swallowed the zero byte of "Panic": then all places are one lower.
+    /// A status carries neither length nor version. The letters for the kind of the rotators
+    /// decide: in the other form digits and blanks stand at their places, and never names. A
+    /// text layer on the way may have swallowed the zero byte of "Panic", which moves all
+    /// places down by one.
     pub(super) fn decide(bytes: &[u8]) -> Start<Self> {
         for has_panic_byte in [true, false] {
             let start = |layout| Self { layout, has_panic_byte }.header_length();
@@ -88,8 +88,8 @@ impl Shape {
     }
 }
 
-/// Whether kind and motion of a rotator stand where they do when its fields
-/// begin at `at`; `None` when that is not known yet.
+/// Whether kind and motion of a rotator are in their places if its fields begin at `at`;
+/// `None` if too few bytes have come to tell.
 fn has_rotator(bytes: &[u8], at: usize) -> Option<bool> {
     let kind = bytes.get(at + KIND_AT)?;
     let moving = bytes.get(at + KIND_AT + 1)?;

@@ -1,30 +1,28 @@
 //! Names of rotators: Latin-1 in fields of fixed length.
 
-/// Longest name that a configuration carries (section 1.1). A status has room
-/// for 12.
+/// Maximum length of a name in a configuration (section 1.1). A status has room for 12.
 pub const MAX_NAME_BYTES: usize = 10;
 
-/// Why a name cannot be carried.
+/// Reason why a name cannot be carried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NameProblem {
-    /// More than [`MAX_NAME_BYTES`] characters.
     #[error("is longer than {MAX_NAME_BYTES} characters")]
     TooLong,
-    /// A character outside Latin-1, or a control character of it.
+    /// A character outside Latin-1, or one of its control characters.
     #[error("holds a character outside printable Latin-1")]
     NotPrintable,
-    /// The blanks that fill the field would swallow it.
+    /// A blank at an end, which the padding of the field would swallow.
     #[error("begins or ends with a blank")]
     OuterBlank,
 }
 
-/// A name that a configuration can carry; may be empty.
+/// A name for a configuration; may be empty.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RotatorName(String);
 
 impl RotatorName {
-    /// Takes at most [`MAX_NAME_BYTES`] printable characters of Latin-1, no
-    /// blank at either end.
+    /// Accepts at most [`MAX_NAME_BYTES`] printable characters of Latin-1 without a blank at
+    /// either end.
     pub fn new(name: &str) -> Result<Self, NameProblem> {
         let is_printable = |c: char| u8::try_from(c).is_ok() && !c.is_control();
         if !name.chars().all(is_printable) {
@@ -42,15 +40,14 @@ impl RotatorName {
         &self.0
     }
 
-    /// Exactly [`MAX_NAME_BYTES`] bytes, blanks at the end.
+    /// Exactly [`MAX_NAME_BYTES`] bytes, padded with blanks.
     pub(super) fn bytes(&self) -> impl Iterator<Item = u8> {
         let blanks = std::iter::repeat(b' ');
         self.0.chars().filter_map(|c| u8::try_from(c).ok()).chain(blanks).take(MAX_NAME_BYTES)
     }
 }
 
-/// The text of a name field, without what fills it at the ends: blanks, and
-/// zero bytes.
+/// Text of a name field without its padding: blanks and zero bytes at the ends.
 pub(super) fn from_field(field: &[u8]) -> String {
     let text: String = field.iter().map(|byte| char::from(*byte)).collect();
     text.trim_matches([' ', '\0']).to_owned()

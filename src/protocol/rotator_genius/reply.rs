@@ -1,28 +1,27 @@
-//! Replies of the device.
+//! Replies of the unit.
 
 use super::{Status, WholeDegrees};
 
-/// Anything the device answers.
+/// Any reply of the unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Reply {
-    /// To `|h`.
+    /// Reply to `|h`.
     Status(Status),
-    /// To a command.
+    /// Reply to a command.
     Acknowledgement {
-        /// Which command.
         to: Acknowledgement,
-        /// `K` and not `F`. An `F` never says why.
+        /// `K`, not `F`. An `F` never says why.
         is_accepted: bool,
     },
 }
 
-/// The command that is acknowledged. Its rotator is not named.
+/// Command that is acknowledged. The reply does not name the rotator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Acknowledgement {
     /// `|A`.
     GoTo {
-        /// The target, when the reply has the longer form of the document's list
-        /// and repeats one that the protocol has.
+        /// Target, if the reply has the longer form of the document's list and repeats a valid
+        /// one.
         target: Option<WholeDegrees>,
     },
     /// `|P`.
@@ -35,18 +34,17 @@ pub enum Acknowledgement {
     Configure,
 }
 
-/// What the beginning of a stream is.
+/// Result of reading the beginning of a stream.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Start<T> {
-    /// This, made of so many bytes.
+    /// An item, and its number of bytes.
     Whole(T, usize),
-    /// Nothing that is known.
     Unknown,
-    /// More bytes are needed to tell.
+    /// Undecided until more bytes come.
     Unfinished,
 }
 
-/// The acknowledgement at the beginning of `bytes`.
+/// Reads the acknowledgement at the beginning of `bytes`.
 pub(super) fn acknowledgement(bytes: &[u8]) -> Start<Reply> {
     let short = match bytes {
         [] | [b'|'] => return Start::Unfinished,
@@ -60,7 +58,7 @@ pub(super) fn acknowledgement(bytes: &[u8]) -> Start<Reply> {
     ended_by(bytes.get(2), short, 3)
 }
 
-/// Both forms: the document's list has 6 bytes, its example 3.
+/// Reads both forms: the document's list has 6 bytes, its example 3.
 fn go_to(bytes: &[u8]) -> Start<Reply> {
     let is_filler = |byte: &u8| byte.is_ascii_digit() || *byte == b' ';
     let field = bytes.get(2..5.min(bytes.len())).unwrap_or_default();

@@ -2,22 +2,20 @@
 
 use super::{Configuration, NameProblem, WholeDegrees};
 
-/// Anything a client can ask. Every value was checked when it was built, so
-/// each request has bytes.
+/// Any request of a client. Its values were checked when it was built, so encoding cannot
+/// fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Request {
-    /// `|h`: reads everything and changes nothing.
+    /// `|h`: reads everything without changing anything.
     Read,
     /// `|S`: stops both rotators; there is no stop for one.
     Stop,
-    /// Can make metal move.
     Motion(Motion),
-    /// `|c`: changes what the device remembers of one rotator.
+    /// `|c`: changes the configuration of one rotator in the unit.
     Configure(Configuration),
 }
 
-/// A request that can make metal move. Only the gate of the driver may turn one
-/// into bytes.
+/// A request that can make metal move. Only the gate of the driver may encode one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
     /// `|A`: turn to an angle.
@@ -26,12 +24,12 @@ pub enum Motion {
         /// Azimuth or elevation.
         target: WholeDegrees,
     },
-    /// `|P` or `|M`: turn until stopped. Inside its limits the device itself
-    /// stops at the limit; outside nothing but `|S` ends it.
+    /// `|P` or `|M`: turn until stopped. Inside its limits the unit itself stops at the limit;
+    /// outside them only `|S` ends the motion.
     Rotate { rotator: RotatorNumber, direction: Direction },
 }
 
-/// One of the two rotators of a device.
+/// One of the two rotators of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RotatorNumber {
     One,
@@ -39,7 +37,6 @@ pub enum RotatorNumber {
 }
 
 impl RotatorNumber {
-    /// Both.
     pub const ALL: [Self; 2] = [Self::One, Self::Two];
 
     /// Rotator 1 or 2.
@@ -48,7 +45,6 @@ impl RotatorNumber {
         known.ok_or(ValueError::Rotator(number))
     }
 
-    /// 1 or 2.
     pub const fn number(self) -> u8 {
         match self {
             Self::One => 1,
@@ -56,7 +52,7 @@ impl RotatorNumber {
         }
     }
 
-    /// The one of `pair` that belongs to it.
+    /// Item of `pair` that belongs to this rotator.
     pub fn of<T>(self, pair: &[T; 2]) -> &T {
         let [one, two] = pair;
         match self {
@@ -65,7 +61,7 @@ impl RotatorNumber {
         }
     }
 
-    /// The one of `pair` that belongs to it, to be changed.
+    /// Mutable item of `pair` that belongs to this rotator.
     pub fn of_mut<T>(self, pair: &mut [T; 2]) -> &mut T {
         let [one, two] = pair;
         match self {
@@ -84,10 +80,10 @@ pub enum Direction {
     CounterClockwise,
 }
 
-/// Why a value cannot be sent.
+/// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// The device has rotators 1 and 2.
+    /// Not rotator 1 or 2.
     #[error("rotator {0} is not 1 or 2")]
     Rotator(u8),
     /// Not between 0 and 360, or not a number.
@@ -96,13 +92,12 @@ pub enum ValueError {
     /// Not between 0 and 10.
     #[error("stop offset {0} is not between 0 and 10 degrees")]
     StopOffset(u8),
-    /// A name that cannot be carried.
     #[error("the name {0}")]
     Name(#[from] NameProblem),
 }
 
 impl Request {
-    /// What goes over the wire, to be sent in one piece. There is no terminator.
+    /// Bytes to send in one piece. There is no terminator.
     pub fn to_bytes(&self) -> Vec<u8> {
         let text = match self {
             Self::Read => "|h".to_owned(),

@@ -1,4 +1,4 @@
-//! From bytes to a request: the side of a device, or of its simulator.
+//! Requests read from bytes, as a unit or its simulator does.
 
 use super::degrees::whole_number;
 use super::{
@@ -6,21 +6,20 @@ use super::{
     WholeDegrees, name,
 };
 
-/// Why bytes are no request.
+/// Reason why bytes are not a request.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RequestError {
     /// Not a command of the document.
     #[error("unknown request")]
     Unknown,
-    /// Not the number of bytes of this command.
+    /// Wrong length for this command.
     #[error("{found} bytes instead of {expected}")]
     Length {
-        /// How many came.
+        /// Bytes received.
         found: usize,
-        /// How many the command has.
         expected: usize,
     },
-    /// An angle or a number that cannot be read, or another kind than `A` and `E`.
+    /// An unreadable angle or number, or a kind other than `A` and `E`.
     #[error("unreadable field")]
     Field,
     /// A value that the protocol does not have.
@@ -29,8 +28,8 @@ pub enum RequestError {
 }
 
 impl Request {
-    /// How many bytes the command with this letter has, the bar counted;
-    /// `None` when the document knows no such command.
+    /// Length in bytes of the command with this letter, the bar included; `None` if the
+    /// document has no such command.
     pub const fn length(letter: u8) -> Option<usize> {
         match letter {
             b'h' | b'S' => Some(2),
@@ -41,8 +40,8 @@ impl Request {
         }
     }
 
-    /// Reads one whole request. Numbers may have blanks on either side, as the
-    /// document allows.
+    /// Reads one whole request. Numbers may have blanks on either side, as the document
+    /// allows.
     pub fn parse(bytes: &[u8]) -> Result<Self, RequestError> {
         let [b'|', letter, values @ ..] = bytes else { return Err(RequestError::Unknown) };
         let expected = Self::length(*letter).ok_or(RequestError::Unknown)?;

@@ -1,68 +1,65 @@
-//! The status of both rotators (section 1.0).
+//! Status of both rotators (section 1.0).
 
 use super::degrees::{signed_number, without_blanks};
 use super::layout::Shape;
 use super::{Layout, RotatorNumber, WholeDegrees, name};
 
-/// Everything the device tells about itself.
+/// Status reply of the unit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Status {
-    /// The form that was received.
+    /// Form of the reply.
     pub layout: Layout,
-    /// Not used any more, says the document. Devices send `2`.
+    /// No longer used, according to the document. Units send `2`.
     pub active: u8,
-    /// Zero when everything is well; other codes are not defined. `None` when the
-    /// byte was lost on the way.
+    /// Zero when all is well; other codes are not defined. `None` if the byte was lost on the
+    /// way.
     pub panic: Option<u8>,
-    /// Both rotators.
     pub rotators: [Rotator; 2],
 }
 
-/// What the device tells about one rotator.
+/// State of one rotator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rotator {
-    /// Where it points. The device has added its offset already.
+    /// Measured angle. The unit has added its offset already.
     pub position: Result<WholeDegrees, NoPosition>,
-    /// The end of the travel clockwise. The document's own example contradicts
-    /// the natural meaning, so no arc can be computed from both limits.
+    /// End of the travel clockwise. The document's own example contradicts the natural
+    /// meaning, so no arc can be computed from both limits.
     pub limit_cw: Option<WholeDegrees>,
-    /// The end of the travel counter-clockwise.
+    /// End of the travel counter-clockwise.
     pub limit_ccw: Option<WholeDegrees>,
-    /// Azimuth or elevation.
     pub kind: RotatorKind,
-    /// Whether it is driven, and which way.
+    /// Whether and which way the rotator is driven.
     pub moving: Moving,
-    /// Magnetic declination and the like, degrees, as received; `None` when blank
-    /// or unreadable. Not the stop offset of a configuration.
+    /// Magnetic declination and the like, degrees, as received; `None` if blank or unreadable.
+    /// Not the stop offset of a configuration.
     pub offset_deg: Option<i16>,
-    /// Where it is going; `None` when nowhere.
+    /// Target angle; `None` without one.
     pub target: Option<WholeDegrees>,
-    /// Where it was when it set out for the target.
+    /// Angle at which the rotator set out for the target.
     pub start: Option<WholeDegrees>,
-    /// Whether it stands outside its limits; `None` when the byte is none of
-    /// those that are known.
+    /// Whether the rotator is outside its limits; `None` if the byte is unknown.
     pub is_outside_limits: Option<bool>,
     pub name: String,
 }
 
-/// Why there is no position.
+/// Reason why there is no position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum NoPosition {
     /// 999.
     #[error("the sensor is not connected")]
     NoSensor,
-    /// Nothing but blanks.
+    /// Only blanks.
     #[error("no position is given")]
     Blank,
     /// A number over 360 other than 999.
     #[error("the position is over 360 degrees")]
     OutOfRange,
-    /// No number.
+    /// Not a number.
     #[error("the position is not a number")]
     NotANumber,
 }
 
-/// Which angle a rotator turns.
+/// Angle that a rotator turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum RotatorKind {
     /// `A`.
@@ -72,7 +69,6 @@ pub enum RotatorKind {
 }
 
 impl RotatorKind {
-    /// The kind with this letter.
     pub const fn from_letter(letter: u8) -> Option<Self> {
         match letter {
             b'A' => Some(Self::Azimuth),
@@ -81,7 +77,6 @@ impl RotatorKind {
         }
     }
 
-    /// The letter on the wire.
     pub const fn letter(self) -> u8 {
         match self {
             Self::Azimuth => b'A',
@@ -90,10 +85,9 @@ impl RotatorKind {
     }
 }
 
-/// Whether a rotator is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Moving {
-    /// `0`. It may still coast.
+    /// `0`. The rotator may still coast.
     Stopped,
     /// `1`.
     Clockwise,
@@ -102,12 +96,11 @@ pub enum Moving {
 }
 
 impl Status {
-    /// What is told about one rotator.
     pub fn rotator(&self, number: RotatorNumber) -> &Rotator {
         number.of(&self.rotators)
     }
 
-    /// Reads a status of this shape; `None` when `bytes` are not as long as it.
+    /// Reads a status of this shape; `None` unless `bytes` have its length.
     pub(super) fn read(shape: Shape, bytes: &[u8]) -> Option<Self> {
         let (header, rotators) = bytes.split_at_checked(shape.header_length())?;
         let (one, two) = rotators.split_at_checked(shape.layout.rotator_length())?;
@@ -142,7 +135,7 @@ impl Rotator {
             offset_deg: signed_number(field(layout.offset_length())?),
             target: WholeDegrees::parse(field(3)?),
             start: WholeDegrees::parse(field(3)?),
-            // The document has digits, devices send a zero byte.
+            // The document has digits, but units send a zero byte.
             is_outside_limits: match field(1)? {
                 [0] | b"0" | b" " => Some(false),
                 [1] | b"1" => Some(true),

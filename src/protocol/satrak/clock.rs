@@ -9,13 +9,12 @@ use super::fields::{FieldError, Fields, time_values};
 /// A clock that shows an earlier year was never set: the unit starts in 2000.
 const FIRST_PLAUSIBLE_YEAR: i16 = 2010;
 
-/// Reply to `TIME?`: the clock of the unit.
+/// Reply to `TIME?`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Clock {
-    /// The time shown, UTC.
+    /// Time of the unit's clock, UTC.
     pub time: Timestamp,
-    /// Whether the reply had milliseconds; the document lists them but leaves
-    /// them out of its example.
+    /// The reply had milliseconds. The document lists them but leaves them out of its example.
     pub has_milliseconds: bool,
 }
 
@@ -26,7 +25,7 @@ impl Clock {
         Ok(Self { time, has_milliseconds })
     }
 
-    /// Whether somebody ever set the clock: the year is 2010 or later.
+    /// Whether the clock was ever set: the year is 2010 or later.
     pub fn is_set(self) -> bool {
         TimeZone::UTC.to_datetime(self.time).year() >= FIRST_PLAUSIBLE_YEAR
     }
@@ -37,12 +36,12 @@ impl Clock {
 pub struct ClockTime(Timestamp);
 
 impl ClockTime {
-    /// `time` cut to its second; the year must be between 2000 and 2099.
+    /// Cuts `time` to its second. The year must be between 2000 and 2099.
     pub fn new(time: Timestamp) -> Result<Self, ValueError> {
         whole_second(time).map(Self)
     }
 
-    /// The time, UTC, a whole second.
+    /// UTC, a whole second.
     pub fn time(self) -> Timestamp {
         self.0
     }
@@ -65,9 +64,9 @@ fn whole_second(time: Timestamp) -> Result<Timestamp, ValueError> {
 /// Reply to `START_STOP_TIME?`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StartStopTime {
-    /// When tracking starts, UTC.
+    /// Start of tracking, UTC.
     pub start: Timestamp,
-    /// When tracking stops, UTC; may be before the start in an unset unit.
+    /// End of tracking, UTC; may be before the start in a unit that was never set.
     pub stop: Timestamp,
 }
 
@@ -76,13 +75,12 @@ impl StartStopTime {
         Ok(Self { start: fields.time(1, 0)?, stop: fields.time(7, 0)? })
     }
 
-    /// Whether the stop time is after the start time.
     pub fn is_ordered(self) -> bool {
         self.start < self.stop
     }
 }
 
-/// Values of `START_STOP_TIME=`: the stop time is after the start time.
+/// Values of `START_STOP_TIME=`, with the stop time after the start time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TrackWindow {
     start: Timestamp,
@@ -90,7 +88,7 @@ pub struct TrackWindow {
 }
 
 impl TrackWindow {
-    /// Both cut to their second; the years must be between 2000 and 2099.
+    /// Cuts both times to their second. The years must be between 2000 and 2099.
     pub fn new(start: Timestamp, stop: Timestamp) -> Result<Self, ValueError> {
         let (start, stop) = (whole_second(start)?, whole_second(stop)?);
         if stop <= start {
@@ -99,12 +97,12 @@ impl TrackWindow {
         Ok(Self { start, stop })
     }
 
-    /// When tracking starts, UTC, a whole second.
+    /// Start of tracking, UTC, a whole second.
     pub fn start(self) -> Timestamp {
         self.start
     }
 
-    /// When tracking stops, UTC, a whole second.
+    /// End of tracking, UTC, a whole second.
     pub fn stop(self) -> Timestamp {
         self.stop
     }
@@ -114,7 +112,7 @@ impl TrackWindow {
     }
 }
 
-/// Reply to `TPOS?`: a position with its time.
+/// Reply to `TPOS?`: a position and its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedPosition {
     /// First angle as reported, degrees. The document calls it X, but its
@@ -122,7 +120,7 @@ pub struct TimedPosition {
     pub x_deg: f64,
     /// Second angle as reported, degrees: Y, or elevation.
     pub y_deg: f64,
-    /// When the angles were measured, UTC by the unit's clock.
+    /// Time of the measurement, UTC by the unit's clock.
     pub time: Timestamp,
 }
 

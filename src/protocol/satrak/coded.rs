@@ -1,7 +1,7 @@
-//! Choices that stand as numbers on the wire.
+//! Enums that are numbers on the wire.
 
-/// Declares an enum whose variants stand for numbers; a number without meaning
-/// is kept as `Unknown`.
+/// Declares an enum with a number for each variant. Numbers without a meaning are kept as
+/// `Unknown`.
 macro_rules! coded {
     ($(#[$about:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $code:literal,)* }) => {
         $(#[$about])*
@@ -13,7 +13,6 @@ macro_rules! coded {
         }
 
         impl $name {
-            /// The choice with this number.
             pub const fn from_code(code: i64) -> Self {
                 match code {
                     $($code => Self::$variant,)*
@@ -21,7 +20,6 @@ macro_rules! coded {
                 }
             }
 
-            /// The number on the wire.
             pub const fn code(self) -> i64 {
                 match self {
                     $(Self::$variant => $code,)*

@@ -1,4 +1,4 @@
-//! Every value of a frame with its number, name and unit in the document.
+//! Values of a frame, each with its number, name and unit from the document.
 
 mod names;
 
@@ -8,19 +8,18 @@ use names::{Named, Names};
 /// One value of a frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Value {
-    /// Its place among the values of the frame, counted from 1 as the document does.
+    /// Position in the frame, counted from 1 as the document does.
     pub number: usize,
-    /// What it is.
     pub name: &'static str,
-    /// As it stands in the frame, blanks around it removed.
+    /// Text in the frame, without the blanks around it.
     pub raw: String,
-    /// Unit of a number; empty for other values.
+    /// Unit of measure; empty if the value is not a number.
     pub unit: &'static str,
-    /// What a code stands for; empty for a number or a text.
+    /// Meaning of a code; empty for a number or a text.
     pub stands_for: &'static str,
 }
 
-/// The values of a frame that was sent to a unit.
+/// Explains a frame that was sent to a unit.
 pub fn explain_request(frame: &Frame) -> Vec<Value> {
     match frame.command() {
         Some((Word::SatelliteFtp, Verb::Set)) => vec![hidden()],
@@ -29,7 +28,7 @@ pub fn explain_request(frame: &Frame) -> Vec<Value> {
     }
 }
 
-/// The values of a frame that came from a unit.
+/// Explains a frame that came from a unit.
 pub fn explain_reply(frame: &Frame) -> Vec<Value> {
     let is_error = frame.fields().first().is_some_and(|field| field == "ERR");
     match frame.command() {
@@ -41,13 +40,13 @@ pub fn explain_reply(frame: &Frame) -> Vec<Value> {
     }
 }
 
-/// What fault has this number in the answer to `ERRSTATUS?`, counted from 1.
+/// Name of fault `number` in the answer to `ERRSTATUS?`, counted from 1.
 pub(super) fn fault_name(number: usize) -> &'static str {
     let named = names::of_reply(Word::ErrStatus).named;
     number.checked_sub(1).and_then(|at| named.get(at)).map_or(names::UNKNOWN, |named| named.name)
 }
 
-/// Stands for values with a password among them.
+/// Placeholder for all values of a frame that holds a password.
 fn hidden() -> Value {
     let raw = HIDDEN.to_owned();
     Value { number: 1, name: "values with a password", raw, unit: "", stands_for: "" }
@@ -74,7 +73,7 @@ fn explain(frame: &Frame, names: Names) -> Vec<Value> {
         .collect()
 }
 
-/// The values; one that may hold commas is in one piece.
+/// Texts of the values; one that may hold commas stays in one piece.
 fn raw_values(frame: &Frame, names: Names) -> Vec<String> {
     let fields = frame.fields();
     let whole = names.text_at.and_then(|before| {

@@ -6,9 +6,8 @@ use super::fields::{FieldError, Fields};
 /// One of the twelve faults and warnings, in the order of the document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// Control and drive unit do not talk to each other.
+    /// No communication between control unit and drive unit.
     InternalLink,
-    /// The elements are out of date.
     TleOutdated,
     /// The file with the elements was not found.
     TleMissing,
@@ -16,13 +15,10 @@ pub enum FaultKind {
     SatelliteMissing,
     /// The elements could not be read from the web.
     WebTle,
-    /// Tracking stopped by an error.
+    /// An error stopped tracking.
     TrackingStopped,
-    /// The setup is wrong.
     Setup,
-    /// Motor of the X axis.
     XMotor,
-    /// Motor of the Y axis.
     YMotor,
     /// Position sensor of the X axis.
     XSensor,
@@ -54,12 +50,13 @@ impl FaultKind {
         self as usize + 1
     }
 
-    /// Whether this only warns: the antenna can do its work. Own classification.
+    /// Whether the fault is only a warning: the antenna can do its work. Azel's own
+    /// classification.
     pub const fn is_warning(self) -> bool {
         matches!(self, Self::TleOutdated | Self::WebTle | Self::GpsLink)
     }
 
-    /// Whether the antenna must not be moved with this fault. Own classification.
+    /// Whether the fault forbids motion. Azel's own classification.
     pub const fn locks_motion(self) -> bool {
         matches!(
             self,
@@ -78,9 +75,7 @@ impl FaultKind {
 }
 
 coded! {
-    /// State of one fault.
     FaultState {
-        /// No fault.
         Clear = 0,
         /// The fault exists; for a sensor, its configuration is wrong.
         Set = 1,
@@ -90,21 +85,20 @@ coded! {
 }
 
 impl FaultState {
-    /// Whether there is anything but all clear.
+    /// Whether the state is anything but [`Self::Clear`].
     pub fn is_set(self) -> bool {
         self != Self::Clear
     }
 }
 
-/// All faults and warnings of the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Faults {
-    /// `None` for what the unit does not report.
+    /// `None` for a fault that the unit does not report.
     states: [Option<FaultState>; 12],
 }
 
 impl Faults {
-    /// The document's own example leaves the last field out.
+    /// Fewest fields of a reply: the document's own example leaves the last one out.
     pub(super) const MIN_FIELDS: usize = 11;
     pub(super) const FIELDS: usize = 12;
 
@@ -123,22 +117,21 @@ impl Faults {
         Ok(Self { states })
     }
 
-    /// State of one fault; `None` when the unit does not report it.
+    /// State of one fault; `None` if the unit does not report it.
     pub fn state(&self, kind: FaultKind) -> Option<FaultState> {
         self.states.get(kind.index() - 1).copied().flatten()
     }
 
-    /// Every kind with its state, in the order of the document.
+    /// All kinds with their states, in the order of the document.
     pub fn iter(&self) -> impl Iterator<Item = (FaultKind, Option<FaultState>)> {
         FaultKind::ALL.into_iter().zip(self.states)
     }
 
-    /// The kinds that are not clear.
+    /// Faults that are not clear.
     pub fn active(&self) -> impl Iterator<Item = FaultKind> {
         self.iter().filter(|(_, state)| state.is_some_and(FaultState::is_set)).map(|(kind, _)| kind)
     }
 
-    /// Whether any fault forbids motion.
     pub fn lock_motion(&self) -> bool {
         self.active().any(FaultKind::locks_motion)
     }

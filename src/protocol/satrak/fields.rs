@@ -1,4 +1,4 @@
-//! Reading the values of a frame by their number in the document.
+//! Values of a frame, read by their number in the document.
 
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
@@ -7,36 +7,32 @@ use jiff::{SignedDuration, Timestamp};
 use super::Frame;
 use super::number::{parse_decimal, parse_integer};
 
-/// What is wrong with a value.
+/// Problem with a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum FieldProblem {
-    /// It is not there.
     #[error("is missing")]
     Missing,
-    /// It should be a number.
     #[error("is not a number")]
     NotNumber,
-    /// It should be a whole number.
     #[error("is not a whole number")]
     NotInteger,
-    /// It should be a number of a smaller range.
+    /// A number outside the range of its type.
     #[error("is out of range")]
     Range,
-    /// With the values after it, it is no date and time.
+    /// This value and those after it form no date and time.
     #[error("begins no possible date and time")]
     NotTime,
-    /// It is no latitude or longitude with a letter of direction.
+    /// Not a latitude or longitude with a letter of direction.
     #[error("is no latitude or longitude")]
     NotPlace,
 }
 
-/// A value that could not be read. Holds no text of it, for it may be secret.
+/// A value that could not be read. The error holds none of its text, which may be secret.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("value {field} {problem}")]
 pub struct FieldError {
-    /// Which value, counted from 1 as the document does.
+    /// Number of the value, counted from 1 as in the document.
     pub field: usize,
-    /// What is wrong with it.
     pub problem: FieldProblem,
 }
 
@@ -74,14 +70,13 @@ impl<'a> Fields<'a> {
         T::try_from(value).map_err(|_| FieldError { field, problem: FieldProblem::Range })
     }
 
-    /// Whether a number is anything but zero, so that an unexplained number
-    /// counts as set.
+    /// Reads a flag: any number but zero counts as set, so that an unexplained one does too.
     pub(super) fn flag(self, field: usize) -> Result<bool, FieldError> {
         self.integer::<i64>(field).map(|value| value != 0)
     }
 
-    /// Six values from `first` on: hour, minute, second, day, month, year.
-    /// `base_year` is added to the year.
+    /// Reads six values from `first` on: hour, minute, second, day, month, year. Adds
+    /// `base_year` to the year.
     pub(super) fn time(self, first: usize, base_year: i16) -> Result<Timestamp, FieldError> {
         let impossible = FieldError { field: first, problem: FieldProblem::NotTime };
         let part = |offset| self.integer::<i8>(first + offset);
@@ -94,7 +89,7 @@ impl<'a> Fields<'a> {
             .ok_or(impossible)
     }
 
-    /// As [`Self::time`], with milliseconds in the value after the year.
+    /// Like [`Self::time`], with milliseconds in the value after the year.
     pub(super) fn time_with_ms(self, first: usize) -> Result<Timestamp, FieldError> {
         let field = first + 6;
         let milliseconds: u16 = self.integer(field)?;
@@ -106,7 +101,7 @@ impl<'a> Fields<'a> {
             .map_err(|_| FieldError { field: first, problem: FieldProblem::NotTime })
     }
 
-    /// One value that may hold commas, between `before` and `after` others.
+    /// Reads one value that may hold commas, between `before` and `after` others.
     pub(super) fn joined(self, before: usize, after: usize) -> Result<String, FieldError> {
         self.frame
             .joined(before, after)
@@ -114,7 +109,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// A time in the order of the document: hour, minute, second, day, month, year.
+/// Values of a time in the order of the document: hour, minute, second, day, month, year.
 pub(super) fn time_values(time: Timestamp) -> [String; 6] {
     let civil = TimeZone::UTC.to_datetime(time);
     [

@@ -20,25 +20,25 @@ pub enum Oddity {
     OneDigitChecksum,
     /// The line ends with LF alone.
     LineFeedOnly,
-    /// Other bytes stood before the `$`.
+    /// Other bytes came before the `$`.
     NoiseBeforeHeader,
-    /// Blanks stood between the word and its sign.
+    /// Blanks between the word and its sign.
     BlankBeforeSign,
 }
 
-/// The payload of a frame whose checksum was right, cut into its parts.
+/// Payload of a frame with a correct checksum, split into its parts.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Frame {
     word: String,
     fields: Vec<String>,
     line: String,
-    /// Where the values begin in `line`, after the sign and one comma.
+    /// Start of the values in `line`, after the sign and one comma.
     values_at: Option<usize>,
     oddities: Vec<Oddity>,
 }
 
 impl Frame {
-    /// Cuts a payload (without `$`, checksum and line end) into its parts.
+    /// Splits a payload (without `$`, checksum and line end) into its parts.
     pub fn from_payload(payload: &str) -> Self {
         let line = payload.to_owned();
         let (name, sign, rest_at) = if let Some(at) = line.find(['?', '=']) {
@@ -54,7 +54,7 @@ impl Frame {
             if trimmed.len() < name.len() { vec![Oddity::BlankBeforeSign] } else { Vec::new() };
         let word = format!("{trimmed}{sign}");
         let rest = line.get(rest_at..).unwrap_or_default();
-        // `STATUS?0,..` and `STATUS?,0,..` both stand in the document.
+        // The document writes both `STATUS?0,..` and `STATUS?,0,..`.
         let values_at = match rest.strip_prefix(',') {
             Some(_) => Some(rest_at + 1),
             None if rest.is_empty() => None,
@@ -65,12 +65,12 @@ impl Frame {
         frame
     }
 
-    /// The word with its sign, as `STATUS?` or `MOVE=`, blanks before it removed.
+    /// Word with its sign, such as `STATUS?` or `MOVE=`, without blanks before it.
     pub fn word(&self) -> &str {
         &self.word
     }
 
-    /// The word and what is done with it, when the document knows the word.
+    /// Word and verb, if the document has the word.
     pub fn command(&self) -> Option<(Word, Verb)> {
         let (name, verb) = match self.word.strip_suffix('?') {
             Some(name) => (name, Verb::Query),
@@ -79,28 +79,28 @@ impl Frame {
         Some((Word::from_name(name)?, verb))
     }
 
-    /// The values, blanks around each removed.
+    /// Values, without the blanks around each.
     pub fn fields(&self) -> &[String] {
         &self.fields
     }
 
-    /// The payload as received. May hold the FTP password: log [`Self::redacted`].
+    /// Payload as received. May hold the FTP password: log [`Self::redacted`].
     pub fn line(&self) -> &str {
         &self.line
     }
 
-    /// The payload for logs and screens, without secrets.
+    /// Payload for logs and screens, without secrets.
     pub fn redacted(&self) -> Cow<'_, str> {
         redact(&self.line)
     }
 
-    /// What deviated from the document.
+    /// Deviations from the document.
     pub fn oddities(&self) -> &[Oddity] {
         &self.oddities
     }
 
-    /// One value that may contain commas: everything after the first `before`
-    /// fields and in front of the last `after` ones, commas and inner blanks kept.
+    /// One value that may contain commas: everything between the first `before` and the last
+    /// `after` fields, with its commas and inner blanks.
     pub(super) fn joined(&self, before: usize, after: usize) -> Option<String> {
         let raw: Vec<&str> = self.raw_fields().collect();
         let middle = raw.get(before..raw.len().checked_sub(after)?)?;
@@ -126,8 +126,8 @@ impl fmt::Debug for Frame {
     }
 }
 
-/// `payload` for logs: the values of `SATELLITE_FTP` hold a password in clear
-/// and are left out.
+/// Makes `payload` fit for logs: leaves out the values of `SATELLITE_FTP`, which hold a
+/// password in clear.
 pub fn redact(payload: &str) -> Cow<'_, str> {
     let name = Word::SatelliteFtp.name();
     match payload.find(name) {
@@ -139,12 +139,12 @@ pub fn redact(payload: &str) -> Cow<'_, str> {
     }
 }
 
-/// The checksum: XOR of every payload byte (document chapter "Message structure").
+/// Checksum: XOR of every payload byte (document chapter "Message structure").
 pub fn checksum(payload: &[u8]) -> u8 {
     payload.iter().fold(0, |sum, byte| sum ^ byte)
 }
 
-/// The frame around `payload`, ready to send.
+/// Frame around `payload`, ready to send.
 pub fn encode(payload: &str) -> Vec<u8> {
     format!("${payload}*{:02X}\r\n", checksum(payload.as_bytes())).into_bytes()
 }

@@ -6,12 +6,12 @@ use super::ValueError;
 use super::fields::{FieldError, FieldProblem, Fields};
 use super::number::{checked, parse_decimal};
 
-/// The receiver reports two digits of the year.
+/// Added to the year: the receiver reports two digits of it.
 const CENTURY: i16 = 2000;
 
-/// A place as the protocol writes it: degrees with a letter. Read as decimal
-/// degrees; degrees and minutes (`41.01` for 41 degrees 1 minute) would fit the
-/// document's example as well.
+/// A place as the protocol writes it: degrees with a letter, taken as decimal degrees. The
+/// document's example would fit degrees and minutes as well (`41.01` for 41 degrees 1
+/// minute).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
     latitude_deg: f64,
@@ -38,7 +38,7 @@ impl Position {
         self.longitude_deg
     }
 
-    /// Two values from `first` on: latitude and longitude.
+    /// Reads two values from `first` on: latitude and longitude.
     pub(super) fn read(fields: Fields<'_>, first: usize) -> Result<Self, FieldError> {
         let angle = |field, plus, minus| {
             lettered(fields.text(field)?, plus, minus)
@@ -46,7 +46,7 @@ impl Position {
         };
         let latitude_deg = angle(first, 'N', 'S')?;
         let longitude_deg = angle(first + 1, 'E', 'W')?;
-        // Kept as fine as reported: only what is sent is rounded.
+        // Keeps the precision of the report: only values that are sent are rounded.
         if latitude_deg.abs() > 90.0 || longitude_deg.abs() > 180.0 {
             return Err(FieldError { field: first, problem: FieldProblem::Range });
         }
@@ -61,7 +61,7 @@ impl Position {
     }
 }
 
-/// A number whose sign is the letter after it.
+/// Reads a number with its sign given by the letter after it.
 fn lettered(text: &str, plus: char, minus: char) -> Option<f64> {
     let letter = text.chars().next_back()?.to_ascii_uppercase();
     let magnitude = parse_decimal(text.get(..text.len() - 1)?.trim_end())?;
@@ -76,9 +76,9 @@ fn lettered(text: &str, plus: char, minus: char) -> Option<f64> {
 /// Reply to `GPS_DATA?`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsData {
-    /// The receiver has a fix. Without it nothing else here counts.
+    /// The receiver has a fix. Without one no other field counts.
     pub valid: bool,
-    /// Where the receiver is; `None` when not valid and not readable.
+    /// Place of the receiver; `None` when not valid and not readable.
     pub position: Option<Position>,
     /// Time of the fix, UTC; `None` when not valid and not readable.
     pub time: Option<Timestamp>,
@@ -89,7 +89,7 @@ impl GpsData {
         let valid = fields.integer::<i64>(3)? == 1;
         let position = Position::read(fields, 1);
         let time = fields.time(4, CENTURY);
-        // A receiver that searches fills these fields with anything.
+        // A receiver without a fix fills these fields with anything.
         if valid {
             return Ok(Self { valid, position: Some(position?), time: Some(time?) });
         }
@@ -100,9 +100,9 @@ impl GpsData {
 /// Reply to `GPS_SETTINGS?`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsSettings {
-    /// The place comes from the receiver instead of from here.
+    /// The unit takes its place from the receiver, not from `position`.
     pub automatic: bool,
-    /// The place set by hand; `None` when automatic and not readable.
+    /// Place set by hand; `None` when automatic and not readable.
     pub position: Option<Position>,
 }
 
@@ -115,13 +115,13 @@ impl GpsSettings {
     }
 }
 
-/// Values of `GPS_SETTINGS=`. All three are always sent, for the document does
-/// not say that the place may be left out.
+/// Values of `GPS_SETTINGS=`. All three are always sent, for the document does not say
+/// that the place may be left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GpsSettingsChange {
     /// Take the place from the receiver.
     pub automatic: bool,
-    /// The place set by hand.
+    /// Place set by hand.
     pub position: Position,
 }
 

@@ -1,4 +1,4 @@
-//! What a frame says, in one plain sentence.
+//! Meaning of a frame in one plain sentence.
 
 mod received;
 mod sent;
@@ -7,27 +7,25 @@ use jiff::Timestamp;
 
 use super::{Frame, Position, number};
 
-/// One sentence and how it is to be taken.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Meaning {
-    /// How it is to be taken.
     pub tone: Tone,
-    /// The sentence, without a full stop.
+    /// Sentence without a full stop.
     pub text: String,
 }
 
-/// How a sentence is to be taken.
+/// Tone of a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
-    /// Something is asked or told.
+    /// A question or a report.
     Plain,
-    /// Something is to be changed or to move.
+    /// A change of a setting, or a motion.
     Change,
-    /// It was accepted.
+    /// Accepted.
     Good,
-    /// It is not in the document.
+    /// Not in the document.
     Caution,
-    /// It was refused, or cannot be read.
+    /// Refused or unreadable.
     Bad,
 }
 
@@ -36,29 +34,29 @@ impl Meaning {
         Self { tone, text: text.into() }
     }
 
-    /// What a client says with this frame.
+    /// Meaning of a client's frame.
     pub fn of_request(frame: &Frame) -> Self {
         sent::meaning(frame)
     }
 
-    /// What a unit says with this frame.
+    /// Meaning of a unit's frame.
     pub fn of_reply(frame: &Frame) -> Self {
         received::meaning(frame)
     }
 }
 
-/// Up to three decimals, with a true minus sign.
+/// A number with up to three decimals and a true minus sign.
 fn plain(value: f64) -> String {
     number::plain(value).replace('-', "\u{2212}")
 }
 
-/// As [`plain`], with a sign.
+/// Like [`plain`], with a plus sign too.
 fn signed(value: f64) -> String {
     let plus = if value < 0.0 { "" } else { "+" };
     format!("{plus}{}", plain(value))
 }
 
-/// Two decimals and the degree sign, as angles are measured.
+/// An angle with two decimals and the degree sign.
 fn degrees(value: f64) -> String {
     format!("{value:.2}°").replace('-', "\u{2212}")
 }
@@ -72,7 +70,7 @@ fn place(position: Position) -> String {
     format!("{latitude}, {longitude}")
 }
 
-/// Date and time, to the millisecond where there is a fraction.
+/// Date and time, with milliseconds if there is a fraction of a second.
 fn date_time(time: Timestamp) -> String {
     let form = if time.subsec_nanosecond() == 0 { "%F %T" } else { "%F %T.%3f" };
     time.strftime(form).to_string()

@@ -1,18 +1,17 @@
-//! Everything that can make metal move (sections 2 to 4, 18 and 19).
+//! Requests that can make metal move (sections 2 to 4, 18 and 19).
 
 use super::number::{checked, plain};
 use super::{ValueError, Word};
 
-/// Own sanity bounds; the document gives no range.
+/// Azel's own sanity bounds; the document gives no range.
 const MAX_RATE_DEG_S: f64 = 100.0;
 const MAX_STEP_DEG: f64 = 180.0;
 const MIN_ELEVATION_DEG: f64 = -10.0;
 
-/// A request that can make metal move. Only the gate of the driver may turn one
-/// into bytes.
+/// A request that can make metal move. Only the gate of the driver may encode one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Run the axes until told otherwise. No time-out is documented.
+    /// Run the axes until told otherwise. The document gives no time-out.
     Move(Move),
     /// Turn the axes by an amount.
     Step(Step),
@@ -77,13 +76,13 @@ impl Step {
     }
 }
 
-/// The values, unless both are zero.
+/// Returns the values unless both are zero.
 #[allow(clippy::float_cmp, reason = "rounded values, and only the exact zero stands still")]
 fn moving(x: f64, y: f64) -> Result<(f64, f64), ValueError> {
     if x == 0.0 && y == 0.0 { Err(ValueError::NoMotion) } else { Ok((x, y)) }
 }
 
-/// A direction, at least one angle of it.
+/// A direction with at least one of its angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goto {
     az_deg: Option<f64>,
@@ -91,8 +90,8 @@ pub struct Goto {
 }
 
 impl Goto {
-    /// Azimuth 0 to 360 and elevation -10 to 90 in degrees, kept to a
-    /// thousandth; `None` leaves that angle as it is.
+    /// Azimuth 0 to 360 and elevation -10 to 90 in degrees, rounded to a thousandth; `None`
+    /// leaves an angle as it is.
     pub fn new(az_deg: Option<f64>, el_deg: Option<f64>) -> Result<Self, ValueError> {
         let azimuth = |value| checked("azimuth", value, 0.0, 360.0).map(|az| az % 360.0);
         let elevation = |value| checked("elevation", value, MIN_ELEVATION_DEG, 90.0);
@@ -117,7 +116,6 @@ impl Goto {
 }
 
 impl Motion {
-    /// The word on the wire.
     pub const fn word(self) -> Word {
         match self {
             Self::Move(_) => Word::Move,

@@ -1,27 +1,27 @@
-//! Numbers as the protocol writes and reads them: decimal point, no exponent.
+//! Numbers in the format of the protocol: decimal point, no exponent.
 
 use super::text::TextProblem;
 
-/// Why a value cannot be sent.
+/// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// Outside the range, or not a finite number.
+    /// Outside the range, or not finite.
     #[error("{what} {value} is not between {least} and {most}")]
     Range {
-        /// What the number means, with its unit.
+        /// Meaning of the number, with its unit.
         what: &'static str,
         value: f64,
         least: f64,
         most: f64,
     },
-    /// A number that has no meaning in the document.
+    /// A number without a meaning in the document.
     #[error("{what} has no choice {code}")]
     Choice {
-        /// What is chosen.
+        /// Subject of the choice.
         what: &'static str,
         code: i64,
     },
-    /// No axis would move: use the stop command to stand still.
+    /// No axis would move. To stand still is the stop command's job.
     #[error("no axis would move")]
     NoMotion,
     /// Every setting would keep its value.
@@ -30,17 +30,17 @@ pub enum ValueError {
     /// The stop time is not later than the start time.
     #[error("the stop time is not after the start time")]
     StopBeforeStart,
-    /// A text that cannot be carried.
+    /// A text that the protocol cannot carry.
     #[error("{what} {problem}")]
     Text {
-        /// What the text means.
+        /// Meaning of the text.
         what: &'static str,
-        /// What is wrong with it; never the text itself.
+        /// Problem with the text; never holds the text itself.
         problem: TextProblem,
     },
 }
 
-/// `value` rounded to a thousandth, when it lies between `least` and `most`.
+/// Rounds `value` to a thousandth if it is between `least` and `most`.
 pub(super) fn checked(
     what: &'static str,
     value: f64,
@@ -48,7 +48,7 @@ pub(super) fn checked(
     most: f64,
 ) -> Result<f64, ValueError> {
     let rounded = (value * 1000.0).round() / 1000.0;
-    // Written so that NaN falls out as well. Adding zero removes a minus zero.
+    // This form refuses NaN too. Adding zero removes a minus zero.
     if (least..=most).contains(&rounded) {
         Ok(rounded + 0.0)
     } else {
@@ -56,29 +56,29 @@ pub(super) fn checked(
     }
 }
 
-/// Up to three decimals, none when there are none: `-3.5`, `0`, `125.1`.
+/// Up to three decimals, and none for a whole number: `-3.5`, `0`, `125.1`.
 pub(super) fn plain(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// As [`plain`], but always with a decimal: `5.0`.
+/// Like [`plain`], but always with a decimal: `5.0`.
 pub(super) fn pointed(value: f64) -> String {
     let text = plain(value);
     if text.contains('.') { text } else { text + ".0" }
 }
 
-/// A finite number with a decimal point.
+/// Reads a finite number with a decimal point.
 pub(super) fn parse_decimal(text: &str) -> Option<f64> {
     // Rust also reads `inf`, `nan` and exponents, which the protocol does not have.
     let known = |byte: u8| byte.is_ascii_digit() || b"+-.".contains(&byte);
     let number: Option<f64> = text.bytes().all(known).then(|| text.parse().ok()).flatten();
-    // So many digits that they are beyond every number.
+    // Too many digits overflow to infinity.
     number.filter(|number| number.is_finite())
 }
 
-/// A whole number; a fraction of zeros is accepted.
+/// Reads a whole number; a fraction of zeros is accepted.
 pub(super) fn parse_integer(text: &str) -> Option<i64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     fraction.bytes().all(|byte| byte == b'0').then(|| whole.parse().ok()).flatten()

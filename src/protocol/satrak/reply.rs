@@ -1,4 +1,4 @@
-//! From a frame to a typed reply.
+//! Typed replies, read from frames.
 
 use super::fields::{FieldError, Fields};
 use super::{
@@ -7,7 +7,6 @@ use super::{
     Word,
 };
 
-/// What the unit says.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reply {
     Version(Version),
@@ -25,23 +24,22 @@ pub enum Reply {
     SatelliteFtp(SatelliteFtp),
     ImageStatus(ImageStatus),
     Reduction(Reduction),
-    /// The request was accepted. For a motion: it began, not that it arrived.
+    /// The request was accepted. For a motion: it has begun, not that it has arrived.
     Done,
-    /// The request was refused.
     Refused {
         /// Error code, raw: the document lists none.
         code: String,
     },
 }
 
-/// Reply to `VERSION?`: free texts, nothing to decide by.
+/// Reply to `VERSION?`: free texts, never the basis of a decision.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Version {
     /// Firmware of the control unit, with its date.
     pub control_unit: String,
     /// Firmware of the drive unit, with its date.
     pub drive_unit: Option<String>,
-    /// Texts that the document does not have.
+    /// Texts beyond those of the document.
     pub others: Vec<String>,
 }
 
@@ -59,67 +57,58 @@ impl Version {
 /// A deviation worth one line in the log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Note {
-    /// Seen on the frame.
     Oddity(Oddity),
-    /// Values after those that the document lists.
+    /// Number of values after those that the document lists.
     ExtraFields(usize),
-    /// Values of the document's list that are not there.
+    /// Number of listed values that the reply lacks.
     MissingFields(usize),
 }
 
-/// A reply with the request that it belongs to.
+/// A reply, with word and verb of its request.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParsedReply {
-    /// Word of the request.
     pub word: Word,
-    /// Verb of the request.
     pub verb: Verb,
-    /// What was said.
     pub reply: Reply,
-    /// What deviated.
+    /// Deviations worth a line in the log.
     pub notes: Vec<Note>,
 }
 
-/// Why a frame is no reply. Holds no values, for they may be secret.
+/// Reason why a frame is not a reply. Holds no values, for they may be secret.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ReplyError {
-    /// Not one of the document's words.
     #[error("unknown word {0}")]
     UnknownWord(String),
-    /// Nobody asks or sets this word in this way.
+    /// The document has no request of this word with this verb.
     #[error("{word}{} is no request", verb.sign())]
     NoSuchRequest {
         word: Word,
-        /// How it was used.
+        /// Verb with which the word came.
         verb: Verb,
     },
     /// Neither `OK` nor `ERR` after a setting.
     #[error("{0}= without OK or ERR")]
     NeitherOkNorErr(Word),
-    /// Not the number of values of this reply.
+    /// Wrong number of values.
     #[error("{word}? with {found} instead of {least} to {most} values")]
     Count {
         word: Word,
-        /// How many values came.
         found: usize,
-        /// Fewest that can be read.
         least: usize,
-        /// Most that can be read.
         most: usize,
         /// The unit seems to write decimal commas.
         looks_like_decimal_commas: bool,
     },
-    /// A value that cannot be read.
     #[error("{word}?: {error}")]
     Field {
         word: Word,
-        /// Which value, and why.
+        /// Number of the value, and the problem with it.
         error: FieldError,
     },
 }
 
-/// How many values a reply has: fewest readable, listed in the document, most
-/// readable, decimals among them.
+/// Number of values of a reply: fewest readable, listed in the document, most readable,
+/// and how many of them are decimals.
 struct Shape {
     least: usize,
     listed: usize,
@@ -129,7 +118,7 @@ struct Shape {
 
 impl Shape {
     const fn of(word: Word) -> Option<Self> {
-        /// Replies that end in a text which may hold commas.
+        /// Most values of a reply that ends in a text, which may hold commas.
         const ANY: usize = usize::MAX;
         let (least, listed, most, decimals) = match word {
             Word::Version => (1, 2, ANY, 0),
@@ -163,7 +152,7 @@ impl Shape {
         if (self.least..=self.most).contains(&found) {
             return Ok(());
         }
-        // Each decimal may fall apart, or only those that are not whole.
+        // Either every decimal falls apart at its comma, or only those that are not whole.
         let looks_like_decimal_commas = found > self.most && self.decimals > 0;
         let Self { least, most, .. } = *self;
         Err(ReplyError::Count { word, found, least, most, looks_like_decimal_commas })
@@ -180,7 +169,7 @@ impl Shape {
 }
 
 impl Reply {
-    /// Reads a frame that a unit sent.
+    /// Reads a frame from a unit.
     pub fn parse(frame: &Frame) -> Result<ParsedReply, ReplyError> {
         let (word, verb) =
             frame.command().ok_or_else(|| ReplyError::UnknownWord(bounded(frame.word())))?;
@@ -217,7 +206,7 @@ fn read(word: Word, fields: Fields<'_>) -> Result<Reply, FieldError> {
         Word::SatelliteFtp => Reply::SatelliteFtp(SatelliteFtp::read(fields)?),
         Word::LoadImage => Reply::ImageStatus(ImageStatus { raw: fields.joined(0, 0)? }),
         Word::Reduction => Reply::Reduction(Reduction::read(fields)?),
-        // Words without a shape of their reply were turned away before.
+        // Words whose reply has no shape were refused above.
         _ => Reply::Version(Version::read(fields)?),
     })
 }

@@ -6,21 +6,20 @@ use super::{
     SettingsRequest, TextValue, TrackWindow, Verb, Word,
 };
 
-/// Anything a client can ask. Every value was checked when it was built, so
-/// each request has bytes.
+/// Any request of a client. Its values were checked when it was built, so encoding cannot
+/// fail.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Request {
-    /// Reads and changes nothing.
+    /// Reads without changing anything.
     Query(Query),
     /// Ends motion; always allowed.
     Halt(Halt),
     /// Can make metal move.
     Motion(Motion),
-    /// Changes what the unit remembers.
+    /// Changes something that the unit remembers.
     Setting(Setting),
 }
 
-/// What can be asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Query {
     Version,
@@ -60,14 +59,13 @@ impl Query {
         (Self::Reduction, Word::Reduction),
     ];
 
-    /// The word on the wire.
     pub fn word(self) -> Word {
         let known = Self::ALL.into_iter().find(|(query, _)| *query == self);
         known.map_or(Word::Version, |(_, word)| word)
     }
 }
 
-/// What ends motion.
+/// Requests that end motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Halt {
     /// Stand still. Whether tracking goes on afterwards is not documented.
@@ -79,7 +77,6 @@ pub enum Halt {
 }
 
 impl Halt {
-    /// The word on the wire.
     pub const fn word(self) -> Word {
         match self {
             Self::Stop => Word::Stop,
@@ -89,16 +86,12 @@ impl Halt {
     }
 }
 
-/// What the unit remembers.
+/// Changes of what the unit remembers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Setting {
-    /// Set the clock.
     Time(ClockTime),
-    /// Set the tracking window.
     StartStopTime(TrackWindow),
-    /// Change general settings.
     Settings(SettingsRequest),
-    /// Calibrate the angles.
     AngleSettings(AngleChange),
     /// Set the clock from GPS now.
     RtcReupdate,
@@ -117,7 +110,6 @@ pub enum Setting {
 }
 
 impl Setting {
-    /// The word on the wire.
     pub const fn word(&self) -> Word {
         match self {
             Self::Time(_) => Word::Time,
@@ -152,7 +144,7 @@ impl Setting {
 }
 
 impl Request {
-    /// The word, repeated by the reply.
+    /// The word, which the reply repeats.
     pub fn word(&self) -> Word {
         match self {
             Self::Query(query) => query.word(),
@@ -162,7 +154,7 @@ impl Request {
         }
     }
 
-    /// The verb, repeated by the reply.
+    /// The verb, which the reply repeats.
     pub const fn verb(&self) -> Verb {
         match self {
             Self::Query(_) => Verb::Query,
@@ -170,12 +162,12 @@ impl Request {
         }
     }
 
-    /// The frame to send.
+    /// Frame to send.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(&self.payload())
     }
 
-    /// The payload. May hold the FTP password: log it through [`super::redact`].
+    /// Payload. May hold the FTP password: log it through [`super::redact`].
     pub fn payload(&self) -> String {
         let values = match self {
             Self::Query(_) | Self::Halt(Halt::Stop) => Vec::new(),

@@ -1,5 +1,5 @@
-//! From a frame to a request: the side of a unit, or of its simulator. Takes
-//! the odd forms of the document's examples too.
+//! Requests read from frames, as a unit or its simulator does. The odd forms of the
+//! document's examples are accepted too.
 
 use super::fields::{FieldError, FieldProblem, Fields};
 use super::{
@@ -9,30 +9,29 @@ use super::{
     TleSelection, TrackWindow, UrlValue, ValueError, Verb, Word,
 };
 
-/// Why a frame is no request.
+/// Reason why a frame is not a request.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RequestError {
-    /// Not one of the document's words, or not used with this sign.
+    /// Not a word of the document, or not with this sign.
     #[error("unknown request")]
     Unknown,
-    /// Not the number of values of this request.
+    /// Wrong number of values.
     #[error("{found} values instead of {expected}")]
     Count {
-        /// How many values came.
         found: usize,
-        /// How many the document lists.
+        /// Number of values in the document.
         expected: usize,
     },
     /// A value that cannot be read.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A value without sense.
+    /// A value out of its range or meaning.
     #[error(transparent)]
     Value(#[from] ValueError),
 }
 
 impl Request {
-    /// Reads a frame that a client sent.
+    /// Reads a frame from a client.
     pub fn parse(frame: &Frame) -> Result<Self, RequestError> {
         let (word, verb) = frame.command().ok_or(RequestError::Unknown)?;
         let fields = Fields::of(frame);
@@ -53,7 +52,7 @@ fn exactly(fields: Fields<'_>, expected: usize) -> Result<(), RequestError> {
     if found == expected { Ok(()) } else { Err(RequestError::Count { found, expected }) }
 }
 
-/// How many values a setting takes.
+/// Number of values that a setting takes.
 const fn value_count(word: Word) -> usize {
     match word {
         Word::Move | Word::Step | Word::Goto | Word::Reduction => 2,
@@ -124,7 +123,7 @@ fn parse_set(word: Word, fields: Fields<'_>) -> Result<Request, RequestError> {
     Ok(Request::Setting(setting))
 }
 
-/// Exactly 0 or 1: an unexplained number must not switch anything.
+/// Reads exactly 0 or 1: an unexplained number must not switch anything.
 fn switch(fields: Fields<'_>, field: usize) -> Result<bool, FieldError> {
     match fields.integer::<i64>(field)? {
         0 => Ok(false),

@@ -1,13 +1,12 @@
-//! Choice of the satellite and of the source of its elements (sections 23 to 28).
+//! Choice of the satellite and the source of its elements (sections 23 to 28).
 
 use super::coded::coded;
 use super::fields::{FieldError, Fields};
 use super::text::{Password, TextValue, UrlValue};
 
 coded! {
-    /// What the unit does when an update of the elements fails.
+    /// Action of the unit when an update of the elements fails.
     UpdateErrorAction {
-        /// Stop tracking.
         Stop = 0,
         /// Go on with the last elements.
         Continue = 1,
@@ -54,7 +53,7 @@ pub struct SatelliteChoice {
     pub name: TextValue,
     /// Update period; see [`Satellite::period`].
     pub period: u16,
-    /// Go on with the present track instead of stopping it.
+    /// Continue the present track instead of stopping it.
     pub continue_tracking: bool,
 }
 
@@ -76,7 +75,6 @@ pub struct SatelliteHttp {
     pub url: String,
     /// Update period in days.
     pub period_days: u32,
-    /// What happens when an update fails.
     pub on_error: UpdateErrorAction,
 }
 
@@ -102,7 +100,7 @@ pub struct HttpTle {
     pub period_days: u16,
     /// Go on with the last elements when an update fails, instead of stopping.
     pub continue_on_error: bool,
-    /// Go on with the present track instead of stopping it.
+    /// Continue the present track instead of stopping it.
     pub continue_tracking: bool,
 }
 
@@ -131,12 +129,11 @@ pub struct SatelliteFtp {
     pub satellite: String,
     /// Update period in days.
     pub period_days: u32,
-    /// What happens when an update fails.
     pub on_error: UpdateErrorAction,
 }
 
 impl SatelliteFtp {
-    /// With more, a comma stands in one of four texts, and nobody can tell which.
+    /// Number of values. With more, one of four texts holds a comma and nobody can tell which.
     pub(super) const FIELDS: usize = 8;
 
     pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
@@ -153,7 +150,7 @@ impl SatelliteFtp {
     }
 }
 
-/// A file with elements and a satellite in it.
+/// File with elements, and a satellite in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TleSelection {
     /// File with the elements.
@@ -171,8 +168,8 @@ pub struct FtpTle {
     pub password: Password,
     /// TCP port. The document's example has 22, which is SFTP.
     pub port: u16,
-    /// What to take from the server. `None` is the six-value form of the
-    /// document's example; a console sends all eight.
+    /// File and satellite on the server. `None` is the six-value form of the document's
+    /// example; a console sends all eight.
     pub selection: Option<TleSelection>,
     /// Update period in days.
     pub period_days: u16,

@@ -5,11 +5,11 @@ use super::ValueError;
 use super::fields::{FieldError, Fields};
 use super::number::{checked, plain, pointed};
 
-/// Own sanity bound; the document gives neither unit nor range.
+/// Azel's own sanity bound; the document gives neither unit nor range.
 const MAX_REDUCTION: f64 = 1_000_000.0;
 const MAX_REFERENCE_DEG: f64 = 360.0;
 
-/// Angles that belong to sensor readings.
+/// Angles for sensor readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorAngles {
     x_deg: f64,
@@ -17,7 +17,7 @@ pub struct SensorAngles {
 }
 
 impl SensorAngles {
-    /// Reference angles in degrees, within a turn, kept to a thousandth.
+    /// Reference angles in degrees, within a turn, rounded to a thousandth.
     pub fn new(x_deg: f64, y_deg: f64) -> Result<Self, ValueError> {
         let angle =
             |value| checked("reference angle", value, -MAX_REFERENCE_DEG, MAX_REFERENCE_DEG);
@@ -35,7 +35,7 @@ impl SensorAngles {
     }
 }
 
-/// Reply to `ANGLE_SETTINGS?`: which sensor reading is which angle.
+/// Reply to `ANGLE_SETTINGS?`: pairs of sensor reading and angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AngleSettings {
     /// Sensor reading of the X axis, in counts.
@@ -59,12 +59,12 @@ impl AngleSettings {
     }
 }
 
-/// Values of `ANGLE_SETTINGS=`: calibrates the reported angles.
+/// Values of `ANGLE_SETTINGS=`, which calibrate the reported angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AngleChange {
     /// The present position has these angles.
     PresentPosition(SensorAngles),
-    /// Given sensor readings, in counts of 16 bits, have these angles.
+    /// These sensor readings, in counts of 16 bits, have these angles.
     Given {
         /// Sensor reading of the X axis.
         x_sensor: u16,
@@ -99,7 +99,7 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// Both above 0, up to a million, kept to a thousandth.
+    /// Scales above 0, up to a million, rounded to a thousandth.
     pub fn new(x: f64, y: f64) -> Result<Self, ValueError> {
         let ratio = |value| checked("reduction", value, 0.001, MAX_REDUCTION);
         Ok(Self { x: ratio(x)?, y: ratio(y)? })
@@ -124,9 +124,9 @@ impl Reduction {
     }
 }
 
-/// Reply to `LOAD_IMAGE?`. The document explains no value of it.
+/// Reply to `LOAD_IMAGE?`. The document explains none of its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ImageStatus {
-    /// As reported.
+    /// Values as reported.
     pub raw: String,
 }

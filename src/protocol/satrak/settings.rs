@@ -1,5 +1,5 @@
-//! General settings (sections 12 and 13). The query gives 12 values, the
-//! setting takes 11: without the TLE mode, which moves the last one up.
+//! General settings (sections 12 and 13). The query returns 12 values, the setting takes
+//! 11: it has no TLE mode, so the last value moves up by one.
 
 use super::ValueError;
 use super::coded::coded;
@@ -7,11 +7,9 @@ use super::fields::{FieldError, Fields};
 use super::number::{checked, pointed};
 
 coded! {
-    /// What the position is measured with.
+    /// Sensors that measure the position.
     PositionBase {
-        /// Resolver and encoder.
         ResolverAndEncoder = 0,
-        /// Resolver alone.
         Resolver = 1,
     }
 }
@@ -22,27 +20,25 @@ coded! {
         Off = 0,
         /// On: the antenna radiates.
         On = 1,
-        /// By its own rule.
+        /// By [`SspaAutoRule`].
         Auto = 2,
     }
 }
 
 coded! {
-    /// When an automatic power amplifier is on.
+    /// Condition for an automatic power amplifier to be on.
     SspaAutoRule {
-        /// While tracking.
         Tracking = 0,
-        /// While the carrier is locked.
         CarrierLock = 1,
-        /// While both.
+        /// While tracking with the carrier locked.
         Both = 2,
-        /// While either.
+        /// While tracking or with the carrier locked.
         Either = 3,
     }
 }
 
 coded! {
-    /// Where the unit takes its elements from.
+    /// Source of the unit's elements.
     TleMode {
         /// A file in the unit.
         File = 0,
@@ -58,27 +54,21 @@ coded! {
 pub struct Settings {
     /// The clock follows GPS.
     pub rtc_from_gps: bool,
-    /// Tracking runs this much ahead, milliseconds.
+    /// Lead of the track, milliseconds: positive is ahead of time.
     pub time_offset_ms: i64,
     /// Added to the azimuth while tracking, degrees.
     pub az_offset_deg: f64,
     /// Added to the elevation while tracking, degrees.
     pub el_offset_deg: f64,
-    /// Go to the start point this long before the window, milliseconds.
+    /// Time before the window at which the unit goes to the start point, milliseconds.
     pub lead_ms: i64,
-    /// What the position is measured with.
     pub position_base: PositionBase,
-    /// Lowest elevation, degrees.
     pub minimum_elevation_deg: f64,
-    /// North offset, degrees.
     pub north_offset_deg: f64,
-    /// Power amplifier.
     pub sspa: SspaMode,
-    /// Rule of the automatic power amplifier.
     pub sspa_auto: SspaAutoRule,
-    /// Where the elements come from. No request of the document sets it.
+    /// Source of the elements. No request of the document sets it.
     pub tle_mode: TleMode,
-    /// Elevation threshold, degrees.
     pub elevation_threshold_deg: f64,
 }
 
@@ -102,7 +92,7 @@ impl Settings {
         })
     }
 
-    /// These settings after `change` was carried out: what must be read back.
+    /// Settings after `change`, as they must be read back.
     #[must_use]
     pub fn after(self, change: &SettingsChange) -> Self {
         Self {
@@ -142,19 +132,19 @@ pub struct SettingsChange {
     pub elevation_threshold_deg: Option<f64>,
 }
 
-/// Values of `SETTINGS=`, checked.
+/// Checked values of `SETTINGS=`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SettingsRequest(SettingsChange);
 
-/// Own bounds; the document gives none.
+/// Azel's own bounds; the document gives none.
 const MAX_TIME_MS: f64 = 3_600_000.0;
 const MAX_OFFSET_DEG: f64 = 10.0;
 const MAX_NORTH_OFFSET_DEG: f64 = 360.0;
 
 impl SettingsRequest {
-    /// Own ranges: angle offsets within 10 degrees, times within an hour,
-    /// elevations 0 to 90, north offset within a turn; angles are kept to a
-    /// thousandth. A change of nothing is refused.
+    /// Checks a wish against Azel's own ranges: angle offsets within 10 degrees, times within
+    /// an hour, elevations 0 to 90, north offset within a turn; rounds angles to a thousandth.
+    /// A wish that changes nothing is refused.
     pub fn new(wish: &SettingsChange) -> Result<Self, ValueError> {
         if *wish == SettingsChange::default() {
             return Err(ValueError::NoChange);
@@ -201,7 +191,6 @@ impl SettingsRequest {
         }))
     }
 
-    /// What is changed.
     pub fn change(&self) -> &SettingsChange {
         &self.0
     }

@@ -4,11 +4,9 @@ use super::coded::coded;
 use super::fields::{FieldError, Fields};
 
 coded! {
-    /// Where the unit stands in its tracking window (field 9).
+    /// Phase of the unit in its tracking window (field 9).
     TrackState {
-        /// Outside the window.
         NotInTrackTime = 0,
-        /// Inside the window.
         InTrackTime = 1,
         /// The window is over.
         Completed = 2,
@@ -22,7 +20,6 @@ coded! {
     AxisMotion {
         /// Toward smaller angles.
         Negative = -1,
-        /// Standing still.
         Still = 0,
         /// Toward larger angles.
         Positive = 1,
@@ -50,50 +47,46 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Whether any axis stands at an end.
+    /// Whether any axis is at an end.
     pub fn any(self) -> bool {
         self.x_plus || self.x_minus || self.y_plus || self.y_minus
     }
 }
 
-/// What the unit measures and does.
+/// Measurements and activity of the unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Status {
-    /// A fault or warning exists: ask for the faults.
+    /// A fault or warning exists; `ERRSTATUS?` tells which.
     pub fault: bool,
     /// Azimuth, degrees.
     pub az_deg: f64,
     /// Elevation, degrees.
     pub el_deg: f64,
-    /// End switches.
     pub limits: Limits,
-    /// Tracking is switched on.
     pub tracking_enabled: bool,
-    /// Place in the tracking window.
     pub track_state: TrackState,
     /// The clock was set from GPS.
     pub rtc_from_gps: bool,
     /// GPS lock delay, seconds; the document says no more.
     pub gps_lock_delay_s: f64,
-    /// Motion of the X axis.
     pub x_motion: AxisMotion,
-    /// Motion of the Y axis.
     pub y_motion: AxisMotion,
     /// X angle, degrees.
     pub x_deg: f64,
     /// Y angle, degrees.
     pub y_deg: f64,
-    /// Auto track is on; `None` from a unit that does not report it.
+    /// Auto track is on; `None` if the unit does not report it.
     pub auto_track: Option<bool>,
 }
 
 impl Status {
-    /// Fields of an older unit.
+    /// Fields that an older unit sends.
     pub(super) const MIN_FIELDS: usize = 15;
     /// Fields that the document lists.
     pub(super) const FIELDS: usize = 16;
-    /// More than a newer unit may add. Decimal commas turn 15 fields into 19,
-    /// which would be read as other angles, so they must not pass as additions.
+    /// Maximum number of fields, with room for additions of a newer unit. Decimal commas turn
+    /// 15 fields into 19, which would be read as other angles, so they must not pass as
+    /// additions.
     pub(super) const MAX_FIELDS: usize = 18;
 
     pub(super) fn read(fields: Fields<'_>) -> Result<Self, FieldError> {
@@ -119,7 +112,6 @@ impl Status {
         })
     }
 
-    /// Whether any axis moves.
     pub fn is_moving(&self) -> bool {
         self.x_motion.is_moving() || self.y_motion.is_moving()
     }

@@ -1,37 +1,35 @@
-//! Texts that fit between commas. The protocol has no escape, so what cannot
-//! be carried is refused before it is sent.
+//! Texts that fit between commas. The protocol has no escape, so a text that it cannot
+//! carry is refused before it is sent.
 
 use std::fmt;
 
 use super::ValueError;
 
-/// Longest text that is sent: five of them still fit in a line.
+/// Maximum length of a text: five of them still fit in a line.
 const MAX_TEXT_BYTES: usize = 180;
-/// Longest web address that is sent.
+/// Maximum length of a web address.
 const MAX_URL_BYTES: usize = 400;
 
-/// Why a text cannot be carried.
+/// Reason why a text cannot be carried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TextProblem {
-    /// Nothing in it.
     #[error("is empty")]
     Empty,
     /// Longer than 180 bytes, or 400 for a web address.
     #[error("is too long")]
     TooLong,
-    /// A comma separates values.
+    /// Has a comma, which separates values.
     #[error("holds a comma")]
     Comma,
-    /// `$` and `*` frame the message.
+    /// Has `$` or `*`, which frame the message.
     #[error("holds a dollar sign or a star")]
     FrameSign,
-    /// Not printable ASCII.
     #[error("holds a character outside printable ASCII")]
     NotPrintable,
-    /// Blanks at the ends are removed by unknown rules.
+    /// Begins or ends with a blank; such blanks are removed by unknown rules.
     #[error("begins or ends with a blank")]
     OuterBlank,
-    /// A lone `?` means "keep the value".
+    /// Is a lone `?`, which means "keep the value".
     #[error("is a single question mark")]
     KeepSign,
 }
@@ -56,7 +54,7 @@ fn check(text: &str, max_bytes: usize) -> Result<(), TextProblem> {
 pub struct TextValue(String);
 
 impl TextValue {
-    /// Takes `text`; `what` names it in the error.
+    /// Checks `text`; `what` names it in the error.
     pub fn new(what: &'static str, text: &str) -> Result<Self, ValueError> {
         check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
         Ok(Self(text.to_owned()))
@@ -80,26 +78,25 @@ impl UrlValue {
         Ok(Self(url))
     }
 
-    /// The address as it is sent.
+    /// Address as it is sent.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 }
 
-/// A password. Neither `Debug` nor anything else prints it; the device itself
-/// sends it back in clear.
+/// A password. Neither `Debug` nor anything else prints it; the unit itself sends it back
+/// in clear.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Password(String);
 
 impl Password {
-    /// A password to send.
     pub fn new(text: &str) -> Result<Self, ValueError> {
         let what = "password";
         check(text, MAX_TEXT_BYTES).map_err(|problem| ValueError::Text { what, problem })?;
         Ok(Self(text.to_owned()))
     }
 
-    /// A password as a device reported it.
+    /// A password as a unit reported it.
     pub(super) fn reported(text: &str) -> Self {
         Self(text.to_owned())
     }
@@ -109,7 +106,6 @@ impl Password {
         &self.0
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

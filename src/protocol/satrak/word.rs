@@ -1,4 +1,4 @@
-//! The words of the protocol.
+//! Words of the protocol.
 
 use std::fmt;
 
@@ -30,7 +30,6 @@ pub enum Word {
 }
 
 impl Word {
-    /// All words, in the order of the document.
     pub const ALL: [Self; 22] = [
         Self::Version,
         Self::Move,
@@ -56,7 +55,7 @@ impl Word {
         Self::Reduction,
     ];
 
-    /// The word as it stands on the wire, without `?` or `=`.
+    /// Word on the wire, without `?` or `=`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Version => "VERSION",
@@ -84,7 +83,7 @@ impl Word {
         }
     }
 
-    /// The word with this name, letter for letter.
+    /// Word with this exact name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|word| word.name() == name)
     }
@@ -96,7 +95,7 @@ impl fmt::Display for Word {
     }
 }
 
-/// What is done with a word: the sign that ends it.
+/// Verb of a word: the sign that ends it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Verb {
     /// `?`: ask for values.
@@ -106,7 +105,7 @@ pub enum Verb {
 }
 
 impl Verb {
-    /// The sign on the wire.
+    /// Sign on the wire.
     pub const fn sign(self) -> char {
         match self {
             Self::Query => '?',

@@ -1,24 +1,24 @@
-//! From a byte stream to frames.
+//! Decoder from a byte stream to frames.
 
 use super::{
     Address, Command, ENVELOPE_BYTES, ETX, Frame, Header, MAX_FRAME_BYTES, OFFLINE, checksum,
 };
 
-/// What may wait between two calls; more is dropped.
+/// Maximum of bytes that wait between two calls; more are dropped.
 const MAX_PENDING_BYTES: usize = 1024;
 
-/// Why what began like a frame is none.
+/// Reason why bytes that began like a frame are not one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
-    /// The checksum is another one than that of the frame.
+    /// The checksum does not match the frame.
     #[error("checksum {received:02X} instead of {computed:02X}")]
     BadChecksum {
-        /// As in the frame.
+        /// Checksum in the frame.
         received: u8,
-        /// Of the frame.
+        /// Checksum of the frame's bytes.
         computed: u8,
     },
-    /// No reply to this command has so many characters.
+    /// No reply to this command has this length.
     #[error("reply to {code:02X} with {data_bytes} bytes of data")]
     BadLength {
         /// Command code of the frame.
@@ -26,40 +26,39 @@ pub enum FrameError {
         /// Characters between code and ETX.
         data_bytes: usize,
     },
-    /// A byte that stands in no code and no data: a control byte, or one with
-    /// the eighth bit set.
+    /// A byte that belongs in no code and no data: a control byte, or one with the eighth bit
+    /// set.
     #[error("byte {byte:02X} at place {at}")]
     BadByte {
         byte: u8,
-        /// Its place, counted from 0 at the header.
+        /// Index of the byte, counted from 0 at the header.
         at: usize,
     },
     /// More than [`MAX_FRAME_BYTES`] without an end.
     #[error("frame longer than {MAX_FRAME_BYTES} bytes")]
     TooLong,
-    /// The line went quiet in the middle.
+    /// The line went quiet within a frame.
     #[error("frame ends after {bytes} bytes")]
     Incomplete {
-        /// How many came.
+        /// Bytes received.
         bytes: usize,
     },
 }
 
-/// Cuts a byte stream into the frames of one controller, on either side.
+/// Splits a byte stream into the frames of one unit, on either side.
 ///
-/// Push what was read, then take frames until `None`; when nothing came for
-/// longer than characters of one frame may be apart, call [`Self::line_is_quiet`].
-/// The stream may be cut and merged anywhere. Holds at most 1 KiB.
+/// Push the bytes that were read, then take frames until `None`. When nothing has come for
+/// longer than the characters of one frame may be apart, call [`Self::line_is_quiet`]. The
+/// stream may be cut and merged anywhere. Holds at most 1 KiB.
 ///
-/// After the header only the own address begins a frame, and a reply has one of
-/// the lengths of its command. So the checksum is known by its place and may
-/// look like any control byte, and the XOR refuses every single wrong bit. What
-/// is broken loses its header alone; the rest is read again.
+/// Only a header followed by the own address begins a frame, and a reply has one of the
+/// lengths of its command. So the checksum is known by its place and may look like any
+/// control byte, and the XOR refuses every single wrong bit. A broken frame loses only its
+/// header; the rest is read again.
 ///
-/// One reply inside another is the limit of this protocol without parity: with
-/// one bit of its second letter wrong, a status whose satellite name begins
-/// with `FC` or `F#` can read as an offline reply if the third letter is the
-/// checksum of that.
+/// One reply inside another is the limit of this protocol without parity: with one bit of
+/// its second letter wrong, a status whose satellite name begins with `FC` or `F#` can
+/// read as an offline reply if the third letter is the checksum of that.
 #[derive(Debug)]
 pub struct Decoder {
     address: Address,
@@ -67,24 +66,23 @@ pub struct Decoder {
     skipped_bytes: u64,
 }
 
-/// What the beginning of the pending bytes is.
+/// Judgement of the beginning of the pending bytes.
 enum Verdict {
-    /// Needs more bytes to be told.
+    /// Undecided until more bytes come.
     Open,
-    /// No frame of this controller.
+    /// Not a frame of this unit.
     Foreign,
     Broken(FrameError),
     Whole(Frame),
 }
 
 impl Decoder {
-    /// A decoder for the frames of the controller at `address`.
+    /// Decoder for the frames of the unit at `address`.
     pub const fn new(address: Address) -> Self {
         Self { address, pending: Vec::new(), skipped_bytes: 0 }
     }
 
-    /// Takes bytes of the stream. What does not fit while nobody takes frames
-    /// is dropped.
+    /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped.
     pub fn push(&mut self, bytes: &[u8]) {
         let room = MAX_PENDING_BYTES.saturating_sub(self.pending.len());
         let (kept, lost) = bytes.split_at_checked(room).unwrap_or((bytes, &[]));
@@ -92,7 +90,7 @@ impl Decoder {
         self.skipped_bytes += lost.len() as u64;
     }
 
-    /// Gives up a frame that came in part, and reads what it held back.
+    /// Gives up an incomplete frame, and reads the bytes behind its header.
     pub fn line_is_quiet(&mut self) -> Vec<Result<Frame, FrameError>> {
         let mut seen = Vec::new();
         loop {
@@ -109,8 +107,8 @@ impl Decoder {
         }
     }
 
-    /// Bytes that belonged to no frame so far: noise, other controllers' frames
-    /// and what was broken.
+    /// Number of bytes that belonged to no frame so far: noise, other units' frames and broken
+    /// ones.
     pub const fn skipped_bytes(&self) -> u64 {
         self.skipped_bytes
     }
@@ -140,7 +138,7 @@ impl Decoder {
         Verdict::Open
     }
 
-    /// Judges a frame whose ETX stands at `etx_at`.
+    /// Judges a frame with its ETX at `etx_at`.
     fn judge_whole(&self, header: Header, etx_at: usize) -> Verdict {
         let (Some(body), Some(code), Some(data)) = (
             self.pending.get(..=etx_at),
@@ -185,8 +183,8 @@ impl Iterator for Decoder {
     }
 }
 
-/// Whether a frame may hold `data`. A command may have any length, for a
-/// controller answers wrong ones too.
+/// Whether a frame may hold `data`. A command may have any length, for a unit answers
+/// wrong ones too.
 fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     match header {
         Header::Command => true,
@@ -198,8 +196,8 @@ fn is_known_form(header: Header, code: u8, data: &[u8]) -> bool {
     }
 }
 
-/// Firmware of the RC2000A before 2.6 repeats a wrong code in this one reply,
-/// and the RC2000C shares its code base.
+/// Whether `data` is a device type. Firmware of the RC2000A before 2.6 repeats a wrong
+/// code in this one reply, and the RC2000C shares its code base.
 pub(in super::super) fn is_device_type(data: &[u8]) -> bool {
     data.len() + ENVELOPE_BYTES == Command::DeviceType.reply_bytes()
         && (data.starts_with(b"2KC") || data.starts_with(b"RC2K"))

@@ -1,9 +1,9 @@
-//! Auto moves: the controller runs until it is there.
+//! Auto moves, which the unit runs until it arrives.
 
 use super::{Polarity, PolarizationUnits, ValueError};
 use crate::protocol::rc2000c::SatelliteName;
 
-/// Where an auto move goes (appendix E, command 32h).
+/// Target of an auto move (appendix E, command 32h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AutoMove(Target);
 
@@ -15,8 +15,8 @@ enum Target {
 }
 
 impl AutoMove {
-    /// To a stored satellite and, if given, one of its polarizations. The name
-    /// must be one that the controller listed.
+    /// Move to a stored satellite and, if given, one of its polarizations. The name must be
+    /// one that the unit listed.
     pub fn satellite(name: SatelliteName, polarity: Option<Polarity>) -> Result<Self, ValueError> {
         if name.is_all_digits() {
             Err(ValueError::NameIsPosition)
@@ -27,22 +27,22 @@ impl AutoMove {
         }
     }
 
-    /// To a position of both axes, in counts of their sensors; never angles.
+    /// Move to a position of both axes, in counts of their sensors; never angles.
     pub const fn position(az_counts: u16, el_counts: u16) -> Self {
         Self(Target::Position { az_counts, el_counts })
     }
 
-    /// To a position of the polarization alone.
+    /// Move to a position of the polarization alone.
     pub const fn polarization(position: PolarizationUnits) -> Self {
         Self(Target::Polarization(position))
     }
 
-    /// The satellite and its polarization, if it goes to one.
+    /// Satellite and its polarization, if that is the target.
     pub const fn to_satellite(&self) -> Option<(SatelliteName, Option<Polarity>)> {
         if let Target::Satellite(name, polarity) = self.0 { Some((name, polarity)) } else { None }
     }
 
-    /// Azimuth and elevation in counts, if it goes to a position.
+    /// Azimuth and elevation in counts, if a position is the target.
     pub const fn to_position(&self) -> Option<(u16, u16)> {
         if let Target::Position { az_counts, el_counts } = self.0 {
             Some((az_counts, el_counts))
@@ -51,7 +51,7 @@ impl AutoMove {
         }
     }
 
-    /// The position of the polarization, if it turns nothing else.
+    /// Position of the polarization, if nothing else turns.
     pub const fn to_polarization(&self) -> Option<PolarizationUnits> {
         if let Target::Polarization(position) = self.0 { Some(position) } else { None }
     }

@@ -1,4 +1,4 @@
-//! Everything that can make metal move.
+//! Requests that can make metal move.
 
 use std::time::Duration;
 
@@ -7,29 +7,28 @@ use super::polarization::PolarizationMove;
 use super::value::{ValueError, checked};
 use crate::protocol::rc2000c::Command;
 
-/// The shortest jog; the controller's timer runs in steps of about this.
+/// Shortest jog; the unit's timer runs in steps of about this.
 pub const MIN_JOG: Duration = Duration::from_millis(150);
-/// The longest jog that the field holds.
+/// Longest jog that fits in the field.
 pub const MAX_JOG: Duration = Duration::from_millis(9999);
 
-/// A request that can make metal move. Only the gate of the driver may turn one
-/// into bytes.
+/// A request that can make metal move. Only the gate of the driver may encode one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Motion {
-    /// Go to a target. It runs until it is there.
+    /// Go to a target. Runs until the unit arrives.
     AutoMove(AutoMove),
-    /// Turn one axis for a time. It ends by itself.
+    /// Turn one axis for a time. Ends by itself.
     Jog(Jog),
     /// Turn the polarization.
     Polarization(PolarizationMove),
-    /// Clear the alarm of a drive. It takes power again, and what was pending
-    /// may go on.
+    /// Clear the alarm of a drive. The drive takes power again, and a pending motion may go
+    /// on.
     ResetDrive(DriveReset),
-    /// Clear the error of the track mode, which starts again.
+    /// Clear the error of the track mode, which then starts again.
     RestartTracking,
 }
 
-/// Which way a jog turns.
+/// Direction of a jog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     /// Azimuth counter-clockwise.
@@ -43,8 +42,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// All directions with their letters. E means counter-clockwise here,
-    /// while W means so in commands for the polarization.
+    /// All directions with their letters. E means counter-clockwise here, but W does in
+    /// commands for the polarization.
     pub(super) const ALL: [(Self, u8); 4] = [
         (Self::CounterClockwise, b'E'),
         (Self::Clockwise, b'W'),
@@ -60,7 +59,7 @@ pub enum Speed {
     Fast,
 }
 
-/// One axis turns for a time (appendix E, command 33h).
+/// Turn of one axis for a time (appendix E, command 33h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Jog {
     direction: Direction,
@@ -69,8 +68,8 @@ pub struct Jog {
 }
 
 impl Jog {
-    /// A jog of 150 to 9999 ms, cut to whole milliseconds. The controller
-    /// rounds to its own steps of about 150 ms.
+    /// A jog of 150 to 9999 ms, cut to whole milliseconds. The unit rounds to its own steps of
+    /// about 150 ms.
     pub fn new(direction: Direction, speed: Speed, duration: Duration) -> Result<Self, ValueError> {
         let given_ms = u64::try_from(duration.as_millis()).unwrap_or(u64::MAX);
         let [min_ms, max_ms] = [MIN_JOG, MAX_JOG].map(|bound| bound.as_millis() as u64);
@@ -101,17 +100,16 @@ impl Jog {
     }
 }
 
-/// The drive whose alarm is cleared.
+/// Drive whose alarm is cleared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveReset {
     Azimuth,
     Elevation,
-    /// Polarization; refused without a rotating feed.
+    /// Refused without a rotating feed.
     Polarization,
 }
 
 impl Motion {
-    /// The command on the line.
     pub const fn command(&self) -> Command {
         match self {
             Self::AutoMove(_) => Command::AutoMove,

@@ -1,4 +1,4 @@
-//! Reading commands, as a controller does.
+//! Requests read from frames, as a unit does.
 
 use std::time::Duration;
 
@@ -8,22 +8,22 @@ use super::{
 };
 use crate::protocol::rc2000c::{Command, Frame, Header, SatelliteName};
 
-/// Why a frame is no command.
+/// Reason why a frame is not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum RequestError {
-    /// It is a reply.
+    /// The frame is a reply.
     #[error("no command")]
     NotACommand,
     /// No command has this code.
     #[error("unknown command {0:02X}")]
     UnknownCode(u8),
-    /// The command has another length.
+    /// Wrong length for this command.
     #[error("{data_bytes} bytes of data")]
     Length {
         /// Characters between code and ETX.
         data_bytes: usize,
     },
-    /// A value is none of the command's.
+    /// A value that the command does not have.
     #[error("value without meaning")]
     Value,
 }
@@ -118,7 +118,7 @@ fn miscellaneous(data: &[u8]) -> Option<Request> {
     })
 }
 
-/// Digits alone, without sign.
+/// Reads digits without a sign.
 fn number(digits: &[u8]) -> Option<u32> {
     let text = std::str::from_utf8(digits).ok()?;
     text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok()).flatten()

@@ -2,20 +2,18 @@
 
 use super::value::{ValueError, checked};
 
-/// The most that a position can be: a rotating feed's.
+/// Highest position, that of a rotating feed.
 const MAX_POLARIZATION: u16 = 1023;
 
 /// One of the two stored polarizations of a satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Polarity {
-    /// H.
     Horizontal,
-    /// V.
     Vertical,
 }
 
-/// Position of the polarization as the controller counts it: 0 to 661 with a
-/// polarotor, 0 to 1023 with a rotating feed.
+/// Position of the polarization in the unit's count: 0 to 661 with a polarotor, 0 to 1023
+/// with a rotating feed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PolarizationUnits(u16);
 
@@ -26,14 +24,14 @@ impl PolarizationUnits {
         Ok(Self(units))
     }
 
-    /// The number on the line.
+    /// Number on the line.
     pub const fn units(self) -> u16 {
         self.0
     }
 }
 
-/// Turns the polarization (appendix E, command 34h). How long a jog lasts is
-/// set in the controller.
+/// Move of the polarization (appendix E, command 34h). The duration of a jog is set in the
+/// unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationMove {
     /// Clockwise for a moment.
@@ -45,7 +43,6 @@ pub enum PolarizationMove {
 }
 
 impl PolarizationMove {
-    /// All moves with their letters.
     pub(super) const ALL: [(Self, u8); 4] = [
         (Self::JogClockwise, b'C'),
         (Self::JogCounterClockwise, b'W'),

@@ -1,26 +1,25 @@
-//! Values that are checked when they are built.
+//! Checks of values when they are built.
 
-/// Why a value cannot be sent.
+/// Reason why a value cannot be sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ValueError {
-    /// Outside the range.
     #[error("{what} {value} is not between {least} and {most}")]
     Range {
-        /// What the number means, with its unit.
+        /// Meaning of the number, with its unit.
         what: &'static str,
         value: u64,
         least: u64,
         most: u64,
     },
-    /// A controller would read the ten digits of the name as a position.
+    /// The name is ten digits, which a unit would read as a position.
     #[error("a name of ten digits means a position")]
     NameIsPosition,
-    /// No satellite has a name of blanks.
+    /// The name is blank: no satellite has such a name.
     #[error("the name is empty")]
     NoName,
 }
 
-/// `value`, when it lies between `least` and `most`.
+/// Returns `value` if it is between `least` and `most`.
 pub(super) fn checked(
     what: &'static str,
     value: u64,

@@ -1,4 +1,4 @@
-//! The alarm that the controller shows.
+//! Alarm on the unit's display.
 
 use super::BASE;
 
@@ -6,13 +6,10 @@ use super::BASE;
 /// those of the RC2000C; its relatives count otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Alarm {
-    /// No alarm.
     None,
     /// The battery of the memory is low.
     LowBattery,
-    /// Azimuth drive.
     Azimuth,
-    /// Elevation drive.
     Elevation,
     /// The azimuth count is wrong.
     AzimuthCount,
@@ -44,17 +41,15 @@ pub enum Alarm {
     AngleDisplay,
     /// The settings of the polarization are corrupt.
     PolarizationOptions,
-    /// Polarization drive.
     Polarization,
     /// The settings of azimuth and elevation are corrupt.
     AxisOptions,
-    /// Two characters without meaning, the lower nibble first.
+    /// Two unknown characters, the lower nibble first.
     Unknown([u8; 2]),
 }
 
 impl Alarm {
-    /// Every alarm in the order of its number, from 0; the most urgent first
-    /// after none.
+    /// All alarms in the order of their numbers, from 0; after none comes the most urgent.
     pub const ALL: [Self; 21] = [
         Self::None,
         Self::LowBattery,

@@ -1,8 +1,8 @@
-//! What the drives do.
+//! State of the drives.
 
 use super::BASE;
 
-/// The sense of a motion.
+/// Sense of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
     /// Azimuth counter-clockwise, elevation down: the counts fall.
@@ -11,26 +11,23 @@ pub enum Sense {
     Positive,
 }
 
-/// What the drive of an axis does. When several hold, the last of them shows.
+/// State of an axis drive. When several states hold, the last of them shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisDrive {
-    /// It has no power.
+    /// No power.
     Still,
-    /// It is about to turn.
+    /// About to turn.
     Pending(Sense),
-    /// It turns.
     Moving(Sense),
-    /// An auto move runs.
     AutoMove,
-    /// Alarm: the axis moved without command.
+    /// Alarm: the axis moved without a command.
     Runaway,
-    /// Alarm: commanded, but the sensor saw no motion.
+    /// Alarm: the sensor saw no motion in spite of a command.
     Jammed,
     /// Alarm: a limit; documented for elevation only.
     Limit,
     /// Alarm: too much current.
     Overcurrent,
-    /// A character without meaning.
     Unknown(u8),
 }
 
@@ -61,7 +58,7 @@ impl AxisDrive {
         known.map_or(BASE, |(_, code)| BASE + code)
     }
 
-    /// The axis turns or is about to. What is unknown may turn.
+    /// Whether the axis turns or is about to. An unknown state counts as moving.
     pub const fn is_moving(self) -> bool {
         matches!(
             self,
@@ -69,24 +66,18 @@ impl AxisDrive {
         )
     }
 
-    /// The drive reports an alarm.
     pub const fn is_alarm(self) -> bool {
         matches!(self, Self::Runaway | Self::Jammed | Self::Limit | Self::Overcurrent)
     }
 }
 
-/// What the polarization does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationMotion {
-    /// Nothing.
     Still,
-    /// A jog clockwise.
     JogClockwise,
-    /// A jog counter-clockwise.
     JogCounterClockwise,
     /// On the way to a stored polarization.
     ToStored,
-    /// A character without meaning.
     Unknown(u8),
 }
 

@@ -1,5 +1,5 @@
-//! The polarization: two characters of text, and one for the device and the
-//! fine part of the position.
+//! Polarization in a status: two characters of text, and one for the device and the fine
+//! part of the position.
 
 use super::BASE;
 
@@ -11,43 +11,42 @@ const FEED_STEPS: u16 = 11;
 /// The highest value of a rotating feed that is shown.
 const FEED_MOST_SHOWN: u8 = 92;
 
-/// What turns the polarization.
+/// Device that turns the polarization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationDevice {
     /// A probe in the feed, 0 to 661.
     Polarotor,
     /// The whole feed, 0 to 1023.
     RotatingFeed,
-    /// Upper bits without meaning.
+    /// Unknown upper bits.
     Unknown(u8),
 }
 
-/// The position of the polarization as the text tells it.
+/// Position of the polarization as the text gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FeedPosition {
-    /// The coarse number; it grows counter-clockwise, seen into the horn.
+    /// Coarse number; grows counter-clockwise, seen into the horn.
     Shown(u8),
     /// At the clockwise limit.
     ClockwiseLimit,
     /// At the counter-clockwise limit.
     CounterClockwiseLimit,
-    /// Text without meaning, as received.
+    /// Unknown text, as received.
     Unknown([u8; 2]),
 }
 
-/// What a controller says of the polarization.
+/// Report on the polarization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FeedReading {
-    /// What turns it.
     pub device: PolarizationDevice,
-    /// The coarse position.
+    /// Coarse position.
     pub position: FeedPosition,
     /// Steps between the coarse and the exact position, 0 to 15.
     pub fine_steps: u8,
 }
 
 impl FeedReading {
-    /// The reading of a polarotor at a position of 0 to 661.
+    /// Reading of a polarotor at a position of 0 to 661.
     pub fn polarotor(units: u16) -> Self {
         let position = match units {
             0 => FeedPosition::ClockwiseLimit,
@@ -64,7 +63,7 @@ impl FeedReading {
         Self { device: PolarizationDevice::Polarotor, position, fine_steps }
     }
 
-    /// The reading of a rotating feed within its limits, which lie below 1023.
+    /// Reading of a rotating feed within its limits, which are below 1023.
     pub fn rotating_feed(units: u16) -> Self {
         Self {
             device: PolarizationDevice::RotatingFeed,
@@ -73,8 +72,8 @@ impl FeedReading {
         }
     }
 
-    /// The exact position in the controller's units: 0 to 661 or 0 to 1023. At
-    /// a limit a rotating feed does not tell it.
+    /// Exact position in the unit's count: 0 to 661 or 0 to 1023. At a limit a rotating feed
+    /// does not report it.
     pub fn units(&self) -> Option<u16> {
         let fine = u16::from(self.fine_steps);
         match (self.device, self.position) {
@@ -110,7 +109,7 @@ impl FeedReading {
         Self { device: kind, position, fine_steps: device & 0x0f }
     }
 
-    /// The text, and the character for device and fine part.
+    /// Text, and the character for device and fine part.
     pub(super) fn bytes(self) -> ([u8; 2], u8) {
         let text = match self.position {
             FeedPosition::Shown(shown @ 0..10) => [b' ', b'0' + shown],
@@ -129,12 +128,12 @@ impl FeedReading {
     }
 }
 
-/// The first step of a shown value of a polarotor.
+/// First step of a shown value of a polarotor.
 fn first_step(shown: u8) -> u16 {
     u16::from(shown) * POLAROTOR_STEPS / POLAROTOR_SHOWN
 }
 
-/// Which stored polarization the antenna has.
+/// Stored polarization that the antenna has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PolarizationCode {
     /// Horizontal, shown as H.
@@ -145,18 +144,17 @@ pub enum PolarizationCode {
     Vertical,
     /// Close to vertical, shown as v.
     NearVertical,
-    /// None of them.
+    /// Not at a stored polarization.
     None,
-    /// A number without meaning.
     Unknown(u8),
 }
 
-/// How the polarization is set.
+/// Mode of the polarization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolarizationMode {
-    /// The stored polarization that the display shows.
+    /// Stored polarization on the display.
     pub code: PolarizationCode,
-    /// The controller sets it by itself.
+    /// The unit sets the polarization by itself.
     pub is_automatic: bool,
 }
 

@@ -1,25 +1,25 @@
-//! Positions as the front panel shows them, in five characters.
+//! Positions of the front panel, in five characters.
 
 /// Length of the field on the line.
 const POSITION_BYTES: usize = 5;
 
-/// Which axis a field belongs to.
+/// Axis of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
     Azimuth,
     Elevation,
 }
 
-/// Where an axis is.
+/// Position of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Position {
     /// Counts of the sensor, 0 to 65535.
     Counts(u16),
-    /// Tenths of a degree, when the controller is configured to show angles.
+    /// Tenths of a degree, if the unit is configured to show angles.
     TenthsOfDegree(i16),
     /// At a limit, where no number is shown.
     Limit(LimitEnd),
-    /// Text without meaning, as received.
+    /// Unknown text, as received.
     Unknown([u8; POSITION_BYTES]),
 }
 
@@ -48,7 +48,7 @@ impl LimitEnd {
 }
 
 impl Position {
-    /// Reads a field. The manuals pad the words of limits on either side.
+    /// Reads a field. The manuals pad the words for limits on either side.
     pub(super) fn parse(axis: Axis, field: [u8; POSITION_BYTES]) -> Self {
         let text = std::str::from_utf8(&field).unwrap_or_default().trim_matches(' ');
         let ends = match axis {
@@ -66,7 +66,7 @@ impl Position {
         number.unwrap_or(Self::Unknown(field))
     }
 
-    /// The field. Angles outside -99.9 to 999.9 degrees do not fit and show as
+    /// Text of the field. Angles outside -99.9 to 999.9 degrees do not fit and show as
     /// asterisks.
     pub(super) fn text(self) -> [u8; POSITION_BYTES] {
         let text = match self {

@@ -1,4 +1,4 @@
-//! The track mode and the receiver that it listens to.
+//! Track mode, and the receiver that it uses.
 
 /// Band of the receiver in track mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -6,43 +6,38 @@ pub enum TrackBand {
     C,
     K,
     L,
-    /// A number without meaning.
     Unknown,
 }
 
-/// What the track mode does. The numbers are those of the RC2000C; its
-/// relatives count otherwise.
+/// Activity of the track mode. The numbers are those of the RC2000C; its relatives count
+/// otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Submode {
-    /// No tracking.
     Off,
-    /// Asks for data.
+    /// Waits for data to be entered.
     Setup,
-    /// Enters by itself.
     AutoEntry,
     /// Peaks the signal step by step.
     Step,
-    /// Searches the signal.
+    /// Searches for the signal.
     Search,
-    /// Follows what it learned.
+    /// Follows the learned track.
     Program,
     /// Error: an axis is jammed.
     JammedError,
     /// Error: an axis is at a limit.
     LimitError,
-    /// Error: a drive.
+    /// Error of a drive.
     DriveError,
     /// Error: the peak lies at a limit.
     PeakLimitError,
-    /// Error: the scale factor of the azimuth.
+    /// Error of the azimuth scale factor.
     AzimuthScaleError,
-    /// Error: the geographic position.
+    /// Error of the geographic position.
     GeoPositionError,
-    /// Error: the system.
     SystemError,
-    /// Error: a checksum of the memory.
+    /// Error of a memory checksum.
     ChecksumError,
-    /// A number without meaning.
     Unknown(u8),
 }
 
@@ -77,12 +72,13 @@ impl Submode {
         known.map_or(0, |(_, code)| code)
     }
 
-    /// The track mode is on, an error or not. What is unknown counts as on.
+    /// Whether the track mode is on, with or without an error. An unknown submode counts as
+    /// on.
     pub fn is_active(self) -> bool {
         self != Self::Off
     }
 
-    /// The track mode waits in an error.
+    /// Whether the track mode waits in an error.
     pub fn is_error(self) -> bool {
         self.code() >= 8
     }
@@ -92,7 +88,6 @@ impl Submode {
 pub struct Track {
     /// Band in use.
     pub band: TrackBand,
-    /// What it does.
     pub submode: Submode,
 }
 
@@ -121,25 +116,21 @@ impl Track {
     }
 }
 
-/// Which of the two receivers is heard.
+/// The stronger of the two receivers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReceiverChannel {
-    /// The first is stronger.
     One,
-    /// The second is stronger.
     Two,
-    /// Bits without meaning.
     Unknown,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Receiver {
-    /// The stronger channel.
     pub channel: ReceiverChannel,
-    /// Its level, 0 to 1023, without unit.
+    /// Level of the channel, 0 to 1023, without unit.
     pub agc: u16,
-    /// Commands for the polarization are taken; says something only while the
-    /// track mode is on.
+    /// The unit accepts commands for the polarization; meaningful only while the track mode is
+    /// on.
     pub allows_polarization: bool,
 }
 

@@ -64,7 +64,7 @@ fn another_form_is_announced_and_taken_from_the_second_on() {
 #[test]
 fn silence_ends_what_is_unfinished() {
     let mut decoder = Decoder::new();
-    // Not the name alone is missing: no reply, and none with the next status.
+    // More than the name is missing: no reply, and none together with the next status.
     decoder.push(&WIDE[..59]);
     assert_eq!(decoder.unfinished_bytes(), 59);
     assert_eq!(decoder.idle(), [Received::Noise(WIDE[..59].to_vec())]);
@@ -73,7 +73,7 @@ fn silence_ends_what_is_unfinished() {
     assert_eq!(seen, []);
     assert_eq!(status(&decoder.idle()[0]).rotators[1].name, "R");
     assert_eq!(decoder.unfinished_bytes(), 0);
-    // What was hidden behind a piece of a status is found.
+    // The reply hidden behind a piece of a status is found.
     decoder.push(b"|h2|SK");
     assert_eq!(decoder.idle(), [Received::Noise(b"|h2".to_vec()), stop()]);
 }
@@ -109,7 +109,7 @@ fn a_stream_that_nobody_reads_fills_no_memory() {
     decoder.push(WIDE);
     let seen: Vec<_> = decoder.by_ref().collect();
     assert_eq!(seen.len(), MAX_PENDING_BYTES / WIDE.len() - 1);
-    // The status that was cut is no half of the next one.
+    // The cut status is not joined to the next one.
     let seen = take(&mut decoder, WIDE);
     assert!(matches!(seen[0], Received::Noise(_)));
     assert_eq!(status(&seen[1]).rotators[1].name, "Rotator 2");

@@ -1,17 +1,17 @@
-//! The names of the values, in the order of the document.
+//! Names of the values, in the order of the document.
 
 use crate::protocol::satrak::Word;
 
-/// A value that the document does not list.
+/// Name of a value that the document does not list.
 pub(super) const UNKNOWN: &str = "not in the document";
 
-/// What the document says of one value.
+/// Name, unit of measure and codes of one value in the document.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Named {
     pub(super) name: &'static str,
-    /// With the space in front of it, where there is one.
+    /// Begins with a space where one belongs between number and unit.
     pub(super) unit: &'static str,
-    /// Texts that stand for something.
+    /// Codes with their meanings.
     pub(super) codes: &'static [(&'static str, &'static str)],
 }
 
@@ -21,11 +21,11 @@ impl Named {
     }
 }
 
-/// The values of one kind of frame.
+/// Named values of one kind of frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Names {
     pub(super) named: &'static [Named],
-    /// Place of the one value that may hold commas, counted from 0.
+    /// Index of the one value that may hold commas, counted from 0.
     pub(super) text_at: Option<usize>,
 }
 
@@ -53,7 +53,7 @@ const fn code(name: &'static str, codes: &'static [(&'static str, &'static str)]
     Named { codes, ..Named::new(name) }
 }
 
-/// A value of a setting that a `?` leaves as it is.
+/// Marks a value of a setting that a `?` leaves unchanged.
 const fn kept(named: Named) -> Named {
     if named.codes.is_empty() { Named { codes: KEEP, ..named } } else { named }
 }
@@ -261,7 +261,7 @@ const GOTO: Names = Names::of(&[
 const TRACK: Names = Names::of(&[code("tracking", OFF_ON)]);
 const AUTO_TRACK: Names = Names::of(&[code("auto-track", OFF_ON)]);
 
-/// What stands behind a word that ends in `?` when the unit says it.
+/// Names of the values after `word?` in a reply.
 pub(super) const fn of_reply(word: Word) -> Names {
     match word {
         Word::Version => VERSION,
@@ -290,7 +290,7 @@ pub(super) const fn of_reply(word: Word) -> Names {
     }
 }
 
-/// What stands behind a word that ends in `=` when it is sent to the unit.
+/// Names of the values after `word=` in a request.
 pub(super) const fn of_setting(word: Word) -> Names {
     match word {
         Word::Move => MOVE,
@@ -303,7 +303,7 @@ pub(super) const fn of_setting(word: Word) -> Names {
         Word::Satellite => SET_SATELLITE,
         Word::SatelliteHttp => SET_WEB,
         Word::LoadImage => IMAGE_FILE,
-        // As in the answer to the question.
+        // Same values as in the answer to the question.
         Word::Time
         | Word::StartStopTime
         | Word::GpsSettings

@@ -1,61 +1,60 @@
-//! From a byte stream to frames.
+//! Decoder from a byte stream to frames.
 
 use std::collections::VecDeque;
 
 use super::{Frame, Oddity, checksum};
 
-/// Longest line that is read, LF not counted. The longest frame of the
-/// document has 82 bytes; a long URL takes more.
+/// Maximum length of a line, LF not counted. The longest frame of the document has 82
+/// bytes; a long URL takes more.
 pub const MAX_LINE_BYTES: usize = 1024;
-/// What may wait between two calls; more is dropped as an over-long line.
+/// Maximum of bytes that wait between two calls; more is dropped as an over-long line.
 const MAX_PENDING_BYTES: usize = 16 * 1024;
-/// Longest excerpt of a refused line.
+/// Maximum length of the excerpt of a refused line.
 const EXCERPT_CHARS: usize = 24;
 
-/// Why a line is no frame. The excerpts hold at most 24 characters and no values,
-/// for a broken line may hold a piece of a password.
+/// Reason why a line is not a frame. The excerpts hold at most 24 characters and no
+/// values, for a broken line may hold a piece of a password.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
-    /// The line has no `$`.
     #[error("line of {length} bytes without header: {excerpt}")]
     NoHeader {
-        /// Bytes of the line.
+        /// Bytes in the line.
         length: usize,
-        /// Its beginning; empty when it looks like the tail of a frame.
+        /// Beginning of the line; empty if it looks like the tail of a frame.
         excerpt: String,
     },
-    /// The checksum is another one than that of the payload.
+    /// The checksum does not match the payload.
     #[error("checksum {received:02X} instead of {computed:02X}: {excerpt}")]
     BadChecksum {
-        /// As in the line.
+        /// Checksum in the line.
         received: u8,
-        /// Of the payload after the first `$`.
+        /// Checksum of the payload after the first `$`.
         computed: u8,
-        /// The word of the line.
+        /// Word of the line.
         excerpt: String,
     },
-    /// No star at its place before the last two characters.
+    /// No star in front of the last two characters.
     #[error("no checksum: {excerpt}")]
     NoChecksum {
-        /// The word of the line.
+        /// Word of the line.
         excerpt: String,
     },
     /// More than [`MAX_LINE_BYTES`] bytes without LF.
     #[error("line longer than {MAX_LINE_BYTES} bytes: {excerpt}")]
     TooLong {
-        /// The word of the line.
+        /// Word of the line.
         excerpt: String,
     },
-    /// The checksum is right, but the payload has bytes other than printable ASCII.
+    /// The checksum is right, but the payload is not printable ASCII.
     #[error("not text: {excerpt}")]
     NotText {
-        /// The word of the line.
+        /// Word of the line.
         excerpt: String,
     },
     /// The link ended before the line did.
     #[error("unfinished line: {excerpt}")]
     Unfinished {
-        /// The word of the line.
+        /// Word of the line.
         excerpt: String,
     },
 }
@@ -63,23 +62,21 @@ pub enum FrameError {
 /// One line of the stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line {
-    /// As it came, with its end; of an over-long one what was there when it was
-    /// given up. May hold the FTP password: show [`Self::without_secrets`].
+    /// Bytes as received, with the line end; of an over-long line, those that were there when
+    /// it was given up. May hold the FTP password: show [`Self::without_secrets`].
     pub(super) bytes: Vec<u8>,
-    /// What it is.
     pub frame: Result<Frame, FrameError>,
 }
 
 impl Line {
-    /// How many bytes the line has.
     pub fn length(&self) -> usize {
         self.bytes.len()
     }
 }
 
-/// Cuts a byte stream into frames.
+/// Splits a byte stream into frames.
 ///
-/// Push what was read, then take frames until `None`. The stream may be cut and
+/// Push the bytes that were read, then take frames until `None`. The stream may be cut and
 /// merged anywhere. Holds at most 16 KiB.
 #[derive(Debug, Default)]
 pub struct Decoder {
@@ -91,13 +88,12 @@ pub struct Decoder {
 }
 
 impl Decoder {
-    /// A decoder at the start of a stream.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Takes bytes of the stream. What does not fit while nobody takes frames
-    /// is dropped and reported as one over-long line.
+    /// Takes bytes of the stream. Bytes that do not fit while nobody takes frames are dropped
+    /// and reported as one over-long line.
     pub fn push(&mut self, bytes: &[u8]) {
         if self.overflowed {
             return;
@@ -107,7 +103,7 @@ impl Decoder {
         self.pending.extend(bytes.iter().take(room));
     }
 
-    /// The next line, good or not; lines without a byte are left out.
+    /// Next line, good or not; empty lines are left out.
     pub fn next_line(&mut self) -> Option<Line> {
         loop {
             let Some(end) = self.pending.iter().position(|byte| *byte == b'\n') else {
@@ -131,7 +127,7 @@ impl Decoder {
         }
     }
 
-    /// What has come of a line that will not end any more.
+    /// Takes the beginning of a line whose end will not come any more.
     pub fn take_unfinished(&mut self) -> Option<Line> {
         let bytes: Vec<u8> = self.pending.drain(..).collect();
         let is_skipped = std::mem::take(&mut self.skipping);
@@ -174,7 +170,7 @@ fn without_cr(mut line: &[u8]) -> &[u8] {
     line
 }
 
-/// Reads one line without its end.
+/// Reads one line, given without its end.
 fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     let mut headers = line.iter().enumerate().filter(|(_, byte)| **byte == b'$').map(|(at, _)| at);
     let Some(first) = headers.next() else {
@@ -184,7 +180,7 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
         return Err(FrameError::NoChecksum { excerpt: excerpt(line) });
     };
     let received = digits.iter().fold(0, |sum, digit| sum << 4 | hex_value(*digit).unwrap_or(0));
-    // The piece of a cut frame may be glued to a whole one: try each header.
+    // A piece of a cut frame may be glued to a whole one: try each header.
     let payload = std::iter::once(first)
         .chain(headers)
         .filter_map(|at| Some((at, body.get(at + 1..)?)))
@@ -211,8 +207,8 @@ fn read_line(line: &[u8], ended_with_cr: bool) -> Result<Frame, FrameError> {
     Ok(frame)
 }
 
-/// The line in front of the checksum's star, and the digits after it. The star
-/// is looked for at its fixed place, for values may hold stars too.
+/// Splits a line at the checksum's star into payload and digits. The star is looked for at
+/// its fixed place only, for values may hold stars too.
 fn split_checksum(line: &[u8]) -> Option<(&[u8], &[u8])> {
     [2, 1].into_iter().find_map(|count| {
         let (front, digits) = line.split_at_checked(line.len().checked_sub(count)?)?;
@@ -225,7 +221,7 @@ fn hex_value(digit: u8) -> Option<u8> {
     char::from(digit).to_digit(16).and_then(|value| u8::try_from(value).ok())
 }
 
-/// The first header and the word after it.
+/// First header and the word after it.
 fn excerpt(line: &[u8]) -> String {
     let from = line.iter().position(|byte| *byte == b'$').unwrap_or(line.len());
     let word = line.get(from..).unwrap_or_default();

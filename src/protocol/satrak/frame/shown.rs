@@ -1,29 +1,29 @@
-//! The bytes of a line for screens and files. The answer to `SATELLITE_FTP?`
-//! holds a password in clear, and the line may be cut or spoiled anywhere, so
-//! only what cannot be a piece of it is let through.
+//! Bytes of a line for screens and files, without secrets. The answer to `SATELLITE_FTP?`
+//! holds a password in clear, and the line may be cut or spoiled anywhere, so only bytes
+//! that cannot be a piece of it are let through.
 
 use super::{Frame, Line, MAX_LINE_BYTES};
 use crate::protocol::satrak::Word;
 
-/// Stands for bytes that are left out.
+/// Placeholder for bytes that are left out.
 pub const HIDDEN: &str = "(hidden)";
 
-/// The bytes of a line as they may be shown.
+/// Bytes of a line that may be shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shown {
-    /// At most [`MAX_LINE_BYTES`] of the line, [`HIDDEN`] for what was left out.
+    /// At most [`MAX_LINE_BYTES`] of the line, with [`HIDDEN`] in place of omitted bytes.
     pub bytes: Vec<u8>,
     /// Nothing was left out.
     pub is_whole: bool,
 }
 
 impl Line {
-    /// The line without what may be the FTP password or a piece of it.
+    /// The line without any bytes that may be the FTP password or a piece of it.
     ///
-    /// A good frame with a word of the document other than `SATELLITE_FTP` is
-    /// whole. Of everything else only the words of the document and the numbers
-    /// right after them are shown. `is_greeting` says that nothing with a `$`
-    /// has come over the link yet, so that plain text is no piece of a frame.
+    /// A good frame with a word of the document other than `SATELLITE_FTP` stays whole. Of any
+    /// other line only the words of the document and the numbers right after them are shown.
+    /// `is_greeting` says that no `$` has come over the link yet, so that plain text is no
+    /// piece of a frame.
     pub fn without_secrets(&self, is_greeting: bool) -> Shown {
         let bytes = self.bytes.get(..MAX_LINE_BYTES).unwrap_or(&self.bytes);
         let mut filter = Filter { shown: Vec::with_capacity(bytes.len()), is_whole: true };
@@ -44,13 +44,13 @@ impl Line {
     }
 }
 
-/// Where the header of a good frame stands in its line.
+/// Index of the header of a good frame in its line.
 fn header_of(frame: &Frame, content: &[u8]) -> usize {
     let star = content.iter().rposition(|byte| *byte == b'*').unwrap_or(0);
     star.saturating_sub(frame.line().len() + 1)
 }
 
-/// The line, and the CR and LF at its end.
+/// Splits a line into content and the CR and LF at its end.
 fn split_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     let length = bytes.iter().rposition(|byte| !b"\r\n".contains(byte)).map_or(0, |last| last + 1);
     bytes.split_at(length)
@@ -60,7 +60,7 @@ fn is_plain_text(content: &[u8]) -> bool {
     !content.iter().any(|byte| b"$,*".contains(byte))
 }
 
-/// Collects what may be shown.
+/// Collects the bytes that may be shown.
 struct Filter {
     shown: Vec<u8>,
     is_whole: bool,
@@ -71,7 +71,7 @@ impl Filter {
         self.shown.extend_from_slice(bytes);
     }
 
-    /// Once, however much is left out.
+    /// Adds the placeholder once, however much is left out.
     fn hide(&mut self) {
         self.is_whole = false;
         if !self.shown.ends_with(HIDDEN.as_bytes()) {
@@ -79,8 +79,8 @@ impl Filter {
         }
     }
 
-    /// A frame whose checksum is right. One in 256 pieces of another frame has
-    /// a right one too, so behind noise an unknown word is not believed.
+    /// Takes a frame whose checksum is right. So is that of one in 256 pieces of another
+    /// frame; therefore an unknown word behind noise is hidden.
     fn take_frame(&mut self, frame: &Frame, bytes: &[u8], is_behind_noise: bool) {
         match frame.command() {
             Some((Word::SatelliteFtp, _)) if !is_bare(frame) => {
@@ -98,7 +98,7 @@ impl Filter {
         }
     }
 
-    /// Bytes that are no good frame.
+    /// Takes bytes that are not a good frame.
     fn take_spoiled(&mut self, bytes: &[u8]) {
         let first = bytes.iter().position(|byte| *byte == b'$').unwrap_or(bytes.len());
         if first > 0 {
@@ -119,7 +119,7 @@ impl Filter {
         }
     }
 
-    /// Shows values up to the first that is no number. False when there is one.
+    /// Shows values up to the first that is not a number. Returns `false` if there is one.
     fn take_numbers(&mut self, values: &[u8]) -> bool {
         let signs = values.iter().take_while(|byte| b"?=".contains(byte)).count();
         let (sign, values) = values.split_at(signs);
@@ -140,29 +140,29 @@ impl Filter {
     }
 }
 
-/// The word in front of its sign or its values.
+/// Splits off the word in front of the sign or the values.
 fn split_word(bytes: &[u8]) -> (&[u8], &[u8]) {
     let end = bytes.iter().position(|byte| b",?=*".contains(byte)).unwrap_or(bytes.len());
     bytes.split_at(end)
 }
 
-/// Without values, or only with the outcome of a request.
+/// Whether the frame has no values, or only the outcome of a request.
 fn is_bare(frame: &Frame) -> bool {
     let fields: Vec<&str> = frame.fields().iter().map(String::as_str).collect();
     matches!(fields.as_slice(), [] | ["OK" | "ERR"] | ["ERR", _])
 }
 
-/// A word of the document whose values are no secret.
+/// Whether this is a word of the document whose values are not secret.
 fn is_plain_word(word: &str) -> bool {
     Word::from_name(word).is_some_and(|word| word != Word::SatelliteFtp)
 }
 
-/// Whether the letters FTP stand anywhere, in any case.
+/// Whether the letters FTP occur anywhere, in upper or lower case.
 fn names_ftp(bytes: &[u8]) -> bool {
     bytes.windows(3).any(|three| three.eq_ignore_ascii_case(b"FTP"))
 }
 
-/// The star and the digits of a checksum, when they stand at the end.
+/// Splits off the star and digits of a checksum at the end, if they are there.
 fn split_sum(values: &[u8]) -> (&[u8], &[u8]) {
     let star = values.iter().rposition(|byte| *byte == b'*');
     let at = star.filter(|at| {
@@ -172,7 +172,7 @@ fn split_sum(values: &[u8]) -> (&[u8], &[u8]) {
     values.split_at(at.unwrap_or(values.len()))
 }
 
-/// A number, a place with its letter, or one of the fixed words.
+/// Whether the value is a number, a coordinate with its letter, or one of the fixed words.
 fn is_number(value: &[u8]) -> bool {
     let value = value.trim_ascii();
     if [b"OK".as_slice(), b"ERR", b"NONE", b"?"].contains(&value) {

@@ -1,4 +1,4 @@
-//! What a unit answers.
+//! Sentences for the answers of a unit.
 
 use super::{Meaning, Tone, date_time, degrees, place, plain};
 use crate::protocol::satrak::{
@@ -150,7 +150,7 @@ fn fault_list(faults: &Faults) -> String {
     }
 }
 
-/// What matters most; the rest stands among the values.
+/// The most important settings; the rest is among the values of the frame.
 fn settings_in_short(settings: &Settings) -> String {
     let sspa = match settings.sspa {
         SspaMode::Off => "off".to_owned(),

@@ -1,4 +1,4 @@
-//! What a client asks or orders.
+//! Sentences for the requests of a client.
 
 use super::{Meaning, Tone, date_time, place, plain, signed};
 use crate::protocol::satrak::{
@@ -65,7 +65,7 @@ fn moves(motion: Motion) -> String {
     }
 }
 
-/// Those of the two axes that turn.
+/// Names the axes that turn, with their values.
 fn axes(x: f64, y: f64, unit: &str) -> String {
     let turning = [("X", x), ("Y", y)].into_iter().filter(|(_, amount)| amount.abs() > 0.0);
     let words: Vec<String> =
