@@ -1,4 +1,4 @@
-//! Simulators of the controllers on real sockets and pseudo-terminals.
+//! Simulated units on real sockets and pseudo-terminals.
 
 mod command_line;
 mod harness;

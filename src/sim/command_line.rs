@@ -1,5 +1,5 @@
-//! How simulators are started from the command line: each has its own arguments,
-//! and the program puts them together.
+//! Simulators as commands: each make brings its arguments and start, and the program
+//! collects them.
 
 use std::{fmt, future::Future, io, net::SocketAddr, pin::Pin};
 
@@ -8,45 +8,42 @@ use clap::{ArgMatches, Args};
 use super::harness::{Simulator, Unit};
 use crate::orbit::BundledError;
 
-/// A simulator as a command: its name, its arguments and its start.
+/// A simulator as a command: name, arguments and start.
 pub struct Command {
     name: &'static str,
     arguments: fn(clap::Command) -> clap::Command,
     start: fn(&ArgMatches) -> Result<Starting, clap::Error>,
 }
 
-/// A simulator that is being started. Await it inside a tokio runtime with I/O.
+/// Start of a simulator. Await it inside a tokio runtime with I/O.
 pub type Starting = Pin<Box<dyn Future<Output = Result<Serving, StartError>>>>;
 
 /// The work of a simulator: dropping it ends the simulator.
 pub type Serving = Pin<Box<dyn Future<Output = ()> + Send>>;
 
-/// Why a simulator did not start.
+/// Reason why a simulator did not start.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
-    /// Nothing can listen there.
     #[error("The simulator cannot listen on {address}")]
     Listen {
-        /// Where.
+        /// Address to listen at.
         address: SocketAddr,
-        /// Why.
         source: io::Error,
     },
     /// The system gives no pseudo-terminal.
     #[error("No pseudo-terminal can be opened")]
     Terminal(#[source] io::Error),
-    /// Where it answers cannot be told.
+    /// The address of the simulator is unknown.
     #[error(transparent)]
     Address(#[from] io::Error),
-    /// The elements that it is to hold cannot be read.
+    /// The bundled elements cannot be read.
     #[error(transparent)]
     Elements(#[from] BundledError),
 }
 
-/// What a simulator is told on the command line. What the type says of itself is
-/// the help of the command.
+/// Arguments of a simulator. The doc comment of the type is the help of the command.
 pub(super) trait Simulated: Args + 'static {
-    /// Starts it and tells where it answers.
+    /// Starts the simulator and prints where it answers.
     fn start(self) -> impl Future<Output = Result<Serving, StartError>> + 'static;
 }
 
@@ -59,17 +56,17 @@ impl Command {
         }
     }
 
-    /// Its name on the command line.
+    /// Name on the command line.
     pub fn name(&self) -> &'static str {
         self.name
     }
 
-    /// Its part of the command line.
+    /// Subcommand with its arguments.
     pub fn arguments(&self) -> clap::Command {
         (self.arguments)(clap::Command::new(self.name))
     }
 
-    /// Starts the simulator as the command line says.
+    /// Starts the simulator with the arguments in `matches`.
     pub fn start(&self, matches: &ArgMatches) -> Result<Starting, clap::Error> {
         (self.start)(matches)
     }
@@ -81,7 +78,7 @@ impl fmt::Debug for Command {
     }
 }
 
-/// What a simulator that listens at `address` does from now on.
+/// Work of a simulator that listens at `address`.
 pub(super) fn serving<U: Unit>(
     name: &str,
     address: SocketAddr,

@@ -1,6 +1,7 @@
-//! The mechanics that all simulated units share: their clients, their faults, and the handle for tests.
+//! Mechanics that all simulated units share: clients, faults, and the handle for tests.
 //!
-//! A make brings a [`Unit`], which lives in memory, and a [`Wire`], by which the unit talks to one client.
+//! A make brings a [`Unit`], which lives in memory, and a [`Wire`], by which the unit
+//! talks to one client.
 
 mod connection;
 mod control;
@@ -15,49 +16,49 @@ pub use simulator::Simulator;
 
 use std::{collections::BTreeSet, fmt, ops::RangeInclusive, time::Duration};
 
-/// A simulated unit in memory: no I/O and no clock.
+/// A simulated unit in memory, without I/O or clock.
 pub trait Unit: fmt::Debug + Send + Sized + 'static {
-    /// An oddity of its firmware or its line.
+    /// An oddity of firmware or line.
     type Quirk: Copy + Ord + fmt::Debug + Send;
-    /// Something that goes wrong.
+    /// A failure.
     type Fault: Copy + Ord + fmt::Debug + Send;
-    /// A request as [`Control::received`] gives it.
+    /// A request as listed by [`Control::received`].
     type Request: Clone + fmt::Debug + Send;
     type Snapshot;
-    /// Both axes in the unit's own figures.
+    /// Positions of both axes in the unit's own figures.
     type Place;
     type Wire: Wire<Self>;
 
-    /// Replies come in pieces.
+    /// Fault: replies come in pieces.
     const SPLIT: Self::Fault;
-    /// Replies are gathered and come together.
+    /// Fault: replies are gathered and come together.
     const MERGE: Self::Fault;
 
-    /// Lives until `elapsed` after the start. Earlier times change nothing.
+    /// Runs the unit until `elapsed` after the start. Earlier times change nothing.
     fn advance(&mut self, elapsed: Duration);
 
     /// Switches these quirks and faults on and all others off.
     fn set_switches(&mut self, switches: &Switches<Self::Quirk, Self::Fault>);
 
-    /// Puts both axes somewhere else, as if by hand; they stand there.
+    /// Puts both axes elsewhere, as if by hand; they stand there.
     fn place(&mut self, place: Self::Place);
 
     fn snapshot(&self) -> Self::Snapshot;
 
-    /// The wire of a new client.
+    /// Wire for a new client.
     fn wire(&self) -> Self::Wire;
 }
 
-/// A unit's protocol on one connection.
+/// Protocol of a unit on one connection.
 pub trait Wire<U: Unit>: Send {
     type Reply: Send;
 
-    /// With [`Unit::MERGE`], replies are gathered for this long.
+    /// Time for which replies are gathered with [`Unit::MERGE`].
     const MERGE_TIME: Duration = Duration::from_millis(100);
-    /// With [`Unit::SPLIT`], the length of a piece.
+    /// Length of a piece with [`Unit::SPLIT`].
     const PIECE_BYTES: RangeInclusive<u64> = 1..=8;
 
-    /// Carries out what came in. The requests act at once, the replies wait.
+    /// Carries out the bytes that came in. Requests act at once; their replies wait.
     fn take(
         &mut self,
         bytes: &mut [u8],
@@ -66,7 +67,7 @@ pub trait Wire<U: Unit>: Send {
         replies: &mut Replies<Self::Reply>,
     );
 
-    /// The bytes that go out for `reply`, which is the `number`th, from 1. `None` ends the connection.
+    /// Bytes to send for `reply` number `number`, counted from 1. `None` ends the connection.
     fn put(
         &mut self,
         reply: Self::Reply,

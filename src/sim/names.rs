@@ -1,19 +1,19 @@
-//! Names by which oddities and failures are switched on.
+//! Names of quirks and faults.
 
-/// A name that stands for nothing.
+/// An unknown name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {what} {name:?}; known are {}", known.join(", "))]
 pub struct UnknownName {
-    /// What was looked for.
+    /// Kind of name that was expected.
     pub what: &'static str,
-    /// As given.
+    /// Name as given.
     pub name: String,
-    /// The names that stand for something.
+    /// All known names.
     pub known: Vec<&'static str>,
 }
 
-/// Makes types with a table `ALL` of values and names readable from their names,
-/// and writes them by these.
+/// Implements parsing and formatting by name for types with a table `ALL` of values and
+/// names.
 macro_rules! named {
     ($($type:ident is $what:literal),* $(,)?) => {$(
         impl std::str::FromStr for $type {
@@ -39,7 +39,8 @@ macro_rules! named {
 
 pub(super) use named;
 
-/// Checks that the names of `all` are read back, and that the answer to a wrong one lists them.
+/// Checks that the names of `all` are read back, and that the error for a wrong one lists
+/// them.
 #[cfg(test)]
 pub(super) fn assert_read_back<T>(all: &[(T, &str)])
 where

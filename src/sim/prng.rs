@@ -1,6 +1,6 @@
 //! Repeatable randomness.
 
-/// The generator `SplitMix64`: the same numbers for the same seed.
+/// Generator `SplitMix64`: the same numbers for the same seed.
 #[derive(Debug, Clone)]
 pub(super) struct Prng(u64);
 
@@ -17,7 +17,7 @@ impl Prng {
         mixed ^ (mixed >> 31)
     }
 
-    /// A number from `least` to `most`, both included.
+    /// Random number from `least` to `most`, both included.
     pub(super) fn between(&mut self, least: u64, most: u64) -> u64 {
         let span = most.saturating_sub(least).saturating_add(1);
         least.saturating_add(self.next() % span)

@@ -1,11 +1,11 @@
-//! An RC2000C antenna controller that exists only in memory.
+//! A simulated RC2000C antenna controller.
 //!
-//! An ordinary peer on a raw TCP port or a pseudo-terminal: it speaks the
-//! protocol of the vendor's manual, turns a modelled mount and feed, stores
-//! satellites, tracks one of them and can be told to misbehave. Where the
-//! manual is silent it takes the case that is worst for a client: any command
-//! takes the panel from a local operator, an axis that runs out after a stop is
-//! not told as moving, and a command for a drive in alarm is acknowledged.
+//! On its raw TCP port or pseudo-terminal it is an ordinary peer: it speaks the protocol
+//! of the vendor's manual, turns a modelled mount and feed, stores satellites, tracks one
+//! of them and can be told to misbehave. Where the manual is silent it takes the case that
+//! is worst for a client: any command takes the panel from a local operator, an axis that
+//! coasts after a stop is not reported as moving, and a command for a drive in alarm is
+//! acknowledged.
 
 mod axis;
 mod command_line;

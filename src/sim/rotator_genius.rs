@@ -1,10 +1,10 @@
-//! A Rotator Genius that exists only in memory.
+//! A simulated Rotator Genius.
 //!
-//! An ordinary peer on a TCP port: it speaks rev. 4 of the vendor's protocol,
-//! turns two rotators that ramp and coast, and can be told to misbehave. Its
-//! replies are byte for byte those recorded at two stations. Where the document
-//! is silent it takes the case that is worst for a client: it goes on moving when
-//! its client leaves, and a rotator that is no longer driven still coasts.
+//! On its TCP port it is an ordinary peer: it speaks rev. 4 of the vendor's protocol,
+//! turns two rotators that ramp and coast, and can be told to misbehave. Its replies are
+//! byte for byte those recorded at two stations. Where the document is silent it takes the
+//! case that is worst for a client: it goes on moving when its client leaves, and a
+//! rotator that is no longer driven still coasts.
 
 mod command;
 mod command_line;

@@ -1,10 +1,9 @@
-//! A Satrak antenna controller unit that exists only in memory.
+//! A simulated Satrak antenna controller unit.
 //!
-//! An ordinary peer on a TCP port: it speaks the protocol of the vendor's
-//! document, turns a modelled X/Y mount, tracks with its own SGP4 and can be
-//! told to misbehave. Where the document is silent it takes the case that is
-//! worst for a client: a move has no time-out, and stopping leaves tracking
-//! switched on.
+//! On its TCP port it is an ordinary peer: it speaks the protocol of the vendor's
+//! document, turns a modelled X/Y mount, tracks with its own SGP4 and can be told to
+//! misbehave. Where the document is silent it takes the case that is worst for a client: a
+//! move has no time-out, and stopping leaves tracking switched on.
 
 mod answer;
 mod command_line;

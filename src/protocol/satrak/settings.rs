@@ -54,7 +54,7 @@ coded! {
 pub struct Settings {
     /// The clock follows GPS.
     pub rtc_from_gps: bool,
-    /// Lead of the track, milliseconds: positive is ahead of time.
+    /// Time by which tracking runs ahead, milliseconds.
     pub time_offset_ms: i64,
     /// Added to the azimuth while tracking, degrees.
     pub az_offset_deg: f64,

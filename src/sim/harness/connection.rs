@@ -1,4 +1,4 @@
-//! One client: requests in, replies out, and what can go wrong on the way.
+//! Connection of one client: requests in, replies out, and failures on the way.
 
 use std::{collections::VecDeque, io, ops::ControlFlow, time::Duration};
 
@@ -7,11 +7,11 @@ use tokio::io::{AsyncRead, AsyncReadExt, AsyncWrite, AsyncWriteExt};
 use super::{Control, Unit, Wire};
 use crate::clock::{Clock, Instant};
 
-/// A client that takes nothing for this long is given up.
+/// Time after which a client that reads nothing is dropped.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
-/// With [`Unit::SPLIT`], the pause between two pieces.
+/// Pause between two pieces with [`Unit::SPLIT`].
 const SPLIT_PAUSE: Duration = Duration::from_millis(5);
-/// Replies that may wait; with more, nothing is read.
+/// Number of waiting replies beyond which nothing is read.
 const MAX_WAITING: usize = 64;
 
 impl<U: Unit> Control<U> {
@@ -39,7 +39,7 @@ where
     Connection { control, wire, stream, replies, sent: 0 }.run().await
 }
 
-/// Replies on their way, each with the time at which it goes out.
+/// Queue of replies, each with its time to go out.
 #[derive(Debug)]
 pub struct Replies<R> {
     waiting: VecDeque<(Instant, R)>,
@@ -48,7 +48,7 @@ pub struct Replies<R> {
 }
 
 impl<R> Replies<R> {
-    /// `reply` goes out `delay` after the one before it.
+    /// Queues `reply`, to go out `delay` after the one before it.
     pub(in crate::sim) fn push(&mut self, reply: R, delay: Duration) {
         let last_due = self.waiting.back().map(|(due, _)| *due);
         let now = self.clock.now().steady;
@@ -59,7 +59,7 @@ impl<R> Replies<R> {
         self.waiting.push_back((due, reply));
     }
 
-    /// `reply` goes out as soon as those before it.
+    /// Queues `reply`, to go out right after those before it.
     pub(in crate::sim) fn push_now(&mut self, reply: R) {
         self.waiting.push_back((self.clock.now().steady, reply));
     }
@@ -70,7 +70,7 @@ struct Connection<'a, U: Unit, S> {
     wire: U::Wire,
     stream: S,
     replies: Replies<<U::Wire as Wire<U>>::Reply>,
-    /// How many replies went out or were lost.
+    /// Number of replies that went out or were lost.
     sent: u64,
 }
 

@@ -1,4 +1,4 @@
-//! One running unit, shared by its connections, and the handle that controls it.
+//! A running unit, shared by its connections, and the handle that controls it.
 
 use std::{
     collections::{BTreeSet, VecDeque},
@@ -15,7 +15,7 @@ use crate::{
     sim::prng::Prng,
 };
 
-/// How many received requests are remembered.
+/// Maximum number of remembered requests.
 const REMEMBERED_REQUESTS: usize = 10_000;
 
 /// Handle of a simulated unit; clones control the same one.
@@ -49,7 +49,8 @@ impl<U: Unit> Clone for Control<U> {
 }
 
 impl<U: Unit> Control<U> {
-    /// Starts `unit` without a port. `reply_delay` lies between a request and its reply, evenly spread.
+    /// Starts `unit` without a port. The delay between request and reply is spread evenly over
+    /// `reply_delay`.
     pub(in crate::sim) fn start(
         mut unit: U,
         switches: Switches<U::Quirk, U::Fault>,
@@ -69,12 +70,10 @@ impl<U: Unit> Control<U> {
         Self { shared: Arc::new(shared) }
     }
 
-    /// Switches a quirk on or off.
     pub fn set_quirk(&self, quirk: U::Quirk, is_on: bool) {
         self.switch(|switches| set(&mut switches.quirks, quirk, is_on));
     }
 
-    /// Switches a fault on or off.
     pub fn set_fault(&self, fault: U::Fault, is_on: bool) {
         self.switch(|switches| set(&mut switches.faults, fault, is_on));
     }
@@ -86,22 +85,22 @@ impl<U: Unit> Control<U> {
         unit.set_switches(switches);
     }
 
-    /// Puts both axes somewhere else, as if by hand; they stand there.
+    /// Puts both axes elsewhere, as if by hand; they stand there.
     pub fn place(&self, place: U::Place) {
         self.live().unit.place(place);
     }
 
-    /// Closes every connection. The unit goes on with what it does.
+    /// Closes every connection. The unit goes on with its activity.
     pub fn drop_clients(&self) {
         self.shared.drops.send_modify(|count| *count += 1);
     }
 
-    /// The last 10 000 requests that came in whole, oldest first, without secrets.
+    /// The last 10 000 complete requests, oldest first, without secrets.
     pub fn received(&self) -> Vec<(Instant, U::Request)> {
         self.lock().received.iter().cloned().collect()
     }
 
-    /// Where the antenna is and what it does, now.
+    /// Present state of the unit.
     pub fn state(&self) -> U::Snapshot {
         self.live().unit.snapshot()
     }
@@ -120,12 +119,12 @@ impl<U: Unit> Control<U> {
         carry_out(&mut inner.unit)
     }
 
-    /// Changes the unit as nobody can over the line.
+    /// Changes the unit in a way that no client could.
     pub(in crate::sim) fn with_unit<R>(&self, change: impl FnOnce(&mut U) -> R) -> R {
         change(&mut self.live().unit)
     }
 
-    /// Lets the unit live until now.
+    /// Advances the unit to the present.
     pub(in crate::sim) fn live_on(&self) {
         drop(self.live());
     }
@@ -137,7 +136,7 @@ impl<U: Unit> Control<U> {
         inner
     }
 
-    /// The clock of the unit, whose steady side it lives by.
+    /// Clock of the unit, which runs on its steady side.
     pub(in crate::sim) fn clock(&self) -> &Clock {
         &self.shared.clock
     }
@@ -150,24 +149,24 @@ impl<U: Unit> Control<U> {
         self.lock().unit.wire()
     }
 
-    /// A delay for the next reply.
+    /// Random delay for the next reply.
     pub(in crate::sim) fn reply_delay(&self) -> Duration {
         let micros = |delay: &Duration| u64::try_from(delay.as_micros()).unwrap_or(u64::MAX);
         let [least, most] = [self.shared.reply_delay.start(), self.shared.reply_delay.end()];
         Duration::from_micros(self.random(&(micros(least)..=micros(most))))
     }
 
-    /// A number in `range`.
+    /// Random number in `range`.
     pub(super) fn random(&self, range: &RangeInclusive<u64>) -> u64 {
         self.lock().prng.between(*range.start(), *range.end())
     }
 
-    /// Changes when all clients are to be dropped.
+    /// Changes when all clients must be dropped.
     pub(super) fn drops(&self) -> watch::Receiver<u64> {
         self.shared.drops.subscribe()
     }
 
-    /// A panic elsewhere leaves nothing half done that matters here.
+    /// Ignores poisoning: a panic elsewhere leaves nothing half done that matters here.
     fn lock(&self) -> MutexGuard<'_, Inner<U>> {
         self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -6,7 +6,7 @@ use tokio::{net::TcpListener, sync::Semaphore, task::JoinSet};
 
 use super::{Control, Unit};
 
-/// How often a unit lives on while nobody asks.
+/// Interval at which a unit advances without requests.
 pub(in crate::sim) const HEARTBEAT: Duration = Duration::from_millis(250);
 
 /// A unit that listens on a TCP port.
@@ -18,7 +18,8 @@ pub struct Simulator<U: Unit> {
 }
 
 impl<U: Unit> Simulator<U> {
-    /// Listens at `address`; port 0 takes a free one. Further clients than `max_clients` are closed at once.
+    /// Listens at `address`; port 0 takes a free one. Closes further clients than
+    /// `max_clients` at once.
     pub(in crate::sim) async fn listen(
         address: SocketAddr,
         control: Control<U>,
@@ -31,12 +32,12 @@ impl<U: Unit> Simulator<U> {
         })
     }
 
-    /// Where it listens.
+    /// Address at which the unit listens.
     pub fn local_addr(&self) -> io::Result<SocketAddr> {
         self.listener.local_addr()
     }
 
-    /// A handle to watch and disturb the unit.
+    /// Handle to watch and disturb the unit.
     pub fn control(&self) -> Control<U> {
         self.control.clone()
     }
@@ -57,14 +58,14 @@ impl<U: Unit> Simulator<U> {
                         let control = self.control.clone();
                         clients.spawn(async move {
                             let _place = place;
-                            // Small frames are to leave at once; without it they leave too.
+                            // Small frames should leave at once; if this fails they leave too.
                             stream.set_nodelay(true).ok();
                             let result = control.serve(stream).await;
                             tracing::info!(target: "azel::sim", ?result, %peer, "client left");
                         });
                     }
-                    // Out of handles, or the client is gone again: the next heartbeat
-                    // comes before the next try.
+                    // Out of handles, or the client has left again: try once more after the next
+                    // heartbeat.
                     Err(error) => {
                         tracing::warn!(target: "azel::sim", %error, "no client accepted");
                         heartbeat.tick().await;

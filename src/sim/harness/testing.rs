@@ -1,4 +1,4 @@
-//! A client at the other end of a stream in memory, for the tests of the makes.
+//! Client at the other end of an in-memory stream, for the tests of the makes.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use tokio::{
 
 use super::{Control, Unit};
 
-/// How long a client waits for a reply.
+/// Time to wait for a reply.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A client that reads with the decoder `D`.
@@ -20,7 +20,7 @@ pub(in crate::sim) struct Client<D> {
 }
 
 impl<D: Iterator> Client<D> {
-    /// A client of a unit; `push` gives what came in to `decoder`.
+    /// Connects a client to a unit; `push` passes received bytes to `decoder`.
     pub(in crate::sim) fn connect<U: Unit>(
         control: &Control<U>,
         decoder: D,
@@ -36,8 +36,7 @@ impl<D: Iterator> Client<D> {
         self.stream.write_all(bytes).await.unwrap();
     }
 
-    /// The next that the decoder finds; `None` when nothing comes within 2 s or the
-    /// connection ends.
+    /// Next item of the decoder; `None` if nothing comes within 2 s or the connection ends.
     pub(in crate::sim) async fn receive(&mut self) -> Option<D::Item> {
         let mut buffer = [0; 512];
         loop {

@@ -1,4 +1,4 @@
-//! One driven axis, in counts of its sensor. Rates, ramp and travel are own
+//! A driven axis, in counts of its sensor. Rates, ramp and travel are the simulator's own
 //! choices: 20 counts are one degree.
 
 use std::ops::RangeInclusive;
@@ -7,19 +7,19 @@ use crate::protocol::rc2000c::{AxisDrive, Sense, Speed};
 
 const FAST_COUNTS_S: f64 = 40.0;
 const SLOW_COUNTS_S: f64 = 8.0;
-/// How fast the drive gains speed.
+/// Acceleration of the drive.
 const RAMP_COUNTS_S2: f64 = 80.0;
-/// How fast an axis without power loses it.
+/// Deceleration of an axis without power.
 const COAST_COUNTS_S2: f64 = 50.0;
-/// Closer than this an auto move has arrived.
+/// Distance within which an auto move has arrived.
 const ARRIVED_COUNTS: f64 = 0.3;
-/// A drive that sees no motion for this long is jammed.
+/// Time without motion after which a drive is jammed.
 const STALL_S: f64 = 1.0;
 
-/// What an axis is to do.
+/// Goal of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
-    /// No power: run out and stand.
+    /// No power: coast and stand.
     Still,
     /// Turn for a time.
     Jog { sense: Sense, rate_counts_s: f64, left_s: f64 },
@@ -27,18 +27,18 @@ enum Goal {
     AutoMove(f64),
 }
 
-/// What is wrong with an axis, from outside.
+/// External trouble of an axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trouble {
-    /// It cannot be turned.
+    /// The axis cannot be turned.
     pub(super) is_stuck: bool,
     /// The drive takes too much current.
     pub(super) is_overloaded: bool,
-    /// It turns without command.
+    /// The axis turns without a command.
     pub(super) runs_away: bool,
 }
 
-/// One driven axis.
+/// A driven axis.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     counts: f64,
@@ -71,12 +71,12 @@ impl Axis {
         self.trouble = trouble;
     }
 
-    /// Counts as the sensor gives them.
+    /// Reading of the sensor.
     pub(super) fn counts(&self) -> u16 {
         self.counts.round() as u16
     }
 
-    /// The limit at which it stands.
+    /// Limit at which the axis stands.
     pub(super) fn limit(&self) -> Option<Sense> {
         if self.counts <= *self.travel.start() {
             Some(Sense::Negative)
@@ -91,7 +91,7 @@ impl Axis {
         self.travel.contains(&counts.into())
     }
 
-    /// What the controller says of it. An axis that runs out is not told.
+    /// Reported state. An axis that coasts is reported as still.
     pub(super) fn drive(&self) -> AxisDrive {
         if let Some(alarm) = self.alarm {
             return alarm;
@@ -106,7 +106,7 @@ impl Axis {
         }
     }
 
-    /// The metal turns.
+    /// Whether the metal turns.
     pub(super) fn is_turning(&self) -> bool {
         self.rate_counts_s != 0.0
     }
@@ -135,7 +135,7 @@ impl Axis {
         self.begin(Goal::AutoMove(counts.into()));
     }
 
-    /// A drive in alarm takes no power; an alarm of the limit is no such one.
+    /// Sets the goal. A drive in alarm takes no power, except in a limit alarm.
     fn begin(&mut self, goal: Goal) {
         if self.alarm == Some(AxisDrive::Limit) {
             self.alarm = None;
@@ -202,7 +202,7 @@ impl Axis {
         }
     }
 
-    /// Turns for `step_s` while the rate goes towards the wanted one.
+    /// Turns for `step_s` while the rate approaches `wanted_counts_s`.
     fn turn(&mut self, wanted_counts_s: f64, step_s: f64) {
         let is_braking = wanted_counts_s.abs() < self.rate_counts_s.abs()
             || wanted_counts_s * self.rate_counts_s < 0.0;
@@ -224,10 +224,10 @@ impl Axis {
         }
     }
 
-    /// The fastest rate from which the axis still halts at `target`.
+    /// Fastest rate from which the axis can still halt at `target`.
     fn approach(&self, target: f64, step_s: f64) -> f64 {
         let away = target - self.counts;
-        // Less than what it brakes with, so that the braking never falls behind.
+        // Less than the actual braking, so that the braking never falls behind.
         let brake = 0.8 * COAST_COUNTS_S2;
         let half = brake * step_s / 2.0;
         let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;

@@ -1,4 +1,4 @@
-//! An RC2000C on the command line.
+//! Command line of the simulated RC2000C.
 
 use std::net::SocketAddr;
 

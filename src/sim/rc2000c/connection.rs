@@ -1,4 +1,4 @@
-//! Commands in, replies out, and what can go wrong with them.
+//! Wire of an RC2000C: commands in, replies out, and their failures.
 
 use std::{ops::RangeInclusive, time::Duration};
 
@@ -12,28 +12,28 @@ use crate::{
     sim::harness::{self, Replies, Wire},
 };
 
-/// Characters of one command are no farther apart than this, or 20 characters.
+/// Longest time between characters of one command, unless 20 characters take longer.
 const LONGEST_GAP: Duration = Duration::from_millis(100);
 const LONGEST_GAP_CHARACTERS: u32 = 20;
 const STX: u8 = 0x02;
 const STX_WITH_PARITY: u8 = 0x82;
-/// A header, a character of another controller, the beginning of a reply.
+/// Noise: a header, a character of another unit, the beginning of a reply.
 const NOISE: &[u8] = b"\x06\x7f\x15\x62\x06";
 
 type Switches = harness::Switches<Quirk, Fault>;
 
-/// The serial line of one client.
+/// Serial line of one client.
 #[derive(Debug)]
 pub struct Line {
     address: Address,
-    /// Ten bits.
+    /// Time of ten bits.
     character_time: Duration,
-    /// Answers with the parity of the last command.
+    /// Answers have the parity of the last command.
     is_as_spoken: bool,
     heard: Parity,
     decoder: Decoder,
     last_read: Option<Instant>,
-    /// How many replies were made, also those that are lost.
+    /// Number of replies made, lost ones included.
     replies: usize,
 }
 
@@ -50,8 +50,8 @@ impl Line {
         }
     }
 
-    /// A line that has no parity of its own and carries eight bits: it answers
-    /// with parity in the eighth when spoken to so.
+    /// A line of eight bits without parity of its own: it answers with parity in the eighth
+    /// bit if the client uses it.
     #[cfg(unix)]
     pub(super) fn answering_as_spoken(self) -> Self {
         Self { is_as_spoken: true, ..self }
@@ -99,7 +99,7 @@ impl Wire<Rc2000c> for Line {
         switches: &Switches,
         replies: &mut Replies<Vec<u8>>,
     ) {
-        // The first byte of a command looks different with and without parity.
+        // The first byte of a command differs with and without parity.
         if bytes.contains(&STX_WITH_PARITY) {
             self.heard = Parity::Software;
         } else if bytes.contains(&STX) {
@@ -121,9 +121,9 @@ impl Wire<Rc2000c> for Line {
                 Ok(frame) if frame.header() == Header::Command => {
                     self.carry_out(&frame, control, switches, replies);
                 }
-                // Other controllers on the bus.
+                // For other units on the bus.
                 Ok(_) => {}
-                // As a real controller: what is broken is not answered.
+                // Like a real unit: a broken command gets no answer.
                 Err(error) => tracing::info!(target: "azel::sim", %error, "refused"),
             }
         }
@@ -136,7 +136,7 @@ impl Wire<Rc2000c> for Line {
     }
 }
 
-/// What goes out for the reply with this number, counted from 1.
+/// Bytes to send for reply `number`, counted from 1.
 fn reply_bytes(reply: &Reply, address: Address, number: usize, switches: &Switches) -> Vec<u8> {
     let has = |fault| switches.has_fault(fault);
     let is_third = number.is_multiple_of(3);
@@ -162,7 +162,7 @@ fn reply_bytes(reply: &Reply, address: Address, number: usize, switches: &Switch
     frame
 }
 
-/// The frame with the code of a status, and the checksum for that.
+/// The frame with the code of a status, and a checksum to match.
 fn with_wrong_code(mut frame: Vec<u8>) -> Vec<u8> {
     frame.pop();
     if let Some(code) = frame.get_mut(2) {

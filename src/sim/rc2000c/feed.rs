@@ -1,4 +1,4 @@
-//! The polarization: a polarotor or a rotating feed. Rates are own choices.
+//! Polarization by a polarotor or a rotating feed. Rates are the simulator's own choices.
 
 use std::ops::RangeInclusive;
 
@@ -7,10 +7,10 @@ use crate::protocol::rc2000c::{
 };
 
 const RATE_UNITS_S: f64 = 60.0;
-/// How long a jog lasts; set in the configuration of a real controller.
+/// Duration of a jog; set in the configuration of a real unit.
 const JOG_S: f64 = 0.5;
 const POLAROTOR_TRAVEL: RangeInclusive<f64> = 0.0..=661.0;
-/// The user's limits of the rotating feed.
+/// User's limits of the rotating feed.
 const ROTATING_TRAVEL: RangeInclusive<f64> = 11.0..=1012.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ enum Goal {
     Position(f64),
 }
 
-/// What turns the polarization.
+/// Device that turns the polarization.
 #[derive(Debug, Clone)]
 pub(super) struct Feed {
     is_rotating: bool,
@@ -34,7 +34,7 @@ impl Feed {
         Self { is_rotating: false, units: units.into(), goal: Goal::Still }
     }
 
-    /// Exchanges the device.
+    /// Changes the kind of device.
     pub(super) fn set_rotating(&mut self, is_rotating: bool) {
         self.is_rotating = is_rotating;
         let travel = self.travel();

@@ -1,4 +1,4 @@
-//! The controller on a pseudo-terminal, as on a serial port.
+//! A unit on a pseudo-terminal, as on a serial port.
 
 use std::io;
 use std::os::fd::{AsFd, OwnedFd};
@@ -16,12 +16,12 @@ use tokio::time::{MissedTickBehavior, interval, sleep};
 use super::{Control, Options};
 use crate::sim::harness::{self, HEARTBEAT};
 
-/// Between the end of one connection and the next.
+/// Pause between the end of one connection and the next.
 const RECOVERY: Duration = Duration::from_millis(100);
 
-/// A controller behind a pseudo-terminal, which carries eight bits without
-/// parity whatever a client sets. So a command may come with or without parity
-/// in the eighth bit, and the reply comes likewise.
+/// A unit behind a pseudo-terminal, which carries eight bits without parity whatever a
+/// client sets. Therefore a command may come with or without parity in the eighth bit, and
+/// the reply follows it.
 #[derive(Debug)]
 pub struct PtySimulator {
     control: Control,
@@ -32,8 +32,8 @@ pub struct PtySimulator {
 }
 
 impl PtySimulator {
-    /// Starts a controller and opens a pseudo-terminal for it. Call it inside a
-    /// tokio runtime with I/O.
+    /// Starts a unit and opens a pseudo-terminal for it. Call it inside a tokio runtime with
+    /// I/O.
     pub fn open(options: &Options) -> io::Result<Self> {
         let OpenptyResult { master, slave } = openpty(None, None)?;
         let mut attributes = tcgetattr(&slave)?;
@@ -43,7 +43,7 @@ impl PtySimulator {
             fcntl(end, FcntlArg::F_SETFD(FdFlag::FD_CLOEXEC))?;
         }
         fcntl(&master, FcntlArg::F_SETFL(OFlag::O_NONBLOCK))?;
-        // A terminal is waited for, read and written as a pipe is.
+        // A terminal supports the same waits, reads and writes as a pipe.
         let reader = Receiver::from_owned_fd_unchecked(master.try_clone()?)?;
         let writer = Sender::from_owned_fd_unchecked(master)?;
         Ok(Self {
@@ -54,18 +54,18 @@ impl PtySimulator {
         })
     }
 
-    /// The port that a client opens.
+    /// Path of the port that a client opens.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// A handle to watch and disturb the controller.
+    /// Handle to watch and disturb the unit.
     pub fn control(&self) -> Control {
         self.control.clone()
     }
 
-    /// Serves whoever opens the port. Dropping the future ends the controller
-    /// and closes the port.
+    /// Serves clients that open the port. Dropping the future ends the unit and closes the
+    /// port.
     pub async fn run(self) {
         let Self { control, mut line, path, .. } = self;
         let serve = async {

@@ -1,9 +1,9 @@
-//! Oddities of firmware and wiring, and failures that can be switched on.
+//! Oddities of firmware and wiring, and failures, that can be switched on.
 
 use crate::protocol::rc2000c::Alarm;
 use crate::sim::names::named;
 
-/// A way in which a controller or its line may differ from the plainest case.
+/// A way in which a unit or its line may differ from the plainest case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
     /// The display, and so the status, shows angles instead of counts.
@@ -14,7 +14,7 @@ pub enum Quirk {
     Rc2000a,
     /// The reply to the device type query has a wrong command code.
     TypeCode,
-    /// What is malformed is not answered, as appendix D has it.
+    /// A malformed command gets no answer, as in appendix D.
     SilentRefusal,
     /// The words of limits stand at the left of their fields.
     LeftWords,
@@ -31,7 +31,6 @@ pub enum Quirk {
 }
 
 impl Quirk {
-    /// All quirks with their names.
     pub const ALL: [(Self, &'static str); 11] = [
         (Self::AngleDisplay, "angle_display"),
         (Self::RotatingFeed, "rotating_feed"),
@@ -47,14 +46,14 @@ impl Quirk {
     ];
 }
 
-/// Something that goes wrong.
+/// A failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
     /// No reply comes; commands are carried out.
     Silence,
     /// Every third reply is lost; its command was carried out.
     DropReply,
-    /// Noise stands in front of each reply.
+    /// Noise precedes each reply.
     Garbage,
     /// Replies come in pieces.
     Split,
@@ -62,19 +61,19 @@ pub enum Fault {
     Merge,
     /// One bit of every third reply is wrong.
     BitError,
-    /// Every third reply ends in its middle.
+    /// Every third reply breaks off in the middle.
     Truncate,
-    /// The configuration takes no commands: every reply says offline.
+    /// The configuration accepts no commands: every reply says offline.
     RemoteDisabled,
-    /// Every command but queries is refused.
+    /// Every command except queries is refused.
     Refuse,
     /// The azimuth cannot be turned.
     AzimuthJam,
     /// The elevation cannot be turned.
     ElevationJam,
-    /// The azimuth turns without command.
+    /// The azimuth turns without a command.
     AzimuthRunaway,
-    /// The elevation turns without command.
+    /// The elevation turns without a command.
     ElevationRunaway,
     /// The azimuth drive takes too much current.
     AzimuthOvercurrent,
@@ -82,16 +81,15 @@ pub enum Fault {
     ElevationOvercurrent,
     /// The track mode finds its peak at a limit.
     PeakLimit,
-    /// The angles that are told stay what they were.
+    /// The reported angles stay as they were.
     FrozenAngles,
-    /// Both axes are told to stand, whatever they do.
+    /// Both axes are reported to stand, whatever they do.
     FalseRest,
-    /// The controller shows this alarm.
+    /// The unit shows this alarm.
     Alarm(Alarm),
 }
 
 impl Fault {
-    /// All faults with their names.
     pub const ALL: [(Self, &'static str); 38] = [
         (Self::Silence, "silence"),
         (Self::DropReply, "drop_reply"),

@@ -1,12 +1,12 @@
-//! Satellites that the controller has stored.
+//! Satellites stored in the unit.
 
 use crate::protocol::rc2000c::{PolarizationCode, SatelliteName};
 
-/// Closer than this the name shows in capitals: counts of azimuth and elevation.
+/// Distance in azimuth and elevation within which the name shows in capitals, counts.
 const ON_COUNTS: [u16; 2] = [15, 10];
-/// Closer than this it shows in small letters.
+/// Distance within which the name shows in small letters, counts.
 const NEAR_COUNTS: [u16; 2] = [45, 20];
-/// Closer than this a polarization is the stored one, and close to it.
+/// Distances at which a polarization is the stored one, and is close to it.
 const ON_UNITS: u16 = 5;
 const NEAR_UNITS: u16 = 20;
 const MAX_AGC: f64 = 900.0;
@@ -14,10 +14,9 @@ const NOISE_AGC: f64 = 60.0;
 /// Half width of the simulated beam.
 const BEAM_COUNTS: f64 = 25.0;
 
-/// One entry of the list of satellites.
+/// An entry of the list of satellites.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StoredSatellite {
-    /// Its name.
     pub name: SatelliteName,
     /// Azimuth in counts.
     pub az_counts: u16,
@@ -27,13 +26,13 @@ pub struct StoredSatellite {
     pub horizontal: u16,
     /// Position of the vertical polarization, in the feed's units.
     pub vertical: u16,
-    /// Its orbit is inclined: an auto move to it leads to the track mode.
+    /// The orbit is inclined: an auto move to the satellite leads to the track mode.
     pub is_inclined: bool,
-    /// It transmits in C and K band.
+    /// The satellite transmits in C and K band.
     pub is_dual_band: bool,
 }
 
-/// How close the antenna points.
+/// Closeness of the antenna to a satellite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Closeness {
     On,
@@ -41,8 +40,7 @@ pub(super) enum Closeness {
 }
 
 impl StoredSatellite {
-    /// Six satellites as a station may have them; the fourth is inclined and
-    /// has both bands.
+    /// Six satellites that a station may have; the fourth is inclined and has both bands.
     pub fn demo() -> Vec<Self> {
         [
             ("SBS 6", 1525, 750, 263, 593, false),
@@ -67,7 +65,7 @@ impl StoredSatellite {
         .collect()
     }
 
-    /// How close the antenna points to it, if close at all.
+    /// Closeness of the antenna to this satellite, if it is close at all.
     pub(super) fn closeness(&self, counts: [u16; 2]) -> Option<Closeness> {
         let is_within = |window: [u16; 2]| {
             let own = [self.az_counts, self.el_counts];
@@ -83,7 +81,7 @@ impl StoredSatellite {
         }
     }
 
-    /// Which of its polarizations a position is.
+    /// Stored polarization at this position.
     pub(super) fn polarization(&self, units: u16) -> PolarizationCode {
         match (self.horizontal.abs_diff(units), self.vertical.abs_diff(units)) {
             (..=ON_UNITS, _) => PolarizationCode::Horizontal,
@@ -94,7 +92,7 @@ impl StoredSatellite {
         }
     }
 
-    /// The level of the receiver at a position of the antenna, 0 to 1023.
+    /// Level of the receiver at a position of the antenna, 0 to 1023.
     pub(super) fn agc(&self, counts: [u16; 2]) -> u16 {
         let [az, el] = counts;
         let away = f64::from(self.az_counts.abs_diff(az))

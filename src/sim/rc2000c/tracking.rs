@@ -1,17 +1,17 @@
-//! The track mode: set up, search, then peak the signal every while. Times are
-//! own choices.
+//! Track mode: set up, search, then peak the signal at intervals. Times are the
+//! simulator's own choices.
 
 use crate::protocol::rc2000c::{Band, Polarity, Submode};
 
 const SETUP_S: f64 = 1.0;
 const SEARCH_UNTIL_S: f64 = 5.0;
-/// From one peak-up to the next.
+/// Time from one peak-up to the next.
 const CYCLE_S: f64 = 30.0;
 const PEAK_UP_S: f64 = 6.0;
-/// How far a peak-up goes to either side.
+/// Reach of a peak-up to either side.
 const PEAK_COUNTS: u16 = 4;
 
-/// The track mode while it is on.
+/// State of the track mode while it is on.
 #[derive(Debug, Clone)]
 pub(super) struct Tracking {
     az_counts: u16,
@@ -20,7 +20,7 @@ pub(super) struct Tracking {
     error: Option<Submode>,
     pub(super) band: Band,
     pub(super) is_dual_band: bool,
-    /// A polarization asked for during a peak-up; it waits for its end.
+    /// A polarization requested during a peak-up; waits for its end.
     pub(super) waiting: Option<Polarity>,
 }
 
@@ -73,13 +73,13 @@ impl Tracking {
         self.peak_up_s().is_some()
     }
 
-    /// Where both axes are to be now, in counts; nothing while they rest.
+    /// Demanded position of both axes, in counts; `None` while they rest.
     pub(super) fn target(&self) -> Option<[u16; 2]> {
         let (az, el) = (self.az_counts, self.el_counts);
         if self.submode() == Submode::Search {
             return Some([az, el]);
         }
-        // A cross: each side for a second, then back.
+        // A cross: a second to each side, then back.
         Some(match self.peak_up_s()? {
             ..1.0 => [az.saturating_sub(PEAK_COUNTS), el],
             ..2.0 => [az.saturating_add(PEAK_COUNTS), el],

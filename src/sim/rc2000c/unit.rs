@@ -1,5 +1,5 @@
-//! The controller itself: what it remembers and does. No I/O and no clock: the
-//! time since its start comes in as an argument.
+//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
+//! its start is an argument.
 
 mod commands;
 mod report;
@@ -17,28 +17,28 @@ use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of the mount.
 const STEP: Duration = Duration::from_millis(50);
-/// A longer absence than this is not lived through but skipped.
+/// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
 /// From the counter-clockwise to the clockwise limit, half a turn.
 const AZIMUTH_TRAVEL: std::ops::RangeInclusive<u16> = 30..=3630;
 /// From the horizon to the zenith.
 const ELEVATION_TRAVEL: std::ops::RangeInclusive<u16> = 30..=1830;
-/// Where the antenna stands at the start: on the first satellite of the demo.
+/// Position at the start: on the first satellite of the demo.
 const START_COUNTS: [u16; 2] = [1525, 750];
 const START_POLARIZATION: u16 = 263;
 
-/// Who commands the controller.
+/// Who commands the unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// The local operator at the panel.
     Manual,
     /// The line.
     Remote,
-    /// The controller itself, following a satellite.
+    /// The unit itself, following a satellite.
     Track,
 }
 
-/// What the controller does, for tests and displays.
+/// Activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Snapshot {
     /// Azimuth in counts, 30 to 3630.
@@ -47,13 +47,12 @@ pub struct Snapshot {
     pub el_counts: u16,
     /// Polarization in the feed's units.
     pub polarization_units: u16,
-    /// Who commands it.
     pub mode: Mode,
-    /// Anything turns, told or untold.
+    /// Anything turns, reported or not.
     pub is_turning: bool,
 }
 
-/// State of one simulated controller.
+/// State of a simulated unit.
 #[derive(Debug)]
 pub struct Rc2000c {
     pub(super) address: Address,
@@ -61,17 +60,17 @@ pub struct Rc2000c {
     satellites: Vec<StoredSatellite>,
     pub(super) quirks: BTreeSet<Quirk>,
     pub(super) faults: BTreeSet<Fault>,
-    /// Since the start.
+    /// Time since the start.
     elapsed: Duration,
     mode: Mode,
     azimuth: Axis,
     elevation: Axis,
-    /// The counts that a frozen display shows.
+    /// Counts on a frozen display.
     frozen: Option<[u16; 2]>,
     feed: Feed,
     is_auto_polarization: bool,
     tracking: Option<Tracking>,
-    /// The track mode begins when the auto move that runs has arrived.
+    /// Track mode to begin when the present auto move has arrived.
     next_tracking: Option<Tracking>,
 }
 
@@ -98,7 +97,7 @@ impl Rc2000c {
         unit
     }
 
-    /// Lets quirks and faults have their effect. Call it after each change of them.
+    /// Applies the quirks and faults. Call it after each change of them.
     pub(super) fn suffer(&mut self) {
         let has = |fault| self.faults.contains(&fault);
         self.azimuth.set_trouble(Trouble {
@@ -116,7 +115,7 @@ impl Rc2000c {
         self.feed.set_rotating(self.quirks.contains(&Quirk::RotatingFeed));
     }
 
-    /// The local operator takes the panel: whatever the line asked for ends.
+    /// The local operator takes the panel: any motion from the line ends.
     pub(super) fn use_panel(&mut self) {
         self.mode = Mode::Manual;
         self.tracking = None;

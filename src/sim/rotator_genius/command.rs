@@ -1,27 +1,27 @@
-//! Cutting a byte stream into commands, which have no terminator.
+//! Splitting of a byte stream into commands, which have no terminator.
 
 use std::collections::BTreeSet;
 
 use super::Quirk;
 use crate::protocol::rotator_genius::Request;
 
-/// A configuration without its name, as the document's example.
+/// Length of a configuration without its name, as in the document's example.
 pub(super) const SHORT_CONFIGURATION_BYTES: usize = 12;
-/// Where the angle of a go-to begins, and how long the command is.
+/// Index of the angle in a go-to, and length of the command.
 const GO_TO_ANGLE_AT: usize = 3;
 const GO_TO_BYTES: usize = 6;
 
-/// Finds commands by the length that belongs to their letter.
+/// Splits a stream by the length that belongs to each command's letter.
 ///
-/// What is no command is passed over up to the next bar. Whether a real device
-/// reads a stream or segments is not known.
+/// Bytes that form no command are skipped up to the next bar. Whether a real unit reads a
+/// stream or segments is unknown.
 #[derive(Debug, Default)]
 pub struct CommandReader {
     pending: Vec<u8>,
 }
 
 impl CommandReader {
-    /// The commands that are complete with `segment`.
+    /// Commands that are complete with `segment`.
     pub(super) fn read(&mut self, segment: &[u8], quirks: &BTreeSet<Quirk>) -> Vec<Vec<u8>> {
         if quirks.contains(&Quirk::Segment) {
             return alone(segment);
@@ -56,16 +56,16 @@ impl CommandReader {
     }
 }
 
-/// The commands of a segment, each up to the next bar. The number of a go-to may
-/// be short, what follows a command is ignored.
+/// Commands of a single segment, each up to the next bar. The number of a go-to may be
+/// short; bytes after a command are ignored.
 fn alone(segment: &[u8]) -> Vec<Vec<u8>> {
     let mut pieces = segment.split(|byte| *byte == b'|');
-    // In front of the first bar stands no command.
+    // There is no command in front of the first bar.
     pieces.next();
     pieces.filter(|piece| !piece.is_empty()).map(command).collect()
 }
 
-/// A command from what stands behind its bar.
+/// Command from the bytes behind its bar.
 fn command(piece: &[u8]) -> Vec<u8> {
     let mut command = [b"|", piece].concat();
     let letter = piece.first().copied().unwrap_or_default();

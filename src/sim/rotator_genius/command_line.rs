@@ -1,4 +1,4 @@
-//! A Rotator Genius on the command line.
+//! Command line of the simulated Rotator Genius.
 
 use std::net::SocketAddr;
 

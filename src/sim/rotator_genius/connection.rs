@@ -1,9 +1,9 @@
-//! Commands in, replies out, and what can go wrong with them.
+//! Wire of a Rotator Genius: commands in, replies out, and their failures.
 
 use super::{Control, Fault, Quirk, command::CommandReader, unit::RotatorGenius};
 use crate::sim::harness::{self, Replies, Wire};
 
-/// Holds pieces that look like replies.
+/// Noise with pieces that look like replies.
 const NOISE: &[u8] = b"\x00\xff~|A12\r\n|";
 
 type Switches = harness::Switches<Quirk, Fault>;

@@ -1,4 +1,4 @@
-//! How a simulated device is made.
+//! Options of a simulated Rotator Genius.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -13,48 +13,46 @@ use crate::{
     protocol::rotator_genius::{RotatorKind, WholeDegrees},
 };
 
-/// How a simulated device is made.
+/// Options of a simulated unit.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Both rotators.
     pub rotators: [RotatorOptions; 2],
-    /// Oddities of the device.
+    /// Oddities of the unit.
     pub quirks: BTreeSet<Quirk>,
-    /// What goes wrong.
+    /// Failures.
     pub faults: BTreeSet<Fault>,
-    /// Between a command and its reply, evenly spread.
+    /// Delay between a command and its reply, evenly spread.
     pub reply_delay: RangeInclusive<Duration>,
-    /// Further clients are closed at once.
+    /// Maximum number of clients; more are closed at once.
     pub max_clients: usize,
     /// Seed of all randomness.
     pub seed: u64,
 }
 
-/// One rotator at the start.
+/// A rotator at the start.
 #[derive(Debug, Clone)]
 pub struct RotatorOptions {
-    /// Its name; 12 characters of Latin-1 are sent.
+    /// Name; 12 characters of Latin-1 are sent.
     pub name: String,
-    /// Azimuth or elevation.
     pub kind: RotatorKind,
-    /// Where it points.
+    /// Angle at the start.
     pub position: WholeDegrees,
-    /// The end of the travel clockwise.
+    /// End of the travel clockwise.
     pub limit_cw: WholeDegrees,
-    /// The end of the travel counter-clockwise.
+    /// End of the travel counter-clockwise.
     pub limit_ccw: WholeDegrees,
     /// Reported "Offset", degrees, -180 to 180. The position includes it already.
     pub offset_deg: i16,
-    /// How many degrees before a target the drive is cut off. From its full rate
-    /// the rotator coasts 2 degrees.
+    /// Degrees before a target at which the drive is cut off. From full rate the rotator
+    /// coasts 2 degrees.
     pub stop_offset_deg: u8,
-    /// Whether it has a sensor, and so can be moved.
+    /// The rotator has a sensor, without which it cannot be moved.
     pub has_sensor: bool,
 }
 
 impl Default for Options {
-    /// As the recorded devices: an azimuth rotator at 173 degrees, and a second
-    /// one without a sensor. One client, replies after 5 to 30 ms.
+    /// Like the recorded units: an azimuth rotator at 173 degrees, and a second one without a
+    /// sensor. One client, replies after 5 to 30 ms.
     fn default() -> Self {
         let name = "Rotator 2".to_owned();
         let second = RotatorOptions { name, has_sensor: false, ..RotatorOptions::default() };
@@ -99,12 +97,12 @@ impl RotatorOptions {
 }
 
 impl Control {
-    /// A device that starts now, without a port: see [`Self::serve`].
+    /// A unit that starts now, without a port: see [`Self::serve`].
     pub fn new(options: &Options) -> Self {
         Self::on_clock(options, Clock::system())
     }
 
-    /// The same, living by `clock`.
+    /// Like [`Self::new`], running by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
@@ -113,7 +111,7 @@ impl Control {
 }
 
 impl Simulator {
-    /// Starts a device and listens; port 0 takes a free one, a real device has 9006.
+    /// Starts a unit and listens; port 0 takes a free one. A real unit has 9006.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
         Self::listen(address, Control::new(&options), options.max_clients).await
     }
@@ -131,7 +129,7 @@ mod tests {
         Acknowledgement, Decoder, Motion, Received, Reply, Request, RotatorNumber, Status,
     };
 
-    /// The reply to a request, or `None` when the connection is closed instead.
+    /// Reply to a request, or `None` if the connection is closed instead.
     async fn ask(stream: &mut TcpStream, request: Request) -> Option<Reply> {
         stream.write_all(&request.to_bytes()).await.ok()?;
         let mut decoder = Decoder::new();

@@ -1,34 +1,32 @@
-//! Oddities of devices and failures that can be switched on.
+//! Oddities of units, and failures, that can be switched on.
 
 use crate::protocol::rotator_genius::RotatorNumber;
 use crate::sim::names::named;
 
-/// A way in which a device may deviate from those that were recorded, or the
-/// document from itself.
+/// A way in which a unit may deviate from the recorded ones, or the document from itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
-    /// A status of 64 bytes with zeros in front, as the document's example.
+    /// A status of 64 bytes with leading zeros, as in the document's example.
     Narrow,
-    /// The limit byte is `0` or `1`, as the document says. Recorded devices send
-    /// a zero byte inside.
+    /// The limit byte is `0` or `1`, as the document says. Recorded units send a zero byte
+    /// inside the limits.
     LimitAscii,
-    /// The limit byte is 0x01 outside; nobody has recorded it.
+    /// The limit byte is 0x01 outside the limits; nobody has recorded it.
     LimitBinary,
     /// "Active" is `0`, as in the document's example.
     Active0,
-    /// The reply to a go-to repeats the target, as the document's list.
+    /// The reply to a go-to repeats the target, as in the document's list.
     GoToReply6,
-    /// Each segment is taken by itself: numbers may be short, and what is
-    /// incomplete is forgotten.
+    /// Each segment is read by itself: numbers may be short, and an incomplete command is
+    /// forgotten.
     Segment,
-    /// A configuration may come without the name, as the document's example.
+    /// A configuration may come without the name, as in the document's example.
     Config12,
     /// An unknown command is answered with its letter and `F`.
     UnknownFails,
 }
 
 impl Quirk {
-    /// All quirks with their names.
     pub const ALL: [(Self, &'static str); 8] = [
         (Self::Narrow, "narrow"),
         (Self::LimitAscii, "limit_ascii"),
@@ -41,28 +39,28 @@ impl Quirk {
     ];
 }
 
-/// Something that goes wrong.
+/// A failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
     /// No reply comes; requests are carried out.
     Silence,
     /// Every third reply is lost; its request was carried out.
     DropReply,
-    /// Instead of every third reply the connection ends.
+    /// The connection ends instead of every third reply.
     HangUp,
-    /// Noise stands in front of each reply.
+    /// Noise precedes each reply.
     Garbage,
     /// Replies come in pieces.
     Split,
     /// Replies are gathered and come together.
     Merge,
-    /// Every command but reading and stopping is refused.
+    /// Every command is refused except reading and stopping.
     Refuse,
     /// "Panic" is 0x07. The codes are not documented.
     Panic,
-    /// The angles that are told stay what they were.
+    /// The reported angles stay as they were.
     FrozenAngles,
-    /// Both rotators are told to stand, whatever they do.
+    /// Both rotators are reported to stand, whatever they do.
     FalseRest,
     /// The sensor of this rotator is not connected.
     NoSensor(RotatorNumber),
@@ -71,7 +69,6 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// All faults with their names.
     pub const ALL: [(Self, &'static str); 14] = [
         (Self::Silence, "silence"),
         (Self::DropReply, "drop_reply"),

@@ -1,5 +1,5 @@
-//! What the device sends, byte for byte as recorded, and the forms that the
-//! quirks ask for.
+//! Replies of the unit, byte for byte as recorded, or in the forms that the quirks ask
+//! for.
 
 use std::collections::BTreeSet;
 
@@ -7,10 +7,10 @@ use super::Quirk;
 use super::rotor::Rotor;
 use crate::protocol::rotator_genius::{Moving, WholeDegrees};
 
-/// Instead of an angle that does not exist.
+/// Number in place of an angle that does not exist.
 const NONE: u16 = 999;
 
-/// The reply to `|h`.
+/// Reply to `|h`.
 pub(super) fn status(rotors: &[Rotor; 2], panic: u8, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     let active = if quirks.contains(&Quirk::Active0) { b'0' } else { b'2' };
     let header = [b'|', b'h', active, panic];
@@ -34,7 +34,7 @@ fn rotator(rotor: &Rotor, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
         Moving::CounterClockwise => '2',
     };
     let (front, name_length) = if is_narrow {
-        // Here the document explains the field as the stop offset.
+        // For this form the document explains the field as the stop offset.
         let (cw, ccw, offset) = (cw.degrees(), ccw.degrees(), rotor.stop_offset_deg);
         let numbers = format!("{position:03}{cw:03}{ccw:03}{kind}{moving}{offset:02}");
         (format!("{numbers}{target:03}{start:03}"), 10)
@@ -58,12 +58,12 @@ fn limit_byte(is_outside: bool, quirks: &BTreeSet<Quirk>) -> u8 {
     }
 }
 
-/// The reply to a command with this letter.
+/// Reply to the command with this letter.
 pub(super) fn acknowledgement(letter: u8, is_accepted: bool) -> Vec<u8> {
     vec![b'|', letter, verdict(is_accepted)]
 }
 
-/// The reply to the go-to `command`, which it may repeat.
+/// Reply to the go-to `command`, which it may repeat.
 pub(super) fn go_to(command: &[u8], is_accepted: bool, quirks: &BTreeSet<Quirk>) -> Vec<u8> {
     match command.get(3..) {
         Some(angle) if quirks.contains(&Quirk::GoToReply6) => {

@@ -1,4 +1,4 @@
-//! Kinematics of one rotator. Rate and ramp are own choices.
+//! Kinematics of a rotator. Rate and ramp are the simulator's own choices.
 
 use super::RotatorOptions;
 use super::travel::Travel;
@@ -8,17 +8,17 @@ use crate::protocol::rotator_genius::{
 
 /// Full rate, degrees per second.
 const RATE_DEG_S: f64 = 4.0;
-/// How fast it gets there and coasts down again. From the full rate it coasts 2
-/// degrees, the default stop offset.
+/// Ramp up and coasting down, degrees per second squared. From full rate the rotator
+/// coasts 2 degrees, the default stop offset.
 const RAMP_DEG_S2: f64 = 4.0;
 
-/// What the drive does.
+/// State of the drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Drive {
     Off,
-    /// Until told otherwise.
+    /// Turn until told otherwise.
     Free(Direction),
-    /// To a target, from where it was when it set out.
+    /// Turn to a target, from the angle at which it set out.
     To {
         target: WholeDegrees,
         start: WholeDegrees,
@@ -39,11 +39,11 @@ pub(super) struct Rotor {
     has_sensor: bool,
     is_sensor_broken: bool,
     is_stuck: bool,
-    /// What a frozen sensor shows.
+    /// Reading of a frozen sensor.
     frozen: Option<WholeDegrees>,
     rests_falsely: bool,
     travel: Travel,
-    /// On the travel; beyond its ends when outside the limits.
+    /// Position on the travel; beyond its ends when outside the limits.
     place_deg: f64,
     rate_deg_s: f64,
     drive: Drive,
@@ -71,22 +71,22 @@ impl Rotor {
         }
     }
 
-    /// Where it points, 0 to 360 degrees.
+    /// True angle, 0 to 360 degrees.
     pub(super) fn angle_deg(&self) -> f64 {
         self.travel.angle_deg(self.place_deg)
     }
 
-    /// What the sensor shows.
+    /// Reading of the sensor.
     pub(super) fn measured(&self) -> Option<WholeDegrees> {
         self.can_measure().then(|| self.frozen.unwrap_or_else(|| self.angle()))
     }
 
-    /// Without a sensor nothing is known.
+    /// By the sensor; `false` without one.
     pub(super) fn is_outside_limits(&self) -> bool {
         self.can_measure() && !self.travel.contains(self.place_deg)
     }
 
-    /// Whether it is driven; it may still coast.
+    /// Direction of the drive; a stopped rotator may still coast.
     pub(super) fn moving(&self) -> Moving {
         match self.drive {
             Drive::Off => Moving::Stopped,
@@ -96,7 +96,7 @@ impl Rotor {
         }
     }
 
-    /// Where it goes and where it set out.
+    /// Target, and angle at which it set out.
     pub(super) fn journey(&self) -> Option<(WholeDegrees, WholeDegrees)> {
         match self.drive {
             Drive::To { target, start, .. } => Some((target, start)),
@@ -104,7 +104,7 @@ impl Rotor {
         }
     }
 
-    /// Whether its status says that it stands while it may turn.
+    /// Whether the status says that the rotator stands although it may turn.
     pub(super) fn rests_falsely(&self) -> bool {
         self.rests_falsely
     }
@@ -123,7 +123,7 @@ impl Rotor {
         self.drive = Drive::Off;
     }
 
-    /// `false`, and nothing happens, without a sensor or beyond the limits.
+    /// Returns `false`, and does nothing, without a sensor or beyond the limits.
     pub(super) fn go_to(&mut self, target: WholeDegrees) -> bool {
         let target_place = self.travel.place(degrees(target));
         if !self.can_measure() || !self.travel.contains(target_place) {
@@ -135,8 +135,8 @@ impl Rotor {
         true
     }
 
-    /// Inside the limits it goes to the limit, outside it just goes. `false`, and
-    /// nothing happens, without a sensor.
+    /// Inside the limits the rotator goes to the limit, outside them it just turns. Returns
+    /// `false`, and does nothing, without a sensor.
     pub(super) fn rotate(&mut self, direction: Direction) -> bool {
         if !self.can_measure() {
             return false;
@@ -158,7 +158,7 @@ impl Rotor {
         self.drive = Drive::To { target, start: self.angle(), direction };
     }
 
-    /// Takes everything of a configuration but the name, and is no longer driven.
+    /// Adopts all of a configuration but the name, and stops the drive.
     pub(super) fn configure(&mut self, configuration: &Configuration) {
         let angle_deg = self.angle_deg();
         self.limit_cw = configuration.limit_cw();
@@ -170,7 +170,7 @@ impl Rotor {
         self.drive = Drive::Off;
     }
 
-    /// A rotator that loses its sensor is no longer driven.
+    /// Sets the faults. The drive of a rotator that loses its sensor stops.
     pub(super) fn set_faults(&mut self, is_sensor_broken: bool, is_stuck: bool) {
         self.is_sensor_broken = is_sensor_broken;
         self.is_stuck = is_stuck;
@@ -179,7 +179,7 @@ impl Rotor {
         }
     }
 
-    /// What its status is to tell wrongly.
+    /// Sets the errors of the status.
     pub(super) fn set_lies(&mut self, is_frozen: bool, rests_falsely: bool) {
         let angle = self.frozen.unwrap_or_else(|| self.angle());
         self.frozen = is_frozen.then_some(angle);
@@ -203,7 +203,7 @@ impl Rotor {
         self.place_deg += self.rate_deg_s * step_s;
     }
 
-    /// Whether the target is as near as the stop offset, or passed.
+    /// Whether the target is within the stop offset, or passed.
     fn has_arrived(&self) -> bool {
         let Drive::To { target, direction, .. } = self.drive else { return false };
         let away = self.travel.place(degrees(target)) - self.place_deg;

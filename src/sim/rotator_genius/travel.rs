@@ -1,10 +1,10 @@
-//! The arc between the limits of a rotator.
+//! Travel between the limits of a rotator.
 
-/// Where a rotator may turn: clockwise from its counter-clockwise limit to its
-/// clockwise one, the natural meaning, which recorded devices fit.
+/// Travel of a rotator: clockwise from its counter-clockwise limit to its clockwise one.
+/// This is the natural meaning, and recorded units fit it.
 ///
-/// A place on it is counted in degrees clockwise from the counter-clockwise limit.
-/// Equal limits leave a whole turn.
+/// A place on the travel is in degrees clockwise from the counter-clockwise limit. Equal
+/// limits leave a whole turn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Travel {
     ccw_deg: f64,
@@ -17,14 +17,14 @@ impl Travel {
         Self { ccw_deg, span_deg: if span > 0.0 { span } else { span + 360.0 } }
     }
 
-    /// The place of an azimuth or elevation, 0 to 360 degrees.
+    /// Place of an azimuth or elevation, 0 to 360 degrees.
     pub(super) fn place(&self, angle_deg: f64) -> f64 {
         let clockwise = angle_deg - self.ccw_deg;
         self.nearest(if clockwise < 0.0 { clockwise + 360.0 } else { clockwise })
     }
 
-    /// The same direction as `place`, on the arc or as near to one of its ends as
-    /// can be.
+    /// Place with the direction of `place`: on the travel, or as near to one of its ends as
+    /// possible.
     pub(super) fn nearest(&self, place: f64) -> f64 {
         let most = self.span_deg + (360.0 - self.span_deg) / 2.0;
         if (most - 360.0..=most).contains(&place) {
@@ -40,7 +40,7 @@ impl Travel {
         if (0.0..=360.0).contains(&angle) { angle } else { angle.rem_euclid(360.0) }
     }
 
-    /// Whether a place lies on the arc, to the whole degree, as a status can tell.
+    /// Whether a place is on the travel, to the whole degree that a status can express.
     pub(super) fn contains(&self, place: f64) -> bool {
         (0.0..=self.span_deg).contains(&self.nearest(place).round())
     }

@@ -1,5 +1,5 @@
-//! The device itself: what it remembers and does. No I/O and no clock: the time
-//! since its start comes in as an argument.
+//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
+//! its start is an argument.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -14,47 +14,44 @@ use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of the rotators.
 const STEP: Duration = Duration::from_millis(50);
-/// A longer absence than this is not lived through but skipped.
+/// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
-/// What [`Fault::Panic`] reports.
+/// Code that [`Fault::Panic`] reports.
 const PANIC_CODE: u8 = 0x07;
 
-/// What the device does, for tests and displays.
+/// Activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snapshot {
-    /// Both rotators.
     pub rotators: [RotatorState; 2],
 }
 
 impl Snapshot {
-    /// One rotator.
     pub fn rotator(&self, number: RotatorNumber) -> &RotatorState {
         number.of(&self.rotators)
     }
 }
 
-/// Where one rotator truly is and what it does, whatever its sensor says.
+/// True state of one rotator, whatever its sensor says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotatorState {
-    /// Where it points, degrees, 0 to 360.
+    /// Angle, degrees, 0 to 360.
     pub angle_deg: f64,
-    /// Which way it is driven.
+    /// Direction of the drive.
     pub moving: Moving,
-    /// Whether it turns; it coasts when it is no longer driven.
+    /// The rotator turns; without its drive it may still coast.
     pub is_turning: bool,
-    /// Whether its sensor shows it outside its limits.
+    /// The sensor reads outside the limits.
     pub is_outside_limits: bool,
-    /// Where it is going.
     pub target: Option<WholeDegrees>,
 }
 
-/// State of one simulated device.
+/// State of a simulated unit.
 #[derive(Debug)]
 pub struct RotatorGenius {
     rotors: [Rotor; 2],
     panic: u8,
     refuses: bool,
-    /// Since the start of the device, in whole steps.
+    /// Time since the start of the unit, in whole steps.
     elapsed: Duration,
 }
 
@@ -68,8 +65,7 @@ impl RotatorGenius {
         }
     }
 
-    /// Carries a command out and gives the reply; `None` when there is none. Call
-    /// `advance` first.
+    /// Carries a command out and returns the reply, if there is one. Call `advance` first.
     pub(super) fn answer(&mut self, command: &[u8], quirks: &BTreeSet<Quirk>) -> Option<Vec<u8>> {
         let letter = *command.get(1)?;
         let is_short = letter == b'c' && command.len() == SHORT_CONFIGURATION_BYTES;
@@ -120,7 +116,7 @@ impl RotatorGenius {
 impl harness::Unit for RotatorGenius {
     type Quirk = Quirk;
     type Fault = Fault;
-    /// As Latin-1 text.
+    /// Latin-1 text.
     type Request = String;
     type Snapshot = Snapshot;
     type Place = [WholeDegrees; 2];
@@ -131,7 +127,7 @@ impl harness::Unit for RotatorGenius {
 
     fn advance(&mut self, elapsed: Duration) {
         self.elapsed = self.elapsed.max(elapsed.saturating_sub(LONGEST_CATCH_UP));
-        // Whole steps alone, so that asking more often changes nothing.
+        // Only whole steps, so that more frequent requests change nothing.
         while self.elapsed + STEP <= elapsed {
             self.elapsed += STEP;
             for rotor in &mut self.rotors {

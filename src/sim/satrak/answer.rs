@@ -1,4 +1,4 @@
-//! Answers before they are bytes, so that quirks can change their form.
+//! Answers before they are encoded, so that quirks can change their form.
 
 use std::collections::BTreeSet;
 
@@ -8,15 +8,15 @@ use jiff::tz::TimeZone;
 use super::Quirk;
 use crate::protocol::satrak::{RequestError, Verb, Word};
 
-/// Codes in refusals. The document announces codes and lists none, so these
-/// are the simulator's own.
+/// Codes in refusals. The document announces codes and lists none, so these are the
+/// simulator's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorCode {
     /// The word is unknown, or not used with this sign.
     Unknown = 1,
-    /// Another number of values is needed.
+    /// Wrong number of values.
     Count = 2,
-    /// A value cannot be read or has no sense.
+    /// A value cannot be read or makes no sense.
     Value = 3,
     /// The antenna cannot point there.
     OutOfReach = 4,
@@ -24,7 +24,7 @@ pub enum ErrorCode {
     NotReady = 5,
     /// A fault forbids it.
     Fault = 6,
-    /// No setting is taken.
+    /// No setting is accepted.
     Refused = 7,
 }
 
@@ -41,9 +41,9 @@ impl From<RequestError> for ErrorCode {
 /// One value of an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Value {
-    /// Goes out as it is.
+    /// Sent as it is.
     Text(String),
-    /// Holds a decimal point.
+    /// Has a decimal point.
     Decimal(String),
 }
 
@@ -57,14 +57,14 @@ impl Value {
         Self::text(u8::from(flag))
     }
 
-    /// A fixed number of decimals.
+    /// With a fixed number of decimals.
     pub(super) fn fixed(value: f64, decimals: usize) -> Self {
         let text = format!("{value:.decimals$}");
         let is_minus_zero = text.starts_with('-') && !text.contains(|c| ('1'..='9').contains(&c));
         Self::Decimal(if is_minus_zero { text.replacen('-', "", 1) } else { text })
     }
 
-    /// One to three decimals, as many as needed.
+    /// With one to three decimals, as many as needed.
     pub(super) fn decimal(value: f64) -> Self {
         let (Self::Decimal(text) | Self::Text(text)) = Self::fixed(value, 3);
         let kept = text.strip_suffix("00").or(text.strip_suffix('0')).unwrap_or(&text);
@@ -83,16 +83,16 @@ impl Value {
     }
 }
 
-/// An answer to one request.
+/// Answer to one request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Answer {
-    /// The word with its sign, as `STATUS?`.
+    /// Word with its sign, such as `STATUS?`.
     word: String,
     values: Vec<Value>,
 }
 
 impl Answer {
-    /// The values that a query asked for.
+    /// Answer to a query.
     pub(super) fn values(word: Word, values: Vec<Value>) -> Self {
         Self { word: format!("{word}{}", Verb::Query.sign()), values }
     }
@@ -106,7 +106,7 @@ impl Answer {
         Self { word: word.to_owned(), values }
     }
 
-    /// The payload, in the form that the quirks ask for.
+    /// Payload in the form that the quirks ask for.
     pub(super) fn payload(&self, quirks: &BTreeSet<Quirk>) -> String {
         let mut values: Vec<String> = self
             .values

@@ -1,4 +1,4 @@
-//! A Satrak on the command line.
+//! Command line of the simulated Satrak.
 
 use std::{net::SocketAddr, path::PathBuf};
 
@@ -11,7 +11,7 @@ use crate::{
     sim::command_line::{Command, Serving, Simulated, StartError, serving},
 };
 
-/// The element file of a unit that holds the bundled elements.
+/// Name of the file with the bundled elements in the unit.
 pub const BUNDLED_FILE: &str = "active.txt";
 
 /// `azel simulate satrak`.
@@ -35,7 +35,7 @@ struct Arguments {
     faults: Vec<Fault>,
 }
 
-/// At the usual site, with the bundled elements.
+/// Starts at the usual site, with the bundled elements.
 impl Simulated for Arguments {
     async fn start(self) -> Result<Serving, StartError> {
         let elements = orbit::bundled()?.iter().cloned().collect();

@@ -1,4 +1,4 @@
-//! Frames in, replies out, and what can go wrong with them.
+//! Wire of a Satrak: frames in, replies out, and their failures.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +8,14 @@ use crate::{
     sim::harness::{self, Replies, Wire},
 };
 
-/// A frame of another product, as in the document's own example.
+/// A frame of another product, from the document's own example.
 const UNSOLICITED: &str = "DATETIMEG?=,2016,12,22,15,55,40,10";
 const NOISE: &[u8] = b"\x00\xff~garbage\r\n$ST";
 
 type Switches = harness::Switches<Quirk, Fault>;
 
 impl Wire<Satrak> for Decoder {
-    /// The payload.
+    /// Payload.
     type Reply = String;
 
     fn take(
@@ -33,7 +33,7 @@ impl Wire<Satrak> for Decoder {
                     let payload = answer(&frame, control, switches);
                     replies.push(payload, control.reply_delay());
                 }
-                // As a real unit: what is broken is not answered.
+                // Like a real unit: a broken frame gets no answer.
                 Err(error) => tracing::info!(target: "azel::sim", %error, "refused"),
             }
         }
@@ -58,12 +58,13 @@ fn answer(frame: &Frame, control: &Control, switches: &Switches) -> String {
     })
 }
 
-/// A query is answered with a question mark behind its word.
+/// Whether the payload answers a command. Answers to queries have a question mark behind
+/// the word.
 fn answers_a_command(payload: &str) -> bool {
     payload.trim_start_matches(|sign| !matches!(sign, '?' | '=')).starts_with('=')
 }
 
-/// What goes out for the reply with this number, counted from 1.
+/// Bytes to send for reply `number`, counted from 1.
 fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
     let has = |fault| switches.has_fault(fault);
     let is_third = number.is_multiple_of(3);
@@ -74,7 +75,7 @@ fn reply_bytes(payload: &str, number: u64, switches: &Switches) -> Vec<u8> {
     let mut bytes = if has(Fault::Garbage) { NOISE.to_vec() } else { Vec::new() };
     let frame = frame_bytes(payload, &switches.quirks);
     if has(Fault::BadChecksum) && is_third {
-        // The digit before the line end, in either case, to another one.
+        // Changes the digit before the line end, whatever its case.
         let from_end = if switches.has_quirk(Quirk::LfOnly) { 2 } else { 3 };
         let at = frame.len().saturating_sub(from_end);
         let digit = frame.iter().enumerate();

@@ -12,7 +12,7 @@ pub(super) fn is_about_a_file(frame: &Frame) -> bool {
     frame.line().trim_start_matches('$').starts_with("SATELLITE=")
 }
 
-/// The files in `folder` by name. What cannot be read is not there for the unit.
+/// Reads the files in `folder` by name. Unreadable files do not exist for the unit.
 pub(super) fn read(folder: &Path) -> BTreeMap<String, Vec<Elements>> {
     let Ok(entries) = fs::read_dir(folder) else { return BTreeMap::new() };
     let file = |entry: fs::DirEntry| {

@@ -1,5 +1,5 @@
-//! Kinematics of an X/Y mount: both axes read 90 degrees at the zenith, X is
-//! the lower one.
+//! Kinematics of an X/Y mount: X is the lower axis, and both axes read 90 degrees at the
+//! zenith.
 
 mod axis;
 
@@ -8,7 +8,7 @@ use crate::astro::{Angle, AzEl};
 
 use self::axis::{Axis, TRAVEL_DEG, ZENITH_DEG};
 
-/// Both axes and how they stand in the world.
+/// Both axes, and the mount's orientation.
 #[derive(Debug, Clone)]
 pub(super) struct Mount {
     pub(super) x: Axis,
@@ -16,12 +16,12 @@ pub(super) struct Mount {
 }
 
 impl Mount {
-    /// Parked at the zenith.
+    /// A mount parked at the zenith.
     pub(super) fn new() -> Self {
         Self { x: Axis::parked(), y: Axis::parked() }
     }
 
-    /// Both axes stand there at once.
+    /// Puts both axes there at once.
     pub(super) fn place(&mut self, [x_deg, y_deg]: [f64; 2]) {
         self.x.place(x_deg);
         self.y.place(y_deg);
@@ -36,8 +36,8 @@ impl Mount {
         self.x.motion().is_moving() || self.y.motion().is_moving()
     }
 
-    /// Sends both axes to mechanical angles in degrees, without a path between
-    /// them. `false`, and nothing happens, when one lies beyond its travel.
+    /// Sends both axes to mechanical angles in degrees, without a path between them. Returns
+    /// `false`, and does nothing, if one angle is beyond its travel.
     pub(super) fn go_to(&mut self, [x_deg, y_deg]: [f64; 2]) -> bool {
         let reachable = TRAVEL_DEG.contains(&x_deg) && TRAVEL_DEG.contains(&y_deg);
         if reachable {
@@ -47,7 +47,7 @@ impl Mount {
         reachable
     }
 
-    /// Keeps both axes on a moving target, where they are to be after `step_s`.
+    /// Keeps both axes on a moving target, given by its position in `step_s`.
     pub(super) fn follow(&mut self, [x_deg, y_deg]: [f64; 2], step_s: f64) {
         self.x.follow(x_deg, step_s);
         self.y.follow(y_deg, step_s);
@@ -69,13 +69,13 @@ impl Mount {
     }
 }
 
-/// The X and Y angles in degrees that point at `direction`.
+/// X and Y angles in degrees that point at `direction`.
 pub(super) fn xy_from_azel(direction: AzEl, lower_axis: Angle) -> [f64; 2] {
     let axes = axes_from_azel(direction, lower_axis);
     [ZENITH_DEG + axes.lower.degrees(), ZENITH_DEG + axes.upper.degrees()]
 }
 
-/// The direction of X and Y angles in degrees.
+/// Direction of X and Y angles in degrees.
 pub(super) fn azel_from_xy([x_deg, y_deg]: [f64; 2], lower_axis: Angle) -> AzEl {
     let axes = AxisAngles {
         lower: Angle::from_degrees(x_deg - ZENITH_DEG),

@@ -1,4 +1,4 @@
-//! How a simulated unit is made.
+//! Options of a simulated Satrak.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -17,40 +17,39 @@ use crate::{
     clock::Clock,
 };
 
-/// How a simulated unit is made.
+/// Options of a simulated unit.
 #[derive(Debug, Clone)]
 pub struct Options {
-    /// Where the antenna stands.
+    /// Site of the antenna.
     pub site: Site,
     /// UTC at the start of the unit.
     pub utc_origin: Timestamp,
-    /// Files with elements in the unit, by name.
+    /// Element files in the unit, by name.
     pub elements: BTreeMap<String, Vec<Elements>>,
-    /// A folder on disk whose files the unit holds besides, read anew whenever it
-    /// is told to use one, as a real unit does.
+    /// A folder on disk whose files the unit has too, read anew whenever the unit is told to
+    /// use one, as a real unit does.
     pub element_folder: Option<PathBuf>,
     /// Oddities of the firmware.
     pub quirks: BTreeSet<Quirk>,
-    /// What goes wrong.
+    /// Failures.
     pub faults: BTreeSet<Fault>,
-    /// Between a request and its reply, evenly spread.
+    /// Delay between a request and its reply, evenly spread.
     pub reply_delay: RangeInclusive<Duration>,
-    /// Further clients are closed at once.
+    /// Maximum number of clients; more are closed at once.
     pub max_clients: usize,
     /// Azimuth of the lower axis.
     pub lower_axis: Angle,
-    /// Until GPS is locked, counted from the start.
+    /// Time from the start until GPS is locked.
     pub gps_lock_after: Duration,
-    /// The clock starts in 2000 instead of being right.
+    /// The clock starts in 2000 instead of showing the right time.
     pub clock_is_unset: bool,
     /// Seed of all randomness.
     pub seed: u64,
 }
 
 impl Options {
-    /// A well-behaved unit at `site` that starts at `utc_origin`: one client,
-    /// replies after 5 to 30 ms, lower axis to the north, GPS locked after 8 s,
-    /// no elements.
+    /// A well-behaved unit at `site` that starts at `utc_origin`: one client, replies after 5
+    /// to 30 ms, lower axis to the north, GPS locked after 8 s, no elements.
     pub fn new(site: Site, utc_origin: Timestamp) -> Self {
         Self {
             site,
@@ -75,7 +74,7 @@ impl Control {
         Self::on_clock(options, Clock::system())
     }
 
-    /// The same, living by `clock`.
+    /// Like [`Self::new`], running by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
         let Options { quirks, faults, reply_delay, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
@@ -84,7 +83,7 @@ impl Control {
 }
 
 impl Simulator {
-    /// Starts a unit and listens; port 0 takes a free one, a real unit has 4001.
+    /// Starts a unit and listens; port 0 takes a free one. A real unit has 4001.
     pub async fn bind(address: SocketAddr, options: Options) -> io::Result<Self> {
         Self::listen(address, Control::new(&options), options.max_clients).await
     }

@@ -1,32 +1,30 @@
-//! Oddities of firmware and failures that can be switched on.
+//! Oddities of firmware, and failures, that can be switched on.
 
 use crate::protocol::satrak::FaultKind;
 use crate::sim::names::named;
 
-/// A way in which firmware may deviate from the document, or the document from
-/// itself.
+/// A way in which firmware may deviate from the document, or the document from itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quirk {
-    /// `STATUS?0,..` without a comma after the sign, as the document's example.
+    /// `STATUS?0,..` without a comma after the sign, as in the document's example.
     NoComma,
-    /// Status without the auto track field, as older firmware.
+    /// Status without the auto track field, as from older firmware.
     Fields15,
-    /// Faults without the GPS field, as the document's example.
+    /// Faults without the GPS field, as in the document's example.
     Err11,
-    /// Clock without milliseconds, as the document's example.
+    /// Clock without milliseconds, as in the document's example.
     Time6,
     /// Checksums in lower case.
     LowerHex,
     /// Lines end with LF alone.
     LfOnly,
-    /// A blank between word and `=`, as the document's examples.
+    /// A blank between word and `=`, as in the document's examples.
     SpaceBeforeEq,
     /// Decimal commas, as a Turkish locale prints them.
     DecimalComma,
 }
 
 impl Quirk {
-    /// All quirks with their names.
     pub const ALL: [(Self, &'static str); 8] = [
         (Self::NoComma, "no_comma"),
         (Self::Fields15, "fields=15"),
@@ -39,14 +37,14 @@ impl Quirk {
     ];
 }
 
-/// Something that goes wrong.
+/// A failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Fault {
-    /// A frame that nobody asked for follows each reply.
+    /// An unsolicited frame follows each reply.
     Unsolicited,
     /// Every third reply is lost; its request was carried out.
     DropReply,
-    /// Noise stands in front of each reply.
+    /// Noise precedes each reply.
     Garbage,
     /// Replies come in pieces.
     Split,
@@ -58,19 +56,17 @@ pub enum Fault {
     BadChecksum,
     /// Every setting is refused.
     RefuseSettings,
-    /// A command ends the connection instead of being answered; it was carried
-    /// out.
+    /// A command ends the connection instead of being answered; it was carried out.
     HangUp,
-    /// The angles that are told stay what they were.
+    /// The reported angles stay as they were.
     FrozenAngles,
-    /// Both axes are told to stand, whatever they do.
+    /// Both axes are reported to stand, whatever they do.
     FalseRest,
-    /// The unit reports this fault, and suffers from it.
+    /// The unit has and reports this fault.
     Unit(FaultKind),
 }
 
 impl Fault {
-    /// All faults with their names.
     pub const ALL: [(Self, &'static str); 23] = [
         (Self::Unsolicited, "unsolicited"),
         (Self::DropReply, "drop_reply"),

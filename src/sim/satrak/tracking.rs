@@ -1,5 +1,5 @@
-//! Tracking in a window of time: 0 not in it, 3 on the way to the start point,
-//! 1 in it, 2 over.
+//! Tracking in a window of time. Its states are 0 outside the window, 3 on the way to the
+//! start point, 1 in the window, 2 over.
 
 use std::time::Duration;
 
@@ -9,10 +9,10 @@ use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::{Elements, PropagationError, Propagator};
 use crate::protocol::satrak::{Settings, TrackState, TrackWindow};
 
-/// After a stop the unit stands this long before its next tracking step.
+/// After a stop the unit stands for this long before its next tracking step.
 const RESUME_AFTER: Duration = Duration::from_secs(1);
 
-/// The satellite to track.
+/// Satellite to track.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
     pub(super) catalog_number: u32,
@@ -34,11 +34,11 @@ impl Target {
     }
 }
 
-/// Whether and when the unit tracks.
+/// State of the tracking.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tracking {
     pub(super) target: Option<Target>,
-    /// The window of `START_STOP_TIME=`.
+    /// Window of `START_STOP_TIME=`.
     pub(super) window: Option<TrackWindow>,
     pub(super) is_enabled: bool,
     pub(super) is_auto: bool,
@@ -46,7 +46,7 @@ pub(super) struct Tracking {
     is_completed: bool,
     /// The operator ended tracking in this window: auto track leaves it alone.
     is_declined: bool,
-    /// Since the start of the unit.
+    /// Time since the start of the unit.
     held_until: Duration,
 }
 
@@ -79,12 +79,12 @@ impl Tracking {
         self.is_declined = false;
     }
 
-    /// Lets other motion have its way for a moment; tracking takes over again.
+    /// Yields to other motion for a moment; then tracking takes over again.
     pub(super) fn hold(&mut self, elapsed: Duration) {
         self.held_until = elapsed.saturating_add(RESUME_AFTER);
     }
 
-    /// Starts and ends tracking by the clock of the unit. `true` when it ended.
+    /// Starts and ends tracking by the clock of the unit. Returns `true` when it has ended.
     pub(super) fn update(&mut self, rtc: Timestamp, lead_ms: i64) -> bool {
         let Some(window) = self.window else { return false };
         if rtc >= window.stop() {
@@ -110,7 +110,7 @@ impl Tracking {
         }
     }
 
-    /// Where the antenna has to point; `None` when tracking leaves it alone.
+    /// Demanded direction; `None` while tracking leaves the antenna alone.
     pub(super) fn aim(
         &self,
         site: Site,
@@ -156,7 +156,7 @@ fn lead_start(window: TrackWindow, lead_ms: i64) -> Timestamp {
     shifted(window.start(), lead_ms.saturating_neg())
 }
 
-/// `time` moved by milliseconds; stays where it is at the end of the calendar.
+/// `time` moved by milliseconds; unchanged at the end of the calendar.
 pub(super) fn shifted(time: Timestamp, by_ms: i64) -> Timestamp {
     time.checked_add(SignedDuration::from_millis(by_ms)).unwrap_or(time)
 }

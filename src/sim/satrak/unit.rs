@@ -1,5 +1,5 @@
-//! The unit itself: what it remembers and does. No I/O and no clock: the time
-//! since its start comes in as an argument.
+//! The simulated unit: its memory and activity. It has no I/O and no clock: the time since
+//! its start is an argument.
 
 mod commands;
 mod memory;
@@ -22,27 +22,25 @@ use crate::sim::harness::{self, Switches};
 
 /// Time between two steps of mount and tracking.
 const STEP: Duration = Duration::from_millis(50);
-/// A longer absence than this is not lived through but skipped.
+/// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
-/// Older elements count as out of date. Own choice.
+/// Age beyond which elements count as out of date. The simulator's own choice.
 const OUTDATED: SignedDuration = SignedDuration::from_hours(30 * 24);
 
-/// What the unit believes and does, for tests and displays.
+/// Beliefs and activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snapshot {
     /// X angle as reported, degrees.
     pub x_deg: f64,
     /// Y angle as reported, degrees.
     pub y_deg: f64,
-    /// Where both axes truly are, whatever is reported, degrees.
+    /// True angles of both axes, whatever is reported, degrees.
     pub metal_deg: [f64; 2],
     /// Azimuth, degrees, 0 to 360.
     pub az_deg: f64,
     /// Elevation, degrees.
     pub el_deg: f64,
-    /// Tracking is switched on.
     pub is_tracking: bool,
-    /// Any axis moves.
     pub is_moving: bool,
 }
 
@@ -55,7 +53,7 @@ pub struct Satrak {
     pub(super) element_folder: Option<PathBuf>,
     utc_origin: Timestamp,
     gps_lock_after: Duration,
-    /// Since the start of the unit.
+    /// Time since the start of the unit.
     elapsed: Duration,
     /// The unit's clock minus UTC.
     clock_error: SignedDuration,
@@ -68,7 +66,7 @@ pub struct Satrak {
     refuses_settings: bool,
     has_frozen_angles: bool,
     rests_falsely: bool,
-    /// Faults that the unit found by itself.
+    /// Faults that the unit has detected itself.
     found: BTreeSet<FaultKind>,
     /// Readings that a dead sensor repeats.
     last_xy_deg: [f64; 2],
@@ -108,7 +106,7 @@ impl Satrak {
         unit
     }
 
-    /// Puts `files` among its element files, in place of those of the same name.
+    /// Adds `files` to the element files, replacing those of the same name.
     pub(super) fn take_files(&mut self, files: BTreeMap<String, Vec<Elements>>) {
         self.elements.extend(files);
     }
@@ -152,7 +150,7 @@ impl Satrak {
         self.utc_origin.checked_add(elapsed).unwrap_or(self.utc_origin)
     }
 
-    /// What the unit takes for UTC.
+    /// UTC by the unit's clock.
     fn rtc(&self) -> Timestamp {
         let utc = self.utc();
         utc.checked_add(self.clock_error).unwrap_or(utc)
@@ -167,7 +165,7 @@ impl Satrak {
         self.is_clock_from_gps = true;
     }
 
-    /// Where the unit takes itself to be.
+    /// Site that the unit works with.
     fn own_site(&self) -> Site {
         let by_hand = self.memory.gps.filter(|gps| !gps.automatic).map(|gps| gps.position);
         by_hand.map_or(self.site, |place| {
@@ -181,7 +179,7 @@ impl Satrak {
         self.lower_axis + Angle::from_degrees(self.memory.settings.north_offset_deg)
     }
 
-    /// Mechanical angles for angles as the unit measures them, degrees.
+    /// Mechanical angles for measured ones, degrees.
     fn mechanical(&self, [x_deg, y_deg]: [f64; 2]) -> [f64; 2] {
         let [x_shift, y_shift] = self.memory.shifts_deg();
         [x_deg - x_shift, y_deg - y_shift]
@@ -192,12 +190,12 @@ impl Satrak {
         [self.mount.x.angle_deg() + x_shift, self.mount.y.angle_deg() + y_shift]
     }
 
-    /// Where the unit believes to point.
+    /// Measured direction.
     fn direction(&self) -> AzEl {
         azel_from_xy(self.last_xy_deg, self.north())
     }
 
-    /// Every fault that is reported.
+    /// Whether this fault is reported.
     fn has_fault(&self, kind: FaultKind) -> bool {
         let is_outdated = || {
             let target = self.tracking.target.as_ref();

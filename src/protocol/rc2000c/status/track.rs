@@ -14,7 +14,7 @@ pub enum TrackBand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Submode {
     Off,
-    /// Waits for data to be entered.
+    /// Asks for data.
     Setup,
     AutoEntry,
     /// Peaks the signal step by step.

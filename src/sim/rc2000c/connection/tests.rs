@@ -1,4 +1,4 @@
-//! A client at the other end of a stream in memory, in paused time.
+//! Tests with a client on an in-memory stream, in paused time.
 
 mod line;
 mod motion;
@@ -34,7 +34,7 @@ impl Client {
         Reply::parse(&self.receive().await.unwrap().unwrap()).unwrap()
     }
 
-    /// Sends raw characters of a command without checksum.
+    /// Sends raw characters of a command, without the checksum.
     async fn ask_raw(&mut self, command: &[u8]) -> Option<Reply> {
         let mut bytes = command.to_vec();
         bytes.push(checksum(command));

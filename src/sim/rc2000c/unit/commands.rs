@@ -1,4 +1,4 @@
-//! Carrying commands out.
+//! Answers to commands, which are carried out at once.
 
 use super::Rc2000c;
 use crate::protocol::rc2000c::{
@@ -9,14 +9,14 @@ use crate::sim::rc2000c::satellites::StoredSatellite;
 use crate::sim::rc2000c::tracking::Tracking;
 use crate::sim::rc2000c::{Fault, Mode, Quirk};
 
-/// The timer of a jog runs in steps of this.
+/// Step of the jog timer.
 const JOG_STEP_MS: u128 = 150;
 
-/// A command that cannot be carried out.
+/// The command cannot be carried out.
 struct Refused;
 
 impl Rc2000c {
-    /// Answers a command, or not. Call `advance` first.
+    /// Answers a command, if it deserves an answer. Call `advance` first.
     pub(in crate::sim::rc2000c) fn answer(&mut self, frame: &Frame) -> Option<Reply> {
         let code = frame.code();
         let Ok(request) = Request::parse(frame) else {
@@ -116,7 +116,7 @@ impl Rc2000c {
             return Err(Refused);
         }
         self.go_to(satellite.az_counts, satellite.el_counts)?;
-        // Which of the two automatic polarization takes is not documented.
+        // The manual does not say which of the two automatic polarization takes.
         let automatic = self.is_auto_polarization.then_some(Polarity::Horizontal);
         if let Some(polarity) = polarity.or(automatic) {
             self.feed.go_to(units_of(&satellite, polarity));

@@ -1,4 +1,4 @@
-//! What the controller says of itself.
+//! Status of the unit as it reports it.
 
 use super::Rc2000c;
 use crate::protocol::rc2000c::{
@@ -14,7 +14,7 @@ use crate::sim::rc2000c::{Fault, Quirk};
 /// Counts of azimuth at 180 degrees, and of elevation at 0.
 const AZIMUTH_CENTRE: i32 = 1830;
 const ELEVATION_ZERO: i32 = 30;
-/// As a user enters it, so that one count is half a tenth of a degree.
+/// Gain that a user enters; with it one count is half a tenth of a degree.
 const DISPLAY_GAIN: i32 = 200;
 
 impl Rc2000c {
@@ -98,7 +98,7 @@ impl Rc2000c {
         self.quirks.contains(&Quirk::LeftWords)
     }
 
-    /// The most urgent alarm.
+    /// Most urgent alarm.
     fn alarm(&self) -> Alarm {
         let own = [(&self.azimuth, Alarm::Azimuth), (&self.elevation, Alarm::Elevation)];
         let own = own.into_iter().filter(|(axis, _)| AxisDrive::is_alarm(axis.drive()));

@@ -1,4 +1,4 @@
-//! Anything in any order.
+//! Commands and faults in any order.
 
 use proptest::prelude::*;
 

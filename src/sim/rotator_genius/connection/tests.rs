@@ -1,4 +1,4 @@
-//! A client at the other end of a stream in memory, in paused time.
+//! Tests with a client on an in-memory stream, in paused time.
 
 mod line;
 mod motion;
@@ -42,7 +42,7 @@ impl Client {
         }
     }
 
-    /// Whether the device accepts a request, in the reply that belongs to it.
+    /// Whether the unit accepts a request, by the reply that belongs to it.
     async fn accepts(&mut self, request: Request) -> bool {
         let expected = match &request {
             Request::Stop => Acknowledgement::Stop,
@@ -84,7 +84,7 @@ fn rotate(rotator: RotatorNumber, direction: Direction) -> Request {
     Request::Motion(Motion::Rotate { rotator, direction })
 }
 
-/// Azimuth and elevation.
+/// Options with an azimuth and an elevation rotator.
 fn both() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],

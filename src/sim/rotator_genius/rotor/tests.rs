@@ -1,4 +1,4 @@
-//! Turning in steps of 50 ms.
+//! Turns in steps of 50 ms.
 
 use super::*;
 use crate::protocol::rotator_genius::{RotatorName, RotatorNumber};
@@ -18,7 +18,7 @@ fn rotor(position: u16, [cw, ccw]: [u16; 2]) -> Rotor {
     })
 }
 
-/// Turns for a time and gives all angles on the way.
+/// Turns for a time and returns all angles on the way.
 fn run(rotor: &mut Rotor, seconds: f64) -> Vec<f64> {
     let steps = (seconds / STEP_S).round() as usize;
     let mut angles = Vec::new();
@@ -74,7 +74,7 @@ fn a_turn_over_north_takes_the_arc_between_the_limits() {
     assert!(angles.iter().all(|angle| !(21.0..309.0).contains(angle)));
     assert_eq!(rotor.measured(), Some(angle(20)));
     assert!(!rotor.go_to(angle(180)));
-    // On a full turn the ends lie in the north on both sides.
+    // On a full turn both ends are in the north.
     let mut rotor = self::rotor(350, [360, 0]);
     assert!(rotor.go_to(angle(0)));
     assert_eq!(rotor.moving(), Moving::CounterClockwise);

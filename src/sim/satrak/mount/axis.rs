@@ -1,4 +1,4 @@
-//! One driven axis. Rate, ramp and travel are own choices.
+//! A driven axis. Rate, ramp and travel are the simulator's own choices.
 
 use std::ops::RangeInclusive;
 
@@ -8,14 +8,14 @@ const LOWEST_DEG: f64 = 5.0;
 const HIGHEST_DEG: f64 = 175.0;
 /// Travel of an axis, degrees.
 pub(super) const TRAVEL_DEG: RangeInclusive<f64> = LOWEST_DEG..=HIGHEST_DEG;
-/// What an axis reads at the zenith, degrees.
+/// Reading at the zenith, degrees.
 pub(super) const ZENITH_DEG: f64 = 90.0;
 pub(super) const MAX_RATE_DEG_S: f64 = 5.0;
 pub(super) const RAMP_DEG_S2: f64 = 5.0;
-/// Closer than this the axis has arrived, degrees.
+/// Distance within which the axis has arrived, degrees.
 const ARRIVED_DEG: f64 = 0.002;
 
-/// What an axis is doing.
+/// Goal of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Goal {
     /// Slow down and stand.
@@ -28,13 +28,13 @@ enum Goal {
     Follow(f64, f64),
 }
 
-/// One driven axis.
+/// A driven axis.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::sim::satrak) struct Axis {
     angle_deg: f64,
     rate_deg_s: f64,
     goal: Goal,
-    /// Share of a commanded rate that the drive makes.
+    /// Ratio of the drive's rate to the commanded one.
     drive_scale: f64,
     is_motor_dead: bool,
 }
@@ -91,7 +91,7 @@ impl Axis {
         self.goal = Goal::Still;
     }
 
-    /// Runs until told otherwise, or to the end.
+    /// Runs until told otherwise, or to the end of the travel.
     pub(in crate::sim::satrak) fn run(&mut self, rate_deg_s: f64) {
         let rate = (rate_deg_s * self.drive_scale).clamp(-MAX_RATE_DEG_S, MAX_RATE_DEG_S);
         self.goal = if rate == 0.0 { Goal::Still } else { Goal::Rate(rate) };
@@ -148,7 +148,7 @@ impl Axis {
         }
     }
 
-    /// The fastest rate from which the axis can still halt at `angle_deg`.
+    /// Fastest rate from which the axis can still halt at `angle_deg`.
     fn approach(&self, angle_deg: f64, step_s: f64) -> f64 {
         let away = angle_deg - self.angle_deg;
         // A little less than the ramp, so that the braking never falls behind.

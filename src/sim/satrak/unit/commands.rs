@@ -1,4 +1,4 @@
-//! Carrying requests out.
+//! Answers to requests, which are carried out at once.
 
 use super::Satrak;
 use crate::astro::AzEl;
@@ -30,8 +30,8 @@ impl Satrak {
 
     fn halt(&mut self, halt: Halt) {
         match halt {
-            // Tracking stays switched on: what happens then is not documented,
-            // and this is the worse case.
+            // Tracking stays switched on: the document does not say what happens then, and this
+            // is the worse case.
             Halt::Stop => {
                 self.mount.stop();
                 self.tracking.hold(self.elapsed);
@@ -139,8 +139,8 @@ impl Satrak {
         Ok(())
     }
 
-    /// Looks the satellite up. What is missing becomes a fault, not a refusal:
-    /// the document has fields for it.
+    /// Looks the satellite up. A missing one becomes a fault, not a refusal: the document has
+    /// fields for it.
     fn choose(&mut self, choice: SatelliteChoice, mode: TleMode) {
         if !choice.continue_tracking {
             self.end_tracking();

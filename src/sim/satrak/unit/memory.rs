@@ -1,16 +1,16 @@
-//! What the unit remembers, with the values it has when new.
+//! Memory of the unit, with the values of a new one.
 
 use crate::protocol::satrak::{
     AngleChange, AngleSettings, FtpTle, GpsSettingsChange, HttpTle, PositionBase, Reduction,
     SatelliteChoice, Settings, SspaAutoRule, SspaMode, TextValue, TleMode,
 };
 
-/// Degrees of one count of the position sensors. Own choice: 16 bits a turn.
+/// Degrees per count of the position sensors. The simulator's own choice: 16 bits a turn.
 const DEG_PER_COUNT: f64 = 360.0 / 65_536.0;
-/// Reduction at which the drives run as commanded, as in the document's example.
+/// Reduction at which the drives run as commanded, from the document's example.
 pub(super) const DEFAULT_REDUCTION: f64 = 4000.0;
 
-/// Settings; `None` where nothing was ever set.
+/// Settings; `None` for those never set.
 #[derive(Debug, Clone)]
 pub(super) struct Memory {
     pub(super) settings: Settings,
@@ -40,8 +40,8 @@ impl Default for Memory {
                 tle_mode: TleMode::File,
                 elevation_threshold_deg: 2.0,
             },
-            // The angles of the document's example with the counts that leave
-            // the reported angles as they are.
+            // The angles of the document's example, with the counts that leave the reported
+            // angles as they are.
             angles: AngleSettings {
                 x_sensor: counts(160.0),
                 x_deg: 160.0,
@@ -75,7 +75,7 @@ impl Memory {
         [shift(x_deg, x_sensor), shift(y_deg, y_sensor)]
     }
 
-    /// Makes `change` the calibration of axes at `mechanical` degrees.
+    /// Applies `change` to the calibration of axes at `mechanical` degrees.
     pub(super) fn calibrate(&mut self, change: AngleChange, mechanical: [f64; 2]) {
         let [x_now, y_now] = mechanical.map(counts);
         let (x_sensor, y_sensor, angles) = match change {
@@ -88,7 +88,7 @@ impl Memory {
             AngleSettings { x_sensor, x_deg: angles.x_deg(), y_sensor, y_deg: angles.y_deg() };
     }
 
-    /// Share of a commanded rate that the drives make.
+    /// Ratios of the drives' rates to the commanded ones.
     pub(super) fn drive_scales(&self) -> [f64; 2] {
         self.reduction.map_or([1.0; 2], |ratio| {
             [DEFAULT_REDUCTION / ratio.x(), DEFAULT_REDUCTION / ratio.y()]

@@ -24,7 +24,7 @@ impl Satrak {
             Query::Satellite => self.satellite(),
             Query::SatelliteHttp => self.satellite_http(),
             Query::SatelliteFtp => self.satellite_ftp(),
-            // The document explains no value; zero is its most likely "idle".
+            // The document explains none of its values; zero is most likely "idle".
             Query::ImageStatus => vec![Value::text(0)],
             Query::Reduction => {
                 let ratio = self.memory.reduction;
@@ -190,7 +190,7 @@ impl Satrak {
         vec![
             Value::text(source.address.as_str()),
             Value::text(source.user.as_str()),
-            // The real unit gives it in clear too.
+            // A real unit sends it in clear too.
             Value::text(source.password.reveal()),
             Value::text(source.port),
             Value::text(file),

@@ -1,4 +1,4 @@
-//! Every command, the panel, and what can go wrong on the line.
+//! Every command, the panel, and failures of the line.
 
 use super::*;
 use crate::protocol::rc2000c::{

@@ -1,4 +1,4 @@
-//! Motion asked for by a client.
+//! Motion by a client's requests.
 
 use super::*;
 use crate::protocol::rc2000c::{

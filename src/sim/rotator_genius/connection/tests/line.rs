@@ -1,4 +1,4 @@
-//! What the line does to commands and replies.
+//! Effects of the line on commands and replies.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Motion and configuration asked for by a client.
+//! Motion and configuration by a client's requests.
 
 use super::*;
 
@@ -48,7 +48,7 @@ async fn outside_the_limits_only_stop_ends_a_rotation_and_its_client_may_leave()
     let rotator = client.rotator(ONE).await;
     assert_eq!((rotator.moving, rotator.target), (Moving::CounterClockwise, None));
     drop(client);
-    // Through the whole arc and out at its other end.
+    // Through the whole arc and beyond its other end.
     seconds(60).await;
     let state = *control.state().rotator(ONE);
     assert!(state.is_turning && state.is_outside_limits && state.angle_deg > 90.0, "{state:?}");

@@ -1,4 +1,4 @@
-//! Every command, and what can go wrong on the line.
+//! Every command, and failures of the line.
 
 use super::*;
 

@@ -22,7 +22,7 @@ fn window(start: Timestamp, stop: Timestamp) -> String {
     format!("START_STOP_TIME=,{},{}", text(start), text(stop))
 }
 
-/// A unit a minute and a half before a pass, told to track it.
+/// A unit 90 seconds before a pass, with the order to track it.
 async fn before_pass() -> (Client, Control, Pass) {
     let pass = iss_pass();
     let (mut client, control) = Client::new(&options(time::add_seconds(pass.aos.time, -90.0)));
