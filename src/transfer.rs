@@ -1,9 +1,8 @@
-//! Files of elements between this computer, antenna units and servers: SFTP to
-//! a unit with proof of what is there, and a look at the sources a unit is
-//! told to fetch from.
+//! Files of elements between this computer, units and servers: uploads by SFTP with proof
+//! of the result, and test fetches of the sources that a unit uses.
 //!
-//! The functions here are slow on purpose where cryptography wants it, so they
-//! never run on the thread of the sessions: see [`Transfer`].
+//! The cryptography here is slow on purpose, so these functions never run on the thread of
+//! the sessions: see [`Transfer`].
 
 mod background;
 mod connect_error;

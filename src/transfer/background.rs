@@ -1,4 +1,4 @@
-//! A transfer under way, on a thread of its own.
+//! A transfer in progress on its own thread.
 
 use std::{
     future::Future,
@@ -13,10 +13,10 @@ use tokio_util::sync::CancellationToken;
 use super::Progress;
 use crate::job::Wake;
 
-/// A transfer under way. Dropping it cancels it.
+/// A transfer in progress. Dropping it cancels it.
 ///
-/// It has its own thread and runtime: keys are unlocked and files are hashed on
-/// it, and no STOP may wait for that.
+/// It has its own thread and runtime because it unlocks keys and hashes files, and no STOP
+/// may wait for that.
 pub struct Transfer<T> {
     progress: watch::Receiver<Option<Progress>>,
     result: mpsc::Receiver<T>,
@@ -24,9 +24,9 @@ pub struct Transfer<T> {
 }
 
 impl<T: Send + 'static> Transfer<T> {
-    /// Starts what `work` makes, on a thread called `name`. `work` is given what
-    /// to call with the progress and what tells that it was cancelled. `wake` is
-    /// called after every progress and at the end.
+    /// Starts the future that `work` makes, on a thread called `name`. `work` gets a callback
+    /// for progress and a token for cancellation. `wake` is called after every progress and at
+    /// the end.
     pub fn start<F: Future<Output = T>>(
         name: &str,
         wake: Wake,
@@ -44,21 +44,21 @@ impl<T: Send + 'static> Transfer<T> {
                 told();
             });
             let outcome = runtime.block_on(work(tell, cancelled));
-            // Nobody may be waiting any more.
+            // The receiver may be gone already.
             let _ = send_result.send(outcome);
             wake();
-            // A request of the web that was cancelled ends by its time limit.
+            // A cancelled web request still ends by its time limit.
             runtime.shutdown_background();
         })?;
         Ok(Self { progress, result, cancel })
     }
 
-    /// The newest progress, where the work tells any.
+    /// Latest progress, if the work reports any.
     pub fn progress(&self) -> Option<Progress> {
         *self.progress.borrow()
     }
 
-    /// The result, once. An error when the work broke off without one.
+    /// Takes the result; it comes once. An error if the work broke off without a result.
     pub fn poll(&self) -> Option<Result<T, BrokenOff>> {
         match self.result.try_recv() {
             Ok(result) => Some(Ok(result)),
@@ -79,7 +79,7 @@ impl<T> Drop for Transfer<T> {
     }
 }
 
-/// A transfer that ended without a result: a fault of this program.
+/// A transfer ended without a result: a fault of this program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the transfer broke off inside this program; look at the unit's folder and try again")]
 pub struct BrokenOff;
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
     use crate::transfer::UploadStep;
 
-    /// Starts `work` and hands back what tells of each wake.
+    /// Starts `work` and returns the receiver of its wakes.
     fn start<F: Future<Output = u8>>(
         work: impl FnOnce(Box<dyn FnMut(Progress)>, CancellationToken) -> F + Send + 'static,
     ) -> (Transfer<u8>, mpsc::Receiver<()>) {

@@ -1,5 +1,5 @@
-//! Fetches a source of elements from here as a unit would, so that the operator
-//! sees what the unit will get before it is told to.
+//! Test fetch of a source of elements, as a unit would do it, so that the operator sees
+//! beforehand what the unit will get.
 
 mod ftp;
 mod seen;
@@ -18,30 +18,29 @@ use super::{
     folder::Folder as _, limits::within, open_sftp,
 };
 
-/// Where a unit is told to fetch its elements.
+/// Source of a unit's elements on the network.
 #[derive(Debug, Clone)]
 pub enum ElementSource {
     /// An `http` or `https` address.
     Web {
-        /// As the unit is told.
+        /// Address as set in the unit.
         url: String,
     },
     /// A file on a server.
     Server {
         peer: Peer,
-        /// How it is spoken to.
         protocol: FileProtocol,
         user: String,
         password: SecretString,
-        /// The file, with its folder if that is not where the log-in leads.
+        /// File name, with the folder unless it is the one after log-in.
         file: String,
     },
 }
 
-/// How a server of files is spoken to.
+/// Protocol of a file server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FileProtocol {
-    /// Plain: password and file can be read on the way.
+    /// Plain FTP: password and file can be read on the way.
     Ftp,
     /// With TLS from the first command on (`AUTH TLS`, RFC 4217).
     FtpTls,
@@ -50,25 +49,25 @@ pub enum FileProtocol {
 }
 
 impl FileProtocol {
-    /// What a unit most likely speaks on `port`: it is told a port and no
+    /// Protocol that a unit most likely uses on `port`. The unit's setting is a port without a
     /// protocol, and the example of its document has 22.
     pub fn of_port(port: u16) -> Self {
         if port == 22 { Self::Sftp } else { Self::Ftp }
     }
 }
 
-/// Whom a fetch trusts.
+/// Keys and authorities that a fetch trusts.
 #[derive(Debug, Clone)]
 pub struct Trust {
     /// Keys of SSH hosts.
     pub known_hosts: KnownHosts,
-    /// Certificate authorities of the station's own FTP servers, in DER, beside
-    /// the public ones. The web has the public ones alone.
+    /// Certificate authorities of the station's own FTP servers, in DER, beside the public
+    /// ones. For the web only the public ones count.
     pub own_authorities: Vec<CertificateDer<'static>>,
 }
 
 impl Trust {
-    /// All authorities; one that cannot be read is left out, with a line in the log.
+    /// Collects all authorities; an unreadable one is left out, with a line in the log.
     fn authorities(&self) -> RootCertStore {
         let mut roots = RootCertStore { roots: webpki_roots::TLS_SERVER_ROOTS.to_vec() };
         let (_, unread) = roots.add_parsable_certificates(self.own_authorities.iter().cloned());
@@ -82,52 +81,49 @@ impl Trust {
     }
 }
 
-/// Why a source gave nothing. The unit was not told anything.
+/// Reason why a source gave nothing. Nothing was sent to the unit.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     /// No connection, or no log-in.
     #[error(transparent)]
     Connect(#[from] ConnectError),
-    /// Cancelled, or the whole did not come in time.
+    /// Cancelled, or not complete in time.
     #[error("the file did not come: {0}; check the link and try again")]
     Interrupted(#[from] Interruption),
-    /// Not an address of the web.
+    /// Not a web address.
     #[error("not an http or https address, or one with a user name in it; correct the address")]
     Address,
-    /// No whole answer.
+    /// No complete answer.
     #[error("no answer ({0}); check address and link")]
     NoAnswer(String),
-    /// The server sends the asker elsewhere; whether the unit follows is not known.
+    /// The server redirects the request; it is unknown whether the unit would follow.
     #[error("the server sends the asker on to {to}; give the unit that address")]
     Redirected {
-        /// Where to.
+        /// New address.
         to: String,
     },
-    /// Another answer than the file.
+    /// An HTTP answer other than the file.
     #[error("the server answered {status} instead of the file; check the address")]
     Status {
-        /// The status of HTTP.
+        /// HTTP status code.
         status: u16,
     },
-    /// There is no such file.
     #[error("the server has no such file; check its name and folder")]
     NoFile,
-    /// The folder or file cannot be read.
     #[error("cannot read the file: {0}")]
     Folder(#[from] FolderError),
-    /// TLS could not be agreed on.
+    /// No agreement on TLS.
     #[error("no safe connection ({0}); check the server's certificate")]
     Tls(String),
-    /// The server said no in its own words.
+    /// The server refused, in its own words.
     #[error("the server refused ({0}); check the file and the rights of the user")]
     Refused(String),
-    /// Larger than this program takes.
+    /// The file is larger than this program's limit.
     #[error("the file is larger than {0} bytes; this is not a file of elements for a unit")]
     TooLarge(u64),
 }
 
-/// Fetches the file of `source`, as it is. Within a runtime that no session
-/// runs on.
+/// Fetches the file of `source` unchanged. Call it within a runtime that runs no session.
 pub async fn fetch(
     source: &ElementSource,
     trust: &Trust,

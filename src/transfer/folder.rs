@@ -1,25 +1,25 @@
-//! The folder of files on a unit, as far as an upload needs it.
+//! Folder of files on a unit, with the operations that an upload needs.
 
 use std::time::Duration;
 
-/// What a file in a folder holds.
+/// Content and rights of a file in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Found {
     pub(super) bytes: Vec<u8>,
-    /// Who may read and write it, where the host tells.
+    /// Access rights, if the host reports them.
     pub(super) mode: Option<u32>,
 }
 
-/// Told how many bytes of a file are done.
+/// Callback with the number of finished bytes of a file.
 pub(super) type Tell<'a> = &'a mut dyn FnMut(u64);
 
 /// A folder on another computer. Every call ends within its time limit.
 pub(super) trait Folder {
-    /// The file `name`, if there is one.
+    /// Reads the file `name`, if there is one.
     async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError>;
 
-    /// Writes the file `name`, which must not exist, down to the disk. Gives
-    /// it `mode` when that is known.
+    /// Writes the file `name`, which must not exist, and syncs it to the disk. Sets its mode
+    /// to `mode` if that is given.
     async fn write_new(
         &mut self,
         name: &str,
@@ -28,52 +28,52 @@ pub(super) trait Folder {
         tell: Tell<'_>,
     ) -> Result<(), FolderError>;
 
-    /// Removes the file `name`; that there is none is no error.
+    /// Removes the file `name`; succeeds if there is none.
     async fn remove(&mut self, name: &str) -> Result<(), FolderError>;
 
-    /// Gives the file `from` the name `to`, which must be free.
+    /// Renames the file `from` to `to`, which must be free.
     async fn rename(&mut self, from: &str, to: &str) -> Result<(), FolderError>;
 
-    /// Whether [`Self::replace`] works here.
+    /// Whether [`Self::replace`] works in this folder.
     fn can_replace(&self) -> bool;
 
-    /// Puts the file `from` in the place of `to` in one step.
+    /// Replaces the file `to` by `from` in one step.
     async fn replace(&mut self, from: &str, to: &str) -> Result<(), FolderError>;
 }
 
-/// Why a folder on another computer did not do what it was asked for.
+/// Reason why an operation in a folder failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FolderError {
-    /// The user may not do this there.
+    /// The user lacks the right for it.
     #[error(
         "the user has no right to do this in the folder; log in as another user, or let the unit's keeper allow it"
     )]
     Denied,
-    /// The folder, or a file in it that has to be there, is not.
+    /// The folder or a required file in it is missing.
     #[error("the folder or file is not there; check the path of the folder")]
     Missing,
-    /// The disk there cannot take the file.
+    /// The disk has no room for the file.
     #[error("its disk has {free_bytes} bytes left; remove files there that are not needed")]
     DiskFull {
-        /// What the host says is left.
+        /// Free bytes according to the host.
         free_bytes: u64,
     },
-    /// Larger than this program takes.
+    /// The file is larger than this program's limit.
     #[error("the file is larger than {0} bytes; this is not a file of elements")]
     TooLarge(u64),
-    /// It said no in its own words.
+    /// The host refused, in its own words.
     #[error("it refused ({0}); check folder, rights and free space there")]
     Refused(String),
-    /// The time limit, which stands here, is over.
+    /// This time limit was exceeded.
     #[error("no answer within {} s; check the link and try again", .0.as_secs_f64())]
     TimedOut(Duration),
-    /// The connection is gone.
+    /// The connection was lost.
     #[error("the connection was lost; check the link and try again")]
     Lost,
 }
 
 impl FolderError {
-    /// Whether nothing more can be asked on this connection.
+    /// Whether the connection is of no further use.
     pub(super) fn ends_connection(&self) -> bool {
         matches!(self, Self::TimedOut(_) | Self::Lost)
     }

@@ -1,16 +1,15 @@
-//! The fingerprint of a file's bytes.
+//! Hash of a file's bytes.
 
 use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use sha2::{Digest as _, Sha256};
 
-/// SHA-256 of a file. Shown as 64 hexadecimal digits, as `sha256sum` does.
+/// SHA-256 of a file. Displayed as 64 hexadecimal digits, as by `sha256sum`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FileHash([u8; 32]);
 
 impl FileHash {
-    /// The hash of `bytes`.
     pub fn of(bytes: &[u8]) -> Self {
         Self(Sha256::digest(bytes).into())
     }
@@ -22,7 +21,7 @@ impl fmt::Display for FileHash {
     }
 }
 
-/// What was not 64 hexadecimal digits.
+/// The text is not 64 hexadecimal digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a SHA-256 has 64 hexadecimal digits")]
 pub struct NoHash;

@@ -1,9 +1,9 @@
-//! Which key belongs to which host: asked once, then pinned.
+//! Pinned host keys: the operator confirms a key once, then it is fixed.
 //!
-//! The file has OpenSSH's `known_hosts` form, so that it can be read and mended
-//! with the tools that operators know. Names stand in it in clear; hashed names,
-//! patterns and certificate authorities, which OpenSSH knows too, match nothing
-//! here: such a host is asked about again.
+//! The file has OpenSSH's `known_hosts` form, so that it can be read and mended with the
+//! tools that operators know. Host names are in clear. Hashed names, patterns and
+//! certificate authorities, which OpenSSH knows too, match nothing here: for such a host
+//! the operator is asked again.
 
 use std::{
     fs, io,
@@ -17,7 +17,7 @@ use russh::keys::{
 
 use crate::whole_file;
 
-/// The key that a host proved to have.
+/// Key that a host has proved to own.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OfferedKey {
     host: String,
@@ -30,7 +30,7 @@ impl OfferedKey {
         Self { host: host.to_owned(), port, key }
     }
 
-    /// A key of `host` for tests of what becomes of it.
+    /// A key of `host`, for tests.
     #[cfg(test)]
     pub(crate) fn example(host: &str, port: u16) -> Self {
         let text = "ssh-ed25519 \
@@ -38,55 +38,53 @@ impl OfferedKey {
         Self::new(host, port, PublicKey::from_openssh(text).unwrap())
     }
 
-    /// `SHA256:…`, as `ssh-keygen -l` shows it on the host.
+    /// Fingerprint `SHA256:…`, as `ssh-keygen -l` shows it on the host.
     pub fn fingerprint(&self) -> String {
         fingerprint(&self.key)
     }
 
-    /// The kind of key, such as `ssh-ed25519`.
+    /// Algorithm of the key, such as `ssh-ed25519`.
     pub fn algorithm(&self) -> String {
         self.key.algorithm().to_string()
     }
 
-    /// The host as the file names it: `unit`, or `[unit]:2222` off port 22.
+    /// Name of the host in the file: `unit`, or `[unit]:2222` for ports other than 22.
     pub fn address(&self) -> String {
         pattern(&self.host, self.port)
     }
 }
 
-/// What the file says about a key.
+/// Verdict of the file about a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// It is the key of this host.
     Pinned,
-    /// Nothing is known of this host: the operator has to look at the key.
+    /// The host is unknown: the operator must look at the key.
     Unknown,
     /// The host has another key: refused.
     Changed {
-        /// Fingerprints of the keys it should have.
+        /// Fingerprints of the pinned keys.
         pinned: Vec<String>,
     },
     /// The key was marked as stolen or withdrawn: refused.
     Revoked,
 }
 
-/// Why the file cannot be used. It stays as it is.
+/// Reason why the file cannot be used. It stays unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum KnownHostsError {
-    /// The operating system refused.
     #[error("the known host keys cannot be used: {source}; mend the access to {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// A line that cannot be read may hold the key of any host.
+    /// An unreadable line, which may hold the key of any host.
     #[error("line {line} of the known host keys cannot be read; mend or remove it in {}", path.display())]
     Line {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
         path: PathBuf,
     },
     /// The key has no text form.
     #[error("the host key of {address} cannot be written down, so it was not accepted")]
     Key {
-        /// Whose.
+        /// Host of the key.
         address: String,
     },
 }
@@ -98,7 +96,7 @@ pub struct KnownHosts {
 }
 
 impl KnownHosts {
-    /// The file at `path`, which need not exist yet.
+    /// `path` need not exist yet.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
@@ -109,12 +107,11 @@ impl KnownHosts {
             .map(|dirs| Self::new(dirs.data_dir().join("known_hosts")))
     }
 
-    /// Where the file is.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What is known of `offered`.
+    /// Compares `offered` with the file.
     pub fn check(&self, offered: &OfferedKey) -> Result<Verdict, KnownHostsError> {
         let entries = self.entries(&offered.address())?;
         let is_same = |entry: &Entry| entry.public_key().key_data() == offered.key.key_data();
@@ -132,7 +129,7 @@ impl KnownHosts {
         })
     }
 
-    /// Accepts `offered` for its host from now on, beside keys it already has.
+    /// Accepts `offered` for its host from now on, beside any keys it already has.
     pub fn pin(&self, offered: &OfferedKey) -> Result<(), KnownHostsError> {
         let address = offered.address();
         let mut key = offered.key.clone();
@@ -146,8 +143,8 @@ impl KnownHosts {
         self.write(&format!("{text}{address} {key}\n"))
     }
 
-    /// Forgets all keys of the host, as after it was replaced. What was revoked
-    /// stays revoked.
+    /// Removes all keys of the host, for instance after a replacement. Revoked keys stay
+    /// revoked.
     pub fn forget(&self, host: &str, port: u16) -> Result<(), KnownHostsError> {
         let address = pattern(host, port);
         let text = self.text()?;
@@ -159,7 +156,7 @@ impl KnownHosts {
         self.write(&kept)
     }
 
-    /// The kinds of key that the host is known by.
+    /// Algorithms of the pinned keys of the host.
     pub(super) fn algorithms(
         &self,
         host: &str,
@@ -170,7 +167,7 @@ impl KnownHosts {
         Ok(pinned.map(|entry| entry.public_key().algorithm()).collect())
     }
 
-    /// All entries that name `address`.
+    /// All entries for `address`.
     fn entries(&self, address: &str) -> Result<Vec<Entry>, KnownHostsError> {
         let text = self.text()?;
         let lines = text.lines().map(str::trim).enumerate();

@@ -1,7 +1,6 @@
-//! The last files of every unit, kept on this computer so that any of them can
-//! be put back.
+//! Recent files of every unit, kept on this computer so that any of them can be put back.
 //!
-//! Contents are named by their hash; a small TOML file says which was where and when.
+//! Contents are named by their hash; a small TOML file lists units, files and times.
 
 use std::{
     collections::BTreeSet,
@@ -15,35 +14,34 @@ use serde::{Deserialize, Serialize};
 use super::{FileHash, TleFile};
 use crate::whole_file;
 
-/// The version that this program writes. A list of a later one is left alone.
+/// Version that this program writes. A list of a later version is left alone.
 const VERSION: u32 = 1;
-/// How many are kept of one file on one unit.
+/// Maximum number of versions of one file of one unit.
 const MAX: usize = 20;
 
-/// One file as it was on a unit.
+/// A file as it was on a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeptFile {
     /// Host and port of the unit.
     pub unit: String,
-    /// Its name there.
+    /// Name of the file on the unit.
     pub file: String,
-    /// Of the whole file.
+    /// Hash of the whole file.
     pub sha256: FileHash,
-    /// Of the whole file.
+    /// Size of the whole file.
     pub bytes: u64,
-    /// When it was sent, or read there.
+    /// Time at which it was sent, or read on the unit.
     pub at: Timestamp,
-    /// How it came to be there.
     pub origin: Origin,
 }
 
-/// How a file came to be on a unit.
+/// Origin of a file on a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
-    /// It was there before this program put another one in its place.
+    /// The file was there before this program replaced it.
     Found,
-    /// This program put it there.
+    /// This program sent it.
     Uploaded,
 }
 
@@ -51,43 +49,41 @@ pub enum Origin {
 #[derive(Debug, Serialize, Deserialize)]
 struct List {
     version: u32,
-    /// The newest last.
+    /// Oldest first.
     #[serde(default)]
     kept: Vec<KeptFile>,
 }
 
-/// Why a file was not kept, or cannot be had again.
+/// Reason why a file was not kept, or cannot be restored.
 #[derive(Debug, thiserror::Error)]
 pub enum KeptError {
-    /// The operating system refused.
     #[error("{source}; make room or mend the rights on this computer: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// The list is no TOML any more.
+    /// The list is no valid TOML any more.
     #[error("the list of kept files cannot be read: {source}; move it away: {}", path.display())]
     Syntax {
-        /// Where in the text.
+        /// Error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
-    /// The list cannot be put into TOML.
     #[error("the list of kept files cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
     /// A later program wrote the list.
     #[error("the list of kept files has version {found}, this program knows {VERSION}; use the newer program: {}", path.display())]
     Newer { found: u32, path: PathBuf },
-    /// The content is not what was kept.
+    /// The content does not match its hash.
     #[error("the kept file was changed on disk; choose another one: {}", path.display())]
     Changed { path: PathBuf },
 }
 
-/// The kept files of all units.
+/// Kept files of all units.
 #[derive(Debug, Clone)]
 pub struct KeptFiles {
     folder: PathBuf,
 }
 
 impl KeptFiles {
-    /// The files in `folder`, which need not exist yet.
+    /// `folder` need not exist yet.
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into() }
     }
@@ -98,7 +94,7 @@ impl KeptFiles {
             .map(|dirs| Self::new(dirs.data_dir().join("uploads")))
     }
 
-    /// What is kept of `file` on `unit`, the newest first.
+    /// Kept versions of `file` on `unit`, newest first.
     pub fn list(&self, unit: &str, file: &str) -> Result<Vec<KeptFile>, KeptError> {
         let mut kept = self.load()?.kept;
         kept.retain(|one| one.unit == unit && one.file == file);
@@ -106,7 +102,7 @@ impl KeptFiles {
         Ok(kept)
     }
 
-    /// The content of `kept`, checked, to be put back on the unit.
+    /// Content of `kept`, checked, to be put back on the unit.
     pub fn read(&self, kept: &KeptFile) -> Result<TleFile, KeptError> {
         let path = self.content(kept.sha256);
         let bytes = fs::read(&path).map_err(disk_error(&path))?;
@@ -116,7 +112,7 @@ impl KeptFiles {
         Ok(TleFile::kept(bytes))
     }
 
-    /// Keeps what is on a unit. The same content is not kept twice in a row.
+    /// Keeps a file of a unit. The same content is not kept twice in a row.
     pub(super) fn keep(
         &self,
         unit: &str,
@@ -157,7 +153,7 @@ impl KeptFiles {
         Ok(())
     }
 
-    /// Removes contents that nothing in the list names any more.
+    /// Removes contents that the list no longer names.
     fn clear(&self, dropped: &[FileHash], list: &List) {
         let needed: BTreeSet<_> = list.kept.iter().map(|one| one.sha256.to_string()).collect();
         for hash in dropped.iter().filter(|hash| !needed.contains(&hash.to_string())) {

@@ -1,4 +1,4 @@
-//! Passwords at rest: in the keyring of the operating system, or nowhere.
+//! Passwords at rest, only ever in the keyring of the operating system.
 
 use std::{
     collections::BTreeMap,
@@ -9,13 +9,13 @@ use std::{
 use keyring::Error;
 use secrecy::{ExposeSecret as _, SecretString};
 
-/// The name under which the entries stand in a keyring.
+/// Service name of the entries in a keyring.
 const SERVICE: &str = "azel";
 
-/// Whose secret it is.
+/// Owner of a secret.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Account {
-    /// The user on the host, or the path of a key file.
+    /// User on the host, or path of a key file.
     pub user: String,
     /// Host and port.
     pub address: String,
@@ -27,30 +27,29 @@ impl fmt::Display for Account {
     }
 }
 
-/// Why a keyring did not do what it was asked for.
+/// Reason why a keyring failed.
 #[derive(Debug, thiserror::Error)]
 pub enum KeyringError {
-    /// None runs, or none that can be reached: ask the operator each time.
+    /// No keyring runs or can be reached: the operator is asked each time.
     #[error("there is no keyring on this computer ({0})")]
     Missing(String),
-    /// It is there and refused, as when it is locked.
+    /// The keyring refused, for instance because it is locked.
     #[error("the keyring refused ({0}); unlock it, or type the password")]
     Refused(String),
 }
 
-/// Where passwords are kept. May wait for the operator to unlock it: to be
-/// called on a worker thread outside any runtime.
+/// Store of passwords. Calls may wait for the operator to unlock it: make them on a worker
+/// thread outside any runtime.
 pub trait Keyring: Send + Sync {
-    /// The secret of `account`, if one is kept.
+    /// Secret of `account`, if one is stored.
     fn get(&self, account: &Account) -> Result<Option<SecretString>, KeyringError>;
-    /// Keeps the secret of `account`, in place of the one before.
+    /// Stores the secret of `account` in place of the previous one.
     fn set(&self, account: &Account, secret: &SecretString) -> Result<(), KeyringError>;
-    /// Forgets the secret of `account`, if one is kept.
+    /// Removes the secret of `account`, if one is stored.
     fn remove(&self, account: &Account) -> Result<(), KeyringError>;
 }
 
-/// The keyring of the operating system: Secret Service, Keychain or Credential
-/// Manager.
+/// Keyring of the operating system: Secret Service, Keychain or Credential Manager.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SystemKeyring;
 
@@ -81,7 +80,7 @@ impl Keyring for SystemKeyring {
     }
 }
 
-/// In our own words: some errors carry the secret that could not be decoded.
+/// Azel's own words: some errors carry the secret that could not be decoded.
 fn told(error: &Error) -> KeyringError {
     match error {
         Error::PlatformFailure(cause) => KeyringError::Missing(cause.to_string()),
@@ -98,8 +97,8 @@ fn told(error: &Error) -> KeyringError {
     }
 }
 
-/// A keyring that lasts as long as the program: for a session without another
-/// one, and for tests.
+/// A keyring that lasts as long as the program: for a session without another one, and for
+/// tests.
 #[derive(Debug, Default)]
 pub struct MemoryKeyring {
     secrets: Mutex<BTreeMap<Account, SecretString>>,

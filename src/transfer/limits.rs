@@ -1,26 +1,26 @@
-//! No step waits for ever, and every wait can be cancelled.
+//! Time limits and cancellation: no step waits for ever, and every wait can be cancelled.
 
 use std::{future::Future, time::Duration};
 
 use tokio_util::sync::CancellationToken;
 
-/// How long the steps of a transfer may take, and how much may come.
+/// Limits of time and size for a transfer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Until a host has taken the connection.
+    /// Time for a host to accept the connection.
     pub connect: Duration,
-    /// Until both sides agree on how to talk; the same again for the log-in.
+    /// Time for the negotiation of the protocol, and again for the log-in.
     pub log_in: Duration,
-    /// Until one request is answered.
+    /// Time for the answer to one request.
     pub request: Duration,
-    /// For one whole file, one way.
+    /// Time for one whole file, one way.
     pub file: Duration,
-    /// The largest file that is taken.
+    /// Maximum size of a file.
     pub file_bytes: u64,
 }
 
 impl Default for Limits {
-    /// For slow units on slow radio links: 10 s, 20 s, 10 s, 2 min, 16 MB.
+    /// Limits for slow units on slow radio links: 10 s, 20 s, 10 s, 2 min, 16 MB.
     fn default() -> Self {
         Self {
             connect: Duration::from_secs(10),
@@ -32,18 +32,17 @@ impl Default for Limits {
     }
 }
 
-/// Why a wait ended without an answer.
+/// Reason why a wait ended without an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Interruption {
-    /// Nobody wants the answer any more.
     #[error("cancelled")]
     Cancelled,
-    /// The time limit, which stands here, is over.
+    /// This time limit was exceeded.
     #[error("no answer within {} s", .0.as_secs_f64())]
     TimedOut(Duration),
 }
 
-/// Waits for `work`, at most `limit`, and not beyond `cancel`.
+/// Waits for `work`, at most for `limit`, and not beyond `cancel`.
 pub(super) async fn within<T>(
     limit: Duration,
     cancel: &CancellationToken,

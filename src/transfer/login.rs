@@ -1,4 +1,4 @@
-//! Who logs in, and how.
+//! Log-in on another computer.
 
 use std::path::PathBuf;
 
@@ -7,30 +7,28 @@ use secrecy::{ExposeSecret as _, SecretString};
 use super::FileHash;
 use crate::device::ElementFiles;
 
-/// Who logs in. `Debug` shows no secret.
+/// User and proof. `Debug` shows no secret.
 #[derive(Debug, Clone)]
 pub struct Login {
-    /// The name on the host.
+    /// Name of the user on the host.
     pub user: String,
-    /// What proves it.
     pub proof: Proof,
 }
 
-/// What proves who logs in.
+/// Proof of who logs in.
 #[derive(Debug, Clone)]
 pub enum Proof {
     Password(SecretString),
-    /// A private key in a file.
     KeyFile {
-        /// In OpenSSH's form, or PEM.
+        /// A key in OpenSSH's form, or PEM.
         path: PathBuf,
-        /// What the file is locked with, if it is.
+        /// Passphrase of the file, if it has one.
         passphrase: Option<SecretString>,
     },
 }
 
-/// Whether `password` is the one that every unit of a make has from its maker. Whoever
-/// uses it should be told to change it.
+/// Whether `password` is the factory setting of every unit of a make. Tell its user to
+/// change it.
 pub fn is_factory_password(password: &SecretString, of: &ElementFiles) -> bool {
     let salted = SecretString::from(format!("{}:{}", of.factory_user, password.expose_secret()));
     FileHash::of(salted.expose_secret().as_bytes()).to_string() == of.factory_digest

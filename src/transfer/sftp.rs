@@ -1,4 +1,4 @@
-//! A folder on a unit, by SFTP version 3.
+//! Folder on a unit, by SFTP version 3.
 
 use std::{future::Future, time::Duration};
 
@@ -13,9 +13,9 @@ use super::{
     ssh::Ssh,
 };
 
-/// What every server takes and gives in one packet.
+/// Bytes that every server accepts and sends in one packet.
 const CHUNK_BYTES: usize = 32 << 10;
-/// The bits of a mode that say who may do what.
+/// Bits of a mode for access rights.
 const RIGHTS: u32 = 0o7777;
 /// OpenSSH, `PROTOCOL`, section 4.3: a rename that replaces.
 const POSIX_RENAME: &str = "posix-rename@openssh.com";
@@ -27,7 +27,7 @@ const STATVFS: &str = "statvfs@openssh.com";
 /// An open folder on a unit.
 pub struct SftpFolder {
     sftp: RawSftpSession,
-    /// Carries the above.
+    /// Keeps the connection of the session open.
     _ssh: Ssh,
     path: String,
     limits: Limits,
@@ -41,7 +41,7 @@ impl SftpFolder {
         let told = |error: russh::Error| format!("no file transfer there ({error})");
         let channel = ssh.channel_open_session().await.map_err(told)?;
         channel.request_subsystem(true, "sftp").await.map_err(told)?;
-        // This one counts whole seconds; ours ends before it.
+        // In whole seconds; Azel's own limit ends before it.
         let request_timeout_secs = limits.request.as_secs() + 2;
         let config = Config { request_timeout_secs, ..Config::default() };
         let sftp = RawSftpSession::new_with_config(channel.into_stream(), config);
@@ -59,12 +59,13 @@ impl SftpFolder {
         })
     }
 
-    /// The file of that name in this folder.
+    /// Path of a file in this folder.
     fn path(&self, name: &str) -> String {
         format!("{}/{name}", self.path)
     }
 
-    /// One request: ends by its answer, its time limit, or the end of the connection.
+    /// Makes one request, which ends by its answer, its time limit, or the end of the
+    /// connection.
     async fn answer<T>(
         &self,
         request: impl Future<Output = Result<T, Error>>,
@@ -73,7 +74,7 @@ impl SftpFolder {
         tokio::time::timeout(limit, request).await.map_err(|_| FolderError::TimedOut(limit))
     }
 
-    /// One request that has to go well.
+    /// Makes one request that must succeed.
     async fn ask<T>(
         &self,
         request: impl Future<Output = Result<T, Error>>,
@@ -81,7 +82,7 @@ impl SftpFolder {
         self.answer(request).await?.map_err(|error| told(error, self.limits.request))
     }
 
-    /// The whole of a file, one way.
+    /// Transfers a whole file, one way.
     async fn whole<T>(
         &self,
         work: impl Future<Output = Result<T, FolderError>>,
@@ -127,7 +128,7 @@ impl SftpFolder {
         Ok(())
     }
 
-    /// Says that the disk is full where a refusal is due to that.
+    /// Turns a refusal into [`FolderError::DiskFull`] if that is its cause.
     async fn explain(&self, error: FolderError, wanted: usize) -> FolderError {
         if !self.can_tell_space || !matches!(error, FolderError::Refused(_)) {
             return error;
@@ -152,7 +153,7 @@ impl Folder for SftpFolder {
         let none = FileAttributes::empty();
         let handle = match self.ask(self.sftp.open(path.as_str(), OpenFlags::READ, none)).await {
             Ok(handle) => handle.handle,
-            // A folder that is missing must not pass for a file that is.
+            // A missing folder must not pass for a missing file.
             Err(FolderError::Missing) => {
                 let folder = self.ask(self.sftp.opendir(self.path.as_str())).await?;
                 self.ask(self.sftp.close(folder.handle)).await?;

@@ -1,4 +1,4 @@
-//! Opens a folder on a unit by SSH.
+//! SSH connections to a folder on a unit.
 
 use std::{io, path::Path, sync::Arc};
 
@@ -16,13 +16,12 @@ use super::{
     Peer, Proof, SftpFolder, Verdict, limits::within,
 };
 
-/// An SSH connection, logged in. Dropping it ends it.
+/// An SSH connection after log-in. Dropping it ends it.
 pub(super) type Ssh = Handle<Judge>;
 
-/// Opens `folder` on `peer` as `login`. `known` decides about the host's key
-/// before anything secret is sent; a key that is not known yet comes back as an
-/// error, to be shown, pinned and tried again. Within a runtime that no session
-/// runs on: unlocking a key takes a while.
+/// Opens `folder` on `peer` as `login`. `known` decides about the host's key before any
+/// secret is sent; an unknown key is returned as an error, to be shown, pinned and tried
+/// again. Call it within a runtime that runs no session: unlocking a key takes a while.
 pub async fn open_sftp(
     peer: &Peer,
     folder: &str,
@@ -39,8 +38,8 @@ pub async fn open_sftp(
         .map_err(|reason| failed(ConnectStep::OpenFiles, &reason, peer))
 }
 
-/// Looks at the key of `peer` and hangs up: nobody is asked for a password that
-/// could not be sent. Errors as [`open_sftp`] does.
+/// Checks the key of `peer` and hangs up, so that nobody is asked for a password that
+/// could not be sent. Errors are those of [`open_sftp`].
 pub async fn check_host_key(
     peer: &Peer,
     known: &KnownHosts,
@@ -48,12 +47,12 @@ pub async fn check_host_key(
     cancel: &CancellationToken,
 ) -> Result<(), ConnectError> {
     let handle = shake_hands(peer, known, limits, cancel).await?;
-    // It may be gone already; then this says nothing new.
+    // The connection may be gone already; then an error says nothing new.
     let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
     Ok(())
 }
 
-/// A connection to a host with the right key; nobody is logged in yet.
+/// Connects to a host with the right key, without logging in.
 async fn shake_hands(
     peer: &Peer,
     known: &KnownHosts,
@@ -80,7 +79,7 @@ async fn connect(
     limits: Limits,
     cancel: &CancellationToken,
 ) -> Result<Ssh, ConnectError> {
-    // First, so that a wrong passphrase costs no connection.
+    // Done first, so that a wrong passphrase costs no connection.
     let key = match &login.proof {
         Proof::Password(_) => None,
         Proof::KeyFile { path, passphrase } => Some(private_key(path, passphrase.as_ref())?),
@@ -93,7 +92,7 @@ async fn connect(
     match result {
         AuthResult::Success => Ok(handle),
         AuthResult::Failure { remaining_methods, .. } => {
-            // It may be gone already; then this says nothing new.
+            // The connection may be gone already; then an error says nothing new.
             let _ = handle.disconnect(Disconnect::ByApplication, "", "").await;
             let methods: Vec<&str> = remaining_methods.iter().map(Into::into).collect();
             Err(ConnectError::LoginRefused {
@@ -105,7 +104,7 @@ async fn connect(
     }
 }
 
-/// A TCP connection.
+/// Opens a TCP connection.
 pub(super) async fn dial(
     peer: &Peer,
     limits: Limits,
@@ -129,8 +128,8 @@ pub(super) fn failed(step: ConnectStep, reason: &impl ToString, peer: &Peer) -> 
     ConnectError::Failed { step, reason: reason.to_string(), peer: peer.clone() }
 }
 
-/// Asks for the kinds of key first that the host is known by: a host with
-/// several keys would else seem to have changed when it gets a better one.
+/// Prefers the algorithms of the pinned keys: otherwise a host with several keys would
+/// seem to have changed when it gets a better one.
 fn config(pinned: &[Algorithm]) -> client::Config {
     let is_pinned = |kind: &Algorithm| {
         pinned.iter().any(|pinned| {
@@ -180,7 +179,7 @@ fn private_key(path: &Path, passphrase: Option<&SecretString>) -> Result<Private
     })
 }
 
-/// Decides about the host's key.
+/// Checks the host's key.
 pub(super) struct Judge {
     known: KnownHosts,
     peer: Peer,

@@ -1,4 +1,4 @@
-//! A file of elements for a unit: what it carries, checked before it is sent.
+//! File of elements for a unit, checked before it is sent.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,48 +9,46 @@ use crate::{
     orbit::{Elements, TleRefusal, read_element_bytes, write_tle},
 };
 
-/// One object of a file on a unit.
+/// An object of a file on a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileObject {
-    /// Its name in the file: what the unit is told to look for.
+    /// Name in the file, by which the unit looks for it.
     pub name: String,
-    /// Its catalog number.
     pub catalog_number: u32,
-    /// The epoch of its elements, as the columns of a TLE carry it.
+    /// Epoch of the elements, as precise as the columns of a TLE.
     pub epoch: Timestamp,
 }
 
-/// A file of elements as TLE.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TleFile {
     bytes: Vec<u8>,
     objects: Vec<FileObject>,
 }
 
-/// Why no file was made. Nothing was sent.
+/// Reason why no file was made. Nothing was sent.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TleFileError {
-    /// Nothing was chosen.
+    /// No object was chosen.
     #[error("no satellite was chosen; choose one at least")]
     Empty,
-    /// Some objects cannot be put into TLE; all of them are listed.
+    /// Some objects cannot be written as TLE; all of them are listed.
     #[error("{}; leave them out", listed(.0))]
     Refused(Vec<TleRefusal>),
-    /// The unit finds an object by its name only.
+    /// The object has no name, but the unit finds objects only by name.
     #[error("object {catalog_number} has no name, and the unit looks for names; leave it out")]
     Nameless { catalog_number: u32 },
-    /// The unit would find the first one only.
+    /// Two objects have the same name; the unit would find only the first.
     #[error("two objects have the name {name}, and the unit looks for names; leave one out")]
     NameTwice {
-        /// As it stands in the file.
+        /// Name in the file.
         name: String,
     },
-    /// The unit cannot be told to look for it.
+    /// The unit's protocol cannot carry the name.
     #[error("the unit cannot be told to look for {name}: the {problem}; leave it out")]
     Name {
-        /// As it stands in the file.
+        /// Name in the file.
         name: String,
-        /// Why, in words.
+        /// Reason in words.
         problem: String,
     },
 }
@@ -62,14 +60,14 @@ fn listed(refused: &[TleRefusal]) -> String {
 }
 
 impl TleFile {
-    /// The file of the `chosen` objects for a unit that takes such files. All of them
-    /// are in it, each under a name that the unit can be told, or there is no file.
+    /// Makes a file of the `chosen` objects for a unit with these element files. Either all of
+    /// them are in it, each under a name that the unit can be given, or there is no file.
     pub fn of<'a>(
         chosen: impl IntoIterator<Item = &'a Elements>,
         takes: &ElementFiles,
     ) -> Result<Self, TleFileError> {
         let mut bytes = Vec::new();
-        // Memory takes all that is written.
+        // Writing to memory cannot fail.
         let refused = write_tle(chosen, &mut bytes).unwrap_or_default();
         if !refused.is_empty() {
             return Err(TleFileError::Refused(refused));
@@ -92,7 +90,7 @@ impl TleFile {
         Ok(file)
     }
 
-    /// A file as it once was on a unit, whatever it holds: to put it back.
+    /// A file from an earlier state of a unit, whatever its content, to be put back.
     pub fn kept(bytes: Vec<u8>) -> Self {
         let object = |elements: &Elements| FileObject {
             name: elements.name().to_owned(),
@@ -103,12 +101,11 @@ impl TleFile {
         Self { bytes, objects }
     }
 
-    /// The whole file.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// What is in it, in its order.
+    /// Objects in the order of the file.
     pub fn objects(&self) -> &[FileObject] {
         &self.objects
     }
@@ -118,17 +115,17 @@ impl TleFile {
     }
 }
 
-/// The name of a file in the folder of a unit.
+/// Name of a file in the folder of a unit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileName(String);
 
-/// Why a name is none for a file on a unit.
+/// Reason why a name cannot be that of a file on a unit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FileNameError {
-    /// The unit cannot be told of it, in words.
+    /// The unit's protocol cannot carry the name; reason in words.
     #[error("the {0}; choose another one")]
     Value(String),
-    /// It leads to another folder, or is hidden.
+    /// The name leads to another folder, or is hidden.
     #[error(
         "the file name starts with a dot or holds a slash; choose a plain one such as weather.txt"
     )]
@@ -136,7 +133,7 @@ pub enum FileNameError {
 }
 
 impl FileName {
-    /// Takes `name` as typed, for a unit that takes such files.
+    /// Checks `name` as typed, for a unit with these element files.
     pub fn new(name: &str, takes: &ElementFiles) -> Result<Self, FileNameError> {
         (takes.check_name)("file name", name).map_err(FileNameError::Value)?;
         if name.starts_with('.') || name.contains(['/', '\\']) {

@@ -1,5 +1,5 @@
-//! Puts a file of elements on a unit so that it can be shown to be there, and so
-//! that the old one is never lost.
+//! Upload of a file of elements to a unit, with proof of the result and without ever
+//! losing the old file.
 
 mod error;
 mod put;
@@ -14,28 +14,27 @@ use super::{FileHash, FileName, FileObject, KeptFiles, Origin, Peer, SftpFolder,
 use crate::{astro::time, clock::Clock};
 use put::Put;
 
-/// What is to be put where.
 #[derive(Debug, Clone)]
 pub struct Upload {
-    /// The unit that the folder is on: what is kept is listed under it.
+    /// Unit that has the folder; kept files are listed under it.
     pub unit: Peer,
-    /// The file's name there.
+    /// Name of the file on the unit.
     pub file: FileName,
-    /// What is to be in it. To roll back, what [`KeptFiles::read`] gave.
+    /// New content. To roll back, use the result of [`KeptFiles::read`].
     pub elements: TleFile,
 }
 
-/// Proof that a file is on a unit: it was read back there, in its place.
+/// Proof that a file is on a unit: it was read back in its place.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Uploaded {
     pub unit: Peer,
-    /// The file's name there.
+    /// Name of the file on the unit.
     pub file: FileName,
     pub bytes: u64,
     pub sha256: FileHash,
-    /// When it was read back.
+    /// Time of reading back.
     pub at: Timestamp,
-    /// What is in it, in its order.
+    /// Objects in the order of the file.
     pub objects: Vec<FileObject>,
 }
 
@@ -47,9 +46,9 @@ impl Uploaded {
     }
 }
 
-/// Carries out `upload` in `folder`. What was there before and what is there
-/// now are both in `kept` afterwards. `tell` is called with the progress. A
-/// cancel is followed until the new file takes its place.
+/// Carries out `upload` in `folder`. Afterwards `kept` has both the old and the new file.
+/// `tell` is called with the progress. A cancel is obeyed until the new file takes its
+/// place.
 pub async fn upload(
     folder: &mut SftpFolder,
     upload: Upload,

@@ -1,7 +1,7 @@
-//! One file from an FTP server, with or without TLS.
+//! Fetch of one file from an FTP server, with or without TLS.
 //!
-//! The FTP library writes whole commands, a password too, to the `log` facade at
-//! its finest level. `Cargo.toml` compiles that level out.
+//! The FTP library writes whole commands, passwords included, to the `log` facade at its
+//! finest level. `Cargo.toml` compiles that level out.
 
 use std::sync::Arc;
 
@@ -23,10 +23,10 @@ use crate::transfer::{
     ssh::{dial, failed, interrupted},
 };
 
-/// What is asked of whom.
+/// A file, its server and the log-in.
 pub(super) struct Request<'a> {
     pub(super) peer: &'a Peer,
-    /// With TLS, trusting these.
+    /// Trusted roots for TLS; `None` for plain FTP.
     pub(super) roots: Option<RootCertStore>,
     pub(super) user: &'a str,
     pub(super) password: &'a SecretString,
@@ -97,7 +97,7 @@ async fn retrieve(
         FtpError::SecureError(reason) => FetchError::Tls(reason),
         error => FetchError::NoAnswer(error.to_string()),
     };
-    // As it is: the other kind changes the ends of lines.
+    // Binary: text mode would change the line ends.
     ftp.transfer_type(FileType::Binary).await.map_err(told)?;
     let mut stream = ftp.retr_as_stream(file).await.map_err(told)?;
     let mut bytes = Vec::new();
@@ -110,7 +110,7 @@ async fn retrieve(
     if bytes.len() as u64 > limits.file_bytes {
         return Err(FetchError::TooLarge(limits.file_bytes));
     }
-    // Only this answer tells a whole file from one that broke off.
+    // Only this answer tells a complete file from an interrupted one.
     stream.finish().await.map_err(told)?;
     Ok(bytes)
 }

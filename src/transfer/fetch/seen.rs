@@ -1,4 +1,4 @@
-//! What a unit will find in a file of elements.
+//! Contents of a file of elements as a unit will see them.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -10,43 +10,41 @@ use crate::{
 
 /// Columns of a TLE line before its checksum.
 const TLE_COLUMNS: usize = 68;
-/// How many names are offered in place of one that was not found.
+/// Maximum number of suggestions for a name that was not found.
 const MAX_SIMILAR: usize = 5;
 
-/// What a unit will make of a file.
+/// View that a unit will have of a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UnitView {
-    /// Size of the file.
     pub bytes: u64,
     pub sha256: FileHash,
-    /// How many objects can be read.
+    /// Number of readable objects.
     pub objects: usize,
-    /// What cannot be read, with the reason; the unit may take it or stumble over it.
+    /// Unreadable objects with the reasons; the unit may read them or fail on them.
     pub refused: Vec<Refusal>,
-    /// How many more were refused.
+    /// Number of further refusals.
     pub refused_unlisted: usize,
-    /// Whether the file is TLE, the only form that units are known to read.
+    /// The file is TLE, the only form that units are known to read.
     pub is_tle: bool,
-    /// What the unit finds of the satellite it is to follow.
+    /// Result of the unit's search for its satellite.
     pub satellite: Seen,
 }
 
-/// What a unit finds of one satellite.
+/// Result of a search for a satellite by name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Seen {
-    /// One object with just that name.
     Found(FileObject),
-    /// Several with that name; the unit takes one of them.
+    /// Several objects with that name; the unit takes one of them.
     Several(Vec<FileObject>),
-    /// None: the unit will report that it cannot find the satellite.
+    /// No such object: the unit will report that it cannot find the satellite.
     Missing {
-        /// Names in the file that may be meant.
+        /// Similar names in the file.
         similar: Vec<String>,
     },
 }
 
 impl UnitView {
-    /// The newest epoch of what was found.
+    /// Newest epoch among the objects found.
     pub fn epoch(&self) -> Option<Timestamp> {
         match &self.satellite {
             Seen::Found(object) => Some(object.epoch),
@@ -56,7 +54,7 @@ impl UnitView {
     }
 }
 
-/// Looks at the file `bytes` as a unit will that is to follow `satellite`.
+/// Reads `bytes` as a unit that follows `satellite` will.
 pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
     let read = read_element_bytes(bytes);
     let named = |elements: &&Elements| elements.name() == satellite;
@@ -85,8 +83,8 @@ pub fn what_a_unit_sees(bytes: &[u8], satellite: &str) -> UnitView {
     }
 }
 
-/// Names that differ in case or blanks only, or that hold what was looked for
-/// or are held by it.
+/// Names that differ only in case or blanks, or that contain the wanted name or are
+/// contained in it.
 fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
     let plain = |name: &str| {
         let letters = name.chars().filter(|letter| letter.is_alphanumeric());
@@ -101,7 +99,7 @@ fn similar(elements: &[Elements], wanted: &str) -> Vec<String> {
     names.take(MAX_SIMILAR).map(str::to_owned).collect()
 }
 
-/// Whether two lines that follow one another are those of a TLE.
+/// Whether two consecutive lines are those of a TLE.
 fn is_tle(bytes: &[u8]) -> bool {
     let is_line = |line: &[u8], start: &[u8]| line.starts_with(start) && line.len() >= TLE_COLUMNS;
     let mut first = false;
@@ -116,7 +114,7 @@ fn is_tle(bytes: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    /// From the book of the theory (Spacetrack Report 3), renumbered nowhere.
+    /// From the book of the theory (Spacetrack Report 3), with its original numbers.
     const SETS: &str = "\
 TEST 1\r
 1 88888U          80275.98708465  .00073094  13844-3  66816-4 0    87\r

@@ -1,4 +1,4 @@
-//! One file from the web.
+//! Fetch of one file from the web.
 
 use std::io;
 
@@ -14,7 +14,7 @@ use crate::{
     transfer::{Limits, limits::within},
 };
 
-/// Asks for `url` once. Where it leads elsewhere is told, not followed.
+/// Requests `url` once. A redirection is reported, not followed.
 pub(super) async fn fetch(
     url: &str,
     limits: Limits,
@@ -22,7 +22,7 @@ pub(super) async fn fetch(
 ) -> Result<Vec<u8>, FetchError> {
     let uri: Uri = url.parse().map_err(|_| FetchError::Address)?;
     let is_web = matches!(uri.scheme_str(), Some("http" | "https"));
-    // A password in an address would be shown and logged.
+    // Refused: a password in an address would be shown and logged.
     let is_plain = uri.authority().is_some_and(|authority| !authority.as_str().contains('@'));
     if !is_web || !is_plain {
         return Err(FetchError::Address);
@@ -39,7 +39,7 @@ fn ask(uri: &Uri, limits: Limits) -> Result<Vec<u8>, FetchError> {
         .http_status_as_error(false)
         .max_redirects(0)
         .max_redirects_will_error(false)
-        // The unit does not have this computer's either.
+        // No proxy: the unit does not have this computer's either.
         .proxy(None)
         .timeout_connect(Some(limits.connect))
         .timeout_recv_response(Some(limits.request))

@@ -12,7 +12,7 @@ fn offered(host: &str, port: u16, key: &str) -> OfferedKey {
     OfferedKey::new(host, port, key.parse().unwrap())
 }
 
-/// The file with `text` in it, in a folder that must be held.
+/// A file with `text`; keep the folder alive.
 fn file(text: &str) -> (tempfile::TempDir, KnownHosts) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("known_hosts");
@@ -31,7 +31,7 @@ fn a_key_is_asked_about_once_then_pinned_and_another_refused() {
     assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), Verdict::Pinned);
     let changed = Verdict::Changed { pinned: vec![FINGERPRINT_ONE.to_owned()] };
     assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), changed);
-    // A key of another kind is another key too, or the pin could be walked around.
+    // A key of another algorithm counts as changed too, or the pin could be bypassed.
     assert_eq!(known.check(&offered("unit", 22, THREE)).unwrap(), changed);
     assert_eq!(known.check(&offered("unit", 2222, TWO)).unwrap(), Verdict::Unknown);
     assert_eq!(known.check(&offered("unit2", 22, TWO)).unwrap(), Verdict::Unknown);
@@ -82,7 +82,7 @@ fn a_damaged_file_never_makes_a_known_host_unknown() {
     let (_folder, known) = file(&format!("# x\n\nunit {}\n", &ONE[..40]));
     let error = known.check(&offered("unit", 22, TWO)).unwrap_err();
     assert!(matches!(error, KnownHostsError::Line { line: 3, .. }), "{error}");
-    // A folder where the file should be cannot be read either.
+    // A folder in place of the file cannot be read either.
     let folder = tempfile::tempdir().unwrap();
     let error = KnownHosts::new(folder.path()).check(&offered("unit", 22, TWO)).unwrap_err();
     assert!(matches!(error, KnownHostsError::Disk { .. }), "{error}");

@@ -1,4 +1,4 @@
-//! Where an upload stands, and where it may end.
+//! Steps of an upload, and its possible failures.
 
 use std::fmt;
 
@@ -6,21 +6,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::transfer::{FolderError, KeptError};
 
-/// A step of an upload, in order.
+/// Step of an upload, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum UploadStep {
-    /// Reads what is on the unit now.
+    /// Read the present file on the unit.
     ReadOld,
-    /// Keeps it on this computer.
+    /// Keep it on this computer.
     KeepOld,
-    /// Writes the new file beside the old one.
+    /// Write the new file beside the old one.
     Write,
-    /// Reads the new file again and compares.
+    /// Read the new file again and compare.
     Compare,
-    /// Puts the new file in the place of the old one. Cannot be cancelled from
-    /// here on.
+    /// Put the new file in the place of the old one. From here on there is no cancelling.
     Replace,
-    /// Reads it in its place and compares.
+    /// Read the new file in its place and compare.
     Prove,
 }
 
@@ -37,57 +36,53 @@ impl fmt::Display for UploadStep {
     }
 }
 
-/// How far an upload is.
+/// Progress of an upload.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Progress {
-    /// What is done now.
     pub step: UploadStep,
-    /// Bytes of the file that are done in this step.
+    /// Bytes finished in this step.
     pub done_bytes: u64,
-    /// Bytes of the new file; what is on the unit may have more or fewer.
+    /// Size of the new file; the present file on the unit may be larger or smaller.
     pub file_bytes: u64,
 }
 
-/// Why an upload ended early.
+/// Reason why an upload ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum UploadReason {
-    /// The operator wanted it.
     #[error("cancelled")]
     Cancelled,
-    /// The unit or the link.
+    /// Failure of the unit or the link.
     #[error(transparent)]
     Folder(#[from] FolderError),
     /// The old file could not be kept on this computer.
     #[error(transparent)]
     Keep(#[from] KeptError),
-    /// What was read back is something else.
+    /// The file read back is not the same.
     #[error("what is there is not what was sent; try again, and check the disk of the unit")]
     Differs,
 }
 
-/// What is on the unit after an upload that failed. The old elements are never
-/// lost: they are on the unit as said here and, from [`UploadStep::Write`] on,
-/// kept on this computer too.
+/// State of the unit's folder after a failed upload. The old elements are never lost: they
+/// are on the unit as this says and, from [`UploadStep::Write`] on, also kept on this
+/// computer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FolderState {
-    /// All is as it was.
     AsBefore,
-    /// The old file is as it was; part of the new one may lie beside it, and the
-    /// next upload removes it.
+    /// The old file is unchanged; part of the new one may be beside it, and the next upload
+    /// removes it.
     Leftover {
-        /// The name of the part.
+        /// Name of the part.
         name: String,
     },
-    /// Either the old file or the whole new one is in its place.
+    /// Either the old file or the complete new one is in its place.
     OldOrNew,
-    /// The old file is whole under another name, and the new one may be in its
-    /// place. The next upload puts the old one back first where it is missing.
+    /// The old file is complete under another name, and the new one may be in its place. The
+    /// next upload first puts the old one back if its place is empty.
     OldAside {
-        /// The other name.
         name: String,
     },
-    /// The new file took its place after it had been compared; it was not
-    /// proved there, or another file was found.
+    /// The new file took its place after the comparison, but there it was not proved, or
+    /// another file was found.
     NewUnproved,
 }
 
@@ -112,14 +107,13 @@ impl fmt::Display for FolderState {
     }
 }
 
-/// An upload that did not end in proof.
+/// An upload that ended without proof.
 #[derive(Debug, thiserror::Error)]
 #[error("the upload failed while {step}: {reason} ({state})")]
 pub struct UploadError {
-    /// What was being done.
+    /// Step that failed.
     pub step: UploadStep,
-    /// Why it ended.
     pub reason: UploadReason,
-    /// What is on the unit now.
+    /// Present state of the unit.
     pub state: FolderState,
 }

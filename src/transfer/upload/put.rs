@@ -1,4 +1,4 @@
-//! The steps of an upload, on any folder.
+//! Steps of an upload, for any folder.
 
 use std::future::Future;
 
@@ -10,18 +10,18 @@ use crate::transfer::{
     folder::{Folder, Found},
 };
 
-/// Beside the file while it is written. No `.txt` or `.tle` at the end, so that
-/// a unit does not take it for elements.
+/// Name of the file while it is written, without `.txt` or `.tle` at the end, so that a
+/// unit does not take it for elements.
 pub(super) fn new_name(file: &str) -> String {
     format!("{file}.azel-new")
 }
 
-/// The old file while the new one takes its place, where that needs two steps.
+/// Name of the old file while the new one takes its place, if that needs two steps.
 pub(super) fn old_name(file: &str) -> String {
     format!("{file}.azel-old")
 }
 
-/// One file on its way to a folder.
+/// A file on its way to a folder.
 pub(super) struct Put<'a, F> {
     pub(super) folder: &'a mut F,
     pub(super) file: &'a str,
@@ -31,8 +31,8 @@ pub(super) struct Put<'a, F> {
 }
 
 impl<F: Folder> Put<'_, F> {
-    /// Puts the file in its place and proves it. `keep_old` is given the old
-    /// file before anything is written; when it fails, nothing is.
+    /// Puts the file in its place and proves it. `keep_old` gets the old file before anything
+    /// is written; if it fails, nothing is written.
     pub(super) async fn run(
         mut self,
         keep_old: &mut dyn FnMut(&[u8]) -> Result<(), KeptError>,
@@ -51,14 +51,14 @@ impl<F: Folder> Put<'_, F> {
             self.swap(old.is_some(), &new_name, &old_name).await?;
         }
         self.prove().await?;
-        // It may be there from an earlier upload too, which broke off.
+        // An earlier upload that broke off may have left it too.
         if let Err(error) = self.folder.remove(&old_name).await {
             tracing::warn!(%error, file, "the file before the last was left on the unit");
         }
         Ok(())
     }
 
-    /// The file as it is, after an earlier upload was mended that broke off.
+    /// Reads the present file, after mending an earlier upload that broke off.
     async fn read_old(&mut self) -> Result<Option<Found>, UploadReason> {
         if let Some(old) = self.read(UploadStep::ReadOld, self.file).await? {
             return Ok(Some(old));
@@ -95,7 +95,7 @@ impl<F: Folder> Put<'_, F> {
         unless_cancelled(self.cancel, writing).await
     }
 
-    /// One step on the unit: there is no moment without a whole file.
+    /// Replaces in one step on the unit: there is no moment without a complete file.
     async fn swap_at_once(&mut self, new_name: &str) -> Result<(), UploadError> {
         match self.folder.replace(new_name, self.file).await {
             Ok(()) => Ok(()),
@@ -108,7 +108,7 @@ impl<F: Folder> Put<'_, F> {
         }
     }
 
-    /// Two steps on the unit, with the old file under another name in between.
+    /// Replaces in two steps on the unit, with the old file under another name in between.
     async fn swap(
         &mut self,
         has_old: bool,
@@ -118,7 +118,7 @@ impl<F: Folder> Put<'_, F> {
         let step = UploadStep::Replace;
         let aside = FolderState::OldAside { name: old_name.to_owned() };
         if has_old {
-            // What lies there is older than the file in its place.
+            // The file at that name is older than the one in its place.
             let moving = async {
                 self.folder.remove(old_name).await?;
                 self.folder.rename(self.file, old_name).await
@@ -143,7 +143,7 @@ impl<F: Folder> Put<'_, F> {
         Err(self.withdraw(step, error.into()).await)
     }
 
-    /// Is not cancelled: the new file is in its place already.
+    /// Proves the new file. Cannot be cancelled: it is in its place already.
     async fn prove(&mut self) -> Result<(), UploadError> {
         let step = UploadStep::Prove;
         self.at(step);
@@ -159,7 +159,7 @@ impl<F: Folder> Put<'_, F> {
         Err(UploadError { step, reason, state: FolderState::NewUnproved })
     }
 
-    /// Takes the part of the new file away again.
+    /// Removes the part of the new file again.
     async fn withdraw(&mut self, step: UploadStep, reason: UploadReason) -> UploadError {
         let name = new_name(self.file);
         let is_lost = matches!(&reason, UploadReason::Folder(error) if error.ends_connection());

@@ -1,4 +1,4 @@
-//! An upload that breaks at every request there is, in every way a link breaks.
+//! Uploads that break at every possible request, in every way a link breaks.
 
 use std::{collections::BTreeMap, time::Duration};
 
@@ -9,14 +9,14 @@ const FILE: &str = "weather.tle";
 const OLD: &[u8] = b"the old elements";
 const NEW: &[u8] = b"the new elements, which are longer";
 
-/// How a request goes wrong.
+/// Failure of a request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Fault {
-    /// The unit says no and does nothing.
+    /// The unit refuses and does nothing.
     Refused,
-    /// The link is gone before the request arrives.
+    /// The link is lost before the request arrives.
     LostBefore,
-    /// The link is gone after the request was carried out.
+    /// The link is lost after the request was carried out.
     LostAfter,
     /// The operator cancels before the request.
     Cancelled,
@@ -27,12 +27,12 @@ enum Fault {
 struct Memory {
     files: BTreeMap<String, Vec<u8>>,
     can_replace: bool,
-    /// Which request from now on goes wrong, and how.
+    /// Request that fails, counted from now on, and its failure.
     fault: Option<(usize, Fault)>,
     asked: usize,
     cancel: CancellationToken,
     is_gone: bool,
-    /// The disk turns what is written into something else.
+    /// The disk corrupts the bytes written.
     corrupts: bool,
 }
 
@@ -117,7 +117,7 @@ impl Folder for Memory {
     }
 }
 
-/// Uploads [`NEW`]; also hands back what was kept of the old file.
+/// Uploads [`NEW`]; also returns the kept old file.
 async fn put(folder: &mut Memory) -> (Result<(), UploadError>, Option<Vec<u8>>) {
     let mut kept = None;
     let cancel = folder.cancel.clone();
@@ -136,7 +136,7 @@ fn folder(can_replace: bool, old: Option<&[u8]>) -> Memory {
     Memory { files, can_replace, ..Memory::default() }
 }
 
-/// What the error says must be so.
+/// Checks that the state in the error is true.
 fn assert_state(folder: &Memory, error: &UploadError, old: Option<&[u8]>) {
     let (in_place, beside) = (folder.holds(FILE), folder.holds(&new_name(FILE)));
     let aside = folder.holds(&old_name(FILE));
