@@ -1,4 +1,4 @@
-//! The station's settings: site, satellites and antennas, in a plain form.
+//! Settings of the station: site, satellites and antennas, in a plain form.
 
 mod antenna_fields;
 mod connection_fields;
@@ -32,20 +32,20 @@ use crate::{
 use draft::Draft;
 use horizon::HorizonState;
 
-/// Below this width of the form there is one column.
+/// Width of the form from which there are two columns.
 const TWO_COLUMNS_FROM: f32 = 1100.0;
 /// Height of the bar below the form.
 const FOOTER: f32 = 56.0;
 const PADDING: f32 = 16.0;
-/// The pages stand at the left from this width on.
+/// Width from which the pages are listed at the left.
 const LIST_FROM: f32 = 1240.0;
 const LIST: f32 = 232.0;
 /// Height of the strip of pages above the form.
 const STRIP: f32 = 40.0;
-/// Width of the button that has to be held.
+/// Width of the button that the operator must hold.
 const HOLD: f32 = 150.0;
 
-/// What was typed, and what came of the last saving.
+/// Edited settings, and the result of the last saving.
 #[derive(Default)]
 pub struct PreferencesState {
     draft: Option<(Station, Draft)>,
@@ -61,7 +61,7 @@ enum Section {
     /// Site, satellites and antennas.
     #[default]
     Station,
-    /// What blocks the sky, and where antennas must not point.
+    /// Obstructions of the sky, and zones that antennas must not point at.
     Horizon,
 }
 
@@ -71,19 +71,19 @@ impl Section {
 }
 
 impl PreferencesState {
-    /// Something is typed that is not saved.
+    /// Whether something typed is not saved.
     pub fn is_edited(&self) -> bool {
         self.draft.as_ref().is_some_and(|(station, draft)| *draft != Draft::of(station))
     }
 
-    /// The station has changed elsewhere. Whoever changes it asks first whether
-    /// something is typed.
+    /// Drops the draft, because the station has changed elsewhere. Callers ask the operator
+    /// first if something is typed.
     pub fn forget(&mut self) {
         self.draft = None;
         self.horizon.forget();
     }
 
-    /// A horizon mask was read or written, or not, and why.
+    /// Takes the result of reading or writing a horizon mask.
     pub fn mask_news(&mut self, news: MaskNews) {
         self.horizon.exchanged(match news {
             MaskNews::Read(mask, form) => {
@@ -103,7 +103,7 @@ impl PreferencesState {
         });
     }
 
-    /// The settings were saved at this time, or not, and why.
+    /// Takes the time of saving the settings, or the failure.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
         if result.is_ok() {
             self.draft = None;
@@ -191,7 +191,7 @@ pub fn show(
     }
 }
 
-/// The pages at the left, or above where there is no room. Returns what is left.
+/// Shows the pages at the left, or above if there is no room. Returns the remaining space.
 fn sections(ui: &Ui, body: Rect, state: &mut PreferencesState) -> Rect {
     let t = theme::tokens(ui);
     if body.width() < LIST_FROM {
@@ -235,9 +235,9 @@ fn sections(ui: &Ui, body: Rect, state: &mut PreferencesState) -> Rect {
     page
 }
 
-/// Why `after` has to wait: an antenna would be let go in the middle of a motion,
-/// because it is changed or left out, or loses a keep-out while it moves. What only
-/// tightens never waits.
+/// Reason why `after` has to wait: it would interrupt a motion by changing or removing an
+/// antenna, or take away a keep-out while an antenna moves. A change that only tightens
+/// never waits.
 fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     // The simulators of the demonstration end with it.
     let mut antennas = model.antennas.iter().filter(|of| !model.demo && of.is_busy());
@@ -252,7 +252,7 @@ fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
     })
 }
 
-/// The antenna that stands inside of a keep-out of `after`, and did not in `before`.
+/// Warning for an antenna that is inside a keep-out of `after`, but was not in `before`.
 fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
     let holds_in = |station: &Station, antenna: &AntennaModel| {
         let direction = antenna.snapshot.state.measured?.direction()?;
@@ -277,7 +277,7 @@ fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
     })
 }
 
-/// What stands beside the buttons.
+/// Message beside the buttons.
 fn outcome(
     ui: &Ui,
     model: &Model,

@@ -1,5 +1,5 @@
-//! The fields of an antenna, whatever its make: those of its connection and
-//! mount that it has, and those that all have.
+//! Fields of an antenna of any make: those of its connection and mount, and those that
+//! every antenna has.
 
 use super::{
     connection_fields,
@@ -9,7 +9,7 @@ use crate::station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume,
 
 type Of = Description<Antenna>;
 
-/// All that an antenna of this make may have.
+/// All fields that an antenna of this make may have.
 pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let common = [
         placed("Beam and park", beam()),
@@ -72,7 +72,7 @@ fn mount() -> [Of; 7] {
     ]
 }
 
-/// Azimuth of the lower axis and both ends of the travel, of crossed axes.
+/// Azimuth of the lower axis, and both ends of the travel, for a mount with crossed axes.
 fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
     match &mut antenna.mount {
         Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
@@ -82,7 +82,7 @@ fn xy(antenna: &mut Antenna) -> Option<[&mut f64; 3]> {
     }
 }
 
-/// Both ends of the azimuth and of the elevation, of elevation over azimuth.
+/// Both ends of azimuth and elevation, for an elevation-over-azimuth mount.
 fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
     match &mut antenna.mount {
         Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_from_deg, elevation_to_deg } => {
@@ -198,12 +198,12 @@ fn watch() -> [Of; 2] {
     ]
 }
 
-/// This program can follow a target with it.
+/// Whether the antenna is capable of program track.
 fn takes_positions(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.takes_positions
 }
 
-/// The antenna turns both angles of the sky.
+/// Whether the antenna turns both angles of the sky.
 pub(super) fn has_elevation(antenna: &Antenna) -> bool {
     antenna.connection.variant().capabilities.has_elevation()
 }

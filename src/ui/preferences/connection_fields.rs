@@ -1,5 +1,5 @@
-//! The fields of an antenna that its make sets: where its controller answers
-//! and what that has to know. All of them follow from the description of the make.
+//! Fields of an antenna that depend on its make: the address of the unit and the settings
+//! of the connection. All of them follow from the description of the make.
 
 use super::fields::{Description, Placed};
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
 
 type Of = Description<Antenna>;
 
-/// The name, the address and the settings that stand beside it.
+/// Name, address, and the settings beside them.
 pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let settings = spec.settings.iter().filter(|setting| setting.table.is_none());
     let mut unit = vec![
@@ -24,7 +24,7 @@ pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     unit
 }
 
-/// The settings that stand in tables of their own.
+/// Settings that have tables of their own.
 pub(super) fn tables(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let placed = |setting: &&'static Setting| Some((setting.table?.title, field(setting)));
     spec.settings.iter().filter_map(placed).collect()
@@ -68,9 +68,9 @@ fn field(setting: &'static Setting) -> Of {
     })
 }
 
-/// How well the points of one axis fit a straight line.
+/// Quality of the straight line through the points of one axis.
 fn fit(points: &[CountPoint]) -> Option<String> {
-    // Two points are always on it.
+    // Two points are always on the line.
     let line = CountLine::through(points).ok().filter(|_| points.len() > 2)?;
     let residuals = line.residuals_deg(points);
     let all: Vec<String> = residuals.iter().map(|off| format::signed(*off, 2)).collect();

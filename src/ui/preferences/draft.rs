@@ -1,5 +1,5 @@
-//! The station as typed: nothing is lost by a typing error, and nothing is
-//! used before all of it is right.
+//! Draft of the station: a typing error loses nothing, and nothing is used before all of
+//! it is right.
 
 use super::{
     antenna_fields,
@@ -11,7 +11,7 @@ use jiff::Timestamp;
 
 use crate::station::{Antenna, AntennaId, ControllerSpec, Station};
 
-/// The whole form.
+/// Draft of the whole form.
 #[derive(PartialEq)]
 pub(super) struct Draft {
     pub(super) ground: Typed<Ground>,
@@ -28,8 +28,8 @@ impl Draft {
         }
     }
 
-    /// One more antenna whose controller is of this make, to be filled in. Its id is
-    /// made of the time, so that it is not that of one that was removed.
+    /// Adds an empty antenna of this make. Its id is made of the time, so that it differs from
+    /// that of an antenna removed earlier.
     pub(super) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
@@ -40,17 +40,17 @@ impl Draft {
         self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.default_address) }));
     }
 
-    /// The antennas of the form, each by its name before anything was typed.
+    /// Names of the antennas before anything was typed.
     pub(super) fn antenna_names(&self) -> Vec<String> {
         self.antennas.iter().map(|antenna| antenna.before().name.clone()).collect()
     }
 
-    /// How the fields of the site stand.
+    /// Standings of the fields of the site.
     pub(super) fn ground_standings(&self) -> Vec<Standing> {
         self.ground.read().1
     }
 
-    /// How the fields of an antenna stand.
+    /// Standings of the fields of an antenna.
     pub(super) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
         let (_, mut standings) = antenna.read();
@@ -62,7 +62,7 @@ impl Draft {
         standings
     }
 
-    /// Another antenna with the name of this one.
+    /// Another antenna with the same name.
     fn twin(&self, index: usize) -> Option<usize> {
         let own = name(self.antennas.get(index)?);
         self.antennas
@@ -71,7 +71,7 @@ impl Draft {
             .position(|(other, antenna)| other != index && Antenna::same_name(&name(antenna), &own))
     }
 
-    /// The station, when every field is right.
+    /// The station, if every field is right.
     pub(super) fn read(&self) -> Option<Station> {
         let is_right = |standings: &[Standing]| standings.iter().all(|of| of.problem.is_none());
         let (ground, standings) = self.ground.read();
@@ -97,7 +97,7 @@ fn typed(antenna: Antenna) -> Typed<Antenna> {
     Typed::of(antenna, fields)
 }
 
-/// As typed; the name is the first field.
+/// Name as typed; it is the first field.
 fn name(antenna: &Typed<Antenna>) -> String {
     antenna.fields.first().map(|field| field.text.clone()).unwrap_or_default()
 }

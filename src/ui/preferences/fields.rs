@@ -1,6 +1,5 @@
-//! Fields of a form: what each is called, where its value stands and what it
-//! may be. The text as typed is kept apart from the value, so nothing is lost
-//! by a typing error.
+//! Fields of a form: label, place of the value and its constraints. The typed text is kept
+//! apart from the value, so that a typing error loses nothing.
 
 use std::{borrow::Cow, ops::RangeInclusive};
 
@@ -9,24 +8,24 @@ use crate::{
     ui::words,
 };
 
-/// Where a value stands in a `T`; `None` where that `T` does not have it.
+/// Access to a value in a `T`; `None` if that `T` does not have it.
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
-/// Why a value cannot be used; reads on from the name of its field.
+/// Result of a check; the error continues the name of the field to a sentence.
 pub(super) type Checked = Result<(), &'static str>;
-/// The heading above fields that belong together, and one of them.
+/// A field with the heading of its section.
 pub(super) type Placed<T> = (&'static str, Description<T>);
 
 type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
 type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
 type Note<T> = Box<dyn Fn(&T) -> Option<String>>;
 
-/// One line of a form.
+/// Description of one line of a form.
 pub(super) struct Description<T> {
     pub(super) label: Cow<'static, str>,
     pub(super) kind: Kind,
-    /// Stands behind the field.
+    /// Unit of measure, shown behind the field.
     pub(super) unit: &'static str,
-    /// A text that is wrapped, to be seen whole.
+    /// The text is wrapped, to show all of it.
     pub(super) is_wrapped: bool,
     get: Get<T>,
     put: Put<T>,
@@ -36,7 +35,7 @@ pub(super) struct Description<T> {
 }
 
 impl<T> Description<T> {
-    /// A field of any kind. A value that is not put leaves all as it was.
+    /// A field of any kind. If `put` fails it must leave the value as it was.
     pub(super) fn new(
         label: impl Into<Cow<'static, str>>,
         kind: Kind,
@@ -76,7 +75,7 @@ impl<T> Description<T> {
         Self { unit, ..Self::new(label, kind, get, put) }
     }
 
-    /// Text without the blanks around it.
+    /// A text field; blanks around the text are dropped.
     pub(super) fn text(
         label: impl Into<Cow<'static, str>>,
         check: fn(&str) -> Result<(), Unfit>,
@@ -95,7 +94,7 @@ impl<T> Description<T> {
         Self::new(label, Kind::Text(check), get, put)
     }
 
-    /// One of `values`. The codes of `choices` are their indices.
+    /// A choice among `values`. The codes of `choices` are their indices.
     pub(super) fn choice<V: Copy + PartialEq + 'static>(
         label: &'static str,
         choices: &'static [(i64, &'static str)],
@@ -123,68 +122,68 @@ impl<T> Description<T> {
         Self { is_wrapped: true, ..self }
     }
 
-    /// Not shown, and of no consequence, unless `is_used` says so.
+    /// Hides and ignores the field unless `is_used` holds.
     pub(super) fn when(self, is_used: fn(&T) -> bool) -> Self {
         Self { is_used, ..self }
     }
 
-    /// What must hold together with other fields.
+    /// Adds a check that involves other fields.
     pub(super) fn checked(self, check: fn(&T) -> Checked) -> Self {
         Self { check, ..self }
     }
 
-    /// What stands below the field.
+    /// Adds a note below the field.
     pub(super) fn noted(self, note: impl Fn(&T) -> Option<String> + 'static) -> Self {
         Self { note: Box::new(note), ..self }
     }
 
-    /// The text of the value, for a `whole` that has it.
+    /// Text of the value, if `whole` has it.
     fn write(&self, whole: &mut T) -> Option<String> {
         (self.get)(whole).map(|value| self.kind.text(&value))
     }
 
-    /// Puts a text in its place.
+    /// Parses a text into its value.
     fn read(&self, whole: &mut T, text: &str) -> Result<(), String> {
         let value = self.kind.read(text.trim()).map_err(|why| words::unfit(&why, self.unit))?;
         (self.put)(whole, value)
     }
 }
 
-/// A field with what is typed in it.
+/// A field with its typed text.
 pub(super) struct Field<T: 'static> {
-    /// What stands above it and its neighbours.
+    /// Heading above the field and its neighbours.
     pub(super) section: &'static str,
     pub(super) description: Description<T>,
     pub(super) text: String,
-    /// As it was before anything was typed.
+    /// Text before anything was typed.
     before: String,
 }
 
 impl<T> Field<T> {
-    /// Something else is typed than what was there.
+    /// Whether the typed text differs from the text before.
     pub(super) fn is_edited(&self) -> bool {
         self.text != self.before
     }
 }
 
-/// How a field stands.
+/// State of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Standing {
     pub(super) is_used: bool,
-    /// Why it cannot be used, to stand behind its name.
+    /// Problem, shown behind the name of the field.
     pub(super) problem: Option<String>,
-    /// What stands below it.
+    /// Note below the field.
     pub(super) note: Option<String>,
 }
 
-/// All fields of one thing.
+/// Draft of a `T`: all its fields.
 pub(super) struct Typed<T: 'static> {
     base: T,
     pub(super) fields: Vec<Field<T>>,
 }
 
 impl<T: Clone> Typed<T> {
-    /// Those of `fields` that `base` has.
+    /// Draft with those of `fields` that `base` has.
     pub(super) fn of(base: T, fields: Vec<Placed<T>>) -> Self {
         let mut whole = base.clone();
         let fields = fields
@@ -197,18 +196,18 @@ impl<T: Clone> Typed<T> {
         Self { base, fields }
     }
 
-    /// As it was before anything was typed.
+    /// Value before anything was typed.
     pub(super) fn before(&self) -> &T {
         &self.base
     }
 
-    /// What is typed, as far as it can be used, and how each field stands.
+    /// The typed value with every usable field, and the state of each field.
     pub(super) fn read(&self) -> (T, Vec<Standing>) {
         let mut whole = self.base.clone();
         let read = |field: &Field<T>| field.description.read(&mut whole, &field.text).err();
         let problems: Vec<Option<String>> = self.fields.iter().map(read).collect();
         let described = || self.fields.iter().map(|field| &field.description).zip(&problems);
-        // Together they say nothing while one of them is wrong.
+        // The combined checks say nothing while one of the fields is wrong.
         let is_whole = described().all(|(of, problem)| problem.is_none() || !(of.is_used)(&whole));
         let standings = described()
             .map(|(of, problem)| {

@@ -1,4 +1,4 @@
-//! The cards of the form and their fields.
+//! Cards of the form, with their fields.
 
 use egui::{
     Align, Color32, Frame, Label, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke,
@@ -26,20 +26,20 @@ use crate::{
 
 const LABEL: f32 = 192.0;
 const ROW: f32 = 24.0;
-/// For a number with its unit.
+/// Width of a number with its unit.
 const NUMBER: f32 = 112.0;
-/// For a name or an address.
+/// Width of a name or an address.
 const WORDS: f32 = 240.0;
-/// For one of a few.
+/// Width of a choice.
 const CHOICE: f32 = 300.0;
-/// A long text of many lines is scrolled beyond this height.
+/// Height beyond which a long text is scrolled.
 const LINES: f32 = 140.0;
-/// Between the two columns.
+/// Gap between the two columns.
 const GAP: f32 = 16.0;
-/// A column is not wider than its fields need.
+/// Maximum width of a column, as its fields need it.
 const COLUMN: f32 = 560.0;
 
-/// Shows all fields, in two columns where there is room.
+/// Shows all fields, in two columns if there is room.
 pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
     if !two_columns {
         site(ui, draft);
@@ -108,7 +108,7 @@ fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// What is measured and cannot be typed.
+/// A measured value, which cannot be typed.
 fn measured(ui: &mut Ui, label: &str, words: &str) {
     let t = theme::tokens(ui);
     ui.horizontal_top(|ui| {
@@ -119,7 +119,7 @@ fn measured(ui: &mut Ui, label: &str, words: &str) {
         });
         let words = RichText::new(words).font(text::small()).color(t.t3);
         ui.vertical(|ui| {
-            // On the line of the label.
+            // Align with the label.
             ui.add_space(4.0);
             ui.add(Label::new(words).wrap());
         });
@@ -195,7 +195,7 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
     ui.add(edit.id_salt((group, label)))
 }
 
-/// Many lines, scrolled within one border.
+/// A text field of many lines, scrolled within one border.
 fn lines(
     ui: &mut Ui,
     salt: (&str, &str),
@@ -206,7 +206,7 @@ fn lines(
     let t = theme::tokens(ui);
     let id = ui.make_persistent_id(salt);
     let border = border.or_else(|| ui.memory(|memory| memory.has_focus(id)).then_some(t.sat));
-    // A thicker border must not move what lies below.
+    // A thicker border must not move the fields below.
     let (stroke, outside) =
         border.map_or((Stroke::new(1.0, t.edge), 1), |colour| (Stroke::new(2.0, colour), 0));
     let frame = Frame::new().fill(t.bg0).stroke(stroke).corner_radius(4).outer_margin(outside);
@@ -220,7 +220,7 @@ fn lines(
     frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner).inner
 }
 
-/// One of a few words, side by side.
+/// A choice of a few words, side by side.
 fn choice(
     ui: &mut Ui,
     salt: (&str, &str),

@@ -1,5 +1,5 @@
-//! The page of the horizon and the keep-outs: what blocks the sky, and where metal
-//! must not point.
+//! Page of the horizon and the keep-outs: obstructions of the sky, and directions in which
+//! metal must not point.
 
 pub(super) mod draft;
 mod edit;
@@ -33,29 +33,28 @@ use crate::{
     },
 };
 
-/// The plot and the table stand side by side from this width on.
+/// Width from which plot and table are side by side.
 const BESIDE_FROM: f32 = 1000.0;
 const PANE: f32 = 472.0;
 const BAR: f32 = 56.0;
 const TOOLS: f32 = 40.0;
 const EFFECT: f32 = 72.0;
 const PADDING: f32 = 16.0;
-/// The way of the Sun is drawn from a point each so many seconds.
+/// Interval between the points of the Sun's path, seconds.
 const SUN_STEP_S: f64 = 600.0;
 
-/// What is chosen to be edited.
+/// Item that is selected for editing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Chosen {
-    /// The horizon mask.
     #[default]
     Skyline,
-    /// The keep-out of this place.
+    /// The keep-out with this index.
     Zone(usize),
-    /// The avoidance of the Sun.
+    /// Avoidance of the Sun.
     Sun,
 }
 
-/// What the pointer does in the plot.
+/// Pointer tool of the plot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Tool {
     #[default]
@@ -65,7 +64,7 @@ enum Tool {
     Rectangle,
 }
 
-/// What is shown where there is room for one.
+/// Tab where there is no room for both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Tab {
     #[default]
@@ -75,24 +74,24 @@ enum Tab {
 
 type SunWay = (Site, i64, Vec<AzEl>);
 
-/// What is chosen, drawn and undone.
+/// Selection, drawing and undo history of the page.
 pub(super) struct HorizonState {
     chosen: Chosen,
-    /// A corner of the keep-out, or a point of the skyline.
+    /// Selected corner of the keep-out, or point of the skyline.
     corner: Option<usize>,
     tool: Tool,
     tab: Tab,
     snaps: bool,
     shows_passes: bool,
-    /// The corners of a keep-out that is being drawn.
+    /// Corners of the keep-out being drawn.
     drawing: Vec<(f64, f64)>,
-    /// What is being dragged, and where it was.
+    /// Corner being dragged, and its original position.
     drag: Option<(usize, (f64, f64))>,
     antenna: Option<usize>,
     history: History,
     sun: Option<SunWay>,
     recording: Option<Recording>,
-    /// The path of a file with a mask, while it is typed.
+    /// Path of a mask file while it is typed.
     import: Option<String>,
     told: Option<Result<String, String>>,
 }
@@ -131,18 +130,18 @@ impl HorizonState {
         self.drag = at.map(|at| (index, at));
     }
 
-    /// The antenna whose beam and travel are shown.
+    /// Antenna whose beam and travel are shown.
     fn shown<'a>(&self, model: &'a Model) -> Option<&'a AntennaModel> {
         model.antennas.get(self.antenna.unwrap_or(model.selected_antenna))
     }
 
-    /// The steps are those of another draft now.
+    /// Drops the history, whose steps belong to an old draft.
     pub(super) fn forget(&mut self) {
         self.history = History::default();
         self.recording = None;
     }
 
-    /// A mask was read from a file or written to one, or not, and why.
+    /// Takes the result of reading or writing a mask file.
     pub(super) fn exchanged(&mut self, result: Result<String, String>) {
         if result.is_ok() {
             self.import = None;
@@ -150,7 +149,7 @@ impl HorizonState {
         self.told = Some(result);
     }
 
-    /// The Sun over the site from midnight to midnight UTC.
+    /// Path of the Sun over the site from midnight to midnight UTC.
     fn sun_way(&mut self, site: Site, now: Timestamp) -> &[AzEl] {
         const DAY_S: i64 = 86_400;
         let day = now.as_second().div_euclid(DAY_S);
@@ -319,7 +318,7 @@ fn view_bar(
     paint::text_in(ui, below, Align2::LEFT_CENTER, &what, text::small(), t.t2);
 }
 
-/// The next place for a button of this width, from the right end of a bar.
+/// Place for a button of this width, taken from the right end of a bar.
 fn from_right(right: &mut f32, bar: Rect, width: f32) -> Rect {
     let middle = bar.center().y;
     let rect = Rect::from_min_max(pos2(*right - width, middle - 16.0), pos2(*right, middle + 16.0));
@@ -399,7 +398,7 @@ fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &Horiz
     paint::name_text(ui, "effect", rect, &lines.join(" ")).on_hover_text(lines.join("\n"));
 }
 
-/// Asks for the effect of what is drawn, unless that was the last question.
+/// Asks for the effect of the draft, unless that was the last question.
 fn ask_for_effect(
     ui: &Ui,
     model: &Model,

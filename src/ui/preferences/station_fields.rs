@@ -1,4 +1,4 @@
-//! The fields of the site and of what the station follows.
+//! Fields of the site and of the satellites that the station follows.
 
 use super::{
     connection_fields::not_empty,
@@ -10,7 +10,7 @@ use crate::{
     station::{Antenna, OnClose, Station, ranges},
 };
 
-/// A station without its antennas, with a site that need not be one.
+/// A station without its antennas, with a site that may be invalid.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ground {
     name: String,
@@ -36,7 +36,7 @@ impl Ground {
         }
     }
 
-    /// The station with these antennas, without what the page of the horizon holds.
+    /// The station with these antennas, without the contents of the horizon page.
     pub(super) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
         Some(Station {
             site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
@@ -52,14 +52,14 @@ impl Ground {
     }
 }
 
-/// Enough digits for a centimetre, without the noise of the conversion.
+/// Rounds to a centimetre, without the noise of the conversion.
 fn rounded(degrees: f64) -> f64 {
     (degrees * 1e7).round() / 1e7
 }
 
 type Of = Description<Ground>;
 
-/// All that a station has besides its antennas.
+/// All fields of a station besides its antennas.
 pub(super) fn all() -> Vec<Placed<Ground>> {
     let all = [
         Of::text("Name", not_empty, |ground| Some(&mut ground.name)),
@@ -107,7 +107,7 @@ fn about_closing(on_close: Option<OnClose>) -> &'static str {
     }
 }
 
-/// Catalog numbers, with commas between.
+/// Catalog numbers, separated by commas.
 fn favourites(ground: &Ground) -> String {
     let numbers: Vec<String> = ground.favourites.iter().map(u32::to_string).collect();
     numbers.join(", ")

@@ -1,6 +1,5 @@
-//! The mask, the keep-outs and the avoidance of the Sun as typed and drawn:
-//! nothing is lost by a typing error, and the plot keeps the last value that was
-//! right.
+//! Draft of the mask, the keep-outs and the avoidance of the Sun: a typing error loses
+//! nothing, and the plot keeps the last valid value.
 
 use std::ops::RangeInclusive;
 
@@ -11,19 +10,18 @@ use crate::{
     ui::words,
 };
 
-/// Azimuth of a corner: once around and once more either way.
+/// Range for the azimuth of a corner: one turn, and one more either way.
 pub(super) const AZIMUTH: RangeInclusive<f64> = -360.0..=720.0;
 
-/// All of the page.
+/// Draft of the whole page.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::ui::preferences) struct Skies {
-    /// The mask, as [`HorizonMask::import`] reads it; empty for none.
+    /// Text of the mask, as [`HorizonMask::import`] reads it; empty for none.
     pub(in crate::ui::preferences) mask: String,
     pub(super) zones: Vec<ZoneDraft>,
     pub(super) sun: SunDraft,
 }
 
-/// One keep-out.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ZoneDraft {
     pub(super) name: String,
@@ -32,29 +30,28 @@ pub(super) struct ZoneDraft {
     pub(super) entered: Entered,
     pub(super) margin: Cell,
     pub(super) corners: Vec<Corner>,
-    /// As saved; `None` for a new one.
+    /// Saved keep-out; `None` for a new one.
     was: Option<Box<KeepOut>>,
 }
 
-/// One corner of a keep-out.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     pub(super) azimuth: Cell,
     pub(super) elevation: Cell,
 }
 
-/// A number as typed.
+/// A number field.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cell {
     pub(super) text: String,
-    /// The last one that was right.
+    /// Last valid value.
     kept: f64,
-    /// As saved; `None` for a new one.
+    /// Saved value; `None` for a new cell.
     was: Option<f64>,
     range: (f64, f64),
 }
 
-/// How far antennas stay away from the Sun.
+/// Draft of the distance that antennas keep from the Sun.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SunDraft {
     pub(super) is_on: bool,
@@ -67,7 +64,7 @@ impl Cell {
         Self { text: written(value), kept: value, was, range: (*range.start(), *range.end()) }
     }
 
-    /// The last value that was right.
+    /// Last valid value.
     pub(super) fn kept(&self) -> f64 {
         self.kept
     }
@@ -77,19 +74,19 @@ impl Cell {
         number(self.text.trim()).filter(|value| (low..=high).contains(value))
     }
 
-    /// Takes over what is typed, if it can be used.
+    /// Adopts the typed text if it is valid.
     pub(super) fn take(&mut self) {
         self.kept = self.typed().unwrap_or(self.kept);
     }
 
-    /// Puts in a value, drawn into the range.
+    /// Sets a value, clamped to the range.
     pub(super) fn set(&mut self, value: f64) {
         let (low, high) = self.range;
         self.kept = value.clamp(low, high);
         self.text = written(self.kept);
     }
 
-    /// Why it cannot be used, and what stands in for it.
+    /// Problem of the typed text, and the value used instead.
     pub(super) fn problem(&self) -> Option<String> {
         let (low, high) = self.range;
         self.typed().is_none().then(|| {
@@ -98,7 +95,7 @@ impl Cell {
         })
     }
 
-    /// What it was, where it is another now.
+    /// Saved value, if it differs.
     pub(super) fn edited(&self) -> Option<String> {
         let was = self.was?;
         let is_same = self.typed().is_some_and(|value| value.total_cmp(&was).is_eq());
@@ -110,7 +107,7 @@ impl Cell {
     }
 }
 
-/// With one decimal, or with as many as it has.
+/// With one decimal, or as many as the value has.
 fn written(value: f64) -> String {
     let tenths = value * 10.0;
     let is_short = (tenths - tenths.round()).abs() < 1e-9;
@@ -125,7 +122,7 @@ impl Corner {
         }
     }
 
-    /// A corner that was not there before.
+    /// A new corner.
     pub(super) fn added(azimuth_deg: f64, elevation_deg: f64) -> Self {
         Self::new((azimuth_deg, elevation_deg), None)
     }
@@ -142,7 +139,7 @@ impl Corner {
         self.azimuth.was.is_none()
     }
 
-    /// What it was, where it is another now.
+    /// Saved position, if it differs.
     pub(super) fn edited(&self) -> Option<String> {
         match (self.azimuth.edited(), self.elevation.edited()) {
             (None, None) => None,
@@ -168,7 +165,7 @@ impl ZoneDraft {
         }
     }
 
-    /// A new one.
+    /// A new keep-out.
     pub(super) fn added(name: String, corners: &[(f64, f64)]) -> Self {
         Self {
             name,
@@ -181,7 +178,7 @@ impl ZoneDraft {
         }
     }
 
-    /// The same under another name, as a new one.
+    /// A copy with another name, as a new keep-out.
     pub(super) fn copied(&self, name: String) -> Self {
         let corners: Vec<(f64, f64)> = self.corners.iter().map(Corner::at).collect();
         let mut copy = Self::added(name, &corners);
@@ -190,18 +187,18 @@ impl ZoneDraft {
         Self { reason, antenna, entered: self.entered, ..copy }
     }
 
-    /// The corners as the plot shows them.
+    /// Corners as plotted.
     pub(super) fn corners_deg(&self) -> Vec<(f64, f64)> {
         self.corners.iter().map(Corner::at).collect()
     }
 
-    /// The zone as the plot shows it; why it is none.
+    /// Zone as plotted, or the reason why the corners make none.
     pub(super) fn zone(&self) -> Result<Zone, String> {
         KeepOut::zone_of(&self.corners_deg())
             .map_err(|error| words::capitalised(&error.to_string()))
     }
 
-    /// As the plot shows it; `None` where the corners make no zone.
+    /// Keep-out as plotted; `None` if the corners make no zone.
     pub(super) fn keep_out(&self) -> Option<KeepOut> {
         Some(KeepOut {
             name: self.name.trim().to_owned(),
@@ -217,7 +214,7 @@ impl ZoneDraft {
         self.was.is_none()
     }
 
-    /// How many of its values are others than before.
+    /// Number of changed values.
     pub(super) fn edits(&self) -> usize {
         let Some(was) = &self.was else { return 1 };
         let gone = KeepOut::corners_deg(&was.zone).len().saturating_sub(self.corners.len());
@@ -243,7 +240,7 @@ impl SunDraft {
         }
     }
 
-    /// As the plot shows it.
+    /// Avoidance as plotted.
     pub(super) fn kept(&self) -> Option<SunAvoidance> {
         self.is_on
             .then_some(SunAvoidance { radius_deg: self.radius.kept, ahead_min: self.ahead.kept })
@@ -264,7 +261,7 @@ impl Skies {
         }
     }
 
-    /// The mask; why the text holds none.
+    /// The mask, or the reason why the text is none.
     pub(super) fn read_mask(&self) -> Result<Option<HorizonMask>, String> {
         if self.mask.trim().is_empty() {
             return Ok(None);
@@ -273,13 +270,13 @@ impl Skies {
         Ok(Some(mask))
     }
 
-    /// A free name for a new keep-out.
+    /// An unused name for a new keep-out.
     pub(super) fn free_name(&self, wanted: &str) -> String {
         let others: Vec<&str> = self.zones.iter().map(|zone| &*zone.name).collect();
         Antenna::free_name(wanted, &others)
     }
 
-    /// Why a keep-out cannot be saved, apart from its cells.
+    /// Problem that prevents saving a keep-out, apart from its cells.
     pub(super) fn problem_of(&self, index: usize, antennas: &[String]) -> Option<String> {
         let zone = self.zones.get(index)?;
         if zone.name.trim().is_empty() {
@@ -296,7 +293,7 @@ impl Skies {
         zone.zone().err().map(|why| format!("{why}."))
     }
 
-    /// What cannot be used, each with its place, as it stands beside Save.
+    /// All problems with their places, for the message beside Save.
     pub(in crate::ui::preferences) fn problems(&self, antennas: &[String]) -> Vec<String> {
         let mut problems = Vec::new();
         if self.read_mask().is_err() {
@@ -326,7 +323,7 @@ impl Skies {
         problems
     }
 
-    /// How many values are others than in `before`.
+    /// Number of values that differ from `before`.
     pub(in crate::ui::preferences) fn edits(&self, before: &Self) -> usize {
         let gone = before
             .zones
@@ -338,8 +335,8 @@ impl Skies {
             + usize::from(self.sun != before.sun)
     }
 
-    /// Puts all of it into `station`, once there is no problem left. The names in
-    /// `renamed` are those of antennas before and now.
+    /// Puts the draft into `station` once there are no problems left. `renamed` holds old and
+    /// new names of antennas.
     pub(in crate::ui::preferences) fn put_into(
         &self,
         station: &mut Station,

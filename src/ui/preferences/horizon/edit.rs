@@ -1,4 +1,4 @@
-//! Changes of corners and skyline points, and what the pointer says of them.
+//! Edits of corners and skyline points, and conversions between plot and sky.
 
 use egui::Pos2;
 
@@ -8,11 +8,11 @@ use crate::{
     ui::sky_plot::geometry::Dome,
 };
 
-/// A corner needs two others.
+/// Fewest corners of a keep-out.
 pub(super) const FEWEST: usize = crate::astro::MIN_CORNERS;
 
-/// The direction under a point of the plot in degrees, the azimuth as it is
-/// counted nearest to `near_deg`. Outside the rim is the horizon.
+/// Direction under a point of the plot in degrees, with the azimuth counted nearest to
+/// `near_deg`. Points outside the rim are on the horizon.
 pub(super) fn under(dome: Dome, at: Pos2, near_deg: f64) -> (f64, f64) {
     let off = at - dome.centre;
     let azimuth_deg = f64::from(off.x.atan2(-off.y)).to_degrees();
@@ -20,31 +20,30 @@ pub(super) fn under(dome: Dome, at: Pos2, near_deg: f64) -> (f64, f64) {
     (counted_near(azimuth_deg, near_deg), elevation_deg.clamp(0.0, 90.0))
 }
 
-/// The azimuth with the turns that bring it nearest to `near_deg`.
+/// The azimuth plus the whole turns that bring it nearest to `near_deg`.
 pub(super) fn counted_near(azimuth_deg: f64, near_deg: f64) -> f64 {
     near_deg + Angle::from_degrees(azimuth_deg - near_deg).wrapped_180().degrees()
 }
 
-/// Rounded to half a degree, or to a tenth.
+/// Rounds to half a degree, or to a tenth.
 pub(super) fn snapped((azimuth_deg, elevation_deg): (f64, f64), is_coarse: bool) -> (f64, f64) {
     let parts = if is_coarse { 2.0 } else { 10.0 };
     let round = |value: f64| (value * parts).round() / parts;
     (round(azimuth_deg), round(elevation_deg))
 }
 
-/// The direction that keeps what moved less since `from`.
+/// Keeps the coordinate that changed less at its value in `from`.
 pub(super) fn along_one_axis(from: (f64, f64), to: (f64, f64)) -> (f64, f64) {
     if (to.0 - from.0).abs() >= (to.1 - from.1).abs() { (to.0, from.1) } else { (from.0, to.1) }
 }
 
-/// Where a direction lies in the plot; below the horizon at the rim.
+/// Place of a direction in the plot; below the horizon at the rim.
 pub(super) fn place(dome: Dome, (azimuth_deg, elevation_deg): (f64, f64)) -> Pos2 {
     let azimuth = Angle::from_degrees(azimuth_deg).radians() as f32;
     dome.at(azimuth, elevation_deg.max(0.0) as f32)
 }
 
 impl ZoneDraft {
-    /// Moves a corner.
     pub(super) fn put(&mut self, corner: usize, (azimuth_deg, elevation_deg): (f64, f64)) {
         if let Some(corner) = self.corners.get_mut(corner) {
             corner.azimuth.set(azimuth_deg);
@@ -52,8 +51,7 @@ impl ZoneDraft {
         }
     }
 
-    /// A new corner in the middle of the edge that leaves from `corner`. Returns its
-    /// place.
+    /// Adds a corner in the middle of the edge that begins at `corner`. Returns its index.
     pub(super) fn split(&mut self, corner: usize) -> Option<usize> {
         if self.corners.len() >= crate::astro::MAX_CORNERS {
             return None;
@@ -64,7 +62,7 @@ impl ZoneDraft {
         Some(corner + 1)
     }
 
-    /// The middle of the edge that leaves from `corner`, degrees.
+    /// Middle of the edge that begins at `corner`, degrees.
     pub(super) fn middle(&self, corner: usize) -> Option<(f64, f64)> {
         if let Ok(zone) = self.zone() {
             let middle = zone.middle_of_edge(corner)?;
@@ -75,7 +73,7 @@ impl ZoneDraft {
         Some((f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1)))
     }
 
-    /// Takes a corner away where enough remain.
+    /// Removes a corner if enough remain.
     pub(super) fn remove(&mut self, corner: usize) -> bool {
         let can = self.corners.len() > FEWEST && corner < self.corners.len();
         if can {
@@ -84,7 +82,7 @@ impl ZoneDraft {
         can
     }
 
-    /// The corner behind which a new one at `at` belongs: the nearest edge in the
+    /// Corner after which a new one at `at` belongs: the beginning of the nearest edge in the
     /// plot.
     pub(super) fn nearest_edge(&self, dome: Dome, at: Pos2) -> Option<usize> {
         let places: Vec<Pos2> = self.corners.iter().map(|of| place(dome, of.at())).collect();
@@ -98,7 +96,7 @@ impl ZoneDraft {
     }
 }
 
-/// The corners of a box between two directions, the shorter way around.
+/// Corners of a box between two directions, the shorter way around.
 pub(super) fn rectangle(from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 4]> {
     let to_azimuth = counted_near(to.0, from.0);
     let (left, right) = (from.0.min(to_azimuth), from.0.max(to_azimuth));
@@ -108,13 +106,13 @@ pub(super) fn rectangle(from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64);
 }
 
 impl Skies {
-    /// The points of the skyline; none where the text holds no mask.
+    /// Points of the skyline; empty if the text holds no mask.
     pub(super) fn skyline(&self) -> Vec<(f64, f64)> {
         let mask = self.read_mask().ok().flatten();
         mask.map(|mask| mask.points_deg().to_vec()).unwrap_or_default()
     }
 
-    /// Puts points in the place of the skyline; `false` where they make none.
+    /// Replaces the skyline; returns `false` if the points make none.
     pub(super) fn set_skyline(&mut self, points: Vec<(f64, f64)>) -> bool {
         if points.is_empty() {
             self.mask.clear();
@@ -130,7 +128,7 @@ impl Skies {
         mask.is_ok()
     }
 
-    /// The first keep-out around a direction, of those for which `is_shown` holds.
+    /// First keep-out around a direction, among those for which `is_shown` holds.
     pub(super) fn zone_at(
         &self,
         direction: AzEl,
@@ -143,7 +141,7 @@ impl Skies {
     }
 }
 
-/// A box in the middle of the south, for a keep-out to begin with.
+/// A box in the middle of the south, the initial shape of a keep-out.
 pub(super) const FIRST_BOX: [(f64, f64); 4] =
     [(170.0, 0.0), (170.0, 20.0), (190.0, 20.0), (190.0, 0.0)];
 

@@ -1,11 +1,11 @@
-//! What the edits do to the passes to come, in two lines.
+//! Effect of the edits on future passes, in two lines.
 
 use crate::{
     model::effects::{Effect, Tally},
     ui::format,
 };
 
-/// The two lines: what the chosen keep-out or all of them do, and the same before.
+/// First the effect of the selected keep-out, or of all; then the total, now and as saved.
 pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
     let of = effect.ways.len();
     if of == 0 {

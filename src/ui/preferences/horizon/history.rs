@@ -1,11 +1,11 @@
-//! What was undone and can be done again.
+//! Undo and redo.
 
 use super::draft::Skies;
 
-/// Steps that are kept.
+/// Maximum number of steps.
 const MAX: usize = 100;
 
-/// The states before this one, and those that were undone.
+/// Earlier states, and undone ones.
 #[derive(Default)]
 pub(super) struct History {
     settled: Option<Skies>,
@@ -14,7 +14,7 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Takes note of a state once nothing is being dragged or typed.
+    /// Records a state once nothing is being dragged or typed.
     pub(super) fn settle(&mut self, now: &Skies) {
         if self.settled.as_ref() == Some(now) {
             return;
@@ -32,7 +32,6 @@ impl History {
         !self.before.is_empty()
     }
 
-    /// Goes one step back.
     pub(super) fn undo(&mut self, now: &mut Skies) {
         self.settle(now);
         if let Some(old) = self.before.pop() {
@@ -41,7 +40,7 @@ impl History {
         }
     }
 
-    /// Takes the last step back again.
+    /// Goes one undone step forward.
     pub(super) fn redo(&mut self, now: &mut Skies) {
         if let Some(next) = self.undone.pop() {
             self.before.push(std::mem::replace(now, next));

@@ -1,4 +1,4 @@
-//! The table of what keeps antennas away, and the form of what is chosen in it.
+//! Table of the barriers, and the form of the selected one.
 
 use egui::{
     Align2, Checkbox, Color32, FontId, Frame, Margin, Rect, Role, ScrollArea, Sense, TextEdit, Ui,
@@ -33,7 +33,7 @@ const PADDING: f32 = 16.0;
 const ROW: f32 = 25.0;
 const FIELD: f32 = 28.0;
 const LABEL: f32 = 112.0;
-/// Where the columns of numbers end, from the right edge of the table.
+/// Right ends of the number columns, from the right edge of the table.
 const COLUMNS: [f32; 3] = [146.0, 76.0, 0.0];
 const WHOLE_SITE: &str = "Whole site";
 
@@ -46,7 +46,7 @@ pub(super) fn show(
     state: &mut HorizonState,
 ) {
     let inner = rect.shrink2(vec2(PADDING, 0.0)).with_min_y(rect.top() + 8.0);
-    // The scroll bar stands beside the numbers.
+    // Leave room for the scroll bar beside the numbers.
     let (inner, width) = (inner.with_max_x(rect.right() - 2.0), inner.width());
     let builder = UiBuilder::new().id_salt("horizon pane").max_rect(inner);
     ui.scope_builder(builder, |ui| {
@@ -154,7 +154,7 @@ fn dash() -> String {
     "–".to_owned()
 }
 
-/// A row that can be chosen.
+/// A selectable row.
 fn choice(
     ui: &mut Ui,
     cells: [String; 5],
@@ -188,7 +188,7 @@ fn choice(
     }
 }
 
-/// Two columns of words and three of numbers.
+/// A line with two columns of words and three of numbers.
 fn line(ui: &Ui, rect: Rect, cells: [(String, Color32); 5], font: &FontId) {
     let [name, kind, numbers @ ..] = cells;
     let half = rect.left() + rect.width() * 0.32;
@@ -202,7 +202,7 @@ fn line(ui: &Ui, rect: Rect, cells: [(String, Color32); 5], font: &FontId) {
     }
 }
 
-/// A labelled row of the form; `field` gets the place behind the label.
+/// A labelled row of the form; `field` gets the space behind the label.
 fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui, Rect)) {
     let t = theme::tokens(ui);
     let rect = row(ui, FIELD + 4.0);
@@ -211,7 +211,7 @@ fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui, Rect)) {
     field(ui, rect.with_min_x(rect.left() + LABEL).shrink2(vec2(0.0, 3.0)));
 }
 
-/// A number with the border of its state, taken over as far as it can be used.
+/// A number field with the border of its state; adopts the number if it is valid.
 fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> bool {
     let border = match (cell.problem(), cell.edited()) {
         (Some(_), _) => Some(t.bad),
@@ -225,7 +225,7 @@ fn cell(ui: &mut Ui, rect: Rect, name: &str, cell: &mut Cell, t: &Tokens) -> boo
     changed
 }
 
-/// What the margin is made of, in short and in sentences.
+/// Parts of the margin, in short and in sentences.
 fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) {
     let own = format::degrees(own_deg, 1);
     let Some(antenna) = antenna else { return (format!("°   {own}"), String::new()) };
@@ -244,7 +244,7 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
     (words, about)
 }
 
-/// What stands behind a value.
+/// State of a value.
 enum Standing {
     Unchanged,
     New,
@@ -471,7 +471,7 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
     }
 }
 
-/// A text of many lines in the style of a field.
+/// A text field of many lines in the style of a field.
 pub(super) fn lines(ui: &mut Ui, name: &str, hint: &str, typed: &mut String, is_wrong: bool) {
     let t = theme::tokens(ui);
     let border = if is_wrong { (2.0, t.bad) } else { (1.0, t.edge) };

@@ -1,4 +1,4 @@
-//! The sky with the skyline and the keep-outs, to be drawn in.
+//! Plot of the sky with the skyline and the keep-outs, which the operator draws in it.
 
 mod draw;
 mod handles;
@@ -26,7 +26,7 @@ const HANDLE: f32 = 10.0;
 /// Height of a line of the legend.
 const ROW: f32 = 17.0;
 
-/// Shows the plot and takes what is drawn in it.
+/// Shows the plot and handles the drawing in it.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -40,7 +40,7 @@ pub(super) fn show(
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt("horizon plot").max_rect(rect));
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui);
-    // Beside a disc that is not as wide as the plot, the hint needs no line of its own.
+    // Beside a disc narrower than the plot the hint needs no line of its own.
     let hint_height = if rect.width() > rect.height() + 300.0 { 0.0 } else { 24.0 };
     let dome = Dome::fitted(rect.with_min_y(rect.top() + hint_height));
     ui.painter().rect_filled(rect, 0.0, t.bg0);
@@ -84,7 +84,7 @@ pub(super) fn show(
     show_legend(ui, rect, dome, t);
 }
 
-/// Words on a ground of their own, whole even beside the edge of the plot.
+/// A label with a background, kept inside the plot.
 fn label(ui: &Ui, at: Pos2, anchor: Align2, words: &str, colour: egui::Color32, t: &Tokens) {
     let galley = ui.painter().layout_no_wrap(words.to_owned(), text::small(), colour);
     let wanted = anchor.anchor_size(at, galley.size());
@@ -94,7 +94,7 @@ fn label(ui: &Ui, at: Pos2, anchor: Align2, words: &str, colour: egui::Color32, 
     ui.painter().galley(place.min, galley, colour);
 }
 
-/// A direction in words.
+/// Text of a direction.
 pub(super) fn direction((azimuth_deg, elevation_deg): (f64, f64)) -> String {
     let azimuth = format::degrees(azimuth_deg, 1);
     format!("{azimuth}, {}", format::degrees(elevation_deg, 1))

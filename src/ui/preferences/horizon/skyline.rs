@@ -1,4 +1,4 @@
-//! The skyline as text, from a file, and recorded by pointing with an antenna.
+//! Skyline as text, from a file, or recorded by pointing with an antenna.
 
 use std::path::PathBuf;
 
@@ -21,15 +21,15 @@ use crate::{
     },
 };
 
-/// A mark this near to another one in azimuth replaces it, degrees.
+/// Distance in azimuth within which a new mark replaces an old one, degrees.
 const REPLACES_DEG: f64 = 2.0;
-/// A wider gap between marks is named, degrees.
+/// Gap between marks beyond which it is reported, degrees.
 const GAP_DEG: f64 = 30.0;
 
-/// A skyline that is being recorded.
+/// Recording of a skyline.
 pub(super) struct Recording {
     marks: Vec<(f64, f64)>,
-    /// The text before it began.
+    /// Text before the recording began.
     before: String,
     is_over: bool,
 }
@@ -39,7 +39,7 @@ impl Recording {
         Self { marks: Vec::new(), before: mask.to_owned(), is_over: false }
     }
 
-    /// Takes a direction, in the place of one that is near to it.
+    /// Adds a direction, replacing a mark near it.
     fn mark(&mut self, direction: AzEl) {
         let rounded = |value: f64| (value * 100.0).round() / 100.0;
         let mark = (
@@ -50,7 +50,7 @@ impl Recording {
         self.marks.push(mark);
     }
 
-    /// The widest gap, where one is too wide: from one azimuth to the next.
+    /// Widest gap if it is too wide: from one azimuth to the next.
     fn gap(&self) -> Option<(f64, f64)> {
         let mut azimuths: Vec<f64> =
             self.marks.iter().map(|(azimuth_deg, _)| *azimuth_deg).collect();
@@ -69,7 +69,7 @@ fn away(a_deg: f64, b_deg: f64) -> f64 {
     Angle::from_degrees(a_deg - b_deg).wrapped_180().abs().degrees()
 }
 
-/// The skyline as text: typed or pasted in any form that is known.
+/// Form for the skyline as text: typed or pasted in any known form.
 pub(super) fn form(ui: &mut Ui, skies: &mut Skies) {
     let t = theme::tokens(ui);
     let head = row(ui, 32.0);
@@ -90,7 +90,7 @@ fn row(ui: &mut Ui, height: f32) -> Rect {
     ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover()).0
 }
 
-/// Where the antenna points, or why that cannot be marked now.
+/// Direction of the antenna, or the reason why it cannot be marked now.
 fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
     let Some(antenna) = state.shown(model) else {
         return Err("There is no antenna.".to_owned());
@@ -110,7 +110,7 @@ fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
     measured.direction().ok_or_else(|| format!("{name} reports no elevation."))
 }
 
-/// The steps of recording; Azel moves nothing.
+/// Steps of a recording; Azel moves nothing.
 pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState) {
     let t = theme::tokens(ui);
     let at = markable(model, state);
@@ -209,7 +209,7 @@ fn says(
     paint::name_text(ui, salt, line, words).on_hover_text(words);
 }
 
-/// The line for a file with a mask, and what came of it.
+/// Line for a mask file and the result of its last exchange.
 pub(super) fn exchange(
     ui: &mut Ui,
     bar: Rect,

@@ -1,4 +1,4 @@
-//! What is drawn on the sky itself: points of the skyline and new zones.
+//! Drawing on the sky itself: points of the skyline and new zones.
 
 use egui::{Pos2, Response, Stroke, StrokeKind, Ui};
 
@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-/// What a click or a drag on the sky itself does.
+/// Handles a click or a drag on the sky itself.
 pub(super) fn draw_on_canvas(
     ui: &Ui,
     canvas: &Response,
@@ -68,7 +68,7 @@ pub(super) fn draw_on_canvas(
             } else if canvas.clicked() {
                 let near = state.drawing.last().map_or(180.0, |last| last.0);
                 state.drawing.push(edit::snapped(edit::under(dome, at, near), coarse));
-                // Both clicks of a double click fall on one place.
+                // Both clicks of a double click are at the same place.
                 state.drawing.dedup();
             }
         }
@@ -93,7 +93,7 @@ pub(super) fn draw_on_canvas(
     }
 }
 
-/// A new keep-out of at least three corners, chosen at once.
+/// Adds a keep-out of at least three corners and selects it.
 fn add_zone(skies: &mut Skies, state: &mut HorizonState, corners: &[(f64, f64)]) {
     if corners.len() < edit::FEWEST {
         return;

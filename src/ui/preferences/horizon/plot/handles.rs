@@ -1,4 +1,4 @@
-//! The marks that are dragged: corners of the chosen zone and points of the skyline.
+//! Handles to drag: corners of the selected zone and points of the skyline.
 
 use egui::{
     Align2, EventFilter, Key, Modifiers, PointerButton, Pos2, Response, Role, Sense, Stroke,
@@ -15,12 +15,12 @@ use super::{
 };
 use crate::ui::{sky_plot::geometry::Dome, tokens::Tokens, widgets::paint};
 
-/// More points of a skyline are drawn without handles.
+/// Maximum number of skyline points with handles.
 const MAX_HANDLES: usize = 120;
 const CHOSEN: f32 = 12.0;
 const MIDDLE: f32 = 7.0;
 const POINT: f32 = 6.0;
-/// What the pointer takes hold of around a mark.
+/// Size of the area around a mark where the pointer grips it.
 const GRIP: f32 = 16.0;
 
 pub(super) fn zone_handles(
@@ -160,7 +160,7 @@ struct Keys {
     adds: bool,
 }
 
-/// The step of an arrow key in degrees, and what else is asked for.
+/// Step of an arrow key in degrees, and other keys pressed.
 fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
     let filter =
         EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
@@ -189,7 +189,7 @@ fn keys(ui: &Ui, response: &Response) -> (Option<(f64, f64)>, Keys) {
     })
 }
 
-/// Moves what is being dragged to the pointer.
+/// Moves the dragged mark to the pointer.
 pub(super) fn continue_drag(ui: &Ui, dome: Dome, skies: &mut Skies, state: &mut HorizonState) {
     let Some((index, from)) = state.drag else { return };
     let (at, is_down, shift) = ui.input(|input| {
@@ -224,7 +224,7 @@ pub(super) fn continue_drag(ui: &Ui, dome: Dome, skies: &mut Skies, state: &mut 
                 *point = to;
             }
             if skies.set_skyline(points) {
-                // They stay in the order of their azimuths.
+                // Points stay in the order of their azimuths.
                 let azimuth_deg = to.0.rem_euclid(360.0);
                 let place = skies.skyline().iter().position(|of| (of.0 - azimuth_deg).abs() < 1e-9);
                 state.drag = place.map(|place| (place, from));

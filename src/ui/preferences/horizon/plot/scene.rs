@@ -1,5 +1,4 @@
-//! What the plot shows: the sky with what blocks it, the passes, the Sun and the
-//! antenna.
+//! Scene of the plot: the sky with its obstructions, the passes, the Sun and the antenna.
 
 use std::ops::Range;
 
@@ -115,7 +114,7 @@ pub(super) fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
     }
 }
 
-/// What the keep-out of this name does to the passes.
+/// Effect of the keep-out with this name on the passes.
 fn toll_of<'a>(effect: &'a Effect, name: Option<&str>) -> Option<&'a Toll> {
     let keep_outs = &effect.question.after.keep_outs;
     let place = keep_outs.iter().position(|of| Some(&*of.name) == name)?;
@@ -128,7 +127,7 @@ fn path(dome: Dome, effect: &Effect, way: usize, samples: Option<Range<usize>>) 
     dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
 }
 
-/// All passes, those that the chosen keep-out touches above the others.
+/// Draws all passes, those that the selected keep-out touches on top.
 fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
     let toll = toll_of(effect, chosen);
     let touched =
@@ -142,7 +141,7 @@ fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens
     }
 }
 
-/// The parts of passes that the chosen keep-out blocks.
+/// Draws the parts of passes that the selected keep-out blocks.
 fn blocked(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
     let parts = toll_of(effect, chosen).map(|toll| toll.blocked.iter());
     for (way, samples) in parts.into_iter().flatten() {
@@ -151,7 +150,7 @@ fn blocked(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Token
     }
 }
 
-/// Where the axes end.
+/// Draws the ends of the travel.
 fn travel(ui: &Ui, dome: Dome, config: &Antenna, t: &Tokens) {
     let painter = ui.painter();
     if let Some(holes) = Keyholes::of(&config.mount) {
@@ -193,7 +192,7 @@ fn sun(
 ) {
     let way = state.sun_way(model.station.site, model.now);
     let path = dome.path(way.iter().copied());
-    // The way sets and rises: no line across the sky from the one to the other.
+    // The path sets and rises: draw no line across the sky from one to the other.
     for part in path.chunk_by(|a, b| a.distance(*b) < dome.radius / 4.0) {
         ui.painter().extend(dashed(part, 1.5, 4.0, Stroke::new(1.0, t.sun)));
     }
