@@ -1,8 +1,8 @@
-//! The Antennas view: every setting of every unit, as it is on the unit, as it
-//! is to be, and what came of putting it there.
+//! The Antennas view: every setting of every unit, with its value on the unit, the new
+//! value, and the result of sending it.
 //!
-//! Invariant: what a form shows as on the unit is what was read from it, with
-//! its age; an edit is the operator's until it was read back.
+//! Invariant: the values that a form shows as on the unit were read from it, and their age
+//! is shown; an edit remains the operator's until it was read back.
 
 mod cards;
 mod draft;
@@ -45,8 +45,8 @@ use crate::model::{Model, UiCommand, View};
 
 const PADDING: f32 = 16.0;
 
-/// What was typed over the units, by the names of their antennas. It has no
-/// `Debug`: a password may be in it.
+/// Edits of all units, by the names of their antennas. Without `Debug`: a password may be
+/// among them.
 #[derive(Default)]
 pub struct AntennasState {
     forms: BTreeMap<String, Form>,
@@ -56,8 +56,8 @@ pub struct AntennasState {
 }
 
 impl AntennasState {
-    /// Once a frame, whatever is shown: takes what came of changes, and locks
-    /// the service functions when they may no longer be open.
+    /// Runs once a frame, whatever view is shown: takes the results of changes, and locks the
+    /// service functions when they may no longer be open.
     pub fn watch(&mut self, model: &Model) {
         for index in 0..model.antennas.len() {
             let Some(unit) = Unit::of(model, index) else { continue };
@@ -67,15 +67,15 @@ impl AntennasState {
         }
     }
 
-    /// How many values were typed that are on none of the units.
+    /// Number of typed values that are not on their unit.
     pub fn edited(&self, model: &Model) -> usize {
         let units = (0..model.antennas.len()).filter_map(|index| Unit::of(model, index));
         let edited = |unit: Unit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
         units.filter_map(edited).sum()
     }
 
-    /// The question before the operator leaves edits behind, where one of the
-    /// commands from the place `from` on does so. The edits are kept.
+    /// Question to ask before one of the commands from index `from` on leaves edits behind.
+    /// The edits are kept.
     pub fn ask_before_leaving(
         &self,
         model: &Model,
@@ -160,7 +160,7 @@ pub fn show(
     state.unlock.take_if(|_| answer != Some(Answer::Open) && answer.is_some());
 }
 
-/// There is no antenna.
+/// Shows that there is no antenna.
 fn none(ui: &Ui, rect: Rect, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let inner = rect.shrink(PADDING);

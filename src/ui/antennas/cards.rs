@@ -1,4 +1,4 @@
-//! The cards of a unit, in one column or two.
+//! Cards of a unit, in one column or two.
 
 pub(super) mod service;
 
@@ -20,20 +20,20 @@ use crate::{
 const NONE: &str = "This unit keeps no settings that can be read or changed over its link. Mount, \
                     limits and connection stand in the Preferences.";
 
-/// Between the columns, and around them.
+/// Gap between the columns, and around them.
 const GAP: f32 = 16.0;
 const PADDING: i8 = 12;
-/// A card is not wider than its fields need.
+/// Maximum width of a card, as its fields need it.
 const WIDEST: f32 = 760.0;
 
-/// What a card can do beside editing its fields.
+/// Actions of a card other than editing its fields.
 pub(super) struct Desk<'a> {
     pub(super) commands: &'a mut Vec<UiCommand>,
-    /// The dialog that unlocks the service functions is to open.
+    /// Set to open the dialog that unlocks the service functions.
     pub(super) unlock: &'a mut bool,
 }
 
-/// Shows all cards; the one of `scroll_to` is brought into view.
+/// Shows all cards and scrolls to the one of `scroll_to`.
 pub(super) fn show(
     ui: &mut Ui,
     unit: &Unit<'_>,
@@ -65,7 +65,7 @@ pub(super) fn show(
     });
 }
 
-/// The cards of the two columns.
+/// Splits the cards into two columns.
 fn columns(all: &[Section]) -> (Vec<Section>, Vec<Section>) {
     let places = all.iter().enumerate().map(|(place, section)| {
         let turn = if place % 2 == 0 { Column::Left } else { Column::Right };
@@ -124,7 +124,7 @@ fn title(ui: &mut Ui, words: &str) {
     ui.add_space(4.0);
 }
 
-/// A head within a card.
+/// A heading within a card.
 pub(super) fn subtitle(ui: &mut Ui, words: &str) {
     let t = theme::tokens(ui);
     ui.add_space(8.0);
@@ -132,7 +132,7 @@ pub(super) fn subtitle(ui: &mut Ui, words: &str) {
     ui.add_space(2.0);
 }
 
-/// The fields of a group for which `is_wanted` is true.
+/// Shows the fields of a group for which `is_wanted` is true.
 pub(super) fn fields(
     ui: &mut Ui,
     unit: &Unit<'_>,

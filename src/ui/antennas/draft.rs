@@ -1,4 +1,4 @@
-//! What was typed over one group of settings, and what became of it.
+//! Edits of one group of settings, and their results.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +10,15 @@ use crate::{
     ui::widgets::hold_button::HoldState,
 };
 
-/// What was typed over one group. It has no `Debug`: a password may be in it.
+/// Edits of one group. Without `Debug`: a password may be among them.
 #[derive(Default)]
 pub(super) struct Draft {
     edits: BTreeMap<&'static str, Edit>,
-    /// What the form showed as on the unit when the first edit began.
+    /// Values shown as on the unit when the first edit began.
     seen: Option<Values>,
     sent: Option<Sent>,
     marks: BTreeMap<&'static str, Mark>,
-    /// What the unit held when it was proved.
+    /// Values of the unit when an edit was proved.
     proved: Values,
 }
 
@@ -29,24 +29,24 @@ struct Edit {
     hold: HoldState,
 }
 
-/// A change that is on its way.
+/// A change on its way to the unit.
 pub(super) struct Sent {
     pub(super) ticket: u64,
     pub(super) at: Instant,
     pub(super) values: Values,
 }
 
-/// What came of the last change of a field.
+/// Result of the last change of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mark {
     /// Read back and found right.
     Verified(Timestamp),
-    /// Taken by the unit, which never reports it.
+    /// Accepted by the unit, which never reports the value.
     Taken(Timestamp),
     Rejected,
 }
 
-/// What stands in a field against what the unit holds.
+/// Content of a field compared with the value of the unit.
 #[derive(Debug, PartialEq)]
 pub(super) enum Reading {
     Same,
@@ -54,7 +54,7 @@ pub(super) enum Reading {
     Unfit(Unfit),
 }
 
-/// What stands in a field while nothing is typed.
+/// Content of a field without an edit.
 fn default_text(field: &Field, held: Option<&Values>) -> String {
     if field.access == Access::Write {
         return field.kind.untouched();
@@ -64,13 +64,13 @@ fn default_text(field: &Field, held: Option<&Values>) -> String {
 }
 
 impl Draft {
-    /// What stands in the field.
+    /// Content of the field.
     pub(super) fn text(&self, field: &Field, held: Option<&Values>) -> String {
         let typed = self.edits.get(field.key).map(|edit| edit.text.clone());
         typed.unwrap_or_else(|| default_text(field, held))
     }
 
-    /// The operator has typed `text`.
+    /// Takes `text` as typed by the operator.
     pub(super) fn type_in(&mut self, field: &'static Field, text: String, held: Option<&Values>) {
         self.marks.remove(field.key);
         if text == default_text(field, held) {
@@ -105,20 +105,20 @@ impl Draft {
         self.edits.get(key).is_some_and(|edit| edit.is_confirmed)
     }
 
-    /// The button that confirms the edit of this field.
+    /// Button that confirms the edit of this field.
     pub(super) fn hold(&mut self, key: &str) -> Option<&mut HoldState> {
         self.edits.get_mut(key).map(|edit| &mut edit.hold)
     }
 
-    /// What stands in the field is meant so.
+    /// Confirms the content of the field.
     pub(super) fn confirm(&mut self, key: &str) {
         if let Some(edit) = self.edits.get_mut(key) {
             edit.is_confirmed = true;
         }
     }
 
-    /// What came of the last change of the field. What was proved is forgotten
-    /// when the unit holds something else.
+    /// Result of the last change of the field. A proof is void when the unit has another value
+    /// by now.
     pub(super) fn mark(&self, field: &Field, held: Option<&Values>) -> Option<Mark> {
         let mark = self.marks.get(field.key).copied()?;
         let now = held.and_then(|held| held.get(field.key));
@@ -145,8 +145,8 @@ impl Draft {
         self.sent = Some(sent);
     }
 
-    /// The change is over. What was proved is no longer an edit; what the form
-    /// shows from here on is what the operator sees.
+    /// Ends the change. Proved values are no longer edits; from here on the operator has seen
+    /// what the form shows.
     pub(super) fn end(&mut self, written: &Written, fields: &[Field], held: Option<&Values>) {
         let Some(sent) = self.sent.take() else { return };
         for (key, value) in &sent.values {
@@ -167,12 +167,12 @@ impl Draft {
         self.seen = held.cloned();
     }
 
-    /// Nothing is heard of the change any more.
+    /// Gives the change up when no result of it will come.
     pub(super) fn give_up(&mut self) {
         self.sent = None;
     }
 
-    /// Drops what was typed. What is on its way stays so.
+    /// Drops the edits. A change on its way goes on.
     pub(super) fn revert(&mut self) {
         self.edits.clear();
         self.marks.retain(|_, mark| *mark != Mark::Rejected);

@@ -1,5 +1,5 @@
-//! The line of one setting, drawn from its description: the one way in which
-//! every setting of every group is shown.
+//! Line of a setting, drawn from its description. Every setting of every group is shown
+//! this way.
 
 use egui::{Color32, Rect, Role, Sense, Ui, pos2, vec2};
 
@@ -23,8 +23,8 @@ use crate::{
     },
 };
 
-/// Shows the fields of `group` for which `is_wanted` is true. `is_revealed`
-/// shows a password that is being typed.
+/// Shows the fields of `group` for which `is_wanted` is true. `is_revealed` shows a
+/// password while it is typed.
 pub(super) fn show_all(
     ui: &mut Ui,
     unit: &Unit<'_>,
@@ -43,7 +43,7 @@ pub(super) fn show_all(
     });
 }
 
-/// Why the values are not of now.
+/// Note why the values are not current.
 fn old_or_unread(ui: &mut Ui, unit: &Unit<'_>, group: &Group) {
     let t = theme::tokens(ui);
     let why = unit.failure(group.key).map(outcome::read_failure);
@@ -97,7 +97,7 @@ fn paint_unit(ui: &Ui, at: &Columns, field: &Field) {
     paint::text_in(ui, room, egui::Align2::LEFT_CENTER, field.unit, text::small(), t.t3);
 }
 
-/// What the unit holds, hollow when it is not of now.
+/// Value on the unit, hollow if it is not current.
 fn on_unit(ui: &Ui, unit: &Unit<'_>, group: &Group, field: &Field, at: &Columns) {
     if field.access == Access::Write {
         return;
@@ -122,7 +122,7 @@ fn on_unit(ui: &Ui, unit: &Unit<'_>, group: &Group, field: &Field, at: &Columns)
     }
     let old = if is_old && value.is_some() { ", old" } else { "" };
     let name = format!("{}, on the unit{old}: {full}", field.label);
-    // Where no field follows there is room for the unit.
+    // Without a field after it there is room for the unit of measure.
     let short = if field.access == Access::Read && !field.unit.is_empty() && value.is_some() {
         format!("{short}{}{}", if field.unit == "°" { "" } else { " " }, field.unit)
     } else {
@@ -172,7 +172,7 @@ fn edit(
     }
 }
 
-/// The eye that shows what is being typed; never what the unit told.
+/// Eye button that shows the text being typed; never a value from the unit.
 fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
     let t = theme::tokens(ui);
     let name = if *is_revealed { "Hide the typed password" } else { "Show the typed password" };
@@ -185,7 +185,7 @@ fn reveal(ui: &Ui, rect: Rect, is_revealed: &mut bool) {
     paint::focus_ring(ui, &response, 4);
 }
 
-/// Painted only: a screen reader would speak it, and tools would record it.
+/// Painted only: a screen reader would speak a real text, and tools would record it.
 fn typed_password(ui: &mut Ui, typed: &str) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
     let at = Columns::of(rect).new.with_max_x(rect.right());
@@ -193,7 +193,7 @@ fn typed_password(ui: &mut Ui, typed: &str) {
     paint::text_in(ui, at, egui::Align2::LEFT_CENTER, typed, text::small(), colour);
 }
 
-/// What stands under the line: why a value cannot be used, how it is confirmed.
+/// Space below the line: problem of the value, or its confirmation.
 fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldState) {
     let t = theme::tokens(ui);
     match state {

@@ -1,4 +1,4 @@
-//! How a field stands.
+//! State of a field.
 
 use jiff::Timestamp;
 
@@ -11,20 +11,19 @@ use crate::{
     ui::format,
 };
 
-/// How a field stands.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum FieldState {
-    /// The unit has not told its value.
+    /// The unit has not reported the value.
     Unknown,
     Unchanged,
     Edited,
-    /// The value is meant only when it is confirmed by itself.
+    /// The value must be confirmed separately.
     ConfirmFirst,
-    /// The value takes the service functions, which are locked.
+    /// The value needs the service functions, which are locked.
     NeedsService,
     Sending,
     Verified(Timestamp),
-    /// Taken by the unit, which never reports it.
+    /// Accepted by the unit, which never reports the value.
     Taken(Timestamp),
     Rejected,
     Invalid(Unfit),
@@ -33,7 +32,7 @@ pub(super) enum FieldState {
 }
 
 impl FieldState {
-    /// The state in a word or two.
+    /// State in a word or two.
     pub(super) fn word(&self) -> String {
         match self {
             Self::Unknown => "Not read".to_owned(),
@@ -51,12 +50,12 @@ impl FieldState {
         }
     }
 
-    /// The operator may type into it.
+    /// Whether the operator may type into the field.
     pub(super) fn is_editable(&self) -> bool {
         !matches!(self, Self::Unknown | Self::Sending | Self::ReadOnly | Self::Locked)
     }
 
-    /// Something is typed that is not on the unit.
+    /// Whether the field holds a value that is not on the unit.
     pub(super) fn is_edit(&self) -> bool {
         matches!(
             self,
@@ -69,7 +68,7 @@ impl FieldState {
     }
 }
 
-/// How `field` of `group` stands, and the new value where it can be sent.
+/// State of `field` in `group`, with the new value if it can be sent.
 pub(super) fn of(
     unit: &Unit<'_>,
     group: &Group,
@@ -78,7 +77,7 @@ pub(super) fn of(
 ) -> (FieldState, Option<Value>) {
     let held = unit.values(group.key);
     let is_told = held.is_some_and(|held| held.contains_key(field.key));
-    // What is never reported is known as far as its group is.
+    // A value that is never reported is known as far as its group is.
     let is_known = is_told || (field.access == Access::Write && held.is_some());
     if field.access == Access::Read {
         return (if is_known { FieldState::ReadOnly } else { FieldState::Unknown }, None);

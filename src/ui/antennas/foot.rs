@@ -1,5 +1,4 @@
-//! The bar below the cards: what came of the last changes, and what is not sent
-//! yet.
+//! Bar below the cards: results of the last changes, and edits not sent yet.
 
 use std::sync::Arc;
 
@@ -22,19 +21,19 @@ use crate::{
 const MIN_HEIGHT: f32 = 64.0;
 const PADDING: f32 = 16.0;
 const LINE_GAP: f32 = 4.0;
-/// The report may take this part of the width,
+/// Share of the width for the report.
 const REPORT: f32 = 0.5;
-/// and in a view narrower than this all that the buttons leave.
+/// View width below which the report gets all the width that the buttons leave.
 const NARROW: f32 = 900.0;
 const BUTTONS: f32 = 390.0;
 
-/// The laid-out sentences of the report.
+/// Sentences of the report after layout.
 struct Lines {
     galleys: Vec<(Mark, String, Arc<Galley>)>,
     height: f32,
 }
 
-/// What stands before a sentence.
+/// Mark before a sentence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {
     Good,
@@ -43,7 +42,7 @@ enum Mark {
 }
 
 impl Lines {
-    /// In a narrow view with what is not sent yet.
+    /// Lays the sentences out; a narrow view includes the edits not sent yet.
     fn of(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> Self {
         let t = theme::tokens(ui);
         let is_narrow = width < NARROW;
@@ -61,12 +60,12 @@ impl Lines {
     }
 }
 
-/// The height that the bar needs in a view of this width.
+/// Height of the bar in a view of this width.
 pub(super) fn height(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> f32 {
     (Lines::of(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
 }
 
-/// Shows the bar in `rect` and does what it was asked for.
+/// Shows the bar in `rect` and carries out its buttons.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -104,7 +103,7 @@ pub(super) fn show(
     if revert.show(ui, "revert settings", reverting).clicked() {
         form.revert();
     }
-    // Enter in a dialog is meant for it.
+    // Enter in a dialog belongs to the dialog.
     let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
     let key = is_free && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
     let clicked = apply.show(ui, "apply settings", applying).clicked();
@@ -135,7 +134,7 @@ fn report(ui: &Ui, rect: Rect, unit: &Unit<'_>, form: &Form) {
     }
 }
 
-/// What is not sent yet, and why not.
+/// Edits not sent yet, with the reason.
 fn pending(ui: &Ui, unit: &Unit<'_>, form: &Form) -> (String, Color32) {
     let t = theme::tokens(ui);
     let count = form.count_all(unit);

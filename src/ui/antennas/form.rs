@@ -1,4 +1,4 @@
-//! The forms of one unit: what was typed, what is on its way, what came of it.
+//! Forms of one unit: edits, changes on their way, and results.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -23,38 +23,38 @@ use crate::{
     ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
 };
 
-/// The session shows a change that it was given within this.
+/// Time within which the session shows a change that it was given.
 const HEARD: Duration = Duration::from_secs(3);
 
-/// The forms of one unit. It has no `Debug`: a password may be in it.
+/// Forms of one unit. Without `Debug`: a password may be among the edits.
 #[derive(Default)]
 pub(super) struct Form {
     drafts: BTreeMap<&'static str, Draft>,
-    /// The groups that were asked for, and the link on which.
+    /// Groups requested so far, and the link of the requests.
     asked: (Option<Instant>, BTreeSet<&'static str>),
     pub(super) unlock: Option<Unlock>,
     pub(super) report: Report,
-    /// The source of elements that is shown; `None` for the one in use.
+    /// Source of elements on display; `None` for the one in use.
     pub(super) tab: Option<&'static str>,
     pub(super) auto_hold: HoldState,
-    /// When automatic tracking was asked for.
+    /// Time of the request for automatic tracking.
     pub(super) auto_asked: Option<Timestamp>,
-    /// What was typed as a password is shown.
+    /// Show the password that is being typed.
     pub(super) is_revealed: bool,
     pub(super) source_test: SourceTestState,
 }
 
-/// What came of what was applied last.
+/// Results of the last Apply.
 #[derive(Default)]
 pub(super) struct Report {
-    /// How many settings were proved, and when the last of them.
+    /// Number of proved settings, and time of the last proof.
     verified: Option<(usize, String)>,
-    /// Sentences; `true` for good ones.
+    /// Sentences; `true` for success.
     pub(super) lines: Vec<(bool, String)>,
 }
 
 impl Report {
-    /// All of it, what went well first.
+    /// All sentences, successes first.
     pub(super) fn lines(&self) -> Vec<(bool, String)> {
         let verified = self.verified.iter().map(|(count, at)| {
             let plural = if *count == 1 { "" } else { "s" };
@@ -64,12 +64,12 @@ impl Report {
     }
 }
 
-/// How many fields stand how.
+/// Numbers of fields by state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Count {
-    /// Typed and not on the unit.
+    /// Fields whose value is not on the unit.
     pub(super) edited: usize,
-    /// Of these, what Apply would send.
+    /// Edited fields that Apply would send.
     pub(super) ready: usize,
     pub(super) to_confirm: usize,
     pub(super) locked: usize,
@@ -83,7 +83,7 @@ impl Form {
         self.drafts.entry(group).or_default()
     }
 
-    /// How the fields of these groups stand.
+    /// Counts the fields of these groups.
     pub(super) fn count(&self, unit: &Unit<'_>, groups: &[&str]) -> Count {
         let mut count = Count::default();
         for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
@@ -103,13 +103,13 @@ impl Form {
         count
     }
 
-    /// The same over the whole unit.
+    /// Counts the fields of the whole unit.
     pub(super) fn count_all(&self, unit: &Unit<'_>) -> Count {
         let groups: Vec<&str> = unit.antenna.groups().iter().map(|group| group.key).collect();
         self.count(unit, &groups)
     }
 
-    /// Why what is ready cannot be sent now: some of it decides where the antenna
+    /// Reason why the ready values cannot be sent now: some of them decide where the antenna
     /// points.
     pub(super) fn hindrance(&self, unit: &Unit<'_>) -> Option<Hindrance> {
         let ready = |key: &str, draft: &Draft| {
@@ -121,7 +121,7 @@ impl Form {
         self.drafts.iter().any(|(key, draft)| ready(key, draft)).then_some(hindrance)
     }
 
-    /// Asks for every group that is not known on this link, each once.
+    /// Requests every group that has not been read on this link, each once.
     pub(super) fn ask_unread(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
         let link = unit.antenna.snapshot.state.link_since;
         if !unit.is_open() || link.is_none() {
@@ -137,7 +137,7 @@ impl Form {
         }
     }
 
-    /// Puts what is ready on the unit, a change for each group.
+    /// Sends the ready values to the unit, one change for each group.
     pub(super) fn apply(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
         self.begin_report();
         let all: Vec<(&'static Group, Values)> = unit
@@ -166,12 +166,12 @@ impl Form {
         }
     }
 
-    /// What is said of earlier changes makes room.
+    /// Clears the report of earlier changes.
     pub(super) fn begin_report(&mut self) {
         self.report = Report::default();
     }
 
-    /// Puts `values` on the unit.
+    /// Sends `values` to the unit.
     pub(super) fn send(
         &mut self,
         unit: &Unit<'_>,
@@ -190,7 +190,7 @@ impl Form {
         commands.push(UiCommand::antenna(unit.antenna.id(), Command::WriteSettings(change)));
     }
 
-    /// Takes what came of the changes that were sent.
+    /// Takes the results of the changes that were sent.
     pub(super) fn take_outcomes(&mut self, unit: &Unit<'_>) {
         for (key, draft) in &mut self.drafts {
             let (Some(sent), Some(group)) = (draft.sent(), unit.description(key)) else { continue };
@@ -220,7 +220,7 @@ impl Form {
         }
     }
 
-    /// Drops what was typed, and what was said of it.
+    /// Drops the edits and their reports.
     pub(super) fn revert(&mut self) {
         self.drafts.values_mut().for_each(Draft::revert);
         self.begin_report();

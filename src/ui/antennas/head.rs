@@ -1,4 +1,4 @@
-//! Which unit, how much of it is read, and what can be done with all of it.
+//! Head of the view: the unit, how much of it is read, and actions on all of it.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -17,10 +17,9 @@ use crate::{
     },
 };
 
-/// Height of the head.
 pub(super) const HEIGHT: f32 = 56.0;
 const PADDING: f32 = 16.0;
-/// For so long it is said where a copy was saved, seconds.
+/// Time for which the place of a saved copy is shown, seconds.
 const SAVED_S: f64 = 30.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
@@ -66,7 +65,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
     paint::name_text(ui, "settings read", place, &words).on_hover_text(&words);
 }
 
-/// What came of the copy that was just saved.
+/// Result of the copy that was just saved.
 fn saved(unit: &Unit<'_>) -> Option<Result<String, String>> {
     let saving = unit.model.copies.saved.as_ref()?;
     let is_news = seconds_between(saving.at, unit.model.now) < SAVED_S;

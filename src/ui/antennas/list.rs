@@ -1,4 +1,4 @@
-//! The antennas, and the sections of the one that is shown.
+//! List of the antennas, with the sections of the selected one.
 
 use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
@@ -16,13 +16,12 @@ use crate::{
     },
 };
 
-/// Width of the list.
 pub(super) const WIDTH: f32 = 232.0;
 const ANTENNA: f32 = 56.0;
 const SECTION: f32 = 32.0;
 const PADDING: f32 = 16.0;
 
-/// Shows the list in `rect` and returns the section that was clicked.
+/// Shows the list in `rect` and returns the clicked section.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -143,7 +142,7 @@ fn line(ui: &Ui, rect: Rect, words: &str, colour: Color32) -> bool {
     response.clicked()
 }
 
-/// A number in a box whose right end is at `right`; returns its left end.
+/// A number in a box with its right end at `right`; returns the left end.
 fn badge(
     ui: &Ui,
     right: egui::Pos2,
@@ -160,7 +159,7 @@ fn badge(
     rect.left()
 }
 
-/// At the foot, where there is room: what the unit calls itself.
+/// Versions that the unit reports, at the foot if there is room.
 fn versions(ui: &Ui, rect: Rect, unit: &Unit<'_>) {
     let t = theme::tokens(ui);
     let own = makes::own(unit.antenna.spec());

@@ -1,4 +1,4 @@
-//! Makes whose settings are more than fields.
+//! Makes whose settings need more than fields.
 
 mod satrak;
 
@@ -9,13 +9,13 @@ use crate::{device::settings::Group, station::ControllerSpec};
 pub(super) struct Own {
     key: &'static str,
     pub(super) sections: &'static [Section],
-    /// The group in which a unit says what it calls itself.
+    /// Group with the versions that a unit reports.
     pub(super) versions: &'static Group,
 }
 
 static MAKES: [Own; 1] = [satrak::OWN];
 
-/// Beyond the settings of this make; `None` where each group is a card.
+/// Cards of this make; `None` if each group is a card.
 pub(super) fn own(spec: &ControllerSpec) -> Option<&'static Own> {
     MAKES.iter().find(|own| own.key == spec.key)
 }

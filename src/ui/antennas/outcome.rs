@@ -1,15 +1,15 @@
-//! What came of a change, in a sentence: what did not happen, why, what is true
-//! now, what to do.
+//! Result of a change in a sentence: what did not happen, why, what is true now, what to
+//! do.
 
 use crate::{
     device::settings::{Field, Group, Kind, ReadFailure, Value, Values, WriteError, Written},
     ui::{format, words},
 };
 
-/// What stands where a value is not to be read.
+/// Text in place of a value that must not be read.
 pub(super) const HIDDEN: &str = "hidden";
 
-/// A value as it stands beside its field, without its unit.
+/// A value beside its field, without its unit of measure.
 pub(super) fn shown(field: &Field, value: &Value) -> String {
     match (field.kind, value) {
         (_, Value::Secret(_)) => HIDDEN.to_owned(),
@@ -24,7 +24,7 @@ pub(super) fn shown(field: &Field, value: &Value) -> String {
     }
 }
 
-/// The same with its unit, where it has one.
+/// A value with its unit of measure, if any.
 fn with_unit(field: &Field, value: Option<&Value>) -> String {
     let Some(value) = value else { return "not told".to_owned() };
     let value = shown(field, value);
@@ -35,7 +35,7 @@ fn with_unit(field: &Field, value: Option<&Value>) -> String {
     }
 }
 
-/// Why a group is not known.
+/// Reason why a group is unknown.
 pub(super) fn read_failure(failure: &ReadFailure) -> String {
     match failure {
         ReadFailure::Refused(code) => format!("the unit answered ERR,{code}"),
@@ -43,8 +43,8 @@ pub(super) fn read_failure(failure: &ReadFailure) -> String {
     }
 }
 
-/// Why `written` failed. `seen` is what the form showed before, `held` what the
-/// unit holds now.
+/// Reason why `written` failed. `seen` are the values that the form showed before, `held`
+/// those of the unit now.
 pub(super) fn sentence(
     group: &Group,
     written: &Written,
@@ -110,7 +110,7 @@ pub(super) fn sentence(
     }
 }
 
-/// What the unit holds in `fields`.
+/// Values of the unit in `fields`.
 fn kept(fields: &[&Field], held: Option<&Values>) -> String {
     let value = |field: &Field| with_unit(field, held.and_then(|held| held.get(field.key)));
     if let [only] = fields {
@@ -120,7 +120,7 @@ fn kept(fields: &[&Field], held: Option<&Values>) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// The fields in which the unit no longer holds what was seen.
+/// Fields in which the unit's values have changed since they were seen.
 fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> String {
     let changes = group.fields.iter().filter_map(|field| {
         let (was, is) = (seen?.get(field.key), held?.get(field.key));

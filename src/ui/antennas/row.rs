@@ -1,4 +1,4 @@
-//! The lines of a card: fixed columns, so that no text pushes its neighbours.
+//! Lines of a card, in fixed columns so that no text pushes its neighbours.
 
 use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
 
@@ -8,14 +8,13 @@ use crate::ui::{
     widgets::paint,
 };
 
-/// Height of a line.
 pub(super) const HEIGHT: f32 = 28.0;
-/// Height of a field in it.
+/// Height of a field in a line.
 const FIELD: f32 = 24.0;
-/// The columns need so much.
+/// Width that the columns need.
 pub(super) const MIN_WIDTH: f32 = 516.0;
 
-/// Setting, on the unit, new value, unit, state.
+/// Columns of a line: setting, value on the unit, new value, unit of measure, state.
 pub(super) struct Columns {
     pub(super) label: Rect,
     pub(super) on_unit: Rect,
@@ -25,8 +24,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// The columns of a line in `rect`; what is beyond the least width is
-    /// shared by the values.
+    /// Columns of a line in `rect`; the values share any width beyond the minimum.
     pub(super) fn of(rect: Rect) -> Self {
         let spare = (rect.width() - MIN_WIDTH).max(0.0);
         let widths = [130.0, 92.0 + spare * 0.5, 122.0 + spare * 0.3, 32.0, 128.0 + spare * 0.2];
@@ -41,18 +39,18 @@ impl Columns {
         Self { label, on_unit, new: new.shrink2(vec2(0.0, inset)), unit, state }
     }
 
-    /// The field with the column of its unit, for what is long and has none.
+    /// Field and unit column together, for a long value without a unit of measure.
     pub(super) fn wide(&self) -> Rect {
         self.new.with_max_x(self.unit.right() - 6.0)
     }
 }
 
-/// The next line of the card.
+/// Space for the next line of the card.
 pub(super) fn take(ui: &mut Ui) -> Rect {
     ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover()).0
 }
 
-/// The heads of the columns.
+/// Column headings.
 pub(super) fn head(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
@@ -67,8 +65,8 @@ pub(super) fn head(ui: &mut Ui) {
     }
 }
 
-/// A text in a column, found and read as `name`; what is cut is shown whole
-/// under the pointer.
+/// A text in a column with the accessible name `name`; a cut text is shown whole under the
+/// pointer.
 pub(super) fn said(ui: &Ui, rect: Rect, words: &str, font: FontId, colour: Color32, name: &str) {
     paint::text_in(ui, rect, Align2::LEFT_CENTER, words, font, colour);
     paint::name_text(ui, ("said", name), rect, name).on_hover_text(name);
@@ -92,8 +90,7 @@ pub(super) fn state(
     said(ui, room, words, text::small(), colour, name);
 }
 
-/// A line that is no field: what it is about, what is so, and what to make of
-/// it.
+/// A line without a field: subject, fact and conclusion.
 pub(super) fn plain(
     ui: &mut Ui,
     label: &str,

@@ -1,4 +1,4 @@
-//! The parts of the settings of a unit, in the order in which the list shows them.
+//! Sections of a unit's settings, in the order of the list.
 
 use egui::Ui;
 
@@ -10,23 +10,22 @@ use super::{
 };
 use crate::{device::settings::Group, station::Connection};
 
-/// Draws what a card holds.
+/// Draws the content of a card.
 pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut Desk<'_>);
 
-/// One card of the view.
+/// A card of the view.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section {
     pub(super) title: &'static str,
-    /// The keys of its groups, by which it is known.
+    /// Keys of its groups, which identify the section.
     pub(super) keys: &'static [&'static str],
-    /// It opens only with the service functions.
+    /// Opens only with the service functions.
     pub(super) is_service: bool,
-    /// Its place where there are two columns; without one, cards take turns.
+    /// Column when there are two; cards without one take turns.
     pub(super) column: Option<Column>,
     pub(super) content: Content,
 }
 
-/// A column of cards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Column {
     Left,
@@ -40,7 +39,7 @@ impl PartialEq for Section {
 }
 
 impl Section {
-    /// Those of the unit at the other end of `connection`.
+    /// Sections of the unit at the other end of `connection`.
     pub(super) fn of(connection: &Connection) -> Vec<Self> {
         let plain = |group: &&'static Group| Self {
             title: group.title,

@@ -10,11 +10,11 @@ use crate::{
     model::Model,
 };
 
-/// A unit as this frame shows it, with what its form may do.
+/// A unit in this frame, with the rights of its form.
 #[derive(Clone, Copy)]
 pub(super) struct Unit<'a> {
     pub(super) model: &'a Model,
-    /// Its place among the antennas.
+    /// Index among the antennas.
     pub(super) index: usize,
     pub(super) antenna: &'a AntennaModel,
     /// The service functions are open.
@@ -31,7 +31,7 @@ impl<'a> Unit<'a> {
         &self.antenna.config.name
     }
 
-    /// The description of one of its groups.
+    /// Description of one of the unit's groups.
     pub(super) fn description(&self, key: &str) -> Option<&'static Group> {
         self.antenna.groups().iter().copied().find(|group| group.key == key)
     }
@@ -40,7 +40,7 @@ impl<'a> Unit<'a> {
         self.antenna.snapshot.state.held.get(key)
     }
 
-    /// What the unit held when the group was last read.
+    /// Values of the group at its last reading.
     pub(super) fn values(&self, key: &str) -> Option<&'a Values> {
         self.group(key)?.held.as_ref().map(|held| &held.values)
     }
@@ -57,8 +57,7 @@ impl<'a> Unit<'a> {
         self.antenna.snapshot.link.is_open()
     }
 
-    /// The group was read on the present link: what is older tells of another
-    /// time.
+    /// Whether the group was read on the present link. Older values are from another time.
     pub(super) fn is_fresh(&self, key: &str) -> bool {
         let Some(since) = self.antenna.snapshot.state.link_since.filter(|_| self.is_open()) else {
             return false;
@@ -67,8 +66,8 @@ impl<'a> Unit<'a> {
         self.read_at(key).is_some_and(|at| at >= add_seconds(self.model.now, -up_s))
     }
 
-    /// The unit's own program is on, or not known to be off; a unit without one
-    /// is made to follow from here.
+    /// Whether the unit's own program is on, or not known to be off. For a unit without one:
+    /// whether Azel tracks with it.
     pub(super) fn tracks(&self) -> bool {
         let program = self.antenna.snapshot.state.program;
         if self.antenna.variant().capabilities.has_program {
@@ -78,13 +77,13 @@ impl<'a> Unit<'a> {
         follows || program.is_some_and(|program| program.enabled)
     }
 
-    /// Why a setting that decides where the antenna points has to wait.
+    /// Reason why a setting that decides where the antenna points has to wait.
     pub(super) fn hindrance(&self) -> Option<Hindrance> {
         let can = self.antenna.variant().capabilities;
         self.antenna.snapshot.hindrance(can, self.model.steady)
     }
 
-    /// It is known that nothing turns, nor is about to.
+    /// Whether it is known that nothing turns or is about to.
     pub(super) fn stands(&self) -> bool {
         let moving = |measured: crate::device::Measured| measured.moving();
         let measured = self.antenna.snapshot.state.measured;

@@ -1,4 +1,4 @@
-//! Asks for the name of the station before the service functions open.
+//! Dialog that asks for the name of the station before the service functions open.
 
 use egui::{Frame, Modal, RichText, Sense, TextEdit, Ui, vec2};
 
@@ -14,7 +14,7 @@ use crate::ui::{
 const WIDTH: f32 = 360.0;
 const HOLD: &str = "Hold 1 s to unlock";
 
-/// What was typed into the dialog.
+/// Text typed into the dialog.
 #[derive(Default)]
 pub(super) struct UnlockDialog {
     typed: String,
@@ -22,7 +22,7 @@ pub(super) struct UnlockDialog {
     hold: HoldState,
 }
 
-/// What became of the dialog.
+/// Outcome of the dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Answer {
     Open,
@@ -31,7 +31,7 @@ pub(super) enum Answer {
 }
 
 impl UnlockDialog {
-    /// Shows the dialog in the middle of the window. Esc closes it, as STOP.
+    /// Shows the dialog in the middle of the window. Esc closes it and is STOP.
     pub(super) fn show(&mut self, ui: &Ui, unit: &Unit<'_>) -> Answer {
         let frame = Frame::popup(ui.style()).inner_margin(16);
         let modal = Modal::new(egui::Id::unique("unlock")).frame(frame);

@@ -1,4 +1,4 @@
-//! Functions that point the antenna wrong or move it: locked.
+//! Service functions, which are locked: they misalign the antenna or move it.
 
 use egui::{Align2, Sense, Ui, vec2};
 

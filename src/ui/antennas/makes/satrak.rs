@@ -1,4 +1,4 @@
-//! The cards of a Satrak.
+//! Cards of a Satrak.
 
 mod checks;
 mod clock;

@@ -1,4 +1,4 @@
-//! What the unit says of itself: versions, its own time stamp, its checks.
+//! Reports of the unit about itself: versions, its own time stamp, its checks.
 
 use egui::Ui;
 

@@ -1,4 +1,4 @@
-//! The unit's clock, and what it does to the track.
+//! Clock of the unit, and its effect on the track.
 
 use egui::{Rect, Sense, Ui, pos2, vec2};
 
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
     set(ui, unit, form, commands);
 }
 
-/// How far the clock puts the beam from the satellite.
+/// Error of the beam due to the clock.
 fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     let t = theme::tokens(ui);
     let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
@@ -50,7 +50,7 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
     row::plain(ui, LABEL, &value, Some(verdict));
 }
 
-/// The pass of the satellite on the unit, or else the selected one.
+/// Pass of the satellite on the unit, or else the selected pass.
 fn predicted_pass<'a>(unit: &Unit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
     let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values));
@@ -58,7 +58,7 @@ fn predicted_pass<'a>(unit: &Unit<'a>) -> Option<&'a PredictedPass> {
     number.and_then(|number| model.pass_of(number)).or_else(|| model.selected_pass())
 }
 
-/// How fast the satellite goes over the sky at its highest, degrees a second.
+/// Angular rate of the satellite at its highest, degrees per second.
 fn rate_at_tca(model: &Model, predicted: &PredictedPass) -> Option<f64> {
     let tca = predicted.pass.tca.time;
     let at = |seconds| {

@@ -1,4 +1,4 @@
-//! Where the unit believes to be.
+//! GPS settings: the location the unit uses.
 
 use egui::Ui;
 
@@ -16,8 +16,8 @@ use crate::{
     },
 };
 
-/// Further from the site than this the unit sees other passes than Azel. The
-/// rounding of its place to 0.01° is at most 0.8 km.
+/// Distance from the site beyond which the unit sees other passes than Azel. The unit's
+/// rounding to 0.01° is at most 0.8 km.
 const FAR_KM: f64 = 1.0;
 
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
@@ -44,7 +44,7 @@ fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
     row::note(ui, Some(Icon::Warning), why, t.warn);
 }
 
-/// The place that the unit uses: that of its receiver, or the one it was given.
+/// Place that the unit uses: that of its receiver, or the one it was given.
 fn place(unit: &Unit<'_>) -> Option<Site> {
     let given = unit.values(GPS.key)?;
     let is_automatic = IS_AUTOMATIC.of(given) == Some(true);

@@ -1,4 +1,4 @@
-//! The lowest elevation of a unit that goes lower than the station allows.
+//! Minimum elevation of a unit that goes lower than the station allows.
 
 use egui::{Sense, Ui, vec2};
 
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Fills the lowest elevation of the station in, to be applied.
+/// Offers the minimum elevation of the station as the new value.
 pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let station_deg = unit.antenna.config.limits.minimum_elevation_deg;
     let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.of(held));

@@ -1,4 +1,4 @@
-//! The satellite and where its elements come from.
+//! Satellite on the unit, and the source of its elements.
 
 use egui::{Rect, Sense, Ui, vec2};
 
@@ -27,7 +27,7 @@ use crate::{
     },
 };
 
-/// The groups behind the codes of [`TLE_SOURCE`]; their titles are the tabs.
+/// Groups for the codes of [`TLE_SOURCE`]; their titles are the tabs.
 static SOURCES: [&Group; 3] = [&FILE, &WEB, &FTP];
 const TABS: f32 = 216.0;
 
@@ -50,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
     test_from_here(ui, unit, form, shown, desk);
 }
 
-/// What the unit would fetch from the source as it is typed.
+/// Test fetch of the source as typed.
 fn test_from_here(
     ui: &mut Ui,
     unit: &Unit<'_>,
@@ -92,7 +92,7 @@ fn test_from_here(
     });
 }
 
-/// The group of the source that the unit uses.
+/// Group of the source that the unit uses.
 fn used(unit: &Unit<'_>) -> Option<&'static str> {
     let code = TLE_SOURCE.of(unit.values(GENERAL.key)?)?;
     SOURCES.get(usize::try_from(code).ok()?).map(|group| group.key)
@@ -144,8 +144,8 @@ fn tabs(
     SOURCES.get(clicked?).map(|group| group.key)
 }
 
-/// The unit takes its elements from the source that was set last: setting one
-/// as it is chooses it.
+/// Button to use this source. The unit uses the source that was set last, so sending one
+/// unchanged selects it.
 fn use_it(
     ui: &mut Ui,
     unit: &Unit<'_>,
@@ -179,7 +179,7 @@ fn use_it(
     row::said(ui, room, said, text::small(), t.t3, said);
 }
 
-/// The first value as it is: enough to have the whole group sent again.
+/// The first value unchanged: enough to send the whole group again.
 fn again(group: &Group, held: Option<&Values>) -> Values {
     let plain = |kind: &Kind| !matches!(kind, Kind::Password(_));
     let editable = group.fields.iter().filter(|f| f.access == Access::Edit && plain(&f.kind));

@@ -1,4 +1,4 @@
-//! When the unit tracks, and whether it starts by itself.
+//! Tracking window of the unit, and its automatic start.
 
 use egui::{Align2, Rect, Ui, vec2};
 
@@ -36,7 +36,8 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
     take_from_pass(ui, unit, form);
 }
 
-/// The antenna may start by itself: so it is switched on by holding.
+/// Switch for automatic tracking. The operator must hold it, for the antenna may start by
+/// itself.
 fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let at = Columns::of(row::take(ui));
@@ -78,7 +79,7 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
     }
 }
 
-/// Why it was not switched on, which is told as an event.
+/// Reason of a refused request for it, taken from the events.
 fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
     let asked = form.auto_asked?;
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
@@ -94,7 +95,7 @@ fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
     }
 }
 
-/// Fills AOS and LOS of the selected pass in, to be applied.
+/// Offers AOS and LOS of the selected pass as new values.
 fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     let t = theme::tokens(ui);
     let pass = unit.model.selected_pass();
@@ -124,7 +125,7 @@ fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     );
     row::said(ui, room, &words, text::small(), t.t3, &words);
     let (true, Ok((start, stop))) = (clicked, window) else { return };
-    // The unit takes no time that is over.
+    // The unit accepts no time in the past.
     for (key, time) in [(START, start.max(unit.model.now)), (STOP, stop)] {
         if let Some(field) = WINDOW.field(key.name) {
             let text = key.kind.text(&Value::Time(time));
