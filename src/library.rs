@@ -1,9 +1,9 @@
-//! The library: elements of all sources on this computer, and the one place
-//! that asks servers for new ones.
+//! Library: elements of all sources on this computer, and the only place that asks servers
+//! for new ones.
 //!
-//! What a server sent is kept as it came, one file a source, beside an index.
-//! Being offline is a normal state: what was held stays and tells its age. All
-//! calls wait for disks and servers: they belong on a worker thread.
+//! Answers of servers are kept unchanged, one file for each source, beside an index. Being
+//! offline is a normal state: the elements held stay and their age is shown. All calls
+//! wait for disks and servers: make them on a worker thread.
 
 pub(crate) mod disk;
 mod fetch;
@@ -38,15 +38,15 @@ use crate::{
     whole_file,
 };
 
-/// How the files in a folder end that hold elements.
+/// Extensions of element files in a folder.
 const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
 
-/// The files of elements in `folder`, by name, without the folders in it.
+/// Element files in `folder`, sorted by name, without those of its subfolders.
 pub(crate) fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     disk::files(folder, &ENDINGS)
 }
 
-/// The elements on disk.
+/// Library of elements on disk.
 #[derive(Debug)]
 pub struct Library {
     folder: PathBuf,
@@ -55,7 +55,7 @@ pub struct Library {
     authorities: RootCerts,
 }
 
-/// Where the elements of this user are kept; `None` on a machine without a home.
+/// Folder for the elements of this user; `None` on a machine without a home.
 pub fn library_folder() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("elements"))
 }
@@ -67,25 +67,24 @@ impl Library {
         Ok(Self { folder, index, limits, authorities: RootCerts::WebPki })
     }
 
-    /// Trusts the servers of these certificate authorities, in DER, and no
-    /// longer those of the public ones.
+    /// Trusts these certificate authorities, in DER, in place of the public ones.
     #[must_use]
     pub fn trusting_only(self, authorities: &[CertificateDer<'static>]) -> Self {
         let own = authorities.iter().map(|own| Certificate::from_der(own).to_owned());
         Self { authorities: own.into(), ..self }
     }
 
-    /// Reads all `sources` from disk. Asks no server.
+    /// Reads all `sources` from disk, without asking a server.
     pub fn load(&self, sources: &[Source]) -> (Catalog, Vec<SourceReport>) {
         let mut catalog = Catalog::default();
         let reports = self.load_into(sources, &mut catalog);
         (catalog, reports)
     }
 
-    /// The same, into a catalog that holds elements already.
+    /// Reads all `sources` into a catalog that has elements already.
     ///
-    /// A source whose reading ended the program is set aside: it is not read, and
-    /// its report says so, until [`Self::read_again`] names it.
+    /// A source whose reading ended the program is set aside: it is not read, and its report
+    /// says so, until [`Self::read_again`] names it.
     pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
         let mut unfinished = Unfinished::load(&self.folder);
         let of = |source: &Source| {
@@ -97,8 +96,7 @@ impl Library {
         sources.iter().map(of).collect()
     }
 
-    /// Sets the sources with these `names` aside no longer, nor those that are
-    /// not in `sources` any more.
+    /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
     pub fn read_again(&self, sources: &[Source], names: &[String]) {
         Unfinished::load(&self.folder).keep(sources, names);
     }
@@ -139,8 +137,8 @@ impl Library {
         report
     }
 
-    /// The files that hold the elements of a source, which need not exist; none where its server
-    /// never answered. An error names the folder that cannot be listed.
+    /// Files with the elements of a source, which need not exist; empty if its server never
+    /// answered. An error names the folder that cannot be listed.
     pub fn files_of(&self, source: &Source) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
         match &source.place {
             SourcePlace::File(path) => Ok(vec![path.clone()]),
@@ -152,13 +150,12 @@ impl Library {
         }
     }
 
-    /// Asks the servers of `sources` for what is new at `now`: every server
-    /// that may be asked again, or all when the operator wants it (`forced`).
-    /// Hands back how many sources have new elements. [`Library::load`] then
-    /// tells what came of each.
+    /// Asks the servers of `sources` for new elements at `now`: every server that may be asked
+    /// again, or all if the operator demands it (`forced`). Returns the number of sources with
+    /// new elements; [`Library::load`] then reports the result of each.
     ///
-    /// A server that gives another answer than 200 or 304, or none, is not
-    /// asked for its other sources either.
+    /// A server that gives an answer other than 200 or 304, or none, is not asked for its
+    /// other sources.
     pub fn refresh(
         &mut self,
         sources: &[Source],
@@ -202,7 +199,7 @@ impl Library {
         Ok(renewed)
     }
 
-    /// Asks for one source; whether something new came.
+    /// Requests one source; returns whether something new came.
     fn refresh_one(&mut self, name: &str, url: &str, now: Timestamp) -> Result<bool, FetchProblem> {
         let record = self.index.entry(url, name, now);
         record.attempted_at = now;

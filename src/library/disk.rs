@@ -1,4 +1,4 @@
-//! Files of elements: read whole with a limit.
+//! Files of elements, read whole with a limit.
 
 use std::{
     ffi::OsStr,
@@ -9,17 +9,17 @@ use std::{
 
 use jiff::Timestamp;
 
-/// A file that was read.
+/// Content of a file.
 pub(super) struct File {
     pub(super) bytes: Vec<u8>,
-    /// When it was last changed, as far as the disk tells.
+    /// Time of the last change, if the disk reports it.
     pub(super) modified: Option<Timestamp>,
 }
 
-/// Reads the file at `path`, if it has `limit` bytes at most. Folders, devices and
-/// pipes are refused.
+/// Reads the file at `path`, if it has at most `limit` bytes. Folders, devices and pipes
+/// are refused.
 pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
-    // Looked at before it is opened: a pipe without a writer would be waited for.
+    // Checked before opening: a pipe without a writer would block.
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
     }
@@ -29,7 +29,7 @@ pub(super) fn read(path: &Path, limit: u64) -> io::Result<File> {
     Ok(File { bytes: read_limited(file, limit)?, modified })
 }
 
-/// Reads to the end; an error of kind `FileTooLarge` beyond `limit` bytes.
+/// Reads to the end. Beyond `limit` bytes returns an error of kind `FileTooLarge`.
 pub(crate) fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     from.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
@@ -42,7 +42,7 @@ pub(crate) fn read_limited(from: impl io::Read, limit: u64) -> io::Result<Vec<u8
     Ok(bytes)
 }
 
-/// The files in `folder` with one of `endings`, in any case, by name.
+/// Files in `folder` with one of these extensions in any case, sorted by name.
 pub(super) fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>> {
     let is_wanted = |path: &PathBuf| {
         let ending = path.extension().and_then(OsStr::to_str);

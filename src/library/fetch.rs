@@ -1,4 +1,4 @@
-//! One polite request to a server.
+//! A polite request to a server.
 
 use std::{io, net::IpAddr, time::Duration};
 
@@ -11,12 +11,12 @@ use ureq::{
 use super::{disk::read_limited, index::Record};
 use crate::orbit::FetchProblem;
 
-/// How much of a server or a file is taken.
+/// Limits for requests and files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// For the whole of a request.
+    /// Time limit of a whole request.
     pub timeout: Duration,
-    /// For one body, unpacked, or one file.
+    /// Size limit of one unpacked body, or one file.
     pub bytes: u64,
 }
 
@@ -27,23 +27,22 @@ impl Default for Limits {
     }
 }
 
-/// What a server sent.
+/// Answer of a server.
 pub(super) enum Answer {
-    /// It has nothing newer.
+    /// The server has nothing newer.
     NotModified,
-    /// What it has now, with its marks for the next request.
+    /// New content, with its validators for the next request.
     New { body: Vec<u8>, etag: Option<String>, last_modified: Option<String> },
 }
 
-/// The host of `url`; empty when it has none.
+/// Host of `url`; empty if it has none.
 pub(super) fn host(url: &str) -> String {
     let uri: Option<Uri> = url.parse().ok();
     uri.and_then(|uri| uri.host().map(str::to_lowercase)).unwrap_or_default()
 }
 
-/// Asks for `url` once, for what is newer than `known` when that is given.
-/// Follows no redirection: an address that has moved is for the operator to
-/// look at.
+/// Requests `url` once, conditionally if `known` is given. Follows no redirection: an
+/// address that has moved is for the operator to look at.
 pub(super) fn fetch(
     url: &str,
     known: Option<&Record>,
@@ -82,7 +81,7 @@ pub(super) fn fetch(
         Some(value.to_owned())
     };
     let (etag, last_modified) = (mark(header::ETAG), mark(header::LAST_MODIFIED));
-    // Unpacked bytes are counted here: a small answer may unpack to anything.
+    // Unpacked bytes count: a small answer may unpack to anything.
     let body =
         read_limited(response.into_body().into_reader(), limits.bytes).map_err(
             |error| match error.kind() {
@@ -93,7 +92,7 @@ pub(super) fn fetch(
     Ok(Answer::New { body, etag, last_modified })
 }
 
-/// Why there is no answer.
+/// Reason why there is no answer.
 fn unanswered(error: &ureq::Error) -> FetchProblem {
     let cause = match error {
         ureq::Error::Rustls(error) => Some(error),
@@ -106,8 +105,9 @@ fn unanswered(error: &ureq::Error) -> FetchProblem {
     }
 }
 
-/// Whether `url` is on this very computer. Only there may it be plain `http`,
-/// and nowhere may it carry a password: addresses are kept on disk and shown.
+/// Checks that `url` is allowed; returns whether it is on this very computer. Only there
+/// may it be plain `http`. It may never carry a password: addresses are kept on disk and
+/// shown.
 pub(super) fn check(url: &str) -> Result<bool, FetchProblem> {
     let uri: Uri = url.parse().map_err(|_| FetchProblem::Address)?;
     let host = uri.host().ok_or(FetchProblem::Address)?;

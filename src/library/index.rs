@@ -1,4 +1,4 @@
-//! What is known of every address that was asked, in one small TOML file.
+//! Index of every address that was asked, in a small TOML file.
 
 use std::{
     collections::BTreeMap,
@@ -11,54 +11,52 @@ use serde::{Deserialize, Serialize};
 
 use crate::{orbit::FetchProblem, whole_file};
 
-/// The version that this program writes. A file of a later one is left alone.
+/// Version that this program writes. A file of a later version is left alone.
 const VERSION: u32 = 1;
-/// Characters of a source's name that its file is named with.
+/// Maximum length of the part of a file name taken from the source's name.
 const MAX_FILE_CHARS: usize = 40;
 
 /// All addresses that were ever asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Index {
     version: u32,
-    /// By address: when a source gets another one, nothing of the old is mixed up.
+    /// Key is the address: a source with a new address shares nothing with the old one.
     #[serde(default)]
     address: BTreeMap<String, Record>,
 }
 
-/// What is known of one address.
+/// Record of one address.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Record {
-    /// The file in the library that holds what it sent.
+    /// File in the library with the last answer.
     pub(super) file: String,
-    /// When it was last asked.
+    /// Time of the last request.
     pub(super) attempted_at: Timestamp,
-    /// When it last sent what the file holds, or said that it is still current.
+    /// Time at which the server last sent this content, or confirmed it as current.
     pub(super) confirmed_at: Option<Timestamp>,
-    /// The mark of what it sent.
+    /// Entity tag of the content.
     pub(super) etag: Option<String>,
-    /// The time of what it sent, as the server wrote it.
+    /// Date of the content as the server wrote it.
     pub(super) last_modified: Option<String>,
-    /// Why the last request brought nothing.
+    /// Reason why the last request brought nothing.
     pub(super) problem: Option<FetchProblem>,
 }
 
-/// Why the index of a library cannot be used. It stays as it is on disk.
+/// Reason why the index of a library cannot be used. It stays unchanged on disk.
 #[derive(Debug, thiserror::Error)]
 pub enum IndexError {
-    /// The operating system refused.
     #[error("the index of the elements cannot be used: {source}: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// Not the TOML it should be, and neither is the one before it.
+    /// The index is not valid TOML, nor is the one before it.
     #[error("the index of the elements cannot be read: {source}: {}", path.display())]
     Syntax {
-        /// Where in the text.
+        /// Error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
-    /// It cannot be put into TOML.
     #[error("the index of the elements cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
-    /// A later program wrote it.
+    /// A later program wrote the index.
     #[error("the index of the elements has version {found}, this program knows {VERSION}: {}", path.display())]
     Newer { found: u32, path: PathBuf },
 }
@@ -70,7 +68,7 @@ impl Default for Index {
 }
 
 impl Index {
-    /// Reads the index in `folder`, or the one before it when it is damaged.
+    /// Reads the index in `folder`, or the one before it if it is damaged.
     pub(super) fn load(folder: &Path) -> Result<Self, IndexError> {
         let path = folder.join("index.toml");
         match Self::read(&path) {
@@ -97,7 +95,6 @@ impl Index {
         Ok(index)
     }
 
-    /// Writes the index into `folder`.
     pub(super) fn save(&self, folder: &Path) -> Result<(), IndexError> {
         let path = folder.join("index.toml");
         let text = toml::to_string_pretty(self)?;
@@ -105,12 +102,11 @@ impl Index {
             .map_err(|source| IndexError::Disk { source, path })
     }
 
-    /// What is known of `url`.
     pub(super) fn get(&self, url: &str) -> Option<&Record> {
         self.address.get(url)
     }
 
-    /// What is known of `url`, which is asked at `now` for the source `name`.
+    /// Record of `url`, made new if necessary, for a request at `now` for the source `name`.
     pub(super) fn entry(&mut self, url: &str, name: &str, now: Timestamp) -> &mut Record {
         let file = self.unused_file(name);
         self.address.entry(url.to_owned()).or_insert(Record {
@@ -123,7 +119,7 @@ impl Index {
         })
     }
 
-    /// A file name like `name` that no address has yet.
+    /// A file name like `name` that no address uses yet.
     fn unused_file(&self, name: &str) -> String {
         let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
         let stem: String = name.to_lowercase().chars().map(plain).take(MAX_FILE_CHARS).collect();

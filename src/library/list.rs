@@ -1,4 +1,4 @@
-//! The list of sources, in a small file of its own beside the station's.
+//! List of sources, in a small file beside the station's.
 
 use std::{
     fs, io,
@@ -13,20 +13,18 @@ use crate::{
     whole_file,
 };
 
-/// The version that this program writes. A file of a later one is left alone.
+/// Version that this program writes. A file of a later version is left alone.
 const VERSION: u32 = 1;
 
-/// Why a source cannot be added.
+/// Reason why a source cannot be added.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SourceProblem {
-    /// It has no name.
     #[error("it has no name")]
     NoName,
-    /// Another source has its name, which is also the name of its group.
+    /// Another source has this name, which is also the name of its group.
     #[error("another source has this name")]
     NameTaken,
-    /// Not a path from the root: which file it means would depend on where the
-    /// program was started.
+    /// A relative path, which would depend on the folder in which the program was started.
     #[error("the path does not start at the root")]
     RelativePath,
     /// Not an `https` address, or one with a user name in it.
@@ -34,28 +32,25 @@ pub enum SourceProblem {
     Address,
 }
 
-/// Why the list of sources cannot be used or written. What stands on disk stays.
+/// Reason why the list of sources cannot be used or written. The file stays unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum SourcesError {
-    /// The operating system refused.
     #[error("the list of element sources cannot be used: {source}: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
-    /// Not the TOML it should be.
     #[error("the list of element sources cannot be read: {source}: {}", path.display())]
     Syntax {
-        /// Where in the text.
+        /// Error with its place in the text.
         source: Box<toml::de::Error>,
         path: PathBuf,
     },
-    /// A later program wrote it.
+    /// A later program wrote the list.
     #[error("the list of element sources has version {found}, this program knows {VERSION}: {}", path.display())]
     Newer { found: u32, path: PathBuf },
-    /// It cannot be put into TOML.
     #[error("the list of element sources cannot be put into TOML: {0}")]
     Form(#[from] toml::ser::Error),
 }
 
-/// Whether `source` can stand beside `others`.
+/// Checks that `source` can be added to `others`.
 pub fn check_source(source: &Source, others: &[Source]) -> Result<(), SourceProblem> {
     let name = source.name.trim();
     if name.is_empty() {
@@ -85,9 +80,9 @@ fn this_version() -> u32 {
     VERSION
 }
 
-/// Reads the sources at `path`; none where there is no file. Entries that
-/// [`check_source`] refuses are kept: a server is never asked at such an
-/// address, and the operator sees them and may remove them.
+/// Reads the sources at `path`; none if there is no file. Entries that [`check_source`]
+/// refuses are kept: no server is ever asked at such an address, and the operator sees
+/// them and may remove them.
 pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
     let text = match fs::read_to_string(path) {
         Ok(text) => text,
@@ -108,8 +103,8 @@ pub fn load_sources(path: &Path) -> Result<Vec<Source>, SourcesError> {
     Ok(file.source)
 }
 
-/// Puts the sources at `path` as a whole. What stood there before is kept
-/// beside it with the ending `.old`.
+/// Replaces the list at `path`. The previous file is kept beside it with the ending
+/// `.old`.
 pub fn save_sources(sources: &[Source], path: &Path) -> Result<(), SourcesError> {
     let file = File { version: VERSION, source: sources.to_vec() };
     let text = toml::to_string_pretty(&file)?;

@@ -1,9 +1,8 @@
-//! The sources whose reading has not come to its end, in a small file of the
-//! library.
+//! Sources that the program has not finished reading, in a small file of the library.
 //!
-//! A source is entered before it is read and taken out afterwards. What stands
-//! there when the program starts ended it the last time, and would end it again:
-//! it is set aside until the operator asks for it.
+//! A source is entered before it is read and removed afterwards. An entry at the start of
+//! the program means that this source ended the last run and would end this one: it is set
+//! aside until the operator asks for it.
 
 use std::{
     fs,
@@ -14,10 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::{orbit::Source, whole_file};
 
-/// The file in the folder of the library.
+/// Name of the file in the folder of the library.
 const NAME: &str = "unfinished.toml";
 
-/// The sources that are set aside or being read.
+/// Sources that are set aside or being read.
 #[derive(Debug)]
 pub(super) struct Unfinished {
     path: PathBuf,
@@ -31,8 +30,8 @@ struct Held {
 }
 
 impl Unfinished {
-    /// What the last run left in `folder`. A file that cannot be read sets
-    /// nothing aside.
+    /// Reads the entries that the last run left in `folder`. An unreadable file sets nothing
+    /// aside.
     pub(super) fn load(folder: &Path) -> Self {
         let path = folder.join(NAME);
         let text = fs::read_to_string(&path).ok();
@@ -45,8 +44,7 @@ impl Unfinished {
         self.held.source.contains(source)
     }
 
-    /// Takes out the sources with these names, and those that are not in `list`
-    /// any more.
+    /// Removes the sources named in `but`, and those that are no longer in `list`.
     pub(super) fn keep(&mut self, list: &[Source], but: &[String]) {
         let before = self.held.source.len();
         self.held.source.retain(|held| list.contains(held) && !but.contains(&held.name));
@@ -55,7 +53,7 @@ impl Unfinished {
         }
     }
 
-    /// Reads `source` by `read`, entered meanwhile.
+    /// Runs `read` with `source` entered in the file.
     pub(super) fn during<T>(&mut self, source: &Source, read: impl FnOnce() -> T) -> T {
         self.held.source.push(source.clone());
         self.save();
@@ -65,7 +63,7 @@ impl Unfinished {
         outcome
     }
 
-    /// A disk that takes nothing must not keep the elements from being read.
+    /// Errors are ignored: a full disk must not keep the elements from being read.
     fn save(&self) {
         let saved = if self.held.source.is_empty() {
             fs::remove_file(&self.path)
