@@ -1,4 +1,4 @@
-//! The command line.
+//! Command line of the program.
 
 mod input;
 pub mod log;
@@ -82,8 +82,8 @@ enum Command {
 }
 
 impl Cli {
-    /// What the log holds unless `AZEL_LOG` says otherwise: warnings and errors;
-    /// a simulator also tells its address and every frame.
+    /// Filter of the log unless `AZEL_LOG` sets another: warnings and errors; for a simulator
+    /// also its address and every frame.
     pub fn log_filter(&self) -> &'static str {
         match self.command {
             Some(Command::Simulate { .. }) => "warn,azel::sim=info",
@@ -91,7 +91,7 @@ impl Cli {
         }
     }
 
-    /// Does what the command line says, and how well, as an exit code.
+    /// Carries out the command line and returns the exit code.
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
             None => window::run(self.station)?,
@@ -134,7 +134,8 @@ impl Cli {
     }
 }
 
-/// Tells of a wrong command line that the parser did not see, as the parser does.
+/// Reports an error in the command line that the parser did not see, in the style of the
+/// parser.
 fn told(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
     result.or_else(|error| {
         let error = error.downcast::<clap::Error>()?;
@@ -143,12 +144,13 @@ fn told(result: anyhow::Result<ExitCode>) -> anyhow::Result<ExitCode> {
     })
 }
 
-/// In the user's data folder.
+/// Folder for marks of motions by hand, in the user's data folder.
 fn marks() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("marks"))
 }
 
-/// On Linux a name that holds also after the file was replaced by a newer one.
+/// Path of this program. On Linux it stays valid after the file was replaced by a newer
+/// one.
 fn this_program() -> Option<PathBuf> {
     let running = PathBuf::from("/proc/self/exe");
     if running.exists() { Some(running) } else { std::env::current_exe().ok() }
@@ -158,7 +160,7 @@ fn this_program() -> Option<PathBuf> {
 fn from_hexadecimal(digits: &str) -> Option<Vec<u8>> {
     let pairs = digits.as_bytes().chunks(2);
     let byte = |pair: &[u8]| match pair {
-        // The parser takes a sign too.
+        // Only hexadecimal digits: the parser accepts a sign too.
         [first, _] if first.is_ascii_hexdigit() => {
             u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok()
         }

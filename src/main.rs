@@ -1,5 +1,4 @@
-//! The program: maps the command line to what it asks for, and the result to
-//! an exit code.
+//! Program entry: runs the command line and maps the result to an exit code.
 
 use std::process::ExitCode;
 
@@ -11,7 +10,7 @@ fn main() -> ExitCode {
     let log = match Log::start(cli.log_filter()) {
         Ok(log) => log,
         Err(error) => {
-            // There is nothing better to say it with.
+            // Without a log there is nothing better to report it with.
             #[allow(clippy::print_stderr)]
             {
                 eprintln!("The log could not be started: {error}");

@@ -1,4 +1,4 @@
-//! The site and the satellites that `azel passes` and `azel look` compute with.
+//! Input of `azel passes` and `azel look`: the site and the satellites.
 
 mod age;
 mod place;
@@ -21,7 +21,7 @@ pub(super) use self::{
 use super::Cli;
 use crate::plan::pass_export::Satellite;
 
-/// Exit code when something was written, but not all that was asked for could be used.
+/// Exit code when something was written, but part of the request could not be used.
 const NOT_ALL: u8 = 3;
 
 /// Exit codes, for `--help`.
@@ -86,16 +86,16 @@ pub(super) fn exit_code(is_complete: bool) -> ExitCode {
     if is_complete { ExitCode::SUCCESS } else { ExitCode::from(NOT_ALL) }
 }
 
-/// Says on standard error where elements are too far from the time between `from` and `to`.
+/// Warns on standard error about elements too far from the time between `from` and `to`.
 pub(super) fn caution(satellites: &[Satellite], from: Timestamp, to: Timestamp) {
     let elements = satellites.iter().map(|satellite| &satellite.elements);
     if let Some(sentence) = age::caution(elements, from, to) {
-        // Nobody is left to be told that standard error is closed.
+        // An error is ignored: standard error is closed.
         let _ = writeln!(io::stderr(), "{sentence}");
     }
 }
 
-/// A wrong command line of `azel <command>`.
+/// Error for a wrong command line of `azel <command>`.
 fn usage(command: &str, sentence: &str) -> clap::Error {
     let mut azel = Cli::command();
     azel.build();

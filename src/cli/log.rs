@@ -1,11 +1,11 @@
-//! The log on standard error, which never waits for its reader.
+//! Log on standard error, which never waits for its reader.
 //!
-//! Lines go into a queue of limited size that a thread of its own writes. While
-//! nobody reads (a stopped pager, a terminal after Ctrl S), further lines are
-//! dropped and counted, and the count is the next line that is written.
+//! Lines go into a queue of limited size, and a separate thread writes them. While nobody
+//! reads (a stopped pager, a terminal after Ctrl S), further lines are dropped and
+//! counted, and the count is the next line that is written.
 //!
-//! Invariant: while the window is open, nothing else of Azel writes to standard
-//! error, whose lock the standard library would hand to one thread at a time.
+//! Invariant: while the window is open, nothing else of Azel writes to standard error, for
+//! the standard library would lock it to one thread at a time.
 
 use std::{
     env,
@@ -19,24 +19,24 @@ use std::{
 use jiff::Timestamp;
 use tracing_subscriber::{EnvFilter, fmt::MakeWriter};
 
-/// How much may wait, in bytes: some thousand lines.
+/// Size limit of the queue in bytes: some thousand lines.
 const MAX_BYTES: usize = 1 << 20;
-/// How long the end of the program waits for a reader.
+/// Time that the end of the program waits for a reader.
 const FAREWELL: Duration = Duration::from_secs(1);
 
-/// The near end of the log.
+/// Log of this process.
 #[derive(Clone)]
 pub struct Log {
     lines: Lines,
 }
 
-/// Lines on their way to a reader who is never waited for.
+/// Queue of lines for a reader who is never waited for.
 #[derive(Clone)]
 pub struct Lines {
     queue: Arc<Queue>,
 }
 
-/// What is written of lines that found no room.
+/// Line that reports a number of dropped lines.
 type OfDropped = fn(u64) -> String;
 
 #[derive(Default)]
@@ -48,17 +48,17 @@ struct Queue {
 
 #[derive(Default)]
 struct Waiting {
-    /// Whole lines.
+    /// Complete lines.
     text: Vec<u8>,
-    /// Lines that found no room behind `text`.
+    /// Number of lines dropped behind `text`.
     dropped: u64,
-    /// Lines out of the queue are still being written.
+    /// Lines taken from the queue are still being written.
     is_writing: bool,
 }
 
 impl Log {
-    /// Starts the log of this process. `AZEL_LOG` chooses what is in it, or
-    /// `filter` where that is missing or wrong.
+    /// Starts the log of this process, filtered by `AZEL_LOG`, or by `filter` if that is
+    /// missing or wrong.
     pub fn start(filter: &str) -> io::Result<Self> {
         let log = Self { lines: Lines::to(standard(io::stderr())?, of_dropped_in_log)? };
         let filter = EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new(filter));
@@ -71,12 +71,12 @@ impl Log {
         Ok(log)
     }
 
-    /// Adds a line, whatever the filter is.
+    /// Adds a line, whatever the filter.
     pub fn say(&self, line: &str) {
         self.lines.say(line);
     }
 
-    /// Waits until everything is written, a second at most.
+    /// Waits until everything is written, at most a second.
     pub fn finish(&self) {
         self.lines.finish();
     }
@@ -91,7 +91,7 @@ fn of_dropped_in_log(dropped: u64) -> String {
 }
 
 impl Lines {
-    /// Lines to standard output.
+    /// Queue of lines for standard output.
     pub fn to_standard_output(of_dropped: OfDropped) -> io::Result<Self> {
         Self::to(standard(io::stdout())?, of_dropped)
     }
@@ -109,12 +109,11 @@ impl Lines {
         Ok(Self { queue })
     }
 
-    /// Adds a line.
     pub fn say(&self, line: &str) {
         self.queue.push(format!("{line}\n").as_bytes());
     }
 
-    /// Waits until everything is written, a second at most.
+    /// Waits until everything is written, at most a second.
     pub fn finish(&self) {
         self.finish_within(FAREWELL);
     }
@@ -132,8 +131,8 @@ impl Queue {
 
     fn push(&self, line: &[u8]) {
         let mut waiting = self.lock();
-        // What is dropped then stands behind all that waits, and before all that
-        // comes after the next look of the thread.
+        // Lines dropped then belong behind all waiting lines, and before all that come after the
+        // thread's next look.
         if waiting.dropped > 0 || waiting.text.len() + line.len() > MAX_BYTES {
             waiting.dropped += 1;
         } else {
@@ -142,7 +141,7 @@ impl Queue {
         self.filled.notify_one();
     }
 
-    /// Waits for lines, and for how many were dropped behind them.
+    /// Waits for lines, and returns them with the number dropped behind them.
     fn take(&self) -> (Vec<u8>, u64) {
         let is_empty = |waiting: &mut Waiting| waiting.text.is_empty() && waiting.dropped == 0;
         let waiting = self.filled.wait_while(self.lock(), is_empty);
@@ -157,9 +156,9 @@ impl Queue {
     }
 }
 
-/// Writes `text` and how many lines were `dropped` behind it.
+/// Writes `text`, then the number of lines `dropped` behind it.
 fn write(sink: &mut impl Write, text: &[u8], dropped: u64, of_dropped: OfDropped) {
-    // Nobody is left to be told that the stream is closed.
+    // An error is ignored: the stream is closed.
     let _ = sink.write_all(text);
     if dropped > 0 {
         let _ = writeln!(sink, "{}", of_dropped(dropped));
@@ -167,20 +166,20 @@ fn write(sink: &mut impl Write, text: &[u8], dropped: u64, of_dropped: OfDropped
     let _ = sink.flush();
 }
 
-/// A standard stream past the standard library's lock: a thread that waits in it would
-/// hold up every other one that writes there.
+/// Opens a standard stream without the standard library's lock: a thread waiting in it
+/// would hold up all others that write there.
 #[cfg(unix)]
 fn standard(stream: impl std::os::fd::AsFd) -> io::Result<std::fs::File> {
     Ok(stream.as_fd().try_clone_to_owned()?.into())
 }
 
-/// A console of Windows takes text by way of the standard library alone.
+/// On Windows a console accepts text only through the standard library.
 #[cfg(not(unix))]
 fn standard<T: Write + Send + 'static>(stream: T) -> io::Result<T> {
     Ok(stream)
 }
 
-/// One line, as the subscriber writes it: whole.
+/// A complete line from the subscriber.
 pub struct Line<'a>(&'a Queue);
 
 impl Write for Line<'_> {
@@ -211,7 +210,7 @@ mod tests {
 
     use super::*;
 
-    /// A sink that takes nothing until it is told to, and then everything.
+    /// Sink that blocks until it is released, then accepts everything.
     struct Sink {
         reached: SyncSender<()>,
         opened: Receiver<()>,
@@ -234,8 +233,8 @@ mod tests {
         }
     }
 
-    /// A log, what its sink signals when it is first written to, what opens that sink, and
-    /// what it then took.
+    /// A log with a blocked sink: its lines, the signal of the first write, the release, and
+    /// the text written.
     fn blocked() -> (Lines, Receiver<()>, SyncSender<()>, Arc<Mutex<String>>) {
         let (reach, reached) = sync_channel(1);
         let (open, opened) = sync_channel(1);
@@ -262,7 +261,7 @@ mod tests {
     fn the_number_of_dropped_lines_stands_where_they_would_have_stood() {
         let (log, reached, open, text) = blocked();
         log.say("first");
-        // The thread would otherwise look again in the middle of what follows.
+        // Otherwise the thread would look again in the middle of the following steps.
         reached.recv().unwrap();
         for number in 0..20 {
             log.say(&format!("{number} {}", "x".repeat(MAX_BYTES / 10)));

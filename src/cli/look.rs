@@ -1,4 +1,4 @@
-//! Look angles of one satellite in steps, from the same elements as passes.
+//! Look angles of one satellite in steps, from the same elements as `azel passes`.
 
 use std::{path::Path, process::ExitCode};
 
@@ -15,7 +15,7 @@ use crate::{
     plan::pass_export::{LookFormat, LookList, Satellite},
 };
 
-/// Names that are listed where more than one satellite is meant.
+/// Maximum number of names listed if several satellites match.
 const MOST_NAMED: usize = 10;
 
 #[derive(Debug, Args)]
@@ -54,7 +54,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         satellite,
         site,
         from,
-        // Noise of the division must not cost the last row.
+        // Rounding of the division must not cost the last row.
         count: (length_s / options.step + 1e-9) as u32 + 1,
         step_s: options.step,
         carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),

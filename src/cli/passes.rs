@@ -1,4 +1,4 @@
-//! Predicts passes from element files, for the terminal and for other programs.
+//! Predictions of passes from element files, for the terminal and for other programs.
 
 mod progress;
 
@@ -21,7 +21,7 @@ use crate::{
     plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
-/// The limits of the predictions, for `--help`.
+/// Limits of the predictions, for `--help`.
 pub(super) const LEFT_OUT: &str = "All times are UTC. Directions are geometric: refraction is left \
     out, UT1 is taken as UTC, and there is no polar motion. Refraction lifts a satellite at the \
     horizon by half a degree, so that a low one comes up some 10 s before its AOS and goes down \
@@ -119,7 +119,7 @@ fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
     HorizonMask::parse(&text).with_context(|| format!("{} is no horizon mask", path.display()))
 }
 
-/// Writes to standard output. A reader may stop early, as `head` does.
+/// Writes to standard output. A reader that stops early, as `head` does, is no error.
 pub(super) fn written(
     write: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
 ) -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! Asks the Azel that has the station file open: a window or `azel serve`.
+//! Requests to the Azel that has the station file open: a window or `azel serve`.
 
 use std::{
     io::{self, Write as _},

@@ -1,5 +1,5 @@
-//! The station without a window: it runs until the operating system asks for the end, and
-//! tells on standard output what it does.
+//! Station without a window: it runs until the operating system ends it, and reports its
+//! events on standard output.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -29,7 +29,7 @@ use crate::{
     ui::words,
 };
 
-/// The end is not waited for longer: what is not proved by then is told.
+/// Time limit for the end; anything unproved by then is reported.
 const ENDS_WITHIN: Duration = Duration::from_secs(8);
 /// Exit code when an antenna is not known to stand at the end.
 const NOT_PROVED: u8 = 4;
@@ -50,21 +50,19 @@ pub enum Format {
     Json,
 }
 
-/// Something that happened at a station.
+/// Report of an event at a station.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Told {
-    /// When.
     pub time: Timestamp,
-    /// The antenna that it is about, by its name.
+    /// Name of the antenna, if the event has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
-    /// What it is about.
     pub about: About,
-    /// What happened, in words.
+    /// Event in words.
     pub text: String,
 }
 
-/// What a line is about.
+/// Subject of a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum About {
@@ -72,15 +70,13 @@ pub enum About {
     Station,
     /// A link came or went.
     Link,
-    /// What is wanted of an antenna.
+    /// The intent of an antenna changed.
     Intent,
     /// An antenna moves, or stands.
     Motion,
-    /// What is tracked.
+    /// The tracked target changed.
     Track,
-    /// A STOP.
     Stop,
-    /// A lock-out.
     LockOut,
     /// An alarm was raised.
     Alarm,
@@ -126,7 +122,7 @@ pub(super) fn run(
         Format::Text => |dropped| format!("{dropped} lines were dropped: nobody read them"),
         Format::Json => |dropped| format!("{{\"dropped\":{dropped}}}"),
     })?;
-    // One wake that waits is as good as many.
+    // One pending wake is as good as many.
     let (wake, woken) = mpsc::sync_channel(1);
     let end = wake.clone();
     let woken_by = wake.clone();
@@ -154,27 +150,26 @@ pub(super) fn run(
     Ok(ExitCode::from(NOT_PROVED))
 }
 
-/// Why the main loop goes on.
+/// Reason why the main loop goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wake {
     /// The station has something new.
     Station,
-    /// It is to end.
+    /// The program must end.
     End,
 }
 
-/// How a station has ended.
+/// End of a station.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ended {
-    /// The names of the antennas that are not known to stand, as the station file wants
-    /// it.
+    /// Names of the antennas that are not known to stand although the station file demands it.
     pub not_proved: Vec<String>,
     /// The part of the program that ran the station is gone.
     pub broke_down: bool,
 }
 
-/// Tells what happens at a station until it is to end; then its antennas are stopped or
-/// left, as the station file says, and that is proved.
+/// Reports the events of a station until it must end. Then stops or leaves its antennas,
+/// as the station file says, and proves it.
 pub fn until_the_end(
     mut station: Handle,
     woken: &mpsc::Receiver<Wake>,
@@ -182,7 +177,7 @@ pub fn until_the_end(
 ) -> Ended {
     let mut reporter = Reporter::default();
     loop {
-        // A second: what is shown by ages alone.
+        // A second, for displays that only ages change.
         let wake = woken.recv_timeout(Duration::from_secs(1));
         while station.next_event().is_some() {}
         station.take();
@@ -197,7 +192,7 @@ pub fn until_the_end(
         Some(CloseHow::Leave) => CloseHow::Leave,
     };
     say(tell, None, About::Station, "Ends.".to_owned());
-    // One that does not take it stands, or has broken down: see below.
+    // A station that does not take it has stopped, or has broken down: see below.
     let _ = station.client().send(Command::CloseAfter(how));
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
@@ -205,20 +200,20 @@ pub fn until_the_end(
     let (mut may_end, mut is_passed) = (false, false);
     loop {
         let left = end.saturating_duration_since(Instant::now());
-        // Further signals do not change what is done already.
+        // Further signals change nothing.
         let _ = woken.recv_timeout(left.min(Duration::from_millis(100)));
         station.take();
         let snapshot = Arc::clone(station.snapshot());
         reporter.tell(&snapshot, tell);
         may_end |= std::iter::from_fn(|| station.next_event()).any(|told| told == Event::MayEnd);
         if station.stood_for().is_some() && !std::mem::replace(&mut is_passed, true) {
-            // It does not take what it was asked: STOP goes past it.
+            // The station does not carry the command out: STOP goes past it.
             station.client().stop_all();
         }
         let stand = !snapshot.antennas.iter().any(open);
         let broke_down = !station.runs();
         if (may_end && stand) || left.is_zero() || broke_down {
-            // What is shown by a station that does not respond proves nothing.
+            // A snapshot of a station that does not respond proves nothing.
             let names = snapshot.antennas.iter().filter(|antenna| is_passed || open(antenna));
             let not_proved = names.map(|of| of.config.name.clone()).collect();
             return Ended { not_proved, broke_down };
@@ -226,11 +221,11 @@ pub fn until_the_end(
     }
 }
 
-/// Tells what has changed from one snapshot to the next.
+/// Reports the changes from one snapshot to the next.
 #[derive(Default)]
 struct Reporter {
     antennas: BTreeMap<String, AntennaStatus>,
-    /// The alarms that stand, by their numbers.
+    /// Standing alarms by their numbers.
     alarms: BTreeMap<u64, (Option<String>, String)>,
     begun: bool,
 }
@@ -283,7 +278,7 @@ fn say(tell: &mut dyn FnMut(&Told), antenna: Option<&str>, about: About, text: S
     tell(&Told { time: Timestamp::now(), antenna, about, text });
 }
 
-/// What differs between two states of an antenna, in words.
+/// Differences between two states of an antenna, in words.
 fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(About, String)> {
     let mut told = Vec::new();
     if before.map(|before| before.link) != Some(now.link) {

@@ -1,10 +1,10 @@
-//! Serves one simulated controller.
+//! Command that runs a simulated unit.
 
 use clap::{ArgMatches, FromArgMatches, Subcommand, error::ErrorKind};
 
 use crate::{driver, makes, sim};
 
-/// One of the simulators of the list of makes, and what it is told.
+/// A simulator of the list of makes, with its arguments.
 #[derive(Debug)]
 pub(super) struct Simulator {
     command: &'static sim::Command,
@@ -43,7 +43,7 @@ fn named(name: &str) -> Option<&'static sim::Command> {
     makes::SIMULATORS.iter().find(|command| command.name() == name)
 }
 
-/// Serves until the user or the system asks for an end.
+/// Serves until the user or the system ends it.
 pub(super) fn run(simulator: &Simulator) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     runtime.block_on(async {

@@ -1,4 +1,4 @@
-//! Opens the window, or says in one sentence why it cannot.
+//! Start of the window, or one sentence why it cannot open.
 
 use std::{
     panic::{self, AssertUnwindSafe},
@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-/// The smallest window, in points.
+/// Minimum size of the window, in points.
 const SMALLEST: [f32; 2] = [1024.0, 640.0];
 
 pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
@@ -39,13 +39,12 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
             .with_app_id("azel")
             .with_inner_size([1440.0, 900.0])
             .with_min_inner_size(SMALLEST),
-        // Flat colours do not need it, and a software renderer pays for it in
-        // every pixel.
+        // Off: flat colours do not need it, and a software renderer pays for it in every pixel.
         dithering: false,
         ..Default::default()
     };
-    // A missing system library makes the window toolkit panic instead of
-    // returning an error. The operator needs a sentence, not a back-trace.
+    // A missing system library makes the window toolkit panic instead of returning an error.
+    // The operator needs a sentence, not a back-trace.
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|panic| tracing::error!("{panic}")));
     let outcome = panic::catch_unwind(AssertUnwindSafe(|| {

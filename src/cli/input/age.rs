@@ -1,16 +1,16 @@
-//! Elements that are too far from the time that is asked for.
+//! Warning about elements too far from the requested time.
 
 use jiff::Timestamp;
 
 use crate::{astro::time, orbit::Elements};
 
-/// SGP4 takes orbits of a longer period for deep space.
+/// Period beyond which SGP4 uses its deep-space theory.
 const DEEP_SPACE_PERIOD_S: f64 = 225.0 * 60.0;
-/// Elements can be relied on this far from their epoch, days.
+/// Days from the epoch for which elements are reliable.
 const NEAR_EARTH_DAYS: f64 = 14.0;
 const DEEP_SPACE_DAYS: f64 = 60.0;
 
-/// A sentence about elements whose epoch is too far from the time between `from` and `to`.
+/// Sentence about elements whose epoch is too far from the time between `from` and `to`.
 pub(super) fn caution<'a>(
     elements: impl Iterator<Item = &'a Elements>,
     from: Timestamp,
@@ -50,7 +50,7 @@ mod tests {
     #[test]
     fn old_elements_are_counted_and_the_worst_is_named() {
         let catalog = bundled().unwrap();
-        // Low and geosynchronous.
+        // A low and a geosynchronous satellite.
         let both = || [25_544, 54_743].map(|number| catalog.get(number).unwrap());
         let after = |days: f64| time::add_seconds(both()[0].epoch(), days * time::DAY_S);
         let said = |days: f64| caution(both().into_iter(), after(days), after(days + 0.5));

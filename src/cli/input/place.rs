@@ -1,4 +1,4 @@
-//! The site, with what a station file says of it.
+//! Site of the command line, completed from a station file.
 
 use std::{fs, path::Path};
 
@@ -12,24 +12,23 @@ use crate::{
     station::{self, NoteReason, Station},
 };
 
-/// The site, and the elevations that a pass has to reach there.
+/// Site, and the elevations that a pass must reach there.
 pub(in crate::cli) struct Place {
     pub(in crate::cli) site: Site,
-    /// Name of the station.
     pub(in crate::cli) name: Option<String>,
-    /// Elevation of AOS and LOS at the station; the horizon without one.
+    /// Elevation of AOS and LOS at the station; the horizon without a station.
     pub(in crate::cli) aos_elevation: Angle,
-    /// Elevation that a pass of the station has to reach.
+    /// Elevation that a pass of the station must reach.
     pub(in crate::cli) floor: Angle,
 }
 
-/// Settings whose default must not be used in silence, by the start of their place. The first antenna
-/// sets the elevation of AOS.
+/// Settings whose default must not be used silently, by the beginnings of their paths. The
+/// first antenna sets the elevation of AOS.
 const NEEDED: [&str; 3] =
     ["elevation_floor_deg", "antenna[0].limits.minimum_elevation_deg", "antenna[0].connection"];
 
 impl InputOptions {
-    /// The site of the command line, and of `station` what is left out there.
+    /// Site of the command line, with missing values from `station`.
     pub(in crate::cli) fn place(&self, station: Option<&Path>) -> anyhow::Result<Place> {
         let own = [self.lat, self.lon, self.alt];
         let is_whole = own.iter().all(Option::is_some);
@@ -67,7 +66,8 @@ fn read_station(path: &Path, needs_site: bool) -> anyhow::Result<Station> {
             return Err(anyhow!("{}: {why}", note.place)).with_context(unusable);
         }
     }
-    // Without it the reader gives the default, which is right for a window that shows it.
+    // If it is missing the reader uses the default, which is right only for a window that
+    // shows it.
     let table: toml::Table = toml::from_str(&fs::read_to_string(path)?)?;
     if needs_site && !table.contains_key("site") {
         bail!("{}: it has no site", unusable());

@@ -1,4 +1,4 @@
-//! Reads the elements and picks the satellites that are asked for. What cannot be used is named
+//! Reading of elements, and selection of the requested satellites. Unusable input is named
 //! on standard error, object by object.
 
 use std::{
@@ -16,18 +16,17 @@ use crate::{
     plan::pass_export::Satellite,
 };
 
-/// Limit of one file; the whole catalogue as XML has 30 MB.
+/// Size limit of one file; the whole catalogue as XML has 30 MB.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// The satellites that are asked for.
+/// Requested satellites.
 pub(in crate::cli) struct Satellites {
-    /// In the order of their catalogue numbers.
+    /// Sorted by catalogue number.
     pub(in crate::cli) list: Vec<Satellite>,
-    /// Everything that was asked for could be used.
+    /// Everything requested could be used.
     pub(in crate::cli) is_complete: bool,
 }
 
-/// A file that was read.
 struct Merged {
     file: String,
     summary: MergeSummary,
@@ -35,7 +34,7 @@ struct Merged {
 }
 
 impl InputOptions {
-    /// Reads the satellites that are asked for; an error when there are none.
+    /// Reads the requested satellites; an error if there are none.
     pub(in crate::cli) fn satellites(&self, station: Option<&Path>) -> anyhow::Result<Satellites> {
         let mut said = Said { errors: io::stderr().lock(), is_complete: true };
         let mut files = self.own_files(&mut said);
@@ -44,7 +43,8 @@ impl InputOptions {
         {
             files.extend(self.library_files(station, &mut said)?);
         }
-        // Of two sets of one epoch the first stays: the order on the command line changes nothing.
+        // Of two sets with the same epoch the first stays: make the order on the command line
+        // irrelevant.
         files.sort();
         files.dedup();
         let mut catalog = Catalog::default();
@@ -81,7 +81,7 @@ impl InputOptions {
         Ok(Satellites { list, is_complete: said.is_complete })
     }
 
-    /// The files of `--elements`, and those in its folders.
+    /// Files of `--elements`, and those in its folders.
     fn own_files(&self, said: &mut Said) -> Vec<PathBuf> {
         let mut files = Vec::new();
         for path in &self.elements {
@@ -102,7 +102,7 @@ impl InputOptions {
         files
     }
 
-    /// The files of the sources of a station that are asked for, as the library keeps them.
+    /// Library files of the requested sources of a station.
     fn library_files(&self, station: &Path, said: &mut Said) -> anyhow::Result<Vec<PathBuf>> {
         let sources = load_sources(&station.with_file_name("sources.toml"))?;
         let names = || sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>();
@@ -142,12 +142,12 @@ fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// The objects that are asked for.
+/// Requested objects.
 struct Asked<'a> {
     numbers: &'a [u32],
     /// In lower case.
     names: Vec<String>,
-    /// Names, in lower case, of the objects that were found.
+    /// Names of the objects found, in lower case.
     found: Vec<String>,
     /// A sentence for each number and name that was not found.
     missing: Vec<String>,
@@ -189,8 +189,8 @@ impl<'a> Asked<'a> {
         self.names.iter().any(|name| lower.contains(name))
     }
 
-    /// True where a refused set can be of an object that is asked for. A reader names it by its
-    /// name, by its number, or not at all.
+    /// Whether a refused set may belong to a requested object. A reader identifies the set by
+    /// its name, by its number, or not at all.
     fn concerns(&self, object: Option<&str>) -> bool {
         let is_some_missing = !self.missing.is_empty();
         let Some(object) = object.filter(|_| !self.is_everything()) else {
@@ -206,19 +206,19 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Standard error, and whether it was told of something unusable.
+/// Standard error, and whether anything unusable was reported there.
 struct Said {
     errors: io::StderrLock<'static>,
     is_complete: bool,
 }
 
 impl Said {
-    /// Names the sets of a file that cannot be used, and the oddities of those that can.
+    /// Reports the unusable sets of a file, and the oddities of usable ones.
     fn file(&mut self, merged: &Merged, asked: &Asked<'_>) {
         let Merged { file, summary, holds_elements } = merged;
         let object =
             |object: &Option<String>| object.clone().unwrap_or_else(|| "unnamed object".to_owned());
-        // Any object may have been in a file that holds nothing.
+        // Any object may have been in a file without elements.
         let concerns =
             |object: &Option<String>| !holds_elements || asked.concerns(object.as_deref());
         for Refusal { line, object: name, reason } in &summary.refused {
@@ -245,7 +245,7 @@ impl Said {
     }
 
     fn line(&mut self, sentence: &str) {
-        // Nobody is left to be told that standard error is closed.
+        // An error is ignored: standard error is closed.
         let _ = writeln!(self.errors, "{sentence}");
     }
 }

@@ -1,4 +1,4 @@
-//! Values of the command line, each with a sentence about what it may be.
+//! Values of the command line, each with a sentence about the permitted ones.
 
 use jiff::{Timestamp, civil, tz::TimeZone};
 
@@ -67,12 +67,12 @@ fn above_zero(text: &str, most: f64, unit: &str) -> Result<f64, String> {
     }
 }
 
-/// `now`, a date for its first instant in UTC, or RFC 3339.
+/// Parses `now`, a date (its first instant in UTC), or RFC 3339.
 pub(in crate::cli) fn instant(text: &str) -> Result<Timestamp, String> {
     if text.eq_ignore_ascii_case("now") {
         return Ok(Timestamp::now());
     }
-    // The parser of dates passes over a time behind the date.
+    // Checked by length: the parser of dates ignores a time behind the date.
     let date = (text.len() == 10).then(|| text.parse::<civil::Date>().ok()).flatten();
     let midnight = date.and_then(|date| date.to_zoned(TimeZone::UTC).ok());
     midnight.map(|midnight| midnight.timestamp()).or_else(|| text.parse().ok()).ok_or_else(|| {

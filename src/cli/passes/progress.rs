@@ -1,4 +1,4 @@
-//! A line on the terminal that tells how far long work is.
+//! Progress line on the terminal for long work.
 
 use std::{
     io::{self, IsTerminal as _, Write as _},
@@ -6,12 +6,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Work that is done sooner needs no line.
+/// Duration below which work needs no progress line.
 const LONG: Duration = Duration::from_millis(700);
-/// How often the line changes.
+/// Interval between changes of the line.
 const PERIOD: Duration = Duration::from_millis(100);
 
-/// Says nothing unless standard error is a terminal.
+/// Progress line; silent unless standard error is a terminal.
 pub(super) struct Progress {
     all: usize,
     next: Option<Mutex<Instant>>,
@@ -25,9 +25,9 @@ impl Progress {
         Self { all, next, start }
     }
 
-    /// `done` satellites are done. Called by all threads.
+    /// Shows that `done` satellites are done. Called by all threads.
     pub(super) fn show(&self, done: usize) {
-        // A thread that would have to wait has nothing newer to say.
+        // A thread that would have to wait has nothing newer to show.
         let Some(Ok(mut next)) = self.next.as_ref().map(Mutex::try_lock) else { return };
         let now = Instant::now();
         if now >= *next {
@@ -37,7 +37,7 @@ impl Progress {
         }
     }
 
-    /// Takes the line away again.
+    /// Removes the line.
     pub(super) fn end(&self) {
         if self.next.is_some() && self.start.elapsed() >= LONG {
             let _ = write!(io::stderr(), "\r\x1b[K");
