@@ -1,5 +1,4 @@
-//! The makes of controllers that there are: the lists to which another is
-//! added. The demo station is made of them.
+//! Lists of all makes, to which a new one is added. The demo station is built from them.
 
 mod demo;
 
@@ -11,10 +10,10 @@ use crate::{
     station::ControllerSpec,
 };
 
-/// All that there are, as the reader of the station file wants them.
+/// Descriptions of all makes, for the reader of the station file.
 pub static SPECS: &[&ControllerSpec] = &[&satrak::SPEC, &rotator_genius::SPEC, &rc2000c::SPEC];
 
-/// How each is simulated on the command line.
+/// Simulators of all makes, as commands.
 pub static SIMULATORS: &[sim::Command] =
     &[sim::satrak::COMMAND, sim::rotator_genius::COMMAND, sim::rc2000c::COMMAND];
 

@@ -1,4 +1,4 @@
-//! The station that is shown before there are settings.
+//! Demo station, used before there are settings.
 
 use crate::{
     controller::{rc2000c::Calibration, satrak::ELEMENT_FILE},
@@ -7,7 +7,7 @@ use crate::{
     station::{Antenna, AntennaId, Mount, Station},
 };
 
-/// Where the three simulated controllers answer.
+/// Addresses of the three simulated units.
 #[derive(Debug, Clone, Default)]
 pub struct DemoAddresses {
     /// Host and port.
@@ -19,8 +19,8 @@ pub struct DemoAddresses {
 }
 
 impl Station {
-    /// The station that is shown before there are settings: one simulated
-    /// controller of each make, and well-known weather and research satellites.
+    /// Demo station, used before there are settings: a simulated unit of each make, and
+    /// well-known weather and research satellites.
     pub fn demo(addresses: &DemoAddresses) -> Self {
         let mut antennas = vec![
             satrak(&addresses.satrak),
@@ -36,13 +36,13 @@ impl Station {
 
 fn satrak(address: &str) -> Antenna {
     let mut antenna = Antenna::satrak("Satrak", address);
-    // A Satrak has this setting, and it takes any text.
+    // Cannot fail: a Satrak has this setting, and it accepts any text.
     antenna.connection.put(&ELEMENT_FILE, BUNDLED_FILE).ok();
     antenna
 }
 
-/// The mount of the simulated RC2000C turns from east over south to west, 20
-/// counts a degree.
+/// Antenna of the simulated RC2000C. It turns from east over south to west, 20 counts a
+/// degree.
 fn rc2000c(address: &str) -> Antenna {
     let mut antenna = Antenna::rc2000c("RC2000C", address);
     antenna.mount = Mount::AzEl {
@@ -56,7 +56,7 @@ fn rc2000c(address: &str) -> Antenna {
         azimuth: vec![point(30, 90.0), point(3630, 270.0)],
         elevation: vec![point(30, 0.0), point(1830, 90.0)],
     };
-    // An RC2000C has these settings, and the points make a scale.
+    // Cannot fail: an RC2000C has these settings, and the points make a scale.
     calibration.put_into(&mut antenna.connection).ok();
     antenna
 }

@@ -1,4 +1,4 @@
-//! What every make has to keep to.
+//! Rules that every make must keep.
 
 mod file;
 

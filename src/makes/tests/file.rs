@@ -155,7 +155,7 @@ fn what_a_make_alone_has_comes_back_as_it_was_saved() {
     assert_eq!(loaded.station, station);
 }
 
-/// The one antenna of a file and the places of what was not taken over.
+/// The only antenna of a file, and the paths of the settings that were not adopted.
 fn antenna(text: &str) -> (Antenna, Vec<String>) {
     let (_folder, path) = written(&format!("[[antenna]]\n{text}"));
     let Loaded { station, notes } = load(&path).unwrap();
@@ -227,7 +227,7 @@ fn ends_of_an_axis_that_cross_are_not_used() {
     ));
     assert_eq!(read.mount.travel_deg(), [(180.0, 360.0), (30.0, 90.0)]);
     assert_eq!(places, ["mount.azimuth_to_deg", "mount.elevation_to_deg"]);
-    // The usual upper end does not fit any more: the least that does stands in.
+    // The usual upper end does not fit any more: the least that does is used.
     let (read, places) = antenna(&format!("{genius}[antenna.mount]\nazimuth_from_deg = 360\n"));
     assert_eq!(read.mount.travel_deg(), [(360.0, 361.0), (0.0, 90.0)]);
     assert_eq!(places, Vec::<String>::new());
@@ -245,10 +245,9 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
     }
 }
 
-/// What the file of a station with antennas of every make looks like: it must
-/// stay readable for ever.
+/// Station file with antennas of every make. It must stay readable for ever.
 const WRITTEN: &str = include_str!("station.toml");
-/// The same, from before antennas had ids.
+/// The same station from before antennas had ids.
 const BEFORE_IDS: &str = include_str!("station-before-ids.toml");
 
 #[test]
@@ -276,7 +275,7 @@ fn the_file_is_what_it_always_was() {
     assert_eq!((read, notes), (station, Vec::new()));
 }
 
-/// One after the other.
+/// Numbers the antennas consecutively.
 fn give_ids(station: &mut Station) {
     for (antenna, number) in station.antennas.iter_mut().zip(1..) {
         antenna.id = AntennaId(number);
