@@ -1,9 +1,8 @@
-//! How long 30,000 objects take to read in each form: `cargo bench --bench elements`.
+//! Time to read 30,000 objects in each form: `cargo bench --bench elements`.
 //!
-//! The objects are the bundled ones and, under other numbers, as many of them
-//! again as are missing.
+//! The objects are the bundled ones, repeated under other numbers to make up the total.
 
-// A bench talks to whoever started it, and ends loudly.
+// A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used)]
 
 use std::{fmt::Write as _, hint::black_box, time::Instant};
@@ -12,9 +11,9 @@ use azel::orbit::{Elements, bundled, read_elements, write_omm_csv, write_omm_jso
 use serde_json::{Map, Value};
 
 const OBJECTS: usize = 30_000;
-/// The first number of those that come again; a TLE carries it too.
+/// First number of the repeated objects, low enough for a TLE.
 const FIRST_NUMBER: usize = 300_000;
-/// The shortest of so many runs counts.
+/// Number of runs, of which the shortest counts.
 const RUNS: usize = 7;
 
 type Message = Map<String, Value>;
@@ -37,7 +36,7 @@ fn written<T>(write: impl FnOnce(&mut Vec<u8>) -> std::io::Result<T>) -> String 
     String::from_utf8(out).unwrap()
 }
 
-/// The fields of a message, and what they hold.
+/// Fields of a message, with their values.
 fn fields(message: &Message) -> impl Iterator<Item = (&str, String)> {
     message.iter().map(|(key, value)| {
         (key.as_str(), value.as_str().map_or_else(|| value.to_string(), str::to_owned))

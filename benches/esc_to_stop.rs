@@ -1,8 +1,8 @@
-//! The time from Esc pressed to `STOP=` on the wire, in the real window on a
-//! virtual screen. Needs Xvfb and xdotool. With the path of another build of the
-//! program in `AZEL_BESIDE` both are measured by turns.
+//! Time from Esc pressed to `STOP=` on the wire, in the real window on a virtual screen.
+//! Needs Xvfb and xdotool. With the path of another build of the program in `AZEL_BESIDE`
+//! both are measured in turn.
 
-// A bench talks to whoever started it, and ends loudly.
+// A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
 
 use std::{
@@ -29,7 +29,7 @@ use tokio::{
     runtime::Runtime,
 };
 
-/// EUTELSAT 7C, which stands in the sky of the usual site.
+/// EUTELSAT 7C, which is stationary in the sky of the usual site.
 const SATELLITE: u32 = 44_334;
 
 struct Running(Child);
@@ -47,17 +47,17 @@ fn on_screen(display: &str, program: &str) -> Command {
     command
 }
 
-/// What the antenna does when Esc is pressed.
+/// Activity of the antenna when Esc is pressed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Doing {
     Nothing,
     /// A jog key is held.
     Jogging,
-    /// The unit tracks by itself.
+    /// On-board track.
     Tracking,
 }
 
-/// One window and its unit, and what was measured of it so far.
+/// A window with its unit and the measurements so far.
 struct Bench {
     name: String,
     keys: ChildStdin,
@@ -90,7 +90,7 @@ fn main() {
                 (screen, Bench::start(name, program, &display, hz, stall))
             })
             .collect();
-        // By turns, so that all meet the same load.
+        // In turn, so that all meet the same load.
         for press in 0..presses {
             for (_, bench) in &mut benches {
                 bench.press(press, doing);
@@ -112,8 +112,7 @@ fn screen(display: u32) -> Running {
     screen
 }
 
-/// A way to the unit on which every reply takes `stall` longer and every
-/// request goes straight through.
+/// A relay to the unit that delays every reply by `stall` and no request.
 async fn stalling_way(unit: SocketAddr, stall: Duration) -> SocketAddr {
     let listener = TcpListener::bind(("127.0.0.1", 0)).await.expect("a port");
     let address = listener.local_addr().expect("an address");
@@ -204,7 +203,7 @@ impl Bench {
 
     fn press(&mut self, press: u64, doing: Doing) {
         if doing == Doing::Jogging {
-            // Manual is not to be had before standstill is proved.
+            // Manual is unavailable before standstill is proved.
             sleep(Duration::from_millis(2500));
             let before = self.arrived("MOVE=").len();
             self.type_in("key m");
@@ -229,7 +228,7 @@ impl Bench {
         }
     }
 
-    /// Another client lets the unit track.
+    /// Lets the unit track by the order of another client.
     fn track(&self) {
         let elements = bundled().expect("elements");
         let name = elements.get(SATELLITE).expect("it is there").name();
@@ -255,7 +254,7 @@ impl Bench {
         writeln!(self.keys, "{line}").expect("xdotool takes keys");
     }
 
-    /// When the next one came in after the first `before`.
+    /// Arrival of the next frame with `word` after the first `before`.
     fn next(&self, word: &str, before: usize) -> Instant {
         let start = Instant::now();
         loop {
@@ -271,7 +270,7 @@ impl Bench {
         }
     }
 
-    /// When each frame came in that begins with `word`.
+    /// Arrivals of all frames that begin with `word`.
     fn arrived(&self, word: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
         received.filter(|(_, payload)| payload.starts_with(word)).map(|(at, _)| at).collect()

@@ -1,7 +1,7 @@
-//! What one frame costs without painting it: logic, layout and tessellation of
-//! the Operate view on the demo station, while the antenna stands.
+//! Cost of a frame without painting: logic, layout and tessellation of the Operate view on
+//! the demo station, while the antenna stands.
 
-// A bench talks to whoever started it, and ends loudly.
+// A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used)]
 
 use std::time::{Duration, Instant};

@@ -12,7 +12,7 @@
 //! minutes for the whole catalog and most of an hour for a week of it, which is
 //! therefore left out unless `-- --all` asks for it.
 
-// A bench talks to whoever started it, and ends loudly.
+// A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
 
 use std::{hint::black_box, time::Instant};
@@ -34,7 +34,7 @@ const LONGITUDE_DEG: f64 = 29.17;
 const ALTITUDE_M: f64 = 100.0;
 const START: &str = "2026-08-12T00:00:00Z";
 const GRID_S: f64 = 10.0;
-/// The shortest of so many runs counts, where a run is short.
+/// Number of runs where a run is short; the shortest counts.
 const RUNS: usize = 7;
 
 fn site() -> Site {
@@ -46,7 +46,7 @@ fn search(days: f64) -> PassSearch {
     PassSearch::new(site(), from, time::add_seconds(from, days * time::DAY_S))
 }
 
-/// One satellite, prepared for everyone.
+/// A satellite, prepared for each method.
 struct Satellite {
     number: u32,
     ours: Propagator,
@@ -70,7 +70,7 @@ impl Satellite {
     }
 }
 
-/// Seconds of the shortest run, and what the last one found.
+/// Seconds of the shortest run, and the result of the last one.
 fn timed<T>(runs: usize, mut run: impl FnMut() -> T) -> (f64, T) {
     let mut shortest_s = f64::INFINITY;
     let mut result = None;
@@ -96,7 +96,7 @@ const THEIR_SITE: GeodeticPoint = GeodeticPoint {
     altitude: ALTITUDE_M,
 };
 
-/// What `then` does with each pass included.
+/// Seconds and number of passes of `sgp4-predict`, with `then` called for each pass.
 fn theirs(
     satellites: &[Satellite],
     days: f64,
@@ -131,10 +131,10 @@ fn theirs(
     })
 }
 
-/// The greatest elevation of a pass, and the directions of AOS and LOS.
+/// Maximum elevation of a pass, and the directions of AOS and LOS.
 fn describe(predictor: &Predictor, transit: &Transit) {
     let Transit { start, end } = *transit;
-    // Two steps within the pass are the fewest in which a fall is seen.
+    // At least two steps within the pass are needed to see a fall.
     let scan_step = ((end - start) / 3).clamp(TimeDelta::milliseconds(1), TimeDelta::minutes(30));
     black_box(predictor.observe_at(start, THEIR_SITE)).unwrap();
     black_box(predictor.observe_at(end, THEIR_SITE)).unwrap();
@@ -142,10 +142,10 @@ fn describe(predictor: &Predictor, transit: &Transit) {
     black_box(predictor.max_elevation_with_opts(start..end, THEIR_SITE, options)).unwrap();
 }
 
-/// The sky over the site at the instants of a grid.
+/// Sky over the site at the instants of a grid.
 struct Grid {
     from: jiff::Timestamp,
-    /// The direction up and the site, in the axes of the states, per step.
+    /// Upward direction and site, in the axes of the states, per step.
     steps: Vec<(DVec3, DVec3)>,
 }
 
@@ -163,7 +163,7 @@ impl Grid {
         (to_teme * up, to_teme * frames::site_ecef_km(site()))
     }
 
-    /// Sine of the elevation, below the horizon where there is no state.
+    /// Sine of the elevation; below the horizon without a state.
     fn height(&self, one: &Satellite, at_s: f64, (up, site_km): (DVec3, DVec3)) -> f64 {
         let minutes = (time::seconds_between(one.epoch, self.from) + at_s) / 60.0;
         one.plain.propagate(sgp4::MinutesSinceEpoch(minutes)).map_or(-1.0, |state| {
@@ -228,14 +228,14 @@ fn grid(satellites: &[Satellite], days: f64) -> (f64, usize) {
     timed(1, || satellites.iter().map(|one| grid.passes(one)).sum())
 }
 
-/// Resident memory at its most, MB.
+/// Peak of the resident memory, MB.
 fn max_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok()? / 1024.0)
 }
 
-/// The whole task once, before anything of the others is in memory.
+/// Runs the whole task once, before any memory is used by the others.
 fn measure_memory() {
     let before_mb = max_memory_mb();
     let catalog = bundled().unwrap();

@@ -1,5 +1,5 @@
-//! All tests of the library from outside, and of the window without a display. One
-//! binary: each would link everything anew.
+//! Tests of the library from outside, and of the window without a display. They share one
+//! binary because each binary would link everything anew.
 
 #![allow(
     clippy::unwrap_used,

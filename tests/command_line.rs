@@ -1,4 +1,4 @@
-//! The program as it is called from a shell.
+//! The program as called from a shell.
 
 use std::process::{Command, Output};
 

@@ -1,4 +1,4 @@
-//! Parts that the tests of several subjects share.
+//! Parts shared by the tests of several subjects.
 
 pub(crate) mod clock;
 pub(crate) mod dice;

@@ -1,5 +1,5 @@
-//! The dead-man as a process of its own, beside real sockets: whatever becomes of
-//! the program that started it, the unit gets STOP.
+//! The dead-man as a process of its own, on real sockets: whatever happens to the program
+//! that started it, the unit gets STOP.
 
 use std::{
     io::{Read as _, Write as _},
@@ -11,7 +11,7 @@ use std::{
 
 const STOP: &[u8] = b"$STOP=*29\r\n";
 
-/// A child that watches, the pipe to it, and the unit's end of the link.
+/// A watching child, the pipe to it, and the unit's end of the link.
 struct Watched {
     child: Child,
     beat: Option<ChildStdin>,
@@ -49,7 +49,7 @@ impl Watched {
         }
     }
 
-    /// Whether anything reaches the unit within `time`.
+    /// Whether the unit receives anything within `time`.
     fn hears_within(&mut self, time: Duration) -> bool {
         self.unit.set_read_timeout(Some(time)).unwrap();
         let mut first = [0; STOP.len()];
@@ -62,7 +62,7 @@ impl Watched {
         }
     }
 
-    /// All that reaches the unit until the connection is shut down.
+    /// Everything that the unit receives until the connection is shut down.
     fn rest(&mut self) -> Vec<u8> {
         self.unit.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
         let mut rest = Vec::new();

@@ -1,5 +1,5 @@
-//! What a make declares, its controller takes: a change of each group of settings and each
-//! action come to an outcome that the operator sees.
+//! Controllers accept what their makes declare: a change of each group of settings and
+//! each action have an outcome that the operator sees.
 
 use std::collections::BTreeSet;
 
@@ -19,10 +19,10 @@ use jiff::Timestamp;
 use crate::common::rig::{self, Rig};
 
 const START: Timestamp = Timestamp::UNIX_EPOCH;
-/// How long an outcome may take, and how long an idle unit is looked at, seconds.
+/// Time limit of an outcome, and time for which an idle unit is watched, seconds.
 const OUTCOME_S: u64 = 20;
 
-/// An antenna of each variant, by each choice that its connection has.
+/// Antennas of each variant, with each choice of their connection.
 fn antennas(spec: &'static ControllerSpec) -> Vec<Antenna> {
     let usual = spec.antenna("Dish", "in memory");
     let mut antennas = vec![usual.clone()];
@@ -45,7 +45,7 @@ fn variant(antenna: &Antenna) -> &'static Variant {
     (antenna.connection.spec().variant)(&antenna.connection)
 }
 
-/// Something that the field can hold.
+/// A value that the field can have.
 fn some_value(field: &Field) -> Value {
     match field.kind {
         Kind::Flag => Value::Flag(false),
@@ -61,7 +61,7 @@ fn some_value(field: &Field) -> Value {
     }
 }
 
-/// In the hands of the operator, with all that it reads at first.
+/// A rig in Manual, after its first readings.
 async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Control<U>> {
     let mut rig = Rig::new(control, START, |dial, clock| rig::session(antenna, dial, clock));
     rig.send(Command::Connect);
@@ -74,7 +74,7 @@ async fn in_manual<U: Unit>(antenna: &Antenna, control: Control<U>) -> Rig<Contr
     rig
 }
 
-/// Puts what the unit holds into each group once more.
+/// Writes the unit's own values to a group once more.
 async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Group, ticket: u64) {
     rig.send(Command::ReadGroup(group.key));
     rig.seconds(5.0).await;
@@ -103,7 +103,7 @@ async fn write_settings<U: Unit>(rig: &mut Rig<Control<U>>, group: &'static Grou
     rig.until(group.key, OUTCOME_S, is_over).await;
 }
 
-/// What an operator can see of a unit besides its angles.
+/// Everything an operator can see of a unit besides its angles.
 async fn seen<U: Unit>(rig: &mut Rig<Control<U>>) -> (BTreeSet<String>, Vec<String>, Vec<Event>) {
     rig.events();
     let before = rig.control.received().len();
@@ -128,7 +128,7 @@ async fn act<U: Unit>(rig: &mut Rig<Control<U>>, action: &'static Action) {
     assert!(is_new, "{} is declared and not taken", action.key);
 }
 
-/// Both for one antenna whose unit is made by `unit`.
+/// Tries settings and actions of one antenna, with units made by `unit`.
 async fn takes_all<U: Unit>(antenna: &Antenna, unit: impl Fn() -> Control<U>) {
     let Variant { groups, actions, .. } = variant(antenna);
     let mut rig = in_manual(antenna, unit()).await;

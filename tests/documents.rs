@@ -1,4 +1,4 @@
-//! What the documents say of the code is there.
+//! Statements of the documents about the code hold.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-/// Every Rust file below `folder`, by its path from the top and with its text.
+/// Rust files below `folder`, with their paths from the top and their texts.
 fn sources(folder: &Path, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
@@ -38,7 +38,7 @@ fn every_test_that_the_fault_matrix_names_is_there() {
     assert!(!matrix.contains("not tested"), "a fault is not tested");
 }
 
-/// What is above the tests of a file.
+/// Part of a file above its tests.
 fn product(text: &str) -> &str {
     const HEAD: &str = "#[cfg(test)]\n";
     let is_module = |line: &str| line.contains("mod ") && line.ends_with('{');
@@ -47,12 +47,12 @@ fn product(text: &str) -> &str {
     &text[..tests.unwrap_or(text.len())]
 }
 
-/// The layer of a file, by its path below `src`.
+/// Layer of a file, by its path below `src`.
 fn layer(path: &str) -> &str {
     path.split(['/', '\\']).next().unwrap_or_default().trim_end_matches(".rs")
 }
 
-/// The layers that a text names after `crate::`, in braces too.
+/// Layers that a text names after `crate::`, in braces too.
 fn named(text: &str) -> BTreeSet<String> {
     let word = |text: &str| -> String {
         text.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect()
@@ -82,8 +82,8 @@ fn named(text: &str) -> BTreeSet<String> {
     found
 }
 
-/// The table of layers in the architecture text: what each may know, and what those
-/// know in turn.
+/// Layers that each layer may use, directly or indirectly, by the table of the
+/// architecture text.
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(top.join("docs/architecture.md")).unwrap();
@@ -152,8 +152,8 @@ fn every_test_file_is_part_of_a_test_binary() {
     }
 }
 
-/// Whether a file may name a make: its own folders, the lists of makes, and what starts
-/// the simulators.
+/// Whether a file may name a make: the make's own folders, the lists of makes, and the
+/// start of the simulators.
 fn may_name_a_make(path: &str, makes: &BTreeSet<String>) -> bool {
     let mut parts = path.split('/').map(|part| part.trim_end_matches(".rs"));
     let lists =

@@ -26,7 +26,8 @@ const FIELDS: [(&str, &str); 12] = [
     ("REV_AT_EPOCH", "1"),
 ];
 
-/// A form: what stands before the objects, one object, between two, and after them.
+/// A form of elements: text before the objects, one object, text between two, text after
+/// them.
 #[derive(Debug, Clone)]
 struct Form {
     before: String,
@@ -65,7 +66,7 @@ fn forms() -> [Form; 5] {
     ]
 }
 
-/// One change to a text.
+/// A change to a text.
 #[derive(Debug, Clone)]
 enum Change {
     Insert(Vec<u8>),
@@ -75,7 +76,7 @@ enum Change {
 }
 
 fn changes() -> impl Strategy<Value = Vec<(prop::sample::Index, Change)>> {
-    // What the forms are made of comes more often than other bytes.
+    // The characters of the forms are more frequent than other bytes.
     let telling = prop::sample::select(b"{}[]\",:\\<>/&;!=-+.\n\r\t 0129eE#ACZ\0\xff\xc3".to_vec());
     let byte = prop_oneof![3 => telling, 1 => any::<u8>()].boxed();
     let change = prop_oneof![
@@ -152,7 +153,7 @@ proptest! {
     }
 }
 
-/// Numbers of an orbit, and numbers that are none.
+/// Numbers of an orbit, and values that are not numbers.
 fn number(usual: std::ops::Range<f64>) -> impl Strategy<Value = f64> {
     let odd = [0.0, -0.0, 1e-300, 1e12, 1e17, 1e21, -1e21, 1e300, 359.999_999, 360.0, 180.0];
     prop_oneof![8 => usual, 1 => prop::sample::select(odd.to_vec()), 1 => any::<f64>()]

@@ -1,4 +1,4 @@
-//! The library against a real server on loopback.
+//! Library against a real server on loopback.
 
 use std::{
     fs,
@@ -20,13 +20,13 @@ const BUNDLED: &[u8] = include_bytes!("../assets/elements/active_2026-08-11.tle.
 const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 8 << 20 };
 const HOUR: SignedDuration = SignedDuration::from_hours(1);
 
-/// One answer of the server, to one connection.
+/// Answer of the server to one connection.
 enum Reply {
-    /// Status, more header lines, body.
+    /// Status, additional header lines, body.
     Whole(u16, String, Vec<u8>),
-    /// A body that ends before the length its header tells.
+    /// A body shorter than the length in its header.
     Torn(Vec<u8>),
-    /// Nothing at all.
+    /// No answer.
     Silence,
 }
 
@@ -38,7 +38,7 @@ fn status(status: u16) -> Reply {
     Reply::Whole(status, String::new(), Vec::new())
 }
 
-/// A server that gives its replies in turn and remembers what it was asked.
+/// A server that gives its replies in order and records the requests.
 struct Server {
     address: SocketAddr,
     requests: Arc<Mutex<Vec<String>>>,
@@ -67,13 +67,13 @@ impl Server {
                         (format!("200 X\r\nContent-Length: {}", body.len() + 1), body)
                     }
                     Reply::Silence => {
-                        // Until the other side gives up.
+                        // Wait until the other side gives up.
                         drop(reader.read_to_end(&mut Vec::new()));
                         continue;
                     }
                 };
                 let head = format!("HTTP/1.1 {head}\r\nConnection: close\r\n\r\n");
-                // The other side may have stopped to listen: it reads no more than its limit.
+                // The other side may have stopped reading: it reads no more than its limit.
                 drop(stream.write_all(head.as_bytes()).and_then(|()| stream.write_all(&body)));
             }
         };
@@ -105,7 +105,7 @@ fn start() -> Timestamp {
     "2026-08-12T12:00:00Z".parse().unwrap()
 }
 
-/// Asks once and reads what is held then, in a library opened anew.
+/// Refreshes once, then loads from a library opened anew.
 fn refresh(
     folder: &Path,
     source: &Source,
@@ -219,7 +219,7 @@ fn whatever_goes_wrong_leaves_what_was_held() {
         let problem = report.fetch_problem.unwrap().to_string();
         assert!(problem.starts_with(text), "{problem}, not {text}");
     }
-    // Nobody listens there any more.
+    // An address where nobody listens any more.
     let gone = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let source = Source { name: "gone".into(), place: SourcePlace::Web(format!("http://{gone}/")) };
     let (_, report) = refresh(folder.path(), &source, start(), false, LIMITS);
@@ -258,7 +258,8 @@ fn files_folders_and_servers_make_one_catalog() {
     assert_eq!(catalog.groups_of(5).collect::<Vec<_>>(), ["own", "sets"]);
     let counts: Vec<_> =
         reports.iter().map(|report| (report.objects(), report.refused())).collect();
-    // In the folder: one that is no object. One older than the operator's own is no fault.
+    // One file of the folder has no object. Elements older than the operator's own are no
+    // fault.
     assert_eq!(counts, [(1, 0), (2, 1), (0, 0), (0, 0), (0, 0)]);
     let older = |report: &SourceReport| report.files.iter().map(|file| file.merge.older).sum();
     assert_eq!(reports.iter().map(older).collect::<Vec<usize>>(), [0, 1, 0, 0, 0]);

@@ -1,5 +1,5 @@
-//! What fuzzing has found, and what it starts from, is harmless: without a
-//! nightly toolchain, by the same functions as in `fuzz/targets`.
+//! Findings and seeds of fuzzing are harmless: tested without a nightly toolchain, by the
+//! same functions as in `fuzz/targets`.
 
 use std::{
     fs, io,
@@ -10,8 +10,8 @@ use std::{
 #[path = "fuzz/entry/all.rs"]
 mod entry;
 
-/// Feeds every file of every folder of `kind` to the function it is for; at least
-/// one, and all of them harmless.
+/// Feeds every file of every folder of `kind` to its function; there must be at least one,
+/// and all must be harmless.
 fn harmless(kind: &str) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz").join(kind);
     let mut fed = 0;
@@ -31,7 +31,7 @@ fn harmless(kind: &str) {
     assert!(fed > 0 && harmful.is_empty(), "{harmful:?} of {fed}");
 }
 
-/// What a folder holds, by name.
+/// Entries of a folder, with their names.
 fn entries(folder: &Path) -> Vec<(PathBuf, String)> {
     let entry = |entry: io::Result<fs::DirEntry>| {
         let entry = entry.unwrap();

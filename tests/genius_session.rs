@@ -1,5 +1,5 @@
-//! The session of an antenna against a simulated Rotator Genius, in paused time:
-//! what the operator is shown, and what the device receives byte for byte.
+//! Session of an antenna against a simulated Rotator Genius, in paused time: the
+//! operator's view, and the unit's commands byte for byte.
 
 mod rig;
 mod script;

@@ -1,5 +1,4 @@
-//! Targets that are followed position by position, over real passes, against the
-//! simulated controllers in paused time.
+//! Program track over real passes, against the simulated units in paused time.
 
 mod rig;
 mod sky;

@@ -1,5 +1,5 @@
-//! The stretches of a pass that clear a horizon mask, against looks at every
-//! tenth of a second.
+//! Stretches of a pass that clear a horizon mask, compared with samples every tenth of a
+//! second.
 
 use azel::{
     astro::{HorizonMask, Site, time},
@@ -96,7 +96,7 @@ fn a_satellite_that_hardly_moves_stands_behind_a_wall_or_not() {
         let mask = HorizonMask::from_degrees([(0.0, level_deg)]).unwrap();
         assert_eq!(check(&satellite, &mask, &pass, 60.0), expected);
     }
-    // Up and down once a day through a level that lies between.
+    // A level that the satellite crosses up and down once a day.
     let mask = HorizonMask::from_degrees([(0.0, top_deg - 0.02)]).unwrap();
     assert!(check(&satellite, &mask, &pass, 60.0) >= 1);
 }

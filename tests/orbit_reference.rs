@@ -115,9 +115,8 @@ fn states_and_directions_agree_with_skyfield() {
     assert!(worst.iter().zip(allowed).all(|(worst, allowed)| *worst < allowed), "{worst:?}");
 }
 
-/// How far `point` is from the expected time, in seconds; zero where the
-/// elevation changes so slowly that the time says little and the elevation,
-/// within 0.000 02 degrees, says all.
+/// Error in time of `point`, in seconds. Zero where the elevation changes so slowly that
+/// the time says little, and the elevation is right within 0.000 02 degrees.
 fn off_s(propagator: &Propagator, site: Site, point: PassPoint, expected: Timestamp) -> f64 {
     let elevation = |at| propagator.look_from(site, at).unwrap().direction.elevation_deg();
     let rate_deg_s =
@@ -164,7 +163,7 @@ fn passes_agree_with_skyfield() {
                 }
                 worst_deg =
                     worst_deg.max((found.max_elevation().degrees() - expected.max_el).abs());
-                // The top of a long pass is flat: there the elevation above says all.
+                // The top of a long pass is flat: there the elevation is checked above.
                 if found.duration_s() < 1800.0 {
                     let off = time::seconds_between(at(expected.tca_s), tca.time).abs();
                     worst_tca_s = worst_tca_s.max(off);

@@ -1,6 +1,6 @@
-//! A STOP that is owed belongs to the unit: whatever becomes of the row of the
-//! settings, it is the first word on the next link. Real sockets, with a relay
-//! between that can be cut.
+//! A STOP that is owed belongs to the unit: whatever happens to the antenna in the
+//! settings, the STOP goes out first on the next link. Real sockets, with a relay between
+//! them that can be cut.
 
 use std::{
     net::SocketAddr,
@@ -25,10 +25,10 @@ use tokio::{
     sync::watch,
 };
 
-/// Longer than anything here takes.
+/// Longer than any step here takes.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// A program that tries to pay for a moment as it closes has given up by then: a link
-/// that is owed a STOP is dialled four times a second.
+/// Dials after which a program that tries to deliver its STOP at closing has given up: an
+/// owed link is dialled four times a second.
 const MANY_DIALS: u32 = 16;
 
 /// A simulated unit behind a relay.
@@ -37,7 +37,7 @@ struct Scene {
     control: Control,
     relay: SocketAddr,
     is_cut: watch::Sender<bool>,
-    /// How often the relay was dialled while it was cut.
+    /// Number of dials while the relay was cut.
     dials: Arc<AtomicU32>,
     woken: mpsc::Receiver<()>,
     marks: tempfile::TempDir,
@@ -100,7 +100,7 @@ impl Scene {
         }
     }
 
-    /// Holds a jog key until the antenna moves, and cuts the link in the middle.
+    /// Holds a jog key until the antenna moves, then cuts the link.
     fn cut_in_a_jog(&self, handle: &AntennaHandle) {
         self.until(handle, "all is read", |shown| shown.state.motion_lock == Some(false));
         handle.send(Command::Manual).unwrap();
@@ -130,8 +130,7 @@ impl Scene {
         });
     }
 
-    /// What the unit was told since it had received `before` frames, without
-    /// questions.
+    /// Orders that the unit has received after its first `before` frames, without questions.
     fn orders_since(&self, before: usize) -> Vec<String> {
         let received = self.control.received().into_iter().skip(before);
         received.map(|(_, frame)| frame).filter(|frame| !frame.contains('?')).collect()
@@ -140,7 +139,7 @@ impl Scene {
 
 async fn copy(mut near: TcpStream, unit: SocketAddr) {
     if let Ok(mut far) = TcpStream::connect(unit).await {
-        // An error is a link that broke.
+        // An error is a broken link.
         let _ = tokio::io::copy_bidirectional(&mut near, &mut far).await;
     }
 }
@@ -180,7 +179,7 @@ fn that_a_unit_is_not_known_to_stand_outlives_a_change_of_its_settings() {
     handle.send(Command::Disconnect).unwrap();
     scene.until(&handle, "let go of", |shown| shown.link == LinkState::Off);
     assert!(handle.snapshot().unproved && handle.stopper().is_wanted());
-    // Nobody reaches it, so nothing can prove that it stands.
+    // The unit is out of reach, so nothing can prove that it stands.
     scene.is_cut.send(true).unwrap();
     drop(handle);
     let handle = scene.open(&Antenna { beam_width_deg: 0.9, ..scene.antenna() });
@@ -214,7 +213,7 @@ fn a_mark_of_an_earlier_run_makes_stop_the_first_word() {
     let scene = Scene::start();
     let handle = scene.open(&scene.antenna());
     scene.cut_in_a_jog(&handle);
-    // As if that program had ended: its mark is all that is left.
+    // As if that program had ended: only its mark is left.
     let left = std::fs::read_dir(scene.marks.path()).unwrap().next().unwrap().unwrap();
     let mark = std::fs::read(left.path()).unwrap();
     drop(handle);

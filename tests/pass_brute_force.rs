@@ -1,10 +1,10 @@
-//! The pass search against brute force: the same propagator looked at every
-//! second, crossings by halving. None missed, none invented, times and
-//! elevations as promised.
+//! Pass search against brute force: the same propagator sampled every second, with
+//! crossings by bisection. No pass is missed or invented; times and elevations are as
+//! promised.
 //!
-//! A draw of satellites of every kind is taken. `AZEL_DRAW` in the environment
-//! sets how many (and a whole day instead of some hours), `AZEL_ELEMENTS` names
-//! a folder with more TLE files to draw from.
+//! The test draws satellites of every kind. `AZEL_DRAW` in the environment sets how many
+//! (and a whole day instead of some hours), `AZEL_ELEMENTS` names a folder with more TLE
+//! files to draw from.
 
 use azel::{
     astro::{Angle, Site, time},
@@ -18,8 +18,8 @@ const DEFAULT_HOURS: f64 = 5.0;
 const GRID_S: f64 = 1.0;
 const MAX_OFF_S: f64 = 0.01;
 const MAX_OFF_DEG: f64 = 1e-4;
-/// Where the elevation changes more slowly, in degrees per second, it is
-/// compared itself and not its time.
+/// Rate below which the elevation itself is compared instead of its time, degrees per
+/// second.
 const SLOW_DEG_S: f64 = 0.002;
 
 /// Sites at three latitudes.
@@ -28,7 +28,7 @@ fn sites() -> [Site; 3] {
         .map(|(latitude, longitude, altitude)| Site::new(latitude, longitude, altitude).unwrap())
 }
 
-/// An even draw, and as many again of the kinds that are rare.
+/// An even draw, and as many again of the rare kinds.
 fn drawn(draw: usize) -> Vec<Elements> {
     let catalog = bundled().unwrap();
     let mut all: Vec<Elements> = catalog.iter().cloned().collect();
@@ -51,13 +51,13 @@ fn drawn(draw: usize) -> Vec<Elements> {
     };
     let mut chosen = every(all.iter().collect(), draw / 2);
     chosen.extend(every(all.iter().filter(rare).collect(), draw / 2));
-    // A Molniya, a transfer orbit, one that stands still, one far out.
+    // A Molniya, a transfer orbit, a geostationary one, one far out.
     let known = [40_296, 25_867, 54_743, 43_435].map(|number| catalog.get(number).cloned());
     chosen.extend(known.into_iter().flatten());
     chosen
 }
 
-/// Elevation in degrees, at seconds from the start; `None` without a state.
+/// Elevation in degrees, by seconds from the start; `None` without a state.
 struct Sky {
     propagator: Propagator,
     site: Site,
@@ -88,7 +88,7 @@ impl Sky {
     }
 }
 
-/// One stay above the horizon, in seconds from the start.
+/// A stay above the horizon, in seconds from the start.
 struct Stay {
     aos_s: f64,
     los_s: f64,
@@ -96,7 +96,7 @@ struct Stay {
     highest_deg: f64,
 }
 
-/// The stays above the horizon on a grid of elevations.
+/// Stays above the horizon on a grid of elevations.
 fn stays(sky: &Sky, grid: &[f64], horizon_deg: f64, length_s: f64) -> Vec<Stay> {
     let mut found: Vec<Stay> = Vec::new();
     let mut last_up = false;
@@ -128,7 +128,7 @@ fn stays(sky: &Sky, grid: &[f64], horizon_deg: f64, length_s: f64) -> Vec<Stay> 
     found
 }
 
-/// The top by a search in thirds around the highest point of the grid.
+/// Refines the top by ternary search around the highest point of the grid.
 fn refine_top(sky: &Sky, stay: &mut Stay) {
     let mut low_s = (stay.highest_s - GRID_S).max(stay.aos_s);
     let mut high_s = (stay.highest_s + GRID_S).min(stay.los_s);
@@ -140,7 +140,7 @@ fn refine_top(sky: &Sky, stay: &mut Stay) {
     stay.highest_deg = sky.elevation_deg(stay.highest_s).unwrap();
 }
 
-/// What is wrong with the found passes.
+/// Faults of the found passes.
 fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
     let seconds = |at: Timestamp| time::seconds_between(sky.from, at);
     let mut faults = Vec::new();
@@ -176,7 +176,8 @@ fn faults(sky: &Sky, found: &[Pass], expected: &[Stay]) -> Vec<String> {
     faults
 }
 
-/// Grazing the floor, or up for less than the grid shows: either is right.
+/// Whether either answer is right: the stay grazes the floor, or is shorter than the grid
+/// shows.
 fn is_settled(stay: &Stay, floor_deg: f64) -> bool {
     (stay.highest_deg - floor_deg).abs() > MAX_OFF_DEG
 }

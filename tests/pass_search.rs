@@ -1,4 +1,4 @@
-//! The pass search against plain sampling, over orbits and sites of any kind.
+//! Pass search against plain sampling, over orbits and sites of any kind.
 
 use azel::{
     astro::{Angle, Site, time},
@@ -7,11 +7,10 @@ use azel::{
 use jiff::Timestamp;
 use proptest::prelude::*;
 
-/// Closer to the horizon than this, in degrees, either side is right.
+/// Distance from the horizon within which either side is right, degrees.
 const LEVEL_DEG: f64 = 1e-4;
 
-/// Whether the passes are those of samples taken every `step_s`: the times at
-/// which they differ.
+/// Times at which the passes differ from samples taken every `step_s`.
 fn differences(
     propagator: &Propagator,
     elements: &Elements,
@@ -24,7 +23,7 @@ fn differences(
     for index in 0..=(length_s / step_s) as usize {
         let at = time::add_seconds(search.from, index as f64 * step_s);
         let Ok(look) = propagator.look_from(search.site, at) else {
-            // After its epoch, what has come down stays down.
+            // After its epoch, a decayed satellite stays down.
             if at > elements.epoch() {
                 break;
             }
@@ -39,7 +38,7 @@ fn differences(
     differences
 }
 
-/// Every round orbit is like many others; the eccentric ones are all taken.
+/// A choice of the round orbits, which resemble each other, and all eccentric ones.
 fn chosen(catalog: &azel::orbit::Catalog) -> Vec<&Elements> {
     catalog
         .iter()
@@ -124,8 +123,8 @@ fn cases() -> ProptestConfig {
     }
 }
 
-/// Far from its epoch, or with a drag that ends the orbit in days, SGP4's
-/// velocities have nothing to do with the change of its positions any more.
+/// Whether the velocities of SGP4 agree with the change of its positions. They do not far
+/// from the epoch, or with a drag that ends the orbit in days.
 fn is_an_orbit(propagator: &Propagator, search: &PassSearch) -> bool {
     let length_s = time::seconds_between(search.from, search.to);
     (0..=200).all(|index| {
@@ -163,7 +162,7 @@ proptest! {
         }
         prop_assert!(found.windows(2).all(|pair| pair[0].los.time < pair[1].aos.time));
 
-        // A floor takes passes away and changes none.
+        // A floor removes passes and changes none.
         let floored = passes(&propagator, &search, &|| false);
         let high = |pass: &&Pass| (pass.max_elevation() - search.floor).degrees() > LEVEL_DEG;
         let expected: Vec<&Pass> = found.iter().filter(high).collect();

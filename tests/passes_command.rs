@@ -1,4 +1,4 @@
-//! `azel passes` as it is called from a shell and read by another program.
+//! `azel passes` as called from a shell and read by another program.
 
 mod asked;
 mod look;
@@ -29,7 +29,7 @@ fn command(place_and_time: &[&str], arguments: &[&str]) -> Command {
 /// Runs `azel passes` on elements given on standard input.
 fn passes(elements: &str, arguments: &[&str]) -> Output {
     let mut child = command(&[&SITE[..], &WINDOW].concat(), arguments).spawn().unwrap();
-    // The program may have ended over its arguments.
+    // An error is ignored: the program may have ended over its arguments.
     let _ = child.stdin.take().unwrap().write_all(elements.as_bytes());
     child.wait_with_output().unwrap()
 }
@@ -113,7 +113,7 @@ fn a_mask_cuts_a_pass_into_its_clear_stretches() {
     }
 }
 
-/// One object as OMM, with other values for some fields.
+/// An object as OMM, with other values for some fields.
 fn object(values: &[(&str, Value)]) -> Value {
     let mut object = serde_json::json!({
         "OBJECT_NAME": "SMALLSAT", "NORAD_CAT_ID": 5, "EPOCH": "2026-08-12T00:00:00",
@@ -132,7 +132,7 @@ fn azel(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_azel")).args(arguments).output().unwrap()
 }
 
-/// A folder of files of elements.
+/// A folder of element files.
 struct Files(tempfile::TempDir);
 
 impl Files {
@@ -249,7 +249,7 @@ fn a_pass_has_range_light_epoch_and_doppler() {
         let is_short = row["duration_s"].as_f64().unwrap() < 1000.0;
         if is_short && row["starts_before"] == false && row["ends_after"] == false {
             assert!(range("aos") > range("tca") && range("los") > range("tca"), "{row}");
-            // It comes closer, and goes away.
+            // The satellite approaches, then recedes.
             assert!(number("aos", "doppler_hz") > 0.0 && number("los", "doppler_hz") < 0.0);
             assert!(number("aos", "range_rate_km_s") < 0.0, "{row}");
         }

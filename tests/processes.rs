@@ -1,5 +1,5 @@
-//! Tests with processes, sockets and clocks of the real world. They stand apart so that
-//! nothing else takes the processor from them.
+//! Tests with real processes, sockets and clocks. They stand apart so that no other test
+//! takes the processor from them.
 
 #![allow(
     clippy::unwrap_used,

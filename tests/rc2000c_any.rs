@@ -1,4 +1,4 @@
-//! The RC2000C codec on any input.
+//! RC2000C codec on any input.
 
 use std::time::Duration;
 
@@ -61,7 +61,7 @@ fn request() -> impl Strategy<Value = Request> {
     ]
 }
 
-/// Bytes as they stand in frames, so that every branch is reached.
+/// Bytes that occur in frames, so that every branch is reached.
 fn likely_bytes() -> impl Strategy<Value = Vec<u8>> {
     let likely = prop_oneof![
         4 => prop::sample::select(vec![0x02_u8, 0x03, 0x06, 0x15, 0x31, 0x32, 0x33, 0x46]),
@@ -71,7 +71,7 @@ fn likely_bytes() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(likely, 0..200)
 }
 
-/// Whole frames and noise, as they may come over a line.
+/// Whole frames and noise, as on a line.
 fn stream() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         request().prop_map(|request| request.to_bytes(Address::FACTORY)),
@@ -81,7 +81,7 @@ fn stream() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(piece, 0..8).prop_map(|pieces| pieces.concat())
 }
 
-/// A frame with a right checksum around any 33 characters.
+/// A frame with a correct checksum around any 33 characters.
 fn status_frame(address: Address, data: [u8; 33]) -> Vec<u8> {
     let mut bytes = vec![0x06, address.number(), 0x31];
     bytes.extend(data.map(|byte| 0x20 + byte % 0x60));
@@ -162,7 +162,7 @@ proptest! {
             bad[bit / 8] ^= 1 << (bit % 8);
             let mut decoder = Decoder::new(address);
             decoder.push(&bad);
-            // The one exception that the decoder's description tells.
+            // The only exception, described at the decoder.
             let is_offline = bad[0] == 0x06 && bad[3] == b'F' && bad[4] == 0x03;
             for frame in decoder.by_ref().flatten() {
                 // A command may end early; then it is refused for its length.

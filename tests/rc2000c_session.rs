@@ -1,5 +1,5 @@
-//! The session of an antenna against a simulated RC2000C: what the operator is
-//! shown, and what the unit receives.
+//! Session of an antenna against a simulated RC2000C: the operator's view, and the unit's
+//! commands.
 
 mod rig;
 

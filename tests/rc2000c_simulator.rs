@@ -1,5 +1,5 @@
-//! The simulated RC2000C on a real socket and a real pseudo-terminal, driven
-//! with the codec alone.
+//! Simulated RC2000C on a real socket and a real pseudo-terminal, driven with the codec
+//! alone.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use tokio::time::timeout;
 
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A fast line, for these tests run in real time.
+/// A fast line, because these tests run in real time.
 fn options() -> Options {
     Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
 }
@@ -60,7 +60,7 @@ impl<S: AsyncRead + AsyncWrite + Unpin> Line<S> {
         }
     }
 
-    /// Who it is, what it has stored, there and back again, and the way to a halt.
+    /// Asks for the type and a stored satellite, moves there and back, and halts.
     async fn tour(&mut self) {
         let Reply::DeviceType(device) = self.ask(Request::Query(Query::DeviceType)).await else {
             panic!("no device type")
@@ -128,7 +128,7 @@ async fn over_a_pseudo_terminal() {
     use azel::sim::rc2000c::PtySimulator;
     use serial2_tokio::SerialPort;
 
-    // Some containers have none.
+    // Some containers have no pseudo-terminals.
     if !std::path::Path::new("/dev/ptmx").exists() {
         return;
     }

@@ -1,5 +1,5 @@
-//! The byte-exact frames of the RC2000C, each in one piece and in many, with
-//! every expected value named, and what can happen to them on a line.
+//! Byte-exact frames of the RC2000C, each in one piece and in many, with every expected
+//! value, and with damage from the line.
 
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ fn bytes_of(name: &str) -> Vec<u8> {
     vectors().into_iter().find(|(known, _)| *known == name).unwrap_or_else(|| panic!("{name}")).1
 }
 
-/// A decoder for the controller that the frame names.
+/// Decoder for the address in the frame.
 fn decoder_for(bytes: &[u8]) -> Decoder {
     Decoder::new(Address::new(bytes[1]).unwrap())
 }
@@ -69,7 +69,7 @@ fn every_frame_is_whole_in_any_pieces() {
     }
 }
 
-/// What is sent, built from typed values.
+/// Requests built from typed values.
 fn requests() -> Vec<(&'static str, u8, Request)> {
     let motion = Request::Motion;
     let jog = |direction, speed, ms| {
@@ -274,7 +274,7 @@ fn every_single_wrong_bit_is_refused() {
             let mut seen: Vec<_> = decoder.by_ref().collect();
             seen.extend(decoder.line_is_quiet());
             assert!(seen.iter().all(Result::is_err), "{name}: bit {at}: {seen:?}");
-            // And the next frame is not lost by it.
+            // The next frame is not lost by it.
             decoder.push(&bad);
             decoder.push(&good);
             let frames: Vec<_> = decoder.flatten().collect();

@@ -1,10 +1,10 @@
-//! A unit that closes the connection a hundred times, also in the middle of a
-//! jog: no process, no handle and no connection is left behind.
+//! A unit that closes the connection a hundred times, also during a jog, leaves no
+//! process, handle or connection behind.
 //!
 //! Several units share the hundred, since a session waits before it dials again.
 
 #![cfg(target_os = "linux")]
-// A test ends loudly, in its helpers too.
+// A test may panic, in its helpers too.
 #![allow(clippy::expect_used, clippy::panic)]
 
 use std::{
@@ -26,13 +26,13 @@ use azel::{
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
 
-/// Nothing here takes longer on a slow machine.
+/// Longer than any step here takes on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(30);
 const UNITS: usize = 5;
 const ROUNDS: usize = 20;
-/// A key is held in one round of so many.
+/// A key is held in one of so many rounds.
 const HELD_EACH: usize = 3;
-/// A lease lasts for 300 ms.
+/// Interval of renewals; a lease lasts 300 ms.
 const RENEW: Duration = Duration::from_millis(50);
 
 struct Pair {
@@ -75,8 +75,8 @@ impl Pair {
     }
 }
 
-/// The ids of the dead-men that this process has started, also of those that have
-/// ended and are not collected.
+/// Ids of the dead-men that this process has started, including those that have ended and
+/// are not collected.
 fn dead_men() -> Vec<u32> {
     let ids = fs::read_dir("/proc").expect("/proc").filter_map(|entry| {
         let name = entry.ok()?.file_name();
@@ -95,7 +95,7 @@ fn handles() -> usize {
     fs::read_dir("/proc/self/fd").expect("/proc").count()
 }
 
-/// How many connections to `port` are open at its end.
+/// Number of open connections to `port`.
 fn established_at(port: u16) -> usize {
     let local = format!(":{port:04X}");
     let table = fs::read_to_string("/proc/net/tcp").expect("/proc/net/tcp");
@@ -117,7 +117,7 @@ fn hold_all(pairs: &[Pair]) {
     wait_for("the jogs", || {
         looks += 1;
         for pair in pairs {
-            // A hold that a busy machine has let run out needs a new press.
+            // On a busy machine a hold may have run out and needs a new press.
             if looks % 40 == 0 {
                 pair.send(Command::EndJog);
             }
@@ -143,7 +143,7 @@ fn a_hundred_lost_connections_leave_nothing_behind() {
             && fs::read_dir(folder.path()).expect("the marks").next().is_none()
     };
     wait_for("the first links", all_up);
-    // The first hold opens what stays open, such as the watch over children.
+    // The first hold opens handles that stay open, such as the watch over children.
     hold_all(&pairs);
     for pair in &pairs {
         pair.send(Command::EndJog);

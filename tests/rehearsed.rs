@@ -1,5 +1,5 @@
-//! Whole stations in memory: simulators instead of units, a clock of its own for each,
-//! beside one another in one process.
+//! Whole stations in memory: simulators instead of units and a clock for each station,
+//! side by side in one process.
 
 use std::{
     num::NonZeroU32,
@@ -23,11 +23,11 @@ use azel::{
 };
 use jiff::Timestamp;
 
-/// Longer than anything here takes, in real time.
+/// Longer than any step here takes, in real time.
 const PATIENCE: Duration = Duration::from_mins(1);
-/// How often something is looked for, in real time.
+/// Interval of looks, in real time.
 const LOOK: Duration = Duration::from_millis(20);
-/// Times real time.
+/// Speed, in multiples of real time.
 const FAST: NonZeroU32 = NonZeroU32::new(200).unwrap();
 
 fn start() -> Timestamp {
@@ -146,7 +146,7 @@ fn antenna(client: &Client, name: &str) -> Option<(AntennaId, AntennaStatus)> {
     Some((antenna.id(), AntennaStatus::of(antenna)))
 }
 
-/// The antenna once it was measured; an RC2000C is connected for it.
+/// Waits until the antenna has been measured; connects an RC2000C for it.
 fn measured(client: &Client, name: &str) -> AntennaId {
     until(name, || {
         let (id, status) = antenna(client, name)?;
@@ -161,8 +161,8 @@ fn passed_s(client: &Client) -> f64 {
     seconds_between(start(), client.now().utc)
 }
 
-/// Sends `command` until the antenna is seen to move by it: at this speed a computer
-/// that has something else to do takes it up too late.
+/// Sends `command` until the antenna is seen to move: at this speed a busy computer may
+/// act on it too late.
 fn move_by(client: &Client, name: &str, command: &driver::Command) {
     let id = measured(client, name);
     until("motion", || {
@@ -197,8 +197,8 @@ fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
     until("standstill", || fast.units.all_stand().then_some(()));
 }
 
-/// Writes down every snapshot of a station that it gets hold of until the station ends;
-/// how many.
+/// Serializes every snapshot that it gets of a station until the station ends; returns
+/// their number.
 fn write_down(mut client: Client) -> usize {
     let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
     let mut count = 0;
@@ -207,7 +207,7 @@ fn write_down(mut client: Client) -> usize {
         let text = serde_json::to_string(&*snapshot).unwrap();
         let back: Snapshot = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
         assert_eq!(serde_json::to_string(&back).unwrap(), text);
-        // What is left out stands in the catalog and the pass lists alone.
+        // Only the catalog and the pass lists leave anything out.
         let shown = |of: &Snapshot| {
             let of = (&of.at, &of.time_sync, &of.station, &of.sources, &of.antennas, &of.alarms);
             format!("{of:?}")
@@ -218,7 +218,7 @@ fn write_down(mut client: Client) -> usize {
     count
 }
 
-/// One of nine things that go wrong for a while.
+/// Switches one of nine kinds of trouble.
 fn trouble(kind: u32, units: &Units, is_on: bool) {
     use rc2000c::Fault as Line;
     use rotator_genius::Fault as Socket;

@@ -1,9 +1,9 @@
-//! The Rotator Genius codec on any input.
+//! Rotator Genius codec on any input.
 
 use azel::protocol::rotator_genius::*;
 use proptest::prelude::*;
 
-/// Everything that comes out of a stream cut into pieces, to the end.
+/// Everything decoded from a stream cut into pieces, to the end.
 fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Received> {
     let mut decoder = Decoder::new();
     let mut seen = Vec::new();
@@ -125,7 +125,7 @@ proptest! {
                 Received::LayoutChanged(_) | Received::OtherProtocol => 0,
             };
         }
-        // A go-to is acknowledged with three bytes or with three digits more.
+        // A go-to is acknowledged with three bytes, or with three digits more.
         let digits = stream.len() - told;
         prop_assert!(digits.is_multiple_of(3) && digits <= 3 * go_tos, "{} of {}", told, stream.len());
     }

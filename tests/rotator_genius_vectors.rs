@@ -1,5 +1,4 @@
-//! The byte-exact vectors of the Rotator Genius protocol, each in one piece and
-//! in pieces.
+//! Byte-exact vectors of the Rotator Genius protocol, each in one piece and in many.
 
 use azel::protocol::rotator_genius::*;
 use serde_json::{Value, json};
@@ -109,7 +108,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
             let mut seen = decode(&mut decoder, &bytes, piece);
             assert!(is_idle_after || decoder.unfinished_bytes() == rest.len(), "{id} {piece}");
             if rest.is_empty() {
-                // Without a rest this adds nothing but noise that has not ended yet.
+                // Without remaining bytes this adds only noise that has not ended yet.
                 seen.extend(decoder.idle());
             }
             assert!(bytes.ends_with(&rest), "{id}");
@@ -123,7 +122,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
                 }
             }
             assert_eq!(Value::from(replies), messages, "{id} {piece}");
-            // One resync at most, and every byte of it is told.
+            // At most one resync, and every byte of it is reported.
             assert!(noise.len() <= 1, "{id} {piece}");
             assert_eq!(noise.concat(), skipped, "{id} {piece}");
         }
@@ -132,7 +131,7 @@ fn every_vector_gives_its_messages_whole_and_in_pieces() {
 
 #[test]
 fn all_vectors_in_one_stream_lose_nothing() {
-    // Without those that need silence, the other form and the broken ones.
+    // All but those that need silence, the other form and the broken ones.
     let kept = ["G01", "G02", "G03", "G09", "G10", "G11", "G13", "G15", "G17", "G18", "G20"];
     let kept: Vec<_> =
         vectors().into_iter().filter(|vector| kept.contains(&vector.id.as_str())).collect();

@@ -15,14 +15,14 @@
 //! AZEL_CASES=10000 cargo test --release --lib -- --nocapture any_motion_that_is_allowed
 //! ```
 //!
-//! What the properties do not ask:
+//! Limits of the properties:
 //!
-//! - an angle is compared to within half a step of what the unit tells and what its drives
-//!   overshoot (0.15 degrees for a Satrak, 2.6 for a Genius in whole degrees, 0.3 for an
-//!   RC2000C): no finer figure is known to the session;
+//! - an angle is compared to within half a step of the reported figures plus the overshoot
+//!   of the drives (0.15 degrees for a Satrak, 2.6 for a Genius in whole degrees, 0.3 for an
+//!   RC2000C): the session knows no finer figure;
 //! - others move a Satrak and a Genius only: an RC2000C has one master on its line, and the
 //!   panel of the simulated one does not jog;
-//! - flags that lie are tried on the two makes whose jogs run on and that others can move;
+//! - false flags are tried only on the two makes whose jogs run on and that others can move;
 //! - a jog is not held to the keep-outs while its link is down: it goes on until STOP gets
 //!   through. A motion to a position is.
 //!

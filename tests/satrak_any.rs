@@ -1,4 +1,4 @@
-//! The Satrak codec on any input.
+//! Satrak codec on any input.
 
 use azel::protocol::satrak::*;
 use jiff::Timestamp;
@@ -216,8 +216,8 @@ proptest! {
         let mut bad = good.clone();
         bad[at.index(good.len())] = byte;
         for frame in decode(&bad).into_iter().flatten() {
-            // A dollar sign in the middle starts a shorter message, which the
-            // checksum lets through once in 256 times.
+            // A dollar sign in the middle starts a shorter message, which the checksum accepts
+            // once in 256 times.
             let is_tail = frame.line().len() < sent.line().len() && byte == b'$';
             prop_assert!(is_tail || frame.line() == sent.line(), "{frame:?}");
         }
@@ -240,7 +240,7 @@ proptest! {
         let frame = decode(&request.to_bytes()).remove(0).unwrap();
         let shown = format!("{frame:?} {}", frame.redacted());
         prop_assert!(!shown.contains(&password));
-        // Cut anywhere, the refused line shows nothing either.
+        // Cut anywhere, the refused line shows no secret either.
         let bytes = request.to_bytes();
         for from in 0..bytes.len() {
             for broken in decode(&bytes[from..]).into_iter().filter_map(Result::err) {

@@ -1,5 +1,5 @@
-//! The byte-exact vectors of the Satrak protocol, each in one piece and byte by
-//! byte, with every expected value named.
+//! Byte-exact vectors of the Satrak protocol, each in one piece and byte by byte, with
+//! every expected value.
 
 use azel::protocol::satrak::*;
 use jiff::Timestamp;
@@ -83,7 +83,7 @@ fn every_vector_is_cut_into_its_tokens() {
     }
 }
 
-/// What is sent, built from typed values, by the number of its vector.
+/// Requests built from typed values, by the numbers of their vectors.
 fn requests() -> Vec<(&'static str, Request)> {
     let text = |text| TextValue::new("text", text).unwrap();
     let motion = Request::Motion;
@@ -346,8 +346,7 @@ fn every_vector_has_a_meaning_and_its_values_are_explained() {
             };
             assert!(!meaning.text.is_empty(), "{id}");
             assert!(!meaning.text.contains("password"), "{id}");
-            // A question that a unit echoes, an unknown word, an error and a
-            // state with too few values.
+            // An echoed question, an unknown word, an error, and a status with too few values.
             let is_odd = match meaning.tone {
                 Tone::Plain | Tone::Change | Tone::Good => false,
                 Tone::Caution | Tone::Bad => true,

@@ -1,5 +1,5 @@
-//! A station without a window: real sockets to simulated units, and the program itself
-//! as a process beside others.
+//! Station without a window: real sockets to simulated units, and the program itself as a
+//! process beside others.
 
 use std::{
     collections::BTreeMap,
@@ -35,9 +35,9 @@ use azel::{
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
 
-/// Longer than anything here takes.
+/// Longer than any step here takes.
 const PATIENCE: Duration = Duration::from_secs(30);
-/// A jog is renewed as a window renews it.
+/// Interval at which a window renews a jog.
 const RENEW: Duration = Duration::from_millis(60);
 const NOAA_20: u32 = 43_013;
 
@@ -51,7 +51,7 @@ fn clock() -> Clock {
     Clock::new(move || add_seconds(start(), begun.elapsed().as_secs_f64()))
 }
 
-/// One simulated unit of each make, and a folder with a station of them.
+/// A simulated unit of each make, and a folder with a station of them.
 struct Units {
     dish: satrak::Control,
     mast: rotator_genius::Control,
@@ -180,7 +180,7 @@ fn is_measured(client: &Client, name: &str) -> Option<()> {
     status(client, name).moves.map(|_| ())
 }
 
-/// The dish tracks NOAA 20 by its own program.
+/// The dish tracks NOAA 20 on board.
 fn track_on_board(client: &Client) {
     let dish = id(client, "Dish");
     wait_for("the dish", || is_measured(client, "Dish"));
@@ -195,7 +195,7 @@ fn track_on_board(client: &Client) {
     });
 }
 
-/// The mast is led to the Sun.
+/// The mast tracks the Sun by program track.
 fn lead_to_the_sun(client: &Client) {
     wait_for("the mast", || is_measured(client, "Mast"));
     let site = client.snapshot().station.site;
@@ -204,7 +204,7 @@ fn lead_to_the_sun(client: &Client) {
     wait_for("the mast moves", || (status(client, "Mast").moves == Some(true)).then_some(()));
 }
 
-/// A key of the horn is held.
+/// Holds a jog key of the horn.
 fn jog(client: &Client) {
     let horn = id(client, "Horn");
     send(client, horn, driver::Command::Connect);
@@ -294,7 +294,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
             && matches!(alarm.kind, AlarmKind::StationElsewhere(_))
     };
     assert!(told.alarms.list().iter().any(says_so));
-    // A motion that is asked for there goes nowhere.
+    // A motion requested there goes nowhere.
     let follow = ProgramTrack { target: Target::Sun, site: told.station.site, passes: Vec::new() };
     send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the refusal", || {
@@ -304,7 +304,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     });
     let is_led = |client: &Client| status(client, "Mast").intent != "standby";
     assert!(units.all_stand() && !is_led(first.client()));
-    // STOP there stops here.
+    // A STOP there stops the antenna here.
     lead_to_the_sun(first.client());
     assert!(is_led(first.client()));
     let stopped = client.stop_all();

@@ -1,5 +1,4 @@
-//! The published verification cases of SGP4, against the output of the C++ code
-//! of its authors.
+//! Published verification cases of SGP4, against the output of its authors' C++ code.
 
 use azel::{
     astro::time,
@@ -9,19 +8,19 @@ use glam::DVec3;
 
 const SETS: &str = include_str!("data/SGP4-VER.TLE");
 const EXPECTED: &str = include_str!("data/tcppver.out");
-/// The output is rounded to 1e-8 km and 1e-9 km/s; the rest is left to the order
-/// of floating point operations, which builds up over 1,844,000 minutes.
+/// The output is rounded to 1e-8 km and 1e-9 km/s; the rest allows for the order of
+/// floating point operations, whose errors build up over 1,844,000 minutes.
 const POSITION_TOLERANCE_KM: f64 = 1e-6;
 const VELOCITY_TOLERANCE_KM_S: f64 = 2e-9;
 
-/// One expected state.
+/// An expected state.
 struct Row {
     minutes: f64,
     position_km: DVec3,
     velocity_km_s: DVec3,
 }
 
-/// The expected states of every case, under its number.
+/// Expected states of every case, by its number.
 fn expected() -> Vec<(String, Vec<Row>)> {
     let mut cases: Vec<(String, Vec<Row>)> = Vec::new();
     for line in EXPECTED.lines().filter(|line| !line.trim().is_empty()) {
@@ -40,8 +39,8 @@ fn expected() -> Vec<(String, Vec<Row>)> {
     cases
 }
 
-/// The two lines of every case. The authors made the error cases by hand and
-/// left their checksums as they were: they are put right here.
+/// The two lines of every case. The authors made the error cases by hand without adjusting
+/// the checksums, which are corrected here.
 fn sets() -> Vec<(String, String)> {
     let lines: Vec<String> =
         SETS.lines().filter(|line| !line.starts_with('#')).map(with_checksum).collect();
@@ -62,8 +61,8 @@ fn every_case_agrees_with_the_authors_code() {
     for ((first, second), (number, rows)) in sets().iter().zip(expected()) {
         let report = read_elements(&format!("{first}\n{second}\n"));
         if number == "33334" {
-            // Its one row repeats the last state of the case before: the mean
-            // motion of 0.00001 is an error from the start.
+            // Its only row repeats the last state of the case before: the mean motion of 0.00001
+            // is an error from the start.
             let reason = RefusalReason::Orbit(ElementsError::Decayed);
             assert_eq!(report.refused[0].reason, reason);
             continue;
@@ -87,7 +86,7 @@ fn every_case_agrees_with_the_authors_code() {
         let (stop, step) = (limits[1], limits[2]);
         let last = rows.last().unwrap().minutes;
         if last + step <= stop {
-            // Where the C++ code stops early it has met an error.
+            // The C++ code stops early on an error.
             assert_eq!(state_at(last + step), Err(PropagationError::Decayed), "{number}");
         }
     }

@@ -1,7 +1,7 @@
-//! The three controllers at once, each with trouble on its line, for an hour of
-//! paused time: what is shown is true and nothing gets stuck. Memory is printed:
-//! it grows until the logs of the links are full, after some two hours, and stays
-//! flat from then on (`AZEL_HOURS=4 cargo test --test azel three_units -- --nocapture`).
+//! The three makes at once, each with trouble on its line, for an hour of paused time: the
+//! display is true and nothing gets stuck. Prints the memory: it grows until the logs of
+//! the links are full, after some two hours, and stays flat from then on (`AZEL_HOURS=4
+//! cargo test --test azel three_units -- --nocapture`).
 
 use std::time::Duration;
 
@@ -23,16 +23,16 @@ use crate::common::{
     rig::session,
 };
 
-/// How often the operator looks.
+/// Interval at which the operator looks.
 const LOOK: Duration = Duration::from_millis(100);
-/// A round of trouble.
+/// Length of a round of trouble.
 const TROUBLE: Duration = Duration::from_secs(40);
-/// After it a link is up again within this.
+/// Time after a round within which a link is up again.
 const RECOVERY: Duration = Duration::from_mins(1);
-/// A stop on a good link is proved within this.
+/// Time within which a STOP on a good link is proved.
 const PROOF: Duration = Duration::from_secs(15);
 
-/// A session, its simulator, and the hands on both.
+/// A session, its simulator, and controls for both.
 struct Pair {
     name: &'static str,
     handle: AntennaHandle,
@@ -40,14 +40,14 @@ struct Pair {
     faults: usize,
     drop_clients: Box<dyn Fn()>,
     truth: Box<dyn Fn() -> AzEl>,
-    /// Of both axes together, degrees a second.
+    /// Fastest rate of both axes together, degrees per second.
     fastest_deg_s: f64,
-    /// The readings are as coarse as this, degrees.
+    /// Resolution of the readings, degrees.
     coarse_deg: f64,
     jog_deg_s: f64,
 }
 
-/// A session of `antenna` with the unit in memory.
+/// Session of `antenna` with the unit in memory.
 fn open<U: Unit>(antenna: &Antenna, control: &Control<U>) -> AntennaHandle {
     let served = control.clone();
     let dial = Network::default().dial(move || link(&served));
@@ -171,7 +171,7 @@ fn of_rc2000c() -> Pair {
     }
 }
 
-/// What is shown of the antenna is where it was when it was asked.
+/// Checks that the shown direction is where the antenna was when it was asked.
 fn assert_true(pair: &Pair) {
     let shown = pair.handle.snapshot();
     let Some(measured) = shown.state.measured else { return };
@@ -182,7 +182,7 @@ fn assert_true(pair: &Pair) {
     assert!(off <= allowed, "{}: {off} degrees off after {age_s} s: {measured:?}", pair.name);
 }
 
-/// The operator does something.
+/// A random act of the operator.
 fn drive(pair: &Pair, dice: &mut Dice) {
     let command = match dice.below(6) {
         0 => Command::Standby,
@@ -199,7 +199,7 @@ fn drive(pair: &Pair, dice: &mut Dice) {
     let _ = pair.handle.send(command);
 }
 
-/// The key stays down for a look.
+/// Keeps the key down for a look.
 fn hold(pair: &Pair, dice: &mut Dice) {
     let way = if dice.below(2) == 0 { 1.0 } else { -1.0 };
     let rates_deg_s = [way * pair.jog_deg_s, 0.0];
@@ -253,7 +253,7 @@ async fn round(pairs: &mut [Pair], dice: &mut Dice) {
         let before = (pair.truth)();
         sleep(Duration::from_secs(2)).await;
         let crept = (pair.truth)().separation(before).degrees();
-        // A coast that no reading shows is nobody's to know.
+        // A coast below the resolution of the readings cannot be known.
         assert!(crept < pair.coarse_deg, "{}: it still turns: {crept}", pair.name);
     }
 }

@@ -1,4 +1,4 @@
-//! A log that nobody reads: the program goes on, and comes to its end.
+//! The program goes on, and comes to its end, when nobody reads its log.
 
 use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
@@ -10,7 +10,7 @@ use std::{
 
 use azel::protocol::satrak::encode;
 
-/// So many questions are logged with more than a pipe holds (64 kB).
+/// Number of questions that log more than a pipe holds (64 kB).
 const FLOOD: usize = 300;
 
 struct Simulator {
@@ -49,7 +49,7 @@ impl Simulator {
         Self { process, unread, client: BufReader::new(client) }
     }
 
-    /// The reply to a long command that there is not.
+    /// Reply to a long command that does not exist.
     fn ask(&mut self) -> String {
         let command = encode(&format!("HELLO=,{}", "x".repeat(400)));
         self.client.get_mut().write_all(&command).expect("the unit takes a command");
@@ -65,7 +65,7 @@ impl Simulator {
         }
     }
 
-    /// Asks the program to end; how it ended.
+    /// Asks the program to end; returns how it ended.
     fn end(&mut self) -> ExitStatus {
         let id = self.process.id().to_string();
         let told = Command::new("kill").args(["-TERM", &id]).status().expect("a signal");

@@ -1,5 +1,4 @@
-//! Elements from the web as a unit is told to fetch them, from a server on
-//! loopback.
+//! Elements from the web as a unit fetches them, from a server on loopback.
 
 use std::{
     io::{BufRead as _, BufReader, Write as _},
@@ -21,8 +20,8 @@ const LIMITS: Limits = Limits {
     file_bytes: 1000,
 };
 
-/// A server that gives one answer to one request, and holds the connection
-/// until `end` is gone when `answer` is empty. Hands back its address.
+/// A server that gives one answer to one request, and holds the connection until `end` is
+/// gone if `answer` is empty. Returns its address.
 fn serve(answer: Vec<u8>, end: mpsc::Receiver<()>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/tle?GROUP=weather%2C2", listener.local_addr().unwrap());
@@ -53,7 +52,7 @@ fn answer(status: &str, headers: &str, body: &[u8]) -> Vec<u8> {
     [head.as_bytes(), body].concat()
 }
 
-/// What came of asking a server that gives `answer`.
+/// Result of a request to a server that gives `answer`.
 fn get(answer: Vec<u8>, limits: Limits, cancel: &CancellationToken) -> Result<Vec<u8>, FetchError> {
     let (_hold, end) = mpsc::sync_channel(0);
     let source = ElementSource::Web { url: serve(answer, end) };
@@ -96,7 +95,7 @@ fn a_server_that_stalls_is_left_by_limit_and_by_cancel() {
     let nobody = CancellationToken::new();
     let file = Duration::from_millis(300);
     let error = get(Vec::new(), Limits { file, ..LIMITS }, &nobody).unwrap_err();
-    // Two clocks run: the one of the request, and the one of the fetch.
+    // Two clocks run: that of the request, and that of the fetch.
     assert!(
         matches!(
             error,

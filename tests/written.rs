@@ -1,4 +1,4 @@
-//! Every command and event of a station can be written down and read back.
+//! Every command and event of a station survives serialization.
 
 use azel::{
     astro::Angle,
@@ -32,7 +32,7 @@ fn noon() -> Timestamp {
     "2026-08-12T12:00:00.123456789Z".parse().unwrap()
 }
 
-/// One of each, and no other: a new one does not compile before it is here.
+/// One of each and no more: a new one does not compile before it is listed here.
 fn commands_of_antennas() -> Vec<driver::Command> {
     use driver::Command as C;
     let elements = bundled().unwrap().get(25_544).unwrap().clone();
@@ -136,7 +136,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
 fn what_is_asked_of_an_antenna_comes_back() {
     for command in commands_of_antennas() {
         let back = comes_back(&Command::Antenna(ANTENNA, command.clone()));
-        // A secret is left out of what is written.
+        // Serialization leaves secrets out.
         if !format!("{command:?}").contains("Secret") {
             assert_eq!(back, Command::Antenna(ANTENNA, command));
         }

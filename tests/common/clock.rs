@@ -1,4 +1,4 @@
-//! The clock of a session in paused time.
+//! Clock of a session in paused time.
 
 use std::{
     sync::{
@@ -14,10 +14,10 @@ use azel::{
 };
 use jiff::Timestamp;
 
-/// No test needs more readings of the clock than this.
+/// Maximum number of readings; no test needs more.
 const MAX_READINGS: u64 = 4_000_000;
 
-/// The clock of a computer, which a test can set; clones are the same one.
+/// Clock of a computer, which a test can set; clones are the same clock.
 #[derive(Clone)]
 pub(crate) struct TestClock {
     utc_origin: Timestamp,
@@ -28,7 +28,7 @@ pub(crate) struct TestClock {
 }
 
 impl TestClock {
-    /// A clock that is at `utc_origin` now.
+    /// A clock that shows `utc_origin` now.
     pub(crate) fn new(utc_origin: Timestamp) -> Self {
         Self {
             utc_origin,
@@ -39,7 +39,7 @@ impl TestClock {
         }
     }
 
-    /// The clock as a session takes it.
+    /// The clock in the form that a session takes.
     pub(crate) fn clock(&self) -> Clock {
         let (utc, asleep) = (self.clone(), self.clone());
         let clock = Clock::new(move || {
@@ -51,23 +51,23 @@ impl TestClock {
         clock.sleeping(move || Duration::from_secs(asleep.asleep_s.load(Ordering::Relaxed)))
     }
 
-    /// The right time, to whatever the clock is set.
+    /// True UTC, whatever the clock shows.
     pub(crate) fn utc(&self) -> Timestamp {
         add_seconds(self.utc_origin, (Instant::now() - self.started).as_secs_f64())
     }
 
-    /// Sets the clock `ahead_s` seconds ahead of the right time.
+    /// Sets the clock `ahead_s` seconds ahead of true UTC.
     pub(crate) fn set(&self, ahead_s: i64) {
         self.ahead_s.store(ahead_s, Ordering::Relaxed);
     }
 
-    /// The computer sleeps: UTC goes on meanwhile, the steady clock stands.
+    /// Lets the computer sleep: UTC goes on meanwhile, the steady clock stands.
     pub(crate) fn sleep_for(&self, seconds: u32) {
         self.ahead_s.fetch_add(i64::from(seconds), Ordering::Relaxed);
         self.asleep_s.fetch_add(u64::from(seconds), Ordering::Relaxed);
     }
 
-    /// How often the clock was read.
+    /// Number of readings so far.
     pub(crate) fn readings(&self) -> u64 {
         self.readings.load(Ordering::Relaxed)
     }

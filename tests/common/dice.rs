@@ -1,6 +1,6 @@
-//! Randomness that repeats.
+//! Repeatable randomness.
 
-/// Numbers that look random and repeat with their seed.
+/// Pseudo-random numbers that repeat with their seed.
 #[derive(Debug, Clone)]
 pub(crate) struct Dice(u64);
 

@@ -1,4 +1,4 @@
-//! Links in memory between a session and a simulated unit.
+//! In-memory links between a session and a simulated unit.
 
 use std::{
     io,
@@ -14,7 +14,7 @@ use azel::{
     sim::{Control, Unit},
 };
 
-/// A network that can be off; clones are the same one.
+/// A network that can be switched off; clones are the same network.
 #[derive(Clone, Default)]
 pub(crate) struct Network {
     is_off: Arc<AtomicBool>,
@@ -22,7 +22,7 @@ pub(crate) struct Network {
 }
 
 impl Network {
-    /// Opens links as `link` makes them, while the network is on.
+    /// Opens links made by `link` while the network is on.
     pub(crate) fn dial(&self, mut link: impl FnMut() -> Box<dyn Stream> + Send + 'static) -> Dial {
         let network = self.clone();
         Box::new(move || {
@@ -35,12 +35,12 @@ impl Network {
         })
     }
 
-    /// New links are refused while it is off.
+    /// Refuses new links while it is off.
     pub(crate) fn set_off(&self, is_off: bool) {
         self.is_off.store(is_off, Ordering::Relaxed);
     }
 
-    /// When a link was asked for.
+    /// Times of all dials.
     pub(crate) fn dials(&self) -> Vec<Instant> {
         self.dials.lock().unwrap().clone()
     }

@@ -1,4 +1,4 @@
-//! A session and a simulated unit with a stream in memory between them.
+//! A session and a simulated unit, joined by an in-memory stream.
 
 use std::{sync::Arc, time::Duration};
 
@@ -17,16 +17,16 @@ use super::{
     network::{self, Network},
 };
 
-/// How finely the operator looks, unless a test says otherwise.
+/// Interval at which the operator looks, unless a test sets another.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// A session with the controller that `antenna` names, and its near end.
+/// A session with the controller of `antenna`, and its handle.
 pub(crate) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}))
 }
 
-/// An operator in front of a running session. The tests of each make add how their unit
-/// and its session begin, and what their unit received.
+/// An operator in front of a running session. The tests of each make add the start of
+/// their unit and session, and the record of received commands.
 pub(crate) struct Rig<C> {
     pub(crate) control: C,
     pub(crate) clock: TestClock,
@@ -39,7 +39,8 @@ pub(crate) struct Rig<C> {
 }
 
 impl<U: Unit> Rig<Control<U>> {
-    /// Runs what `session` makes, from `utc_origin` on, over links that the unit serves.
+    /// Runs the session made by `session` from `utc_origin` on, over links that the unit
+    /// serves.
     pub(crate) fn new(
         control: Control<U>,
         utc_origin: Timestamp,
@@ -48,7 +49,7 @@ impl<U: Unit> Rig<Control<U>> {
         Self::over(control, utc_origin, network::link, session)
     }
 
-    /// The same with each link as `link` makes it.
+    /// Like [`Self::new`], with links made by `link`.
     pub(crate) fn over(
         control: Control<U>,
         utc_origin: Timestamp,
@@ -70,12 +71,11 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// The same with an operator who looks every `look`.
+    /// Changes the interval of the operator's looks.
     pub(crate) fn looking_every(self, look: Duration) -> Self {
         Self { look, ..self }
     }
 
-    /// The near end of the session.
     pub(crate) fn handle(&self) -> &AntennaHandle {
         self.handle.as_ref().unwrap()
     }
@@ -100,7 +100,7 @@ impl<U: Unit> Rig<Control<U>> {
         self.handle().stop();
     }
 
-    /// The window is gone.
+    /// Drops the handle, as when the window is gone.
     pub(crate) async fn drop_handle(&mut self) {
         drop(self.handle.take());
         (&mut self.session).await.unwrap();
@@ -116,7 +116,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// When the link was dialled.
+    /// Times of all dials.
     pub(crate) fn dials(&self) -> Vec<Instant> {
         self.network.dials()
     }
@@ -131,7 +131,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// The events since the last call, without those that [`Self::until_event`] took.
+    /// Events since the last call, without those that [`Self::until_event`] took.
     pub(crate) fn events(&mut self) -> Vec<Event> {
         self.collect();
         std::mem::take(&mut self.events)
@@ -145,7 +145,7 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Waits until it is shown; `limit_s` seconds at most.
+    /// Waits until the snapshot fulfils the condition; `limit_s` seconds at most.
     pub(crate) async fn until(
         &mut self,
         what: &str,
@@ -160,7 +160,8 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Waits for an event, `limit_s` seconds at most, and takes the first such one; all others stay.
+    /// Waits for an event, `limit_s` seconds at most, and takes the first such one; all others
+    /// stay.
     pub(crate) async fn until_event(
         &mut self,
         limit_s: u64,

@@ -1,11 +1,11 @@
-//! What is written down comes back as it was.
+//! Serialization round trip.
 
 use std::fmt::Debug;
 
 use serde::{Serialize, de::DeserializeOwned};
 
-/// Writes `value` down and reads it back. They are compared as `Debug` shows them, which
-/// hides secrets: those alone are left out of what is written.
+/// Serializes `value` and reads it back. The two are compared by their `Debug` text, which
+/// hides secrets: only they are left out of the serialization.
 pub(crate) fn comes_back<T: Serialize + DeserializeOwned + Debug>(value: &T) -> T {
     let text = serde_json::to_string(value).unwrap_or_else(|error| panic!("{error}: {value:?}"));
     let back: T =

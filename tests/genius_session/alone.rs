@@ -58,7 +58,7 @@ async fn the_other_rotator_is_sent_by_its_action() {
     rig.send(Command::Manual);
     rig.send(send_other(360));
     rig.seconds(1.0).await;
-    // By the limits of the device 360 is 0, and the long way round.
+    // By the limits of the unit 360 is 0, and the long way round.
     assert_eq!(rig.orders(), ["|A2360"]);
     assert!(rig.rotator(2).is_turning);
     assert!(rig.shown().state.measured.unwrap().moving());
@@ -69,7 +69,7 @@ async fn the_other_rotator_is_sent_by_its_action() {
 async fn the_other_rotator_is_jogged_over_its_whole_range() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
     rig.send(Command::Manual);
-    // The travel of the mount's elevation does not count for it.
+    // The travel of the mount's elevation does not apply to the other rotator.
     rig.hold([0.0, 4.0], 1.0).await;
     rig.send(Command::EndJog);
     rig.seconds(2.0).await;

@@ -1,4 +1,4 @@
-//! From the first byte to a link that is lost and back.
+//! Connection from the first byte to a lost link and back.
 
 use std::time::Duration;
 

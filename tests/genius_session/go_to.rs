@@ -1,4 +1,4 @@
-//! Positions: what is sent, and what becomes of it.
+//! Positions: the commands sent, and their results.
 
 use azel::{
     controller::rotator_genius::Rotators,
@@ -15,19 +15,19 @@ use super::{
 
 #[tokio::test(start_paused = true)]
 async fn numbers_are_padded_and_360_stays_360() {
-    // The device stands at 100 degrees.
+    // The unit points at 100 degrees.
     for (asked, sent) in [(7.4, "|A1007"), (0.0, "|A1000"), (359.7, "|A1359"), (360.0, "|A1360")] {
         let mut device = Scripted::start(Rotators::Pair, Box::new(plain));
         device.seconds(0.5).await;
         device.handle.send(to(Some(asked), None)).unwrap();
         device.seconds(0.5).await;
         assert_eq!(device.orders(), [sent], "{asked}");
-        // The device has it in whole degrees, and that is what is shown of it.
+        // The unit has whole degrees, and its display shows them.
         let aim = device.handle.snapshot().aim.and_then(|aim| aim.azimuth).unwrap().degrees();
         let told: f64 = sent[3..].parse().unwrap();
         assert!((aim - told % 360.0).abs() < 1e-9, "{asked}: {aim}");
     }
-    // A direction of the sky is turned into the nearest position of the axis.
+    // A direction of the sky becomes the nearest position of the axis.
     let script = |command: &str| match command {
         "|h" => vec![(10, status(350, 10, ['0', '0'], '\0'))],
         other => plain(other),
@@ -46,7 +46,7 @@ async fn a_newer_wish_replaces_the_one_that_runs() {
     rig.seconds(2.0).await;
     rig.send(to(Some(150.0), Some(30.0)));
     rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
-    // Reversal: it stands in between.
+    // Reversal: the rotator stands in between.
     assert_eq!(rig.orders(), ["|A1250", "|A2040", "|S", "|A1150", "|A2030"]);
     assert_eq!(rig.events(), []);
 }
@@ -54,7 +54,7 @@ async fn a_newer_wish_replaces_the_one_that_runs() {
 #[tokio::test(start_paused = true)]
 async fn a_refused_position_is_told_with_the_reason_and_stops_the_other_axis() {
     let mut rig = Rig::pair().await;
-    // The elevation ends at 60 in the device.
+    // The elevation ends at 60 degrees in the unit.
     rig.control.set_fault(Fault::Refuse, true);
     rig.send(to(Some(180.0), Some(20.0)));
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;

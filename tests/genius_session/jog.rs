@@ -41,7 +41,7 @@ async fn each_way_of_each_rotator_has_its_command() {
         rig.hold(rates, seconds).await;
         rig.send(Command::EndJog);
         rig.until_still(3).await;
-        // Its reading has to stay for a while before the next one may begin.
+        // The reading must be steady for a while before the next jog may begin.
         rig.seconds(1.5).await;
     }
     assert_eq!(rig.orders(), ["|M1", "|S", "|P2", "|S", "|M2", "|S"]);
@@ -65,7 +65,7 @@ async fn turning_round_stops_first_and_waits_for_standstill() {
     rig.hold([4.0, 0.0], 2.0).await;
     rig.hold([-4.0, 0.0], 3.0).await;
     assert_eq!(rig.orders(), ["|P1", "|S", "|M1"]);
-    // It coasts for a second, and its reading must then stay for a while.
+    // The rotator coasts for a second, and then its reading must be steady for a while.
     let between = rig.times("|M1")[0].saturating_duration_since(rig.times("|S")[0]).as_secs_f64();
     assert!((1.0..2.3).contains(&between), "{between}");
     assert_eq!(rig.events(), []);
@@ -171,7 +171,7 @@ async fn a_jog_ends_when_the_answers_stay_away() {
 
 #[tokio::test(start_paused = true)]
 async fn the_second_rotator_is_not_jogged_while_the_first_turns() {
-    // Somebody at the front panel turns the first one.
+    // Somebody at the front panel turns the first rotator.
     let script = |command: &str| match command {
         "|h" => vec![(10, status(100, 10, ['1', '0'], '\0'))],
         other => plain(other),

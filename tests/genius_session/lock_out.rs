@@ -1,4 +1,4 @@
-//! A unit that is worked on: neither rotator is moved or configured.
+//! Lock-out of a unit: neither rotator is moved or configured.
 
 use azel::{
     device::settings::{Change, Value, WriteError},

@@ -1,4 +1,4 @@
-//! Oddities and faults: nothing of it stops the session from being right.
+//! Oddities and faults: the session stays correct with each of them.
 
 use azel::{
     controller::rotator_genius::Rotators,
@@ -113,7 +113,7 @@ async fn a_status_without_the_end_of_its_last_name_is_completed_when_it_is_quiet
 
 #[tokio::test(start_paused = true)]
 async fn late_answers_are_taken_for_what_they_answer() {
-    // Every answer takes longer than is waited for.
+    // Every answer comes after its time limit.
     let script = |command: &str| {
         plain(command).into_iter().map(|(_, reply)| (1200, reply)).collect::<Vec<_>>()
     };

@@ -103,7 +103,7 @@ async fn a_rotator_without_a_sensor_is_told_and_not_sent_anywhere() {
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
     assert_eq!(rig.orders(), [""; 0]);
-    // The other axis is as good as ever.
+    // The other axis is still good.
     rig.send(to(Some(180.0), None));
     rig.until_event(20, |event| matches!(event, Event::Arrived(_))).await;
     assert_eq!(rig.orders(), ["|A1180"]);

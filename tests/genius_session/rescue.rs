@@ -1,4 +1,4 @@
-//! Outside the limits nothing but STOP ends a motion.
+//! Outside the limits only STOP ends a motion.
 
 use azel::{
     controller::rotator_genius::{RESCUE, Rotators},
@@ -20,7 +20,7 @@ fn whole(degrees: u16) -> WholeDegrees {
     WholeDegrees::new(degrees).unwrap()
 }
 
-/// The azimuth rotator stands 20 degrees beyond its clockwise limit.
+/// The azimuth rotator is 20 degrees beyond its clockwise limit.
 fn outside() -> Options {
     let Options { rotators: [_, elevation], .. } = pair();
     let azimuth = RotatorOptions {
@@ -104,7 +104,7 @@ async fn only_the_stop_of_the_operator_disarms_a_rescue() {
     rig.send(arm());
     rig.send(Command::Manual);
     rig.hold([-4.0, 0.0], 1.0).await;
-    // The halt at the end of a jog is lost, and sent again and again.
+    // The halt at the end of a jog is lost, and is repeated.
     rig.control.set_fault(Fault::Silence, true);
     rig.send(Command::EndJog);
     rig.seconds(2.5).await;
@@ -177,7 +177,7 @@ async fn a_jog_that_runs_out_of_the_limits_is_stopped() {
     rig.until_up(1).await;
     rig.send(Command::Manual);
     rig.seconds(0.1).await;
-    // The device cuts the drive off at the limit, and the rotator coasts beyond.
+    // The unit cuts the drive off at the limit, and the rotator coasts beyond it.
     rig.hold([4.0, 0.0], 6.0).await;
     assert_eq!(rig.orders()[..2], ["|P1", "|S"]);
     assert_eq!(rig.orders().iter().filter(|order| *order == "|P1").count(), 1);
@@ -204,6 +204,6 @@ async fn a_limit_byte_without_a_meaning_counts_as_outside() {
     assert_eq!(check.unwrap().state, CheckState::Unknown);
     device.handle.send(to(Some(120.0), None)).unwrap();
     device.seconds(2.0).await;
-    // The key that was held may have begun something.
+    // The held key may have begun a motion.
     assert_eq!(device.orders(), ["|S", "|A1120"]);
 }

@@ -13,14 +13,14 @@ use jiff::Timestamp;
 
 use crate::common::rig;
 
-/// An antenna whose device turns what `rotators` says.
+/// An antenna whose unit has these rotators.
 pub(super) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
     antenna
 }
 
-/// An azimuth rotator at 173 degrees and an elevation one at the horizon.
+/// Options of an azimuth rotator at 173 degrees and an elevation rotator at the horizon.
 pub(super) fn pair() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],
@@ -28,7 +28,7 @@ pub(super) fn pair() -> Options {
     }
 }
 
-/// An azimuth rotator of this name, where it is.
+/// Options of an azimuth rotator with this name and position.
 pub(super) fn azimuth(name: &str, position: u16) -> RotatorOptions {
     RotatorOptions {
         name: name.to_owned(),
@@ -37,7 +37,7 @@ pub(super) fn azimuth(name: &str, position: u16) -> RotatorOptions {
     }
 }
 
-/// A position to be sent to; `None` leaves that angle.
+/// Command to go to a position; `None` leaves an angle as it is.
 pub(super) fn to(azimuth_deg: Option<f64>, elevation_deg: Option<f64>) -> Command {
     Command::Position {
         azimuth: azimuth_deg.map(Angle::from_degrees),
@@ -59,7 +59,7 @@ impl Rig {
         })
     }
 
-    /// A session that has read its device.
+    /// A session that has read its unit.
     pub(super) async fn connected(options: &Options, rotators: Rotators) -> Self {
         let mut rig = Self::start(options, &antenna(rotators));
         rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
@@ -68,7 +68,7 @@ impl Rig {
         rig
     }
 
-    /// The usual pair.
+    /// A session with the usual pair of rotators.
     pub(super) async fn pair() -> Self {
         Self::connected(&pair(), Rotators::Pair).await
     }
@@ -78,25 +78,25 @@ impl Rig {
         self.until("it stands", limit_s, stands).await;
     }
 
-    /// What is shown of the two axes, degrees.
+    /// Shown angles of the two axes, degrees.
     pub(super) fn axes_deg(&self) -> [Option<f64>; 2] {
         self.shown().state.measured.unwrap().axes.map(|axis| axis.angle_deg)
     }
 
-    /// What is shown of a reading.
+    /// Text of a shown reading.
     pub(super) fn reading(&self, label: &str) -> String {
         let shown = self.shown();
         let reading = shown.state.readings.iter().find(|reading| reading.label == label);
         reading.map_or_else(String::new, |reading| reading.text.clone())
     }
 
-    /// Where a rotator truly is; 1 or 2.
+    /// True state of a rotator, 1 or 2.
     pub(super) fn rotator(&self, number: usize) -> RotatorState {
         self.control.state().rotators[number - 1]
     }
 
-    /// All commands that the device received, without the questions. A stop is
-    /// sent again until it is proved, and stands here once.
+    /// Commands that the unit received, without questions. A STOP repeated until its proof
+    /// counts once.
     pub(super) fn orders(&self) -> Vec<String> {
         let mut orders = self.commands();
         orders.retain(|command| command != "|h");
@@ -104,12 +104,12 @@ impl Rig {
         orders
     }
 
-    /// All commands that the device received.
+    /// All commands that the unit received.
     pub(super) fn commands(&self) -> Vec<String> {
         self.control.received().into_iter().map(|(_, command)| command).collect()
     }
 
-    /// When this command came in.
+    /// Times at which this command came in.
     pub(super) fn times(&self, command: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
         received.filter(|(_, other)| other == command).map(|(at, _)| at).collect()

@@ -1,4 +1,4 @@
-//! A peer that answers as a test tells it, where the simulated device cannot.
+//! A peer with scripted answers, for cases that the simulated unit cannot play.
 
 use std::{
     sync::{Arc, Mutex},
@@ -20,7 +20,7 @@ use tokio::{
 use super::rig::antenna;
 use crate::common::{clock::TestClock, rig::session};
 
-/// What a script says to a command: replies, each after a delay in milliseconds.
+/// Replies to a command, each after a delay in milliseconds.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, Vec<u8>)> + Send>;
 
 /// A session with a scripted peer.
@@ -49,7 +49,7 @@ impl Scripted {
         Self { handle, received, events: Vec::new() }
     }
 
-    /// A peer that says `bytes` to the first question, and no more.
+    /// A peer that answers the first question with `bytes`, and no other.
     pub(super) fn raw(bytes: &'static [u8]) -> Self {
         let mut bytes = Some(bytes);
         let script =
@@ -69,17 +69,17 @@ impl Scripted {
         std::mem::take(&mut self.events)
     }
 
-    /// All commands that came in.
+    /// All commands received.
     pub(super) fn sent(&self) -> Vec<String> {
         self.received.lock().unwrap().iter().map(|(_, command)| command.clone()).collect()
     }
 
-    /// All but the questions.
+    /// All commands received except questions.
     pub(super) fn orders(&self) -> Vec<String> {
         self.sent().into_iter().filter(|command| command != "|h").collect()
     }
 
-    /// When this command came in.
+    /// Times at which this command came in.
     pub(super) fn times(&self, command: &str) -> Vec<Instant> {
         let received = self.received.lock().unwrap();
         received.iter().filter(|(_, other)| other == command).map(|(at, _)| *at).collect()
@@ -109,7 +109,7 @@ async fn serve(
                 let writer = Arc::clone(&writer);
                 tokio::spawn(async move {
                     sleep(Duration::from_millis(delay_ms)).await;
-                    // The session may be gone by then.
+                    // An error is ignored: the session may be gone by then.
                     let _ = writer.lock().await.write_all(&reply).await;
                 });
             }
@@ -117,8 +117,8 @@ async fn serve(
     }
 }
 
-/// A wide status of a pair: azimuth rotator, then elevation rotator; whole
-/// degrees, which way they are driven, and the limit byte of the first.
+/// A wide status of a pair, azimuth before elevation: whole degrees, directions of the
+/// drives, and the limit byte of the first rotator.
 pub(super) fn status(azimuth: u16, elevation: u16, moving: [char; 2], limit: char) -> Vec<u8> {
     let [one, two] = moving;
     let text = format!(
@@ -128,7 +128,7 @@ pub(super) fn status(azimuth: u16, elevation: u16, moving: [char; 2], limit: cha
     text.chars().map(|c| u8::try_from(c).unwrap()).collect()
 }
 
-/// What a plain device answers after 10 ms to what a script leaves alone.
+/// Answers of a plain unit after 10 ms, to commands that the script leaves alone.
 pub(super) fn plain(command: &str) -> Vec<(u64, Vec<u8>)> {
     let reply = match command.get(1..2) {
         Some("h") => status(100, 10, ['0', '0'], '\0'),

@@ -1,5 +1,4 @@
-//! The configuration of the rotators: what was sent byte by byte, and what is
-//! shown of it.
+//! Configuration of the rotators: the bytes sent, and the display.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -29,7 +28,7 @@ fn offset(degrees: i64) -> (&'static str, Value) {
     ("stop_offset_deg", Value::Integer(degrees))
 }
 
-/// What came of the change with this ticket, if it is over.
+/// Outcome of the change with this ticket, if it is over.
 fn outcome(handle: &AntennaHandle, asked: &Change) -> Option<Result<(), WriteError>> {
     let shown = handle.snapshot();
     let written = shown.state.held.get(asked.group)?.written.as_ref()?;
@@ -78,7 +77,7 @@ async fn a_configuration_goes_out_whole_and_once_and_is_read_back() {
     assert_eq!(rig.orders(), ["|c1270090A03T\u{fc}rm      "]);
     assert_eq!(held(&rig, "rotator_1")["limit_cw_deg"], Value::Integer(270));
     assert_eq!(rig.reading("Rotator 1"), "Türm, azimuth");
-    // The offset of the status is another one.
+    // The offset of the status is a different value.
     assert_eq!(rig.reading("Offset 1"), "0°");
     let asked = change("rotator_2", [offset(0), ("kind", Value::Choice(0))]);
     assert_eq!(write_settings(&mut rig, asked).await, Ok(()));
@@ -168,7 +167,7 @@ async fn a_configuration_without_an_answer_is_judged_by_what_is_read() {
 
 #[tokio::test(start_paused = true)]
 async fn a_device_that_holds_something_else_is_told() {
-    // It says yes to everything and keeps what it has.
+    // The peer accepts everything and changes nothing.
     let mut device = Scripted::start(Rotators::Pair, Box::new(plain));
     device.seconds(0.5).await;
     let asked = change("rotator_2", [offset(3), ("limit_cw_deg", Value::Integer(80))]);

@@ -1,4 +1,4 @@
-//! The whole way: the driver's thread, a TCP port, and the device behind it.
+//! The whole path: the driver's thread, a TCP port, and the unit behind it.
 
 use std::{
     sync::{Arc, mpsc},
@@ -15,10 +15,10 @@ use azel::{
 
 use super::rig::{pair, to};
 
-/// Longer than anything here takes.
+/// Longer than any step here takes.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Waits for the driver to say that something has changed until it is shown.
+/// Waits for wakes of the driver until the snapshot fulfils the condition.
 fn until(handle: &AntennaHandle, woken: &mpsc::Receiver<()>, is_so: impl Fn(&Snapshot) -> bool) {
     while !is_so(&handle.snapshot()) {
         woken.recv_timeout(PATIENCE).unwrap();
@@ -34,7 +34,7 @@ fn an_antenna_over_tcp_is_read_sent_and_stopped_and_a_second_client_turned_away(
     let control = simulator.control();
     runtime.spawn(simulator.run());
 
-    // One word is enough for any number of changes.
+    // One wake is enough for any number of changes.
     let (woke, woken) = mpsc::sync_channel(1);
     let wake = Arc::new(move || {
         let _ = woke.try_send(());

@@ -1,4 +1,4 @@
-//! What went over the link, for the console.
+//! Record of the link for the console.
 
 use azel::{
     device::{Direction, Finding, WireLine},

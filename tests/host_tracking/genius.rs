@@ -1,4 +1,4 @@
-//! A Rotator Genius: whole degrees, one speed, and it coasts.
+//! A Rotator Genius: whole degrees, one speed, and coasting.
 
 use azel::{
     astro::{AzEl, time::add_seconds},
@@ -17,10 +17,10 @@ use super::{
 
 type Rig = rig::Rig<Control>;
 
-/// Before AOS, so that the antenna is there in time.
+/// Lead before AOS, so that the antenna is there in time.
 const LEAD_S: f64 = 180.0;
 
-/// As fast as the simulated rotators are.
+/// An antenna as fast as the simulated rotators.
 pub(super) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
@@ -34,7 +34,7 @@ pub(super) fn antenna(rotators: Rotators) -> Antenna {
     antenna
 }
 
-/// The same on a mount that flips over the zenith.
+/// A pair on a mount that flips over the zenith.
 fn over() -> Antenna {
     let mut antenna = antenna(Rotators::Pair);
     if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {
@@ -70,7 +70,7 @@ async fn followed(stop_offset_deg: u8, scene: &Scene) -> TrackStats {
     followed_by(&options(stop_offset_deg), &antenna(Rotators::Pair), scene).await
 }
 
-/// With a device whose elevation goes to `to_deg`, on a mount that flips.
+/// Tracks with a unit whose elevation goes to `to_deg`, on a mount that flips.
 async fn followed_over(to_deg: u16, scene: &Scene) -> TrackStats {
     let mut options = options(2);
     options.rotators[1].limit_cw = WholeDegrees::saturating(to_deg);
@@ -109,7 +109,7 @@ async fn close_to_the_zenith_it_slews_in_time() {
     assert!(rms < 2.0 && worst < 8.0, "{rms} {worst}");
 }
 
-/// All azimuths that the device was sent to, degrees.
+/// Azimuths of all go-to commands, degrees.
 fn azimuths(control: &Control) -> Vec<u16> {
     let received = control.received();
     let of = |command: &str| command.strip_prefix("|A1").and_then(|degrees| degrees.parse().ok());
@@ -156,7 +156,7 @@ async fn over_the_zenith_the_sky_shows_where_it_points() {
         let off = at.unwrap().separation(predicted).degrees();
         assert!(off < 4.0 && at.unwrap().elevation_deg() < 90.0, "{at:?} {predicted:?}");
     }
-    // By hand it goes back.
+    // By hand the antenna goes back.
     let (azimuth, elevation) = (Some(predicted.azimuth), Some(predicted.elevation));
     rig.send(Command::Position { azimuth, elevation });
     rig.until_event(120, |event| matches!(event, Event::Arrived(_))).await;
@@ -195,7 +195,7 @@ async fn a_rotator_alone_follows_in_azimuth() {
 async fn a_refusal_of_the_device_ends_it_with_its_reason() {
     let scene = sky::usual();
     let mut options = options(2);
-    // Its limits leave out where the pass is.
+    // The limits of the unit exclude the pass.
     options.rotators[0].position = WholeDegrees::saturating(10);
     options.rotators[0].limit_cw = WholeDegrees::saturating(12);
     options.rotators[0].limit_ccw = WholeDegrees::saturating(8);

@@ -1,5 +1,5 @@
-//! Keep-outs that are gone round: over whole passes the measured direction stays
-//! outside, and the target is followed again on the other side.
+//! Detours round keep-outs: over whole passes the measured direction stays outside, and
+//! the target is tracked again on the other side.
 
 use azel::{
     astro::{Angle, AzEl},
@@ -17,8 +17,8 @@ use super::{
     sky::{self, Scene},
 };
 
-/// From the ground to 8 degrees over where the pass is halfway, 8 degrees to both
-/// sides.
+/// A keep-out at the middle of the pass: from the ground to 8 degrees above the pass, 8
+/// degrees to both sides.
 fn halfway(scene: &Scene, margin_deg: f64) -> KeepOut {
     let halfway =
         azel::astro::time::add_seconds(scene.pass.aos.time, scene.pass.duration_s() / 2.0);
@@ -33,8 +33,8 @@ fn mast(azimuth_deg: f64, top: f64, margin_deg: f64) -> KeepOut {
     KeepOut { entered: Entered::GoRound, margin_deg, ..crate::common::mast(&corners) }
 }
 
-/// How far outside of all margins the antenna was at least while it followed, and how
-/// far beside the target when it set, degrees.
+/// Least distance of the antenna from all margins during the track, and its distance from
+/// the target at LOS, degrees.
 async fn follow_round<U: Unit>(
     rig: &mut Rig<Control<U>>,
     antenna: &Antenna,
@@ -83,7 +83,7 @@ async fn by_a_genius_that_coasts() {
     let (mut rig, _control) = genius::connected(&genius::options(2), &antenna, &scene).await;
     let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 4.0)).await;
     println!("Genius: {min_deg:.2} outside, at last {off_deg:.2} beside");
-    // It coasts by up to two degrees, which its margin is wider by.
+    // The antenna coasts by up to two degrees, which its margin is wider by.
     assert!(min_deg > -3.0, "{min_deg}");
     assert!(off_deg < 3.0, "{off_deg}");
 }
@@ -115,6 +115,6 @@ async fn by_a_satrak_on_crossed_axes() {
     let [min_deg, off_deg] = follow_round(&mut rig, &antenna, &scene, halfway(&scene, 1.0)).await;
     println!("Satrak: {min_deg:.2} outside, at last {off_deg:.2} beside");
     assert!(min_deg > -0.1, "{min_deg}");
-    // It stays above its minimum elevation of five degrees.
+    // The antenna stays above its minimum elevation of five degrees.
     assert!(off_deg < 5.5, "{off_deg}");
 }

@@ -1,4 +1,4 @@
-//! What is asked of a rig over a whole pass.
+//! Parts of a rig for whole passes.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use jiff::Timestamp;
 
 pub(super) use crate::common::rig::{Rig, session};
 
-/// How finely the operator looks; passes are long.
+/// Interval of the operator's looks, coarse because passes are long.
 pub(super) const LOOK: Duration = Duration::from_millis(20);
 
 impl<U: Unit> Rig<Control<U>> {
@@ -21,7 +21,7 @@ impl<U: Unit> Rig<Control<U>> {
         self.seconds(left_s.max(0.0)).await;
     }
 
-    /// Waits for the end of the pass that is followed.
+    /// Waits for the end of the tracked pass.
     pub(super) async fn until_over(&mut self) -> TrackStats {
         let is_over = |event: &Event| matches!(event, Event::ProgramTrackOver { .. });
         match self.until_event(3000, is_over).await {
@@ -30,14 +30,13 @@ impl<U: Unit> Rig<Control<U>> {
         }
     }
 
-    /// Where the target is in its passes, as far as one is followed.
+    /// Phase of the track, if there is one.
     pub(super) fn phase(&self) -> Option<TrackPhase> {
         self.shown().program_track.as_ref().map(|view| view.phase)
     }
 }
 
-/// Prints a line of the table, and gives root mean square and worst error in
-/// degrees.
+/// Prints a line of the table; returns root mean square and worst error in degrees.
 pub(super) fn figures(what: &str, stats: TrackStats) -> (f64, f64) {
     let [rms, worst] = [stats.rms(), stats.worst()].map(|off| off.unwrap().degrees());
     println!("{what:44} | rms {rms:6.3} | worst {worst:7.3} | {:4} commands", stats.commands);

@@ -1,5 +1,4 @@
-//! A Satrak that is sent from position to position, though it could track by
-//! itself.
+//! A Satrak in program track, although it could track on board.
 
 use std::{sync::Arc, time::Duration};
 
@@ -119,7 +118,7 @@ async fn stop_and_every_other_wish_end_it_for_good() {
     }
 }
 
-/// In the middle of the usual pass, followed from here.
+/// In program track, in the middle of the usual pass.
 async fn following(antenna: &Antenna) -> (Rig, Control, Scene) {
     let scene = sky::usual();
     let (rig, control) = connected(antenna, &scene, 60.0).await;
@@ -136,7 +135,7 @@ fn is_followed(rig: &Rig, control: &Control) -> bool {
         .is_some_and(|predicted| direction(control).separation(predicted.direction).degrees() < 0.6)
 }
 
-/// Somebody else sends the antenna to another place.
+/// Another client sends the antenna elsewhere.
 async fn send_elsewhere(control: &Control) {
     let (mut near, far) = tokio::io::duplex(4096);
     let unit = control.clone();
@@ -233,7 +232,7 @@ async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
     rig.set_off(false);
     rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     let sent = gotos(&control);
-    // Before its place was read again.
+    // Before the position is read again.
     rig.set_off(true);
     rig.seconds(0.1).await;
     rig.set_off(false);
@@ -376,7 +375,7 @@ async fn a_direction_the_sun_and_the_moon_are_followed_too() {
             let off = direction(&control).separation(predicted.direction).degrees();
             assert!(off < 0.15, "{target:?} {off}");
         }
-        // They move by less than 17 degrees in the time.
+        // The targets move by less than 17 degrees in the time.
         assert!(gotos(&control) < 400, "{target:?} {}", gotos(&control));
         if matches!(target, Target::Fixed(_)) {
             assert_eq!(gotos(&control), 1);
@@ -391,7 +390,7 @@ async fn lost_answers_do_not_end_it() {
     control.set_fault(Fault::DropReply, true);
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));
     let (rms, _) = figures("Satrak, every third answer lost", rig.until_over().await);
-    // Each one is waited for.
+    // The session waits for each go-to.
     assert!(rms < 1.0, "{rms}");
 }
 

@@ -1,4 +1,4 @@
-//! Real passes to follow, from the bundled catalog.
+//! Real passes to track, from the bundled catalog.
 
 use azel::{
     astro::{Site, time::add_seconds},
@@ -8,7 +8,7 @@ use azel::{
 
 /// Satellites on low orbits.
 const NUMBERS: [u32; 6] = [43013, 25544, 37849, 25994, 27424, 49260];
-/// Passes are looked for in so many days.
+/// Days in which passes are searched for.
 const DAYS: f64 = 10.0;
 
 /// A satellite and one of its passes.
@@ -18,7 +18,7 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// This pass alone.
+    /// Program track of this pass alone.
     pub(super) fn follow(&self) -> ProgramTrack {
         ProgramTrack {
             target: Target::Satellite(Box::new(self.elements.clone())),
@@ -38,7 +38,7 @@ impl Scene {
         (0..=50).map(look).collect()
     }
 
-    /// Where in the pass it crosses north, 0 to 1.
+    /// Point of the pass at which it crosses north, 0 to 1.
     fn north(&self) -> Option<f64> {
         let azimuths = self.azimuths_deg();
         let at = azimuths.windows(2).position(|two| (two[1] - two[0]).abs() > 180.0)?;
@@ -68,7 +68,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
     })
 }
 
-/// A pass of middle height that stays away from north.
+/// A pass of medium height that stays away from north.
 pub(super) fn usual() -> Scene {
     let is_it = |scene: &Scene| (35.0..50.0).contains(&scene.max_deg()) && scene.north().is_none();
     scenes().find(is_it).unwrap()
@@ -83,8 +83,7 @@ pub(super) fn through_north() -> Scene {
     scenes().find(is_it).unwrap()
 }
 
-/// A pass that comes within some 2 degrees of the zenith and stays away from
-/// north.
+/// A pass that comes within some 2 degrees of the zenith and stays away from north.
 pub(super) fn overhead() -> Scene {
     let is_it = |scene: &Scene| (87.5..88.5).contains(&scene.max_deg()) && scene.north().is_none();
     scenes().find(is_it).unwrap()

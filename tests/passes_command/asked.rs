@@ -1,4 +1,4 @@
-//! Which elements and which site are asked for, and what the exit code says of them.
+//! Selection of elements and site, and the exit code about it.
 
 use super::*;
 
@@ -115,10 +115,10 @@ fn site_and_elevations_come_from_the_station_file() {
     let spelled_out = files.passes(&["a.json"], &["--aos", "5", "--floor", "20"]);
     assert!(text(&output.stdout).lines().count() > 2);
     assert_eq!(text(&output.stdout), text(&spelled_out.stdout));
-    // The command line goes before the file.
+    // The command line takes precedence over the file.
     let own = of_station(&["--format", "csv", "--aos", "0", "--floor", "0", "--lat", "41.02"]);
     assert_eq!(text(&own.stdout), text(&files.passes(&["a.json"], &[]).stdout));
-    // The option may stand before the command too.
+    // The option may precede the command too.
     let before = azel(&["--station", &path, "passes", "--elements", &a, "--format", "csv"]);
     assert_eq!(before.status.code(), Some(0), "{}", text(&before.stderr));
     let ics = text(&of_station(&["--format", "ics"]).stdout);

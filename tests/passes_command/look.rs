@@ -1,4 +1,4 @@
-//! `azel look`.
+//! The command `azel look`.
 
 use super::*;
 
@@ -31,7 +31,7 @@ fn a_satellite_is_looked_at_in_steps() {
     assert_eq!(list[120]["time"], "2026-08-12T06:01:00.000Z");
     let csv = text(&run(&["--minutes", "1", "--format", "csv"]).stdout);
     assert_eq!(csv.lines().count(), 8);
-    // The same direction as a pass has at its maximum.
+    // The direction equals that of a pass at its maximum.
     let both = look(&["--from", "2026-08-12"]);
     assert_eq!(both.status.code(), Some(1));
     let said = text(&both.stderr);

@@ -24,7 +24,7 @@ async fn not_sent(rig: &mut Rig) -> Refusal {
     refusal
 }
 
-/// A mast before the azimuths from 140 to 150 degrees, up to 60.
+/// A mast in front of azimuths 140 to 150 degrees, up to 60 degrees.
 fn mast() -> Bounds {
     let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
     let mast = crate::common::mast(&corners_deg);
@@ -91,7 +91,7 @@ async fn what_was_started_unseen_is_stopped_before_a_keep_out_whatever_the_stati
     let mut rig = Rig::connected(&Options::default(), &alarm_alone).await;
     rig.send(Command::Manual);
     rig.handle().keep_within(mast());
-    // It is stored at 122.75 degrees, behind the mast.
+    // The stored azimuth is 122.75 degrees, behind the mast.
     rig.act_unseen("to_satellite", to("SATCOM C3", 0));
     let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
     let told = rig.until_event(30, is_told).await;
@@ -110,7 +110,7 @@ async fn what_cannot_be_watched_is_not_started_unseen() {
     rig.act_unseen("to_satellite", to("GALAXY 5", 0));
     assert_eq!(not_sent(&mut rig).await, Refusal::AngleUnknown { axis: "Az" });
     assert!(rig.orders().is_empty());
-    // Where nothing is forbidden the operator's eyes have to do.
+    // Without barriers the operator's eyes must do.
     rig.handle().keep_within(Bounds::of_antenna(&uncalibrated()));
     rig.act("to_satellite", to("GALAXY 5", 0));
     let told = not_sent(&mut rig).await;
@@ -196,7 +196,7 @@ async fn counts_are_gone_to_within_the_travel_of_the_mount() {
     rig.act("to_counts", counts(4000, 700));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Travel { axis: "Az", to_deg: 270.0, .. }), "{told:?}");
-    // Within the travel and below the lowest elevation.
+    // Within the travel and below the minimum elevation.
     rig.act_unseen("to_counts", counts(1600, 70));
     let told = not_sent(&mut rig).await;
     assert!(matches!(told, Refusal::Elevation { lowest_deg: 5.0, .. }), "{told:?}");

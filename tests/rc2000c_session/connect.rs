@@ -1,4 +1,4 @@
-//! Nothing before the operator's word, then a probe, then questions.
+//! Connection: nothing before the operator's order, then a probe, then questions.
 
 use std::time::Duration;
 

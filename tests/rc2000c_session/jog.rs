@@ -80,7 +80,7 @@ async fn a_stop_and_standstill_stand_between_two_axes() {
     assert!(orders[stop..other].iter().all(|text| text == "3XS0000"), "{orders:?}");
     assert!(orders[other..].iter().all(|text| text == "3UF0600"), "{orders:?}");
     let between = rig.times("3U")[0] - rig.times("3X")[0];
-    // The simulated axis needs 0.8 s to run out, which only its counts tell.
+    // The simulated axis coasts for 0.8 s, which only its counts show.
     assert!(between > Duration::from_millis(600), "{between:?}");
     rig.hold([FAST, FAST], 4.0).await;
     assert_eq!(rig.events(), [Event::NotSent(Refusal::OneAxis)]);
@@ -102,7 +102,7 @@ async fn a_lease_that_is_not_renewed_ends_the_jog() {
 /// As after a computer that slept: the renewal and the end are due at once.
 #[tokio::test(start_paused = true)]
 async fn a_session_that_was_held_up_ends_the_jog_and_does_not_renew_it() {
-    // Wherever in its round the jog is.
+    // At any point in the round of the jog.
     for place in 0..16 {
         let mut rig = Rig::in_manual().await;
         rig.hold([FAST, 0.0], 0.6).await;
@@ -202,7 +202,7 @@ async fn a_limit_blocks_its_own_direction_only() {
     let quirks = [Quirk::RefuseAtLimit].into_iter().collect();
     let mut rig = Rig::connected(&Options { quirks, ..Options::default() }, &antenna()).await;
     rig.send(Command::Manual);
-    // Calibrated, the minimum elevation ends it before the limit does.
+    // With a calibration the minimum elevation ends it before the limit does.
     rig.hold([0.0, -FAST], 30.0).await;
     let events = rig.events();
     let barrier = Barrier::MinimumElevation;

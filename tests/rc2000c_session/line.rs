@@ -1,4 +1,4 @@
-//! What lines do: echoes, noise, pieces, lost and broken replies, wrong addresses.
+//! Effects of lines: echoes, noise, pieces, lost and broken replies, wrong addresses.
 
 use azel::{
     device::{Direction, Finding, Meaning},

@@ -1,4 +1,4 @@
-//! The polarization: turned by hand, by the stored values, and by the unit.
+//! Polarization: turned by hand, by the stored values, and by the unit.
 
 use azel::{
     device::{Asked, settings::Value},

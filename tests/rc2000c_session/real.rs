@@ -1,5 +1,5 @@
-//! The whole way in real time: through a serial server on TCP, with and without
-//! parity of its own, and through a pseudo-terminal.
+//! The whole path in real time: through a serial server on TCP, with and without parity of
+//! its own, and through a pseudo-terminal.
 
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ use crate::common::{clock::TestClock, rig::session};
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A fast line, for these tests run in real time.
+/// A fast line, because these tests run in real time.
 fn options() -> Options {
     Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
 }
@@ -64,7 +64,7 @@ impl Desk {
         self.events.clear();
     }
 
-    /// Connect, jog, stop, go to counts, leave.
+    /// Connects, jogs, stops, goes to counts, leaves.
     async fn tour(&mut self, control: &Control) {
         self.send(Command::Connect);
         self.until_event(Event::Connected(Found::Still)).await;
@@ -129,7 +129,7 @@ async fn a_serial_server_with_eight_bits_is_understood_at_the_second_try() {
 async fn over_a_serial_port() {
     use azel::sim::rc2000c::PtySimulator;
 
-    // Some containers have none.
+    // Some containers have no pseudo-terminals.
     if !std::path::Path::new("/dev/ptmx").exists() {
         return;
     }
@@ -139,7 +139,7 @@ async fn over_a_serial_port() {
     let server = tokio::spawn(simulator.run());
     let mut desk = Desk::at(&path);
     desk.tour(&control).await;
-    // Again, and then the cable is pulled.
+    // Connect again, and then the cable is pulled.
     desk.send(Command::Connect);
     desk.until_event(Event::Connected(Found::Still)).await;
     server.abort();

@@ -19,8 +19,8 @@ use crate::common::rig;
 
 pub(super) type Rig = rig::Rig<Control>;
 
-/// An antenna of twenty counts a degree, as the simulated one is: azimuth 90 to
-/// 270 degrees, elevation 0 to 90.
+/// An antenna of twenty counts a degree, like the simulated one: azimuth 90 to 270
+/// degrees, elevation 0 to 90.
 pub(super) fn antenna() -> Antenna {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let calibration = Calibration {
@@ -38,7 +38,7 @@ pub(super) fn antenna() -> Antenna {
     }
 }
 
-/// An antenna whose counts mean nothing yet.
+/// An antenna without calibration.
 pub(super) fn uncalibrated() -> Antenna {
     with_calibration(Calibration::default())
 }
@@ -50,14 +50,14 @@ fn with_calibration(calibration: Calibration) -> Antenna {
 }
 
 impl Rig {
-    /// A running session that nobody has told to connect.
+    /// A running session without an order to connect.
     pub(super) fn start(options: &Options, antenna: &Antenna) -> Self {
         Self::new(Control::new(options), Timestamp::UNIX_EPOCH, |dial, clock| {
             rig::session(antenna, dial, clock)
         })
     }
 
-    /// A session that has read its unit and the list of satellites; all stands.
+    /// A session that has read its unit and the list of satellites, at standstill.
     pub(super) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
         rig.send(Command::Connect);
@@ -70,7 +70,7 @@ impl Rig {
         rig
     }
 
-    /// The usual unit and antenna, in the hands of the operator.
+    /// The usual unit and antenna, in Manual.
     pub(super) async fn in_manual() -> Self {
         let mut rig = Self::connected(&Options::default(), &antenna()).await;
         rig.send(Command::Manual);
@@ -86,7 +86,7 @@ impl Rig {
         self.send(Command::Act(Act { action, values: values.into_iter().collect() }));
     }
 
-    /// The same, with the operator's word that it may lead anywhere.
+    /// Requests an action with the operator's consent that it may lead anywhere.
     pub(super) fn act_unseen<const N: usize>(
         &self,
         action: &'static str,
@@ -101,19 +101,18 @@ impl Rig {
         self.until_event(12, is_found).await;
     }
 
-    /// All that the unit received, as code and data: `1` is the question for the
-    /// status.
+    /// All commands that the unit received, as code and data: `1` asks for the status.
     pub(super) fn received(&self) -> Vec<String> {
         self.timed().into_iter().map(|(_, text)| text).collect()
     }
 
-    /// What the unit received beyond questions.
+    /// Commands that the unit received, without questions.
     pub(super) fn orders(&self) -> Vec<String> {
         let is_order = |text: &String| !text.starts_with(['0', '1', '5']);
         self.received().into_iter().filter(is_order).collect()
     }
 
-    /// When commands that begin so came in.
+    /// Times of commands that begin with `start`.
     pub(super) fn times(&self, start: &str) -> Vec<Instant> {
         let timed = self.timed().into_iter();
         timed.filter(|(_, text)| text.starts_with(start)).map(|(at, _)| at).collect()
@@ -127,20 +126,20 @@ impl Rig {
         self.control.received().iter().map(|(at, frame)| (*at, text(frame))).collect()
     }
 
-    /// Where the axes stand, in counts.
+    /// Shown positions of the axes, counts.
     pub(super) fn counts(&self) -> [u16; 2] {
         let state = self.control.state();
         [state.az_counts, state.el_counts]
     }
 }
 
-/// The text of a line of the panel.
+/// Text of a line of the panel.
 pub(super) fn reading(shown: &Snapshot, label: &str) -> Option<String> {
     let lines = shown.state.readings.iter();
     lines.filter(|line| line.label == label).map(|line| line.text.clone()).next()
 }
 
-/// How a checked thing is.
+/// State of a check.
 pub(super) fn check(shown: &Snapshot, name: &str) -> Option<CheckState> {
     shown.state.checks.iter().find(|check| check.name == name).map(|check| check.state)
 }

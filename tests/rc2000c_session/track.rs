@@ -1,4 +1,4 @@
-//! The track mode of the unit: shown, left alone, and ended only when told.
+//! Track mode of the unit: shown, left alone, and ended only on request.
 
 use azel::{
     device::{Asked, panel::CheckState, settings::Value},

@@ -1,11 +1,11 @@
-//! Many cases with one seed after the other.
+//! Many cases with successive seeds.
 
 use std::{future::Future, panic::AssertUnwindSafe};
 
 use crate::common::dice::Dice;
 
-/// Runs `case` in paused time with one seed after the other, `usual` times unless
-/// `AZEL_CASES` says otherwise.
+/// Runs `case` in paused time with successive seeds, `usual` times unless `AZEL_CASES`
+/// sets another number.
 pub(super) fn for_each_case<Ran: Future<Output = ()>>(
     class: &str,
     usual: u64,

@@ -1,4 +1,4 @@
-//! Angles that freeze, and flags that say that a turning antenna stands.
+//! Frozen angles, and flags that report a turning antenna as standing.
 
 use std::time::Duration;
 
@@ -21,11 +21,11 @@ async fn scene(dice: &mut Dice, others_jog: bool) -> Scene {
     Scene::start(world, dice).await
 }
 
-/// Between two looks that prove standstill slower motion of a Satrak may stay within
-/// the tenths of a degree that it tells.
+/// Rate below which a motion of a Satrak may hide between two looks that prove standstill,
+/// in the tenths of a degree that it reports.
 const SLOWEST_DEG_S: f64 = 0.5;
 
-/// The way of an axis with the longer travel ahead.
+/// Direction of an axis with the longer travel ahead.
 fn long_way(scene: &Scene, axis: usize) -> f64 {
     let (from_deg, to_deg) = scene.world.antenna.mount.travel_deg()[axis];
     let at_deg = scene.world.unit.axes_deg()[axis];
@@ -63,7 +63,7 @@ async fn flags_lie(mut dice: Dice) {
             scene.report()
         );
     }
-    // One that came to its end had no time to be told of.
+    // A motion that ended early had no time to be reported.
     if turned_until < began + Duration::from_millis(9900) {
         return;
     }

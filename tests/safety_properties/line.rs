@@ -1,4 +1,4 @@
-//! The line between a session and its unit, and its troubles.
+//! Line between a session and its unit, with its troubles.
 
 use std::{
     io,
@@ -15,7 +15,7 @@ use tokio::{
 use super::unit::Unit;
 use crate::common::dice::Dice;
 
-/// What goes wrong between a session and its unit.
+/// Troubles between a session and its unit.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Line {
     pub(super) late_ms: f64,
@@ -27,15 +27,15 @@ pub(super) struct Line {
     pub(super) is_split: bool,
     /// Replies carry no checksum: a changed figure would be a true one of elsewhere.
     pub(super) is_unchecked: bool,
-    /// What the session writes gets nowhere.
+    /// Bytes written by the session are lost.
     pub(super) is_deaf: bool,
-    /// What the unit writes gets nowhere.
+    /// Bytes written by the unit are lost.
     pub(super) is_mute: bool,
     /// A STOP never gets through.
     pub(super) ignores_stop: bool,
 }
 
-/// Carries what both ends write, with the troubles of the line.
+/// Carries the bytes of both ends, with the troubles of the line.
 pub(super) async fn carry(
     mut here: DuplexStream,
     mut there: Box<dyn Stream>,

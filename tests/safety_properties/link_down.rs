@@ -1,4 +1,4 @@
-//! The link fails in the middle of a motion, or STOP is not obeyed.
+//! The link fails during a motion, or STOP is not obeyed.
 
 use std::time::Duration;
 
@@ -16,14 +16,14 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// How the link fails.
+/// Failure of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Failure {
-    /// It closes, and nobody answers for a while.
+    /// The link closes, and nobody answers for a while.
     Lost,
-    /// What is written vanishes, and so no reply comes.
+    /// Commands are lost, and so no reply comes.
     HalfOpen,
-    /// Commands are carried out, replies vanish.
+    /// Commands are carried out, replies are lost.
     Mute,
     /// Nothing gets through either way, and the link stays open.
     Stalled,
@@ -49,7 +49,7 @@ fn is_silent(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::SilentInMotion))
 }
 
-/// Of a STOP that is not obeyed.
+/// Whether the event reports a STOP that is not obeyed.
 fn is_alarm(event: &Event) -> bool {
     matches!(
         event,
@@ -59,15 +59,15 @@ fn is_alarm(event: &Event) -> bool {
     )
 }
 
-/// A reply that takes longer is missing; at the speed of the line of an RC2000C its
-/// characters take the rest.
+/// Time after which a reply is missing; at the line speed of an RC2000C its characters
+/// take the rest.
 const MISSING: Duration = Duration::from_millis(760);
-/// After the first reply that is missing the operator is told within this.
+/// Time after the first missing reply within which the operator is told.
 const ALARM: Duration = Duration::from_secs(1);
-/// A jog of an RC2000C runs on for so long at its rate: what was renewed last, one more
-/// where commands still get through, and the overrun.
+/// Time for which a jog of an RC2000C runs on at its rate: the last renewal, one more if
+/// commands still get through, and the overrun.
 const RUNS_ON_S: f64 = 2.0;
-/// A STOP that is not proved is sent again within this.
+/// Time within which an unproved STOP is sent again.
 const AGAIN: Duration = Duration::from_millis(1500);
 
 async fn fails(mut dice: Dice) {
@@ -101,7 +101,7 @@ async fn fails(mut dice: Dice) {
     if !scene.world.unit.is_turning() {
         return;
     }
-    // An axis at the end of its travel is stopped by the session in the same moment.
+    // The session stops an axis at the end of its travel in the same moment.
     if is_jog && scene.shown().jog.is_none() {
         return;
     }
@@ -128,7 +128,7 @@ async fn fails(mut dice: Dice) {
     }
     scene.send(Command::EndJog);
     assert!(was_shown, "shown as up: {case}\n{}", scene.report());
-    // The reply that is missing first was asked for within a poll period.
+    // The first missing reply was asked for within a poll period.
     let last = failed + poll + MISSING + ALARM + Duration::from_millis(100);
     let told = scene.told(failed, is_silent);
     assert!(
@@ -154,9 +154,8 @@ async fn fails(mut dice: Dice) {
     assert!(!scene.shown().silent, "still silent: {case}\n{}", scene.report());
     let words = scene.world.words_since(back);
     if !ends_by_itself && failure != Failure::Mute {
-        // Only questions may come before it on a link that heals by itself; on a new
-        // one nothing does. Of an antenna that has come to its end looks alone prove
-        // standstill.
+        // Only questions may come before it on a link that heals by itself, and nothing on a new
+        // link. For an antenna at the end of its travel looks alone prove standstill.
         let first = words.iter().find(|(_, word)| *word != Word::Question);
         let is_soon = first.map_or(!turned_on, |(at, word)| {
             let in_time = !turned_on || failure == Failure::Lost || *at <= back + AGAIN;
@@ -194,7 +193,7 @@ async fn ignores_stop(scene: &mut Scene, case: &str) {
             scene.report()
         );
     }
-    // A standstill is told as unproved after three seconds, or where its proof takes
+    // A standstill is reported as unproved after three seconds, or when its proof takes
     // longer.
     if was_turning >= pressed + Duration::from_millis(4500) {
         let told = scene.told(pressed, is_alarm);
@@ -215,7 +214,7 @@ async fn hold(scene: &mut Scene, rates_deg_s: [f64; 2], seconds: f64) {
     }
 }
 
-/// Replies that are late, and one that is lost, are no silence.
+/// Late replies and a single lost one are no silence.
 async fn answers_late(mut dice: Dice) {
     let wish = Wish::default();
     let world = World::random(&mut dice, &wish);

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// What the operator does next.
+/// Next act of the operator.
 #[derive(Debug)]
 enum Deed {
     Hold { rates_deg_s: [f64; 2], seconds: f64 },
@@ -77,7 +77,7 @@ fn assert_outside(scene: &Scene, deeds: &[Deed]) {
         -floor_deg,
         scene.report()
     );
-    // The Sun has no margin but its own radius.
+    // The only margin of the Sun is its own radius.
     let sun_deg = scene.sun_clearance_deg();
     assert!(sun_deg > -2.0 * coarse_deg, "{sun_deg} from the Sun\n{deeds:?}\n{}", scene.report());
 }
@@ -156,7 +156,7 @@ async fn drives(mut dice: Dice) {
     watched(&mut scene, 4.0, &deeds).await;
 }
 
-/// How far a motion of others gets between the look before it began and standstill.
+/// Distance of a motion by others from the look before it began to standstill.
 fn room_deg(world: &World) -> f64 {
     const POLL_AND_REPLY_S: f64 = 0.6;
     const RUN_OUT_S: f64 = 1.0;
@@ -184,12 +184,12 @@ async fn others_move(mut dice: Dice) {
     }
 }
 
-/// A gap that is narrower than this is no way out.
+/// Width below which a gap is no way out.
 const GAP_DEG: f64 = 1.0;
 
-/// How far an axis turns one way until the true direction is free, degrees; looked for in
-/// small steps. `None` where the floor, the end of the travel or another zone comes first,
-/// or follows within `gap_deg`.
+/// Degrees by which an axis turns one way until the true direction is free, searched in
+/// small steps. `None` if the floor, the end of the travel or another zone comes first, or
+/// follows within `gap_deg`.
 fn turn_out_deg(
     scene: &Scene,
     axes_deg: [f64; 2],
@@ -214,7 +214,7 @@ fn turn_out_deg(
             return None;
         }
         if here_deg.iter().all(|clear_deg| *clear_deg >= 0.0) {
-            // Nothing gets into a narrow gap that is judged ahead.
+            // A narrow gap is refused because jogs are judged ahead.
             there_deg[axis] += way * gap_deg;
             let is_wide = clear_deg(there_deg).iter().all(|clear_deg| *clear_deg >= 0.0)
                 && (from_deg..=to_deg).contains(&there_deg[axis]);
@@ -224,8 +224,8 @@ fn turn_out_deg(
     None
 }
 
-/// How far in the sky it is to where the antenna may point, by the shortest turn of one
-/// axis, which axis that is and which way.
+/// Distance in the sky to the nearest permitted direction by the shortest turn of one
+/// axis, with that axis and its direction.
 fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usize, f64)> {
     let bounds = &scene.world.bounds;
     let ways = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
@@ -239,10 +239,10 @@ fn way_out(scene: &Scene, axes_deg: [f64; 2], gap_deg: f64) -> Option<(f64, usiz
     lengths.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether a jog along the shortest way is free for as far as it is judged ahead, which
-/// of a unit with one speed may be beyond what lies behind the zone.
+/// Whether a jog along the shortest way is free as far as it is judged ahead. For a unit
+/// with one speed that may reach beyond the far side of the zone.
 fn is_way_wide(scene: &Scene, (_, axis, way): (f64, usize, f64), rate_deg_s: f64) -> bool {
-    /// More than a jog is judged ahead.
+    /// Longer than a jog is judged ahead.
     const AHEAD_S: f64 = 2.5;
     let World { bounds, antenna, utc_origin, unit, .. } = &scene.world;
     let has_one_speed = scene.world.has_one_speed();
@@ -286,7 +286,7 @@ async fn starts_inside(mut dice: Dice) {
             scene.send(Command::EndJog);
             scene.seconds(5.0).await;
             let to_deg = scene.world.unit.axes_deg();
-            // What the unit measures differs from where it is: a gap may look wider.
+            // The measured direction differs from the true one: a gap may look wider.
             let after = way_out(&scene, to_deg, GAP_DEG - 0.1);
             let turned_deg = (to_deg[axis] - from_deg[axis]).abs();
             if before.is_some_and(|(length_deg, ..)| length_deg == 0.0) {

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::common::{clock::TestClock, dice::Dice, network::Network, rig::session};
 
-/// How often the metal is looked at.
+/// Interval of looks at the metal.
 pub(super) const LOOK: Duration = Duration::from_millis(50);
 
 /// An operator in front of a session, and the metal.
@@ -30,7 +30,7 @@ pub(super) struct Scene {
     pub(super) line: Arc<Mutex<Line>>,
     network: Network,
     last_dial: Arc<Mutex<Option<Instant>>>,
-    /// All events and when they were seen.
+    /// All events, with the times at which they were seen.
     pub(super) events: Vec<(Instant, Event)>,
 }
 
@@ -73,7 +73,7 @@ impl Scene {
         change(&mut self.line.lock().unwrap());
     }
 
-    /// The network goes, or is there again.
+    /// Switches the network off or on.
     pub(super) fn set_off(&self, is_off: bool) {
         self.network.set_off(is_off);
         if is_off {
@@ -81,12 +81,12 @@ impl Scene {
         }
     }
 
-    /// When the last link was dialled that was opened.
+    /// Dial of the last link that was opened.
     pub(super) fn last_dial(&self) -> Option<Instant> {
         *self.last_dial.lock().unwrap()
     }
 
-    /// Waits for the time between two looks, and takes what was told.
+    /// Waits for the time between two looks, and collects the events.
     pub(super) async fn look(&mut self) {
         sleep(LOOK).await;
         let now = Instant::now();
@@ -102,18 +102,18 @@ impl Scene {
         }
     }
 
-    /// When the first event that `is_it` came, from `since` on.
+    /// Time of the first event since `since` for which `is_it` holds.
     pub(super) fn told(&self, since: Instant, is_it: impl Fn(&Event) -> bool) -> Option<Instant> {
         let mut events = self.events.iter().filter(|(at, _)| *at >= since);
         events.find(|(_, event)| is_it(event)).map(|(at, _)| *at)
     }
 
-    /// How many events that `is_it` have come from `since` on.
+    /// Number of events since `since` for which `is_it` holds.
     pub(super) fn count(&self, since: Instant, is_it: impl Fn(&Event) -> bool) -> usize {
         self.events.iter().filter(|(at, event)| *at >= since && is_it(event)).count()
     }
 
-    /// How far the true direction is from the Sun's surroundings, degrees.
+    /// Distance of the true direction from the Sun's surroundings, degrees.
     pub(super) fn sun_clearance_deg(&self) -> f64 {
         let utc = self.shown().state.measured.map_or(self.world.utc_origin, |it| it.at);
         let clearances = self.world.bounds.at(utc).clearances(self.world.direction());

@@ -1,50 +1,50 @@
-//! One simulated unit, whatever its make.
+//! A simulated unit of any make.
 
 use azel::{clock::Instant, driver::Stream};
 
 /// A simulated unit.
 pub(super) trait Unit: Send + Sync {
-    /// Where both axes truly stand, degrees as the mount counts.
+    /// True positions of both axes, degrees as the mount counts.
     fn axes_deg(&self) -> [f64; 2];
 
     fn is_turning(&self) -> bool;
 
-    /// Where the axes stand that were put there, as the unit counts.
+    /// Positions as the unit counts them, for axes placed there.
     fn as_counted(&self, axes_deg: [f64; 2]) -> [f64; 2] {
         axes_deg
     }
 
-    /// Puts the axes there; `false` where they cannot stand.
+    /// Puts the axes there; returns `false` if they cannot stand there.
     fn place(&self, axes_deg: [f64; 2]) -> bool;
 
     fn tell(&self, lie: Lie);
 
-    /// A link that it serves.
+    /// Link that the unit serves.
     fn link(&self) -> Box<dyn Stream>;
 
     /// Closes every link.
     fn drop_clients(&self);
 
-    /// What it has received, in order.
+    /// Received commands, in order.
     fn words(&self) -> Vec<(Instant, Word)>;
 
-    /// Whether a STOP is among bytes that were written to it at once.
+    /// Whether a STOP is among bytes that were written at once.
     fn holds_stop(&self, bytes: &[u8]) -> bool;
 }
 
-/// What a unit tells wrongly.
+/// Falsehood in the reports of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Lie {
     FrozenAngles,
     FalseRest,
 }
 
-/// What a unit received.
+/// Kind of a received command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Word {
     Stop,
     Question,
-    /// Metal is to move.
+    /// Order to move metal.
     Motion,
     Other,
 }

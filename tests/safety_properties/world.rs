@@ -18,7 +18,7 @@ use super::{
 };
 use crate::common::dice::Dice;
 
-/// A station, its antenna, and where it stands.
+/// A station, its antenna, and its unit.
 pub(super) struct World {
     pub(super) make: &'static Make,
     pub(super) unit: Arc<dyn Unit>,
@@ -26,13 +26,13 @@ pub(super) struct World {
     pub(super) station: Station,
     pub(super) bounds: Bounds,
     pub(super) utc_origin: Timestamp,
-    /// Of the fastest motion of the unit, degrees a second.
+    /// Fastest motion of the unit, degrees per second.
     pub(super) fastest_deg_s: f64,
-    /// Half a step of what is told, and what a drive may overshoot, degrees.
+    /// Half a step of the reported figures plus the overshoot of the drive, degrees.
     pub(super) coarse_deg: f64,
 }
 
-/// What a world is to have.
+/// Requirements for a world.
 pub(super) struct Wish {
     pub(super) keep_outs: usize,
     pub(super) min_margin_deg: fn(&World) -> f64,
@@ -56,7 +56,7 @@ impl Default for Wish {
 }
 
 impl World {
-    /// A random one, and its axes somewhere free, or inside a keep-out.
+    /// A random world, with its axes in a free direction, or inside a keep-out.
     pub(super) fn random(dice: &mut Dice, wish: &Wish) -> Self {
         let can = |make: &&Make| make.others_jog.is_some() || !wish.others_jog;
         let makes: Vec<_> = MAKES.iter().copied().filter(can).collect();
@@ -94,15 +94,15 @@ impl World {
         Self { make, unit, antenna, station, bounds, utc_origin, fastest_deg_s, coarse_deg }
     }
 
-    /// Puts the axes somewhere; `false` where that is not as wished.
+    /// Puts the axes somewhere; returns `false` if that does not fulfil the wish.
     fn place(&self, dice: &mut Dice, inside: bool) -> bool {
         let axes_deg = self.antenna.mount.travel_deg().map(|(from_deg, to_deg)| {
             let away_deg = f64::min(5.0, (to_deg - from_deg) / 4.0);
             dice.between(from_deg + away_deg, to_deg - away_deg).round()
         });
         let axes_deg = self.unit.as_counted(axes_deg);
-        // Where a unit counts within a full circle, an axis that has turned further would
-        // begin outside of its travel.
+        // If a unit counts within a full circle, an axis that has turned further would begin
+        // outside its travel.
         if axes_deg[0] < self.antenna.mount.travel_deg()[0].0 {
             return false;
         }
@@ -114,18 +114,18 @@ impl World {
         above_deg >= 3.0 && is_wished && self.unit.place(axes_deg)
     }
 
-    /// What the unit has received since `from`, in order.
+    /// Words that the unit has received since `from`, in order.
     pub(super) fn words_since(&self, from: Instant) -> Vec<(Instant, Word)> {
         self.unit.words().into_iter().filter(|(at, _)| *at >= from).collect()
     }
 
-    /// Every jog is as fast as any.
+    /// Whether every jog is equally fast.
     pub(super) fn has_one_speed(&self) -> bool {
         let jog = self.antenna.connection.variant().capabilities.jog;
         matches!(jog, JogSpeeds::Named([_]))
     }
 
-    /// Another client turns one axis.
+    /// Turns one axis as another client.
     pub(super) async fn other_client_turns(&self, axis: usize, rate_deg_s: f64) {
         let jog = self.make.others_jog.unwrap();
         let mut near = self.unit.link();
@@ -134,7 +134,7 @@ impl World {
         drop(near.read(&mut answer).await);
     }
 
-    /// How far the true direction is from the nearest keep-out itself, degrees.
+    /// Distance of the true direction from the nearest keep-out itself, degrees.
     pub(super) fn zone_clearance_deg(&self) -> f64 {
         let direction = self.direction();
         let zones = self.station.keep_outs.iter();
@@ -142,7 +142,7 @@ impl World {
         clear_deg.fold(f64::INFINITY, f64::min)
     }
 
-    /// How far the true direction is above the minimum elevation, degrees.
+    /// Height of the true direction above the minimum elevation, degrees.
     pub(super) fn floor_clearance_deg(&self) -> f64 {
         self.direction().elevation_deg() - self.antenna.limits.minimum_elevation_deg
     }
@@ -151,7 +151,7 @@ impl World {
         self.bounds.direction(self.unit.axes_deg())
     }
 
-    /// By how much an axis is beyond its travel, degrees.
+    /// Degrees by which an axis is beyond its travel.
     pub(super) fn beyond_travel_deg(&self) -> f64 {
         let axes = self.unit.axes_deg().into_iter().zip(self.antenna.mount.travel_deg());
         let beyond_deg = |(angle_deg, (from_deg, to_deg)): (f64, (f64, f64))| {

@@ -1,4 +1,4 @@
-//! What happens when a link comes up, and how often the unit is asked.
+//! Beginning of a link, and the rate of questions.
 
 use std::time::Duration;
 

@@ -1,5 +1,4 @@
-//! Replies that are late or lost: nothing is taken for something else, and no
-//! order is given twice.
+//! Late or lost replies: none is taken for another, and no order is given twice.
 
 use azel::{
     astro::Angle,
@@ -67,7 +66,7 @@ async fn a_goto_without_a_reply_that_does_not_move_is_told() {
 
 #[tokio::test(start_paused = true)]
 async fn a_step_without_a_reply_that_was_made_is_no_news() {
-    // Made within the time-out: it stands again, elsewhere.
+    // Done within the time-out: the axis stands again, elsewhere.
     let made = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,82.0,35.0,0";
     let mut unit = swallowing("STEP=", made);
     unit.seconds(1.0).await;

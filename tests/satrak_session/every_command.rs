@@ -1,5 +1,5 @@
-//! All 32 commands of the document, each through the session to the unit: the
-//! bytes of each as the document has them, and each shown as done.
+//! All 32 commands of the document, each through the session to the unit: the bytes are
+//! those of the document, and each command is shown as done.
 
 use azel::{
     astro::Angle,
@@ -14,7 +14,7 @@ use super::{
     settings::{change, read, text, write_settings},
 };
 
-/// What a setting is sent with, and the payload that the unit receives.
+/// Changes, with the payloads that the unit receives for them.
 fn settings() -> Vec<(Change, &'static str)> {
     let time = |at: &str| Value::Time(at.parse().unwrap());
     vec![
@@ -46,7 +46,7 @@ fn settings() -> Vec<(Change, &'static str)> {
                     ("satellite", text("TWIN")),
                 ],
             ),
-            // The record of the unit leaves out what holds a password.
+            // The record of the unit leaves out frames that hold a password.
             "SATELLITE_FTP",
         ),
         (
@@ -121,7 +121,7 @@ async fn all_of_them_reach_the_unit_as_documented() {
             .any(|it| if is_whole { it == payload } else { it.starts_with(payload) });
         assert!(came, "{payload}: {received:#?}");
     }
-    // The unit answers nothing whose checksum is wrong.
+    // The unit answers nothing with a wrong checksum.
     assert_eq!(encode("MOVE=,-3.5,0"), b"$MOVE=,-3.5,0*19\r\n");
     let traffic = rig.shown().state.traffic;
     assert_eq!((traffic.unreadable, traffic.damaged, traffic.unsolicited), (0, 0, 0));

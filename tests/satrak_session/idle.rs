@@ -1,5 +1,5 @@
-//! The session sleeps while there is nothing to do: time passes, and its loop
-//! turns only as often as something is due.
+//! The session sleeps while there is nothing to do: time passes, and its loop turns only
+//! when something is due.
 
 use std::time::Duration;
 
@@ -12,11 +12,11 @@ use tokio::time::timeout;
 
 use super::rig::{Rig, iss, track};
 
-/// A turn of the loop reads the clock a few times, and each question and its
-/// reply are a turn each.
+/// Maximum of clock readings a second: a turn of the loop makes a few, and each question
+/// and each reply is a turn.
 const READINGS_A_SECOND: u64 = 150;
 
-/// Lets time pass and looks how busy the session was.
+/// Lets time pass and checks how busy the session was.
 async fn assert_calm(rig: &mut Rig, seconds: u32, what: &str) {
     let (start, before) = (Instant::now(), rig.clock.readings());
     let within = Duration::from_secs(u64::from(seconds) * 2);

@@ -1,5 +1,4 @@
-//! An antenna that is where it must not point: inside of a keep-out, or too close to
-//! the Sun.
+//! An antenna in a forbidden direction: inside a keep-out, or too close to the Sun.
 
 use azel::{
     astro::{AzEl, sun_moon},
@@ -15,7 +14,7 @@ use super::{
     scene::site,
 };
 
-/// A quarter of the fastest rate, as far as it is allowed on the way out.
+/// A quarter of the fastest rate, the maximum on the way out.
 const SLOW_DEG_S: f64 = 0.7;
 const SUN: SunAvoidance = SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 };
 
@@ -32,7 +31,7 @@ fn within(station: &Station) -> Bounds {
     Bounds::of(station, &antenna())
 }
 
-/// A site with a mast where the antenna points, 10 degrees wide and high.
+/// A site with a mast in the antenna's direction, 10 degrees wide and high.
 fn masted(at: AzEl) -> Station {
     let (az, el) = (at.azimuth_deg(), at.elevation_deg());
     let wide = 5.0 / at.elevation.radians().cos();
@@ -70,7 +69,7 @@ async fn in_a_mast() -> Rig {
     rig
 }
 
-/// Holds each of the four keys in turn and lets go. What was refused.
+/// Holds and releases each of the four keys in turn; returns the refusals.
 async fn try_all_keys(rig: &mut Rig, rate_deg_s: f64) -> Vec<Refusal> {
     for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
         let mut rates_deg_s = [0.0; 2];
@@ -127,7 +126,7 @@ async fn the_word_for_the_way_out_ends_after_a_minute_and_outside() {
     assert_eq!(rig.shown().inside, Some(mast(false)), "it may leave, not enter again");
 }
 
-/// Where the Sun stands in a while, and a unit that waits there.
+/// A unit that points at the Sun, and is then told to avoid it.
 async fn in_the_way_of_the_sun() -> Rig {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.send(go_to(sun_moon::sun(site(), morning())));
@@ -155,7 +154,7 @@ async fn an_antenna_that_the_sun_comes_to_is_moved_away_in_one_step_and_never_by
     assert!((0.5..2.0 * SUN.radius_deg + 1.0).contains(&way), "{way}");
     rig.until("outside", 5, |shown| shown.inside.is_none()).await;
     rig.events();
-    // It stays clear for the time ahead.
+    // The direction stays clear for the time ahead.
     rig.seconds(SUN.ahead_min * 60.0 - 30.0).await;
     assert_eq!((rig.shown().inside.clone(), rig.events()), (None, Vec::new()));
 }

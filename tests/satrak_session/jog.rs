@@ -50,7 +50,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     let fastest_deg_s = antenna().limits.maximum_rate_deg_s;
     let usual = rig.shown().stopping_way;
     let mut before = 0;
-    // What is slow tells nothing of what is fast.
+    // A slow motion tells nothing about a fast one.
     for (share, stops) in [(0.2, 0), (0.9, 1), (-0.6, 2), (1.0, 3)] {
         assert_eq!(rig.shown().stopping_way, StoppingWay { stops: before, ..usual });
         before = stops;
@@ -61,7 +61,7 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
     }
     let learned = rig.shown().stopping_way;
     assert!(learned.is_learned);
-    // Even braking from the fastest rate at 5 degrees a second squared, and a look.
+    // Braking from the fastest rate at 5 degrees a second squared, and a look.
     let braking_s = fastest_deg_s / 5.0 / 2.0;
     assert!((braking_s * 0.8..braking_s + 0.5).contains(&learned.overrun_s), "{learned:?}");
 }
@@ -98,7 +98,7 @@ async fn turning_round_stops_first_and_waits_for_standstill() {
     assert_eq!(rig.orders(), ["MOVE=,3,0", "STOP=", "MOVE=,-3,0"]);
     let between =
         rig.times("MOVE=")[1].saturating_duration_since(rig.times("STOP=")[0]).as_secs_f64();
-    // The simulated axis needs 0.6 s to slow down, and two looks have to agree.
+    // The simulated axis needs 0.6 s to slow down, and two looks must agree.
     assert!((0.6..1.7).contains(&between), "{between}");
     assert_eq!(rig.shown().jog, Some([-3.0, 0.0]));
     assert_eq!(rig.events(), []);
@@ -118,7 +118,7 @@ async fn in_standby_a_jog_is_refused_once_with_the_reason() {
 
 #[tokio::test(start_paused = true)]
 async fn a_limit_switch_blocks_its_own_direction_only() {
-    // The switch of the unit comes before the end that the station knows of.
+    // The switch of the unit comes before the end of the travel in the settings.
     let mut wide = antenna();
     wide.limits.minimum_elevation_deg = 0.0;
     let travel = (0.0, 190.0);

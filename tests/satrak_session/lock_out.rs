@@ -1,4 +1,4 @@
-//! A unit that is worked on: nothing but questions and STOP goes to it.
+//! Lock-out of a unit: only questions and STOP go to it.
 
 use azel::{
     astro::{Angle, AzEl},
@@ -30,14 +30,14 @@ fn refused() -> Event {
     Event::NotSent(Refusal::LockedOut { by: "Ada".to_owned(), reason: "gear box open".to_owned() })
 }
 
-/// Locks the unit out and waits until that is proved.
+/// Locks the unit out and waits for the proof.
 async fn lock(rig: &mut Rig) {
     rig.send(Command::LockOut(lock_out()));
     rig.until("locked out", 10, |shown| shown.lock_out.is_some() && !shown.locking).await;
     rig.events();
 }
 
-/// What is no question and no STOP.
+/// Commands received other than questions and STOP.
 fn others(rig: &Rig) -> Vec<String> {
     let is_stop = |payload: &String| payload == "STOP=" || payload == "TRACK=,0";
     rig.orders().into_iter().filter(|payload| !is_stop(payload)).collect()
@@ -171,7 +171,7 @@ async fn a_session_of_a_locked_unit_starts_locked_and_moves_nothing_from_the_fir
 
 #[tokio::test(start_paused = true)]
 async fn auto_track_that_stays_on_is_an_alarm_and_the_lock_stands_all_the_same() {
-    // Its auto-track is on, or it does not say; it answers OK and changes nothing.
+    // Auto track is on, or not reported; the unit answers OK and changes nothing.
     let on = format!("{}1", STILL.strip_suffix('0').unwrap());
     let silent = STILL.strip_suffix(",0").unwrap().to_owned();
     for status in [on, silent] {

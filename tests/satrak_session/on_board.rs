@@ -1,5 +1,4 @@
-//! The unit tracks by itself: what it goes by is judged before, and where it points
-//! is watched while it does.
+//! On-board track: judged before it begins, and watched while it runs.
 
 use azel::{
     astro::{Angle, AzEl, time},
@@ -21,10 +20,10 @@ use super::{
     settings::{change, write_settings},
 };
 
-/// So far south-east that it sees the pass from elsewhere: 1,596 km away.
+/// Far enough south-east to see the pass differently: 1,596 km away.
 const ELSEWHERE: [(&str, f64); 2] = [("latitude_deg", 28.94), ("longitude_deg", 38.57)];
 
-/// A unit that has its place and all else read.
+/// A unit with its location and everything else read.
 async fn read() -> Rig {
     let mut rig = Rig::usual().await;
     rig.until("its place", 90, |shown| shown.state.on_board.place.is_some()).await;
@@ -43,7 +42,7 @@ async fn stand_elsewhere(rig: &mut Rig) {
     assert_eq!(write_settings(rig, change("gps", [by_hand, latitude, longitude])).await, Ok(()));
 }
 
-/// Another client tells the unit something.
+/// Sends a payload as another client.
 async fn by_another(rig: &Rig, payload: &str) {
     let (mut near, far) = tokio::io::duplex(4096);
     let control = rig.control.clone();
@@ -52,7 +51,7 @@ async fn by_another(rig: &Rig, payload: &str) {
     tokio::time::sleep(std::time::Duration::from_secs(1)).await;
 }
 
-/// What is told when the unit would miss; nothing went out.
+/// Report on a unit that would miss; checks that nothing was sent.
 async fn refused(rig: &mut Rig) -> Supervision {
     rig.events();
     rig.send(track(iss()));
@@ -95,7 +94,7 @@ async fn a_unit_that_stands_elsewhere_is_not_started_and_says_how_far() {
 async fn an_operator_who_agrees_is_told_that_it_misses_while_it_does() {
     let mut rig = read().await;
     stand_elsewhere(&mut rig).await;
-    // It must not point below the station's limit, whatever was agreed to.
+    // The unit must not point below the station's limit, whatever was agreed to.
     let agreed = || {
         let pass = OnBoardPass { is_agreed: true, ..scene::on_board(iss()) };
         Command::Track(Box::new(pass))
@@ -226,7 +225,7 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     assert!((29.9..31.0).contains(&lowest.elevation_deg()), "{lowest:?}");
 }
 
-/// Another client puts `target` on the unit, with its window.
+/// Sets `target` and its window on the unit as another client.
 async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     by_another(rig, &format!("SATELLITE=,{},{},1,0", scene::FILE, target.name)).await;
     let text = |time| {
@@ -245,7 +244,7 @@ async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
     rig.events();
 }
 
-/// A mast from 20 to 80 degrees of elevation about where the satellite is highest.
+/// A mast from 20 to 80 degrees of elevation around the azimuth of the pass's maximum.
 fn in_the_way() -> Bounds {
     let highest_deg = scene::pass().tca.direction.azimuth_deg();
     let [from_deg, to_deg] = [highest_deg - 10.0, highest_deg + 10.0];

@@ -1,4 +1,4 @@
-//! Commands that are overtaken by a later one before they have had their effect.
+//! Commands that are overtaken by a later one before they take effect.
 
 use azel::{
     astro::Angle,

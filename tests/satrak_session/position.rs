@@ -1,4 +1,4 @@
-//! To a direction, and to the park position.
+//! Motions to a direction, and to the park position.
 
 use azel::{
     astro::{Angle, AzEl},
@@ -54,7 +54,7 @@ async fn azimuth_alone_leaves_the_elevation_as_it_is() {
 
 #[tokio::test(start_paused = true)]
 async fn what_cannot_be_reached_is_refused_and_ends_nothing() {
-    // Low enough that the keyholes are what forbids it.
+    // Low enough that the keyholes are the reason for the refusal.
     let mut low = antenna();
     low.limits.minimum_elevation_deg = 2.0;
     let mut rig = Rig::connected(&options(), &low).await;
@@ -151,7 +151,7 @@ async fn a_motion_that_ends_elsewhere_is_told() {
     let mut rig = Rig::usual().await;
     rig.send(position(Some(90.0), Some(20.0)));
     rig.seconds(3.0).await;
-    // The motor dies on the way and the unit does not stop it by a command.
+    // The motor dies on the way, and the unit does not stop it by a command.
     rig.control.set_fault(Fault::Unit(FaultKind::XMotor), true);
     let event = rig.until_event(20, |event| matches!(event, Event::EndedShort { .. })).await;
     let Event::EndedShort { aim, at } = event else { panic!("{event:?}") };

@@ -23,7 +23,7 @@ impl Rig {
         Self::start_locked_out(options, antenna, None)
     }
 
-    /// The same with a unit that may be locked out already.
+    /// A running session whose unit may be locked out already.
     pub(super) fn start_locked_out(
         options: &Options,
         antenna: &Antenna,
@@ -33,7 +33,7 @@ impl Rig {
         Self::start_over(control, options.utc_origin, antenna, lock_out, network::link)
     }
 
-    /// The same on a unit that runs already, each link as `link` makes it.
+    /// A running session with a unit that runs already, over links made by `link`.
     pub(super) fn start_over(
         control: Control,
         utc_origin: Timestamp,
@@ -48,7 +48,7 @@ impl Rig {
         })
     }
 
-    /// A session that has read its unit: everything is known, all stands.
+    /// A session that has read its unit, at standstill.
     pub(super) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
         rig.until("all is read", 5, |shown| shown.state.on_board.offsets.is_some()).await;
@@ -56,17 +56,17 @@ impl Rig {
         rig
     }
 
-    /// The usual unit and antenna.
+    /// A session with the usual unit and antenna.
     pub(super) async fn usual() -> Self {
         Self::connected(&options(), &antenna()).await
     }
 
-    /// By which orbit the session judges what the unit does by itself.
+    /// Sets the orbit by which the session judges the unit's own program.
     pub(super) fn know_orbit(&self, orbit: Option<Arc<KnownOrbit>>) {
         self.handle().know_orbit(orbit);
     }
 
-    /// All payloads that the unit received, without the questions.
+    /// Payloads that the unit received, without questions.
     pub(super) fn orders(&self) -> Vec<String> {
         self.payloads().into_iter().filter(|payload| payload.contains('=')).collect()
     }
@@ -76,12 +76,12 @@ impl Rig {
         self.control.received().into_iter().map(|(_, payload)| payload).collect()
     }
 
-    /// The received payloads with this word.
+    /// Received payloads with this word.
     pub(super) fn sent(&self, word: &str) -> Vec<String> {
         self.payloads().into_iter().filter(|payload| payload.starts_with(word)).collect()
     }
 
-    /// When payloads with this word came in.
+    /// Times at which payloads with this word came in.
     pub(super) fn times(&self, word: &str) -> Vec<Instant> {
         let received = self.control.received().into_iter();
         received.filter(|(_, payload)| payload.starts_with(word)).map(|(at, _)| at).collect()

@@ -1,4 +1,4 @@
-//! Who takes part: the site, a pass, the unit and the antenna.
+//! Site, pass, unit and antenna of the tests.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -14,8 +14,7 @@ use azel::{
     station::Antenna,
 };
 
-/// The space station in 2008, a published example, and the same orbit under
-/// another name and number.
+/// The ISS in 2008, a published example, and the same orbit under another name and number.
 const ELEMENTS: &str = "ISS (ZARYA)
 1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
 2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
@@ -23,7 +22,7 @@ TWIN
 1 25545U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2928
 2 25545  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563538
 ";
-/// The element file on the unit.
+/// Name of the element file on the unit.
 pub(super) const FILE: &str = "stations.txt";
 
 pub(super) fn site() -> Site {
@@ -48,7 +47,7 @@ pub(super) fn pass() -> Pass {
         .unwrap()
 }
 
-/// The space station for the whole of [`pass`].
+/// The ISS for the whole of [`pass`].
 pub(super) fn iss() -> TrackTarget {
     let pass = pass();
     TrackTarget {
@@ -59,7 +58,7 @@ pub(super) fn iss() -> TrackTarget {
     }
 }
 
-/// Tracks `target`, with the elements of both on the same orbit.
+/// Command to track `target`, with the elements of both on the same orbit.
 pub(super) fn track(target: TrackTarget) -> Command {
     Command::Track(Box::new(on_board(target)))
 }
@@ -69,7 +68,7 @@ pub(super) fn on_board(target: TrackTarget) -> OnBoardPass {
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
 
-/// The orbit of both.
+/// Orbit of both satellites.
 pub(super) fn orbit(catalog_number: u32) -> Arc<KnownOrbit> {
     let elements = elements().swap_remove(usize::from(catalog_number == 25_545));
     Arc::new(KnownOrbit { elements, site: site() })
@@ -80,7 +79,7 @@ pub(super) fn twin() -> TrackTarget {
     TrackTarget { catalog_number: 25_545, name: "TWIN".into(), ..iss() }
 }
 
-/// A well-behaved unit a minute and a half before [`pass`].
+/// A well-behaved unit 90 seconds before [`pass`].
 pub(super) fn options() -> Options {
     Options {
         elements: BTreeMap::from([(FILE.to_owned(), elements())]),
@@ -92,7 +91,7 @@ pub(super) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 
-/// The session of `antenna` over links from `dial`, and its near end.
+/// A session of `antenna` over links from `dial`, and its handle.
 pub(super) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     let satrak = Satrak::new(antenna.poll, FILE.to_owned());
     Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))

@@ -1,4 +1,4 @@
-//! A peer that answers as a test tells it, where the simulated unit cannot.
+//! A peer with scripted answers, for cases that the simulated unit cannot play.
 
 use std::{
     sync::{Arc, Mutex},
@@ -18,10 +18,10 @@ use tokio::{
 use super::scene::{antenna, options, session};
 use crate::common::clock::TestClock;
 
-/// A status of a unit that stands still.
+/// A status of a unit at standstill.
 pub(super) const STILL: &str = "STATUS?,0,299.49,34.35,0,0,0,0,0,0,0,0,0,0,80.0,35.0,0";
 
-/// What a script says to a payload: replies, each after a delay.
+/// Replies to a payload, each after a delay.
 pub(super) type Script = Box<dyn FnMut(&str) -> Vec<(u64, String)> + Send>;
 
 /// A session with a scripted peer.
@@ -39,7 +39,7 @@ impl Scripted {
         Self::over(near, received)
     }
 
-    /// A session with a peer that says `bytes` to the first question, and no more.
+    /// A session with a peer that answers the first question with `bytes`, and no other.
     pub(super) fn raw(bytes: Vec<u8>) -> Self {
         let (near, mut far) = tokio::io::duplex(4096);
         tokio::spawn(async move {
@@ -103,7 +103,7 @@ async fn serve(far: DuplexStream, mut script: Script, received: Arc<Mutex<Vec<St
                 let writer = Arc::clone(&writer);
                 tokio::spawn(async move {
                     sleep(Duration::from_millis(delay_ms)).await;
-                    // The session may be gone by then.
+                    // An error is ignored: the session may be gone by then.
                     let _ = writer.lock().await.write_all(&encode(&reply)).await;
                 });
             }
@@ -111,7 +111,7 @@ async fn serve(far: DuplexStream, mut script: Script, received: Arc<Mutex<Vec<St
     }
 }
 
-/// What a plain unit answers after 10 ms to what the script leaves alone.
+/// Answers of a plain unit after 10 ms, to payloads that the script leaves alone.
 pub(super) fn plain(payload: &str) -> Vec<(u64, String)> {
     let reply = match payload {
         "STATUS?" => STILL.to_owned(),

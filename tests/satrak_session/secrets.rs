@@ -1,5 +1,4 @@
-//! A run with a password in it, and a search of everything that it leaves
-//! behind.
+//! A run with a password in it, and a search of everything that it leaves behind.
 
 use std::{
     io,
@@ -21,7 +20,7 @@ use super::{
 
 const PASSWORD: &str = "hunter2-of-the-ftp";
 
-/// What was logged, down to the finest level.
+/// Log output, down to the finest level.
 #[derive(Clone, Default)]
 struct Log(Arc<Mutex<Vec<u8>>>);
 
@@ -65,10 +64,10 @@ async fn no_password_is_left_behind() {
     );
     write_settings(&mut rig, wish.clone()).await.unwrap();
     read(&mut rig, "ftp").await;
-    // The same over a line that spoils, splits and repeats what it carries.
+    // The same over a line that spoils, splits and repeats bytes.
     for fault in [Fault::Garbage, Fault::Split, Fault::Merge, Fault::BadChecksum] {
         rig.control.set_fault(fault, true);
-        // It may come through or not.
+        // The change may come through or not.
         let _ = write_settings(&mut rig, wish.clone()).await;
         read(&mut rig, "ftp").await;
         rig.control.set_fault(fault, false);

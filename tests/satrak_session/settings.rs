@@ -1,4 +1,4 @@
-//! Settings of the unit: what was sent byte by byte, and what is shown.
+//! Settings of the unit: the bytes sent, and the display.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -11,7 +11,7 @@ use azel::{
 
 use super::rig::Rig;
 
-/// Everything about a group was read, and what is sent for it.
+/// Reads a whole group and returns its values.
 pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
     rig.send(Command::ReadGroup(group));
     rig.until(group, 10, |shown| {
@@ -21,7 +21,7 @@ pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
     rig.shown().state.held[group].held.clone().unwrap().values
 }
 
-/// What came of putting `values` on the unit.
+/// Outcome of writing `change` to the unit.
 pub(super) async fn write_settings(rig: &mut Rig, change: Change) -> Result<(), WriteError> {
     static TICKET: AtomicU64 = AtomicU64::new(1);
     let (group, ticket) = (change.group, TICKET.fetch_add(1, Ordering::Relaxed));
@@ -47,7 +47,7 @@ pub(super) fn text(text: &str) -> Value {
     Value::Text(text.to_owned())
 }
 
-/// The values of a field, as the form shows it.
+/// Value of a field, as the form shows it.
 pub(super) fn shown(rig: &Rig, group: &'static str, field: &'static str) -> String {
     let shown = rig.shown();
     let held = shown.state.held[group].held.as_ref().unwrap();
@@ -59,7 +59,7 @@ pub(super) fn shown(rig: &Rig, group: &'static str, field: &'static str) -> Stri
 #[tokio::test(start_paused = true)]
 async fn every_group_is_read_and_every_field_of_it_shown() {
     let mut rig = Rig::usual().await;
-    // The receiver of a new unit needs its time.
+    // The receiver of a new unit needs some time.
     rig.seconds(60.0).await;
     for group in GROUPS {
         let values = read(&mut rig, group.key).await;
@@ -82,7 +82,7 @@ async fn every_group_is_read_and_every_field_of_it_shown() {
         ("LOAD_IMAGE?", "$LOAD_IMAGE?*21\r\n"),
         ("REDUCTION?", "$REDUCTION?*66\r\n"),
     ] {
-        // The record hides what tells of a password.
+        // The record hides frames with a password.
         let told = question.replace("FTP?", "FTP");
         assert!(rig.payloads().iter().any(|sent| sent.starts_with(&told)), "{question}");
         assert_eq!(encode(question), bytes.as_bytes());
@@ -181,7 +181,7 @@ async fn the_password_of_the_ftp_source_comes_through_and_is_never_shown() {
             ("on_error", Value::Choice(1)),
         ],
     );
-    // Read back and compared, the password among it.
+    // Read back and compared, the password too.
     assert_eq!(write_settings(&mut rig, wish).await, Ok(()));
     assert_eq!(shown(&rig, "general", "tle_source"), "FTP", "read again after the source");
     let record = format!("{:?} {:?}", rig.shown(), rig.payloads());

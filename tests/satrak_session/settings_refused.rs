@@ -1,5 +1,5 @@
-//! Settings that do not come through: refused, changed by another, lost with
-//! the link. What is shown is what the unit holds.
+//! Settings that do not get through: refused, changed by another client, lost with the
+//! link. The display shows the unit's values.
 
 use std::time::Duration;
 

@@ -31,7 +31,7 @@ async fn it_is_told_once_within_a_second_of_the_first_missing_reply_until_it_ans
     let began = Instant::now();
     rig.until_event(3, is_it).await;
     let told_s = (Instant::now() - began).as_secs_f64();
-    // A poll period, 0.6 s for the reply that is missing first, and a second.
+    // A poll period, 0.6 s for the first missing reply, and a second.
     assert!((1.0..0.5 + 0.6 + 1.0).contains(&told_s), "{told_s}");
     assert!(rig.shown().silent);
     rig.seconds(10.0).await;

@@ -14,10 +14,10 @@ use tokio::sync::watch;
 
 use super::rig::{Rig, antenna, options};
 
-/// What the buffers of both ends hold, bytes: a question or two.
+/// Capacity of the buffers of both ends, bytes: a question or two.
 const BUFFERS: usize = 40;
 
-/// Carries everything until the peer stalls; then it reads nothing, and stays open.
+/// Carries everything until the peer stalls; then it reads nothing but stays open.
 async fn carry(mut here: DuplexStream, mut there: DuplexStream, mut stalls: watch::Receiver<bool>) {
     let (mut out, mut back) = ([0; 64], [0; 1024]);
     loop {

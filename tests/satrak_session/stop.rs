@@ -52,7 +52,7 @@ async fn a_stop_in_a_goto_is_sent_at_once_and_shown_until_proved() {
     assert_eq!(rig.sent("GOTO=").len(), 1);
 }
 
-/// The station may hand over late what was asked for in time.
+/// A request made in time may come late from the station.
 #[tokio::test(start_paused = true)]
 async fn what_was_asked_for_before_a_stop_is_void_wherever_it_waited() {
     let mut rig = Rig::usual().await;

@@ -1,4 +1,4 @@
-//! Following a satellite with the unit's own program.
+//! On-board track.
 
 use azel::{
     device::{Phase, PrepareError, TrackTarget},
@@ -16,7 +16,7 @@ fn window_of(target: &TrackTarget) -> String {
     format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until))
 }
 
-/// The frames of a track in their order, without the polling around them.
+/// Frames of a track in their order, without the polling around them.
 fn steps(rig: &Rig) -> Vec<String> {
     let payloads = rig.payloads();
     let first = payloads.iter().position(|payload| payload.starts_with("SATELLITE=")).unwrap();
@@ -136,7 +136,7 @@ async fn switching_to_another_satellite_stops_first() {
 async fn a_change_of_mind_during_the_preparation_tracks_the_last_choice() {
     for pause_ms in (0..300).step_by(5) {
         let mut rig = Rig::usual().await;
-        // The unit holds the twin already, as an earlier choice left it.
+        // The unit has the twin already, from an earlier choice.
         tracking(&mut rig, &twin()).await;
         rig.stop();
         rig.until_event(3, |event| *event == Event::Stopped).await;

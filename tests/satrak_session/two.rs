@@ -42,7 +42,7 @@ async fn each_sees_what_the_other_moves_and_stop_of_either_is_proved() {
     other.until_event(5, |event| *event == Event::Stopped).await;
     assert!(!one.control.state().is_moving);
     assert!(matches!(other.shown().stop, StopState::Stopped { .. }));
-    // The key stays down at the first one: what was stopped does not begin again.
+    // The key of the first stays down: a stopped motion does not begin again.
     let moves = one.sent("MOVE=").len();
     one.hold([1.0, 0.0], 3.0).await;
     assert!(!one.control.state().is_moving);

@@ -1,4 +1,4 @@
-//! Motion by hand over a link that no dead-man can write to.
+//! Jogs over a link that no dead-man can write to.
 
 use std::{
     io,
@@ -14,7 +14,7 @@ use tokio::io::{AsyncRead, AsyncWrite, DuplexStream, ReadBuf};
 
 use super::rig::{Rig, antenna, options};
 
-/// A link that hands out no second handle, like a serial port.
+/// A link without a second handle, like a serial port.
 struct Single(DuplexStream);
 
 impl Stream for Single {

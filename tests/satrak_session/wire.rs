@@ -1,5 +1,4 @@
-//! What goes over the link is recorded, without secrets, and can be asked for
-//! by hand.
+//! Record of the link, without secrets, and manual questions.
 
 use std::{sync::Arc, time::Duration};
 
@@ -17,7 +16,7 @@ use super::{
 
 const FTP: &str = "SATELLITE_FTP?,10.0.1.2,user,hunter2,22,f.txt,AO-7,1,1";
 
-/// Everything that was recorded.
+/// All recorded lines.
 pub(super) fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     let mut lines = Vec::new();
     loop {
@@ -29,12 +28,12 @@ pub(super) fn all(read: impl Fn(u64) -> Vec<Arc<Recorded>>) -> Vec<WireLine> {
     }
 }
 
-/// The bytes of a line without its end.
+/// Bytes of a line without its end.
 pub(super) fn line_text(line: &WireLine) -> String {
     String::from_utf8_lossy(&line.bytes).trim_end().to_owned()
 }
 
-/// The lines with this word.
+/// Lines with this word.
 fn with(lines: &[WireLine], word: &str) -> Vec<WireLine> {
     lines.iter().filter(|line| line_text(line).starts_with(word)).cloned().collect()
 }
@@ -144,7 +143,7 @@ async fn without_a_link_a_query_is_dropped_in_silence() {
     assert_eq!(rig.events(), []);
 }
 
-/// A unit that tells its password in every way it can be asked for or not.
+/// A unit that sends its password in every way, asked or not.
 fn telltale() -> Script {
     let mut count = 0;
     Box::new(move |payload| {

@@ -1,5 +1,5 @@
-//! What is fuzzed: each takes any bytes and panics where an invariant is broken.
-//! The fuzz targets and the ordinary tests share these functions.
+//! Functions to fuzz: each takes any bytes and panics if an invariant is broken. The fuzz
+//! targets and the ordinary tests share them.
 
 #![allow(
     dead_code,
@@ -17,10 +17,10 @@ pub(crate) mod rotator_genius;
 pub(crate) mod satrak;
 pub(crate) mod station;
 
-/// Feeds bytes to what is fuzzed.
+/// Feeds bytes to a function under test.
 pub(crate) type Run = fn(&[u8]);
 
-/// All of them with the names of their targets and folders.
+/// All functions, with the names of their targets and folders.
 pub(crate) const ALL: [(&str, Run); 7] = [
     ("elements", elements::run),
     ("lists", lists::run),

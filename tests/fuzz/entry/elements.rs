@@ -1,5 +1,5 @@
-//! Any file of elements: read, written in every form and read again, and a day
-//! of passes of what was read.
+//! Any file of elements: read, written in every form and read again, with a search for
+//! passes on a day of its objects.
 
 use azel::{
     astro::{HorizonMask, Site, time},
@@ -10,15 +10,16 @@ use azel::{
 };
 use jiff::{SignedDuration, Timestamp};
 
-/// Objects of one file whose passes are searched for.
+/// Maximum number of objects of a file whose passes are searched for.
 const MAX_OBJECTS: usize = 4;
-/// Passes come once or twice a revolution, and a revolution takes over an hour.
+/// Maximum number of passes a day: they come once or twice a revolution, which takes over
+/// an hour.
 const MAX_PASSES: usize = 40;
-/// States that a day of one object may take; the worst of the catalog takes
-/// some hundreds.
+/// Maximum number of states for a day of one object; the worst of the catalog takes some
+/// hundreds.
 const MAX_EFFORT: u64 = 50_000;
 
-/// Closer to the horizon than this, in degrees, either side is right.
+/// Distance from the horizon within which either side is right, degrees.
 const LEVEL_DEG: f64 = 1e-3;
 
 pub(crate) fn run(bytes: &[u8]) {
@@ -33,7 +34,7 @@ pub(crate) fn run(bytes: &[u8]) {
     }
 }
 
-/// OMM keeps every bit; a TLE keeps what it has carried once.
+/// OMM keeps every bit; a TLE keeps a value that it has carried once.
 fn comes_back(elements: &[Elements]) {
     let written = |write: &dyn Fn(&mut Vec<u8>)| {
         let mut out = Vec::new();
@@ -55,7 +56,7 @@ fn comes_back(elements: &[Elements]) {
     assert_eq!(again.elements, carried.elements);
 }
 
-/// The day of the epoch, and one that is the same for all.
+/// The day of the epoch, and a day common to all.
 fn two_days(elements: &Elements) {
     let site = Site::new(41.02, 29.17, 100.0).expect("a place");
     let propagator = Propagator::new(elements).expect("it was read");
@@ -103,9 +104,9 @@ fn in_order(found: &[Pass], from: Timestamp, to: Timestamp) {
     }
 }
 
-/// Whether the states of this day are those of something that flies: years away from
-/// the epoch the terms of drag may move a satellite otherwise than its velocity says,
-/// and no pass of that is right or wrong.
+/// Whether the states of this day are those of a flying object. Years from the epoch the
+/// drag terms may move a satellite otherwise than its velocity says, and no pass of that
+/// is right or wrong.
 fn flies(propagator: &Propagator, from: Timestamp) -> bool {
     const SHARE: f64 = 0.01;
     let second = SignedDuration::from_secs(1);
@@ -122,8 +123,7 @@ fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
     for minute in (0..24 * 60).step_by(10) {
         let at = search.from + SignedDuration::from_mins(minute);
         let Ok(look) = propagator.look_from(search.site, at) else {
-            // After its epoch, what has come down stays down; before it, the search
-            // ends too.
+            // After its epoch, a decayed satellite stays down; before it, the search ends too.
             break;
         };
         let elevation_deg = look.direction.elevation.degrees();
@@ -133,11 +133,11 @@ fn seen_when_up(propagator: &Propagator, search: &PassSearch, found: &[Pass]) {
     }
 }
 
-/// The search and the propagator agree on where the satellite culminates.
+/// Checks that search and propagator agree on the culmination.
 fn matches_the_sky(propagator: &Propagator, site: Site, pass: &Pass) {
     let at = pass.tca.time;
     let Ok(look) = propagator.look_from(site, at) else {
-        // A millisecond earlier or later the object may have come down.
+        // A millisecond earlier or later the object may have decayed.
         let near = [-1.0, 1.0].map(|offset_s| time::add_seconds(at, offset_s));
         assert!(near.iter().any(|at| propagator.look_from(site, *at).is_ok()), "{pass:?}");
         return;

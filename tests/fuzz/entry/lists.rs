@@ -1,5 +1,5 @@
-//! Any bytes where the small files beside the station stand: the lock-outs, the
-//! list of sources, the index of the library and its note of what is unfinished.
+//! Any bytes in the small files beside the station: lock-outs, list of sources, index of
+//! the library and its note of unfinished sources.
 
 use std::{fs, path::Path};
 
@@ -24,7 +24,7 @@ pub(crate) fn run(bytes: &[u8]) {
     library(folder.path());
 }
 
-/// What cannot be read locks everything, never nothing.
+/// An unreadable file locks everything out, never nothing.
 fn lock_outs(path: &Path) {
     let now = Timestamp::UNIX_EPOCH;
     let (mut first, problem) = LockOuts::load(path, now);
@@ -47,8 +47,8 @@ fn sources(path: &Path) {
     }
 }
 
-/// Nothing in its notes keeps the library from reading what it was given, or from
-/// telling that it was set aside.
+/// No content of its notes keeps the library from reading a source, or from reporting that
+/// it was set aside.
 fn library(folder: &Path) {
     let own = folder.join("own.tle");
     fs::write(&own, "").expect("a place on the disk");

@@ -1,5 +1,5 @@
-//! Any bytes on the line of an RC2000C: as they are, with the parity made in
-//! software, and each line of them as a good frame.
+//! Any bytes on the line of an RC2000C: raw, with software parity, and each line of them
+//! as a good frame.
 
 use azel::protocol::{
     Parity,
@@ -47,7 +47,7 @@ fn stream(bytes: &[u8]) {
     }
 }
 
-/// A frame of the header that `choice` stands for, with a code and data.
+/// A frame with code and data behind the header chosen by `choice`.
 fn framed(choice: u8, code_and_data: &[u8]) {
     const ETX: u8 = 0x03;
     let header = [0x02, 0x06, 0x15][usize::from(choice % 3)];

@@ -4,14 +4,14 @@ use azel::protocol::rotator_genius::{
     Acknowledgement, Decoder, Layout, MAX_NOISE_BYTES, Received, Reply, Request,
 };
 
-/// Fewer than what may wait in the decoder.
+/// Less than the maximum that waits in the decoder.
 const PIECE: usize = 2048;
 
 pub(crate) fn run(bytes: &[u8]) {
     let whole = decode(bytes, PIECE);
     assert_eq!(decode(bytes, 1 + bytes.len() % 73), whole);
     every_byte_is_told(bytes);
-    // A simulator reads requests from where one begins.
+    // A simulator reads requests from the beginning of one.
     for start in (0..bytes.len()).filter(|at| bytes[*at] == b'|').take(16) {
         let rest = &bytes[start..];
         for length in (2..=rest.len().min(40)).filter(|length| {
@@ -47,9 +47,9 @@ fn every_byte_is_told(bytes: &[u8]) {
     let unfinished = decoder.unfinished_bytes();
     let told: usize = seen.iter().map(length).sum();
     let go_tos = seen.iter().filter(|received| is_go_to(received)).count();
-    // Noise in front of what is unfinished is held back until it ends.
+    // Noise in front of an unfinished reply is held back until it ends.
     let held: usize = decoder.idle().iter().map(length).sum();
-    // A go-to is acknowledged with three bytes or with three digits more.
+    // A go-to is acknowledged with three bytes, or with three digits more.
     let most = told + 3 * go_tos + held.max(unfinished) + 12;
     assert!(told + unfinished <= bytes.len() && bytes.len() <= most, "{told} {held} {unfinished}");
 }

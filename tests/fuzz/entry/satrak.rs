@@ -1,5 +1,5 @@
-//! Any bytes on the line of a Satrak, as they are, and each line of them as the
-//! payload of a good frame.
+//! Any bytes on the line of a Satrak: raw, and each line of them as the payload of a good
+//! frame.
 
 use azel::protocol::satrak::{
     Decoder, Frame, Line, MAX_LINE_BYTES, Meaning, Reply, Request, Setting, encode, explain_reply,
@@ -40,7 +40,7 @@ fn stream(bytes: &[u8]) {
     for line in whole {
         for is_greeting in [false, true] {
             let shown = line.without_secrets(is_greeting);
-            // Each hidden stretch is shorter than what it stands for, or one more.
+            // Each placeholder is shorter than the bytes it replaces, or one longer.
             assert!(shown.bytes.len() <= 10 * (MAX_LINE_BYTES + 1));
         }
         match &line.frame {
@@ -77,7 +77,7 @@ fn understood(frame: &Frame) {
     if let Ok(request) = Request::parse(frame) {
         assert!(is_finite(&format!("{request:?}")), "{request:?}");
         let again = Request::parse(&Frame::from_payload(&request.payload()));
-        // Places are sent with two decimals, whatever came.
+        // Places are sent with two decimals, whatever was received.
         if !matches!(request, Request::Setting(Setting::GpsSettings(_))) {
             assert_eq!(again.as_ref(), Ok(&request));
         }

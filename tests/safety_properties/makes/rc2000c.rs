@@ -1,4 +1,4 @@
-//! An RC2000C whose two axes are calibrated.
+//! An RC2000C with both axes calibrated.
 
 use azel::{
     clock::Instant,
@@ -29,7 +29,7 @@ pub(super) static MAKE: Make = Make {
     words_of_a_go_to: 1,
 };
 
-/// It tells counts of its sensors, which stand for angles along these lines.
+/// Unit that reports sensor counts, with the lines that convert them to angles.
 struct Counting(Control, [CountLine; 2]);
 
 fn random(dice: &mut Dice) -> World {
@@ -50,7 +50,7 @@ fn random(dice: &mut Dice) -> World {
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
-    // 40 counts a second.
+    // At 40 counts per second.
     let fastest_deg_s = f64::max(40.0 * (to_deg - from_deg) / 3600.0, 2.0);
     antenna.limits.maximum_rate_deg_s = fastest_deg_s;
     antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);

@@ -1,4 +1,4 @@
-//! A Rotator Genius whose rotators turn azimuth and elevation.
+//! A Rotator Genius with an azimuth and an elevation rotator.
 
 use azel::{
     clock::Instant,
