@@ -1,4 +1,4 @@
-//! Links that break, stall or are given up in the middle of an upload.
+//! Links that break, stall or are given up during an upload.
 
 use azel::transfer::{
     CancellationToken, FolderError, FolderState, TleFile, UploadError, UploadReason, UploadStep,
@@ -9,7 +9,7 @@ use super::{
     unit::{FILE, LIMITS, OLD, Unit, elements},
 };
 
-/// The link ends in the middle of the new file.
+/// Uploads over a link that ends in the middle of the new file.
 fn broken(unit: &Unit, new: &TleFile, then: Then) -> UploadError {
     let link = Narrow::new(unit.address(), new.bytes().len() / 2, then);
     unit.pin_at(link.address());
@@ -17,7 +17,8 @@ fn broken(unit: &Unit, new: &TleFile, then: Then) -> UploadError {
     unit.upload_by(link.address(), new, &mut |_| {}, &nobody).unwrap_err()
 }
 
-/// The old file is in its place; the next upload leaves nothing else behind.
+/// Checks that the old file is in its place, and that the next upload leaves nothing else
+/// behind.
 fn assert_mended(unit: &Unit, new: &TleFile) {
     let old = unit.files().into_iter().find(|(name, _)| name == FILE).unwrap();
     assert_eq!(old.1, OLD);

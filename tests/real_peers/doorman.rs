@@ -1,5 +1,5 @@
-//! Takes connections on loopback and hands each to a server process of its own,
-//! so that no server has to be waited for.
+//! Listener on loopback that hands each connection to a server process of its own, so that
+//! no test has to wait for a server.
 
 use std::{
     net::{SocketAddr, TcpListener, TcpStream},
@@ -52,7 +52,7 @@ impl Doorman {
 impl Drop for Doorman {
     fn drop(&mut self) {
         self.ends.store(true, Ordering::SeqCst);
-        // Wakes the thread; when that fails it has ended already.
+        // Wakes the thread; on failure it has ended already.
         let _ = TcpStream::connect(self.address);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();

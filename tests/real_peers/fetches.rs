@@ -1,4 +1,4 @@
-//! Sources that a unit is told to fetch from, fetched from here.
+//! Test fetches of the sources that a unit may use.
 
 use std::{
     net::{SocketAddr, TcpListener},
@@ -29,7 +29,7 @@ fn source(protocol: FileProtocol, user: &str, address: SocketAddr) -> ElementSou
     }
 }
 
-/// Trusts `own` authorities and no SSH host.
+/// Trust in `own` authorities and in no SSH host.
 fn trust(own: &[CertificateDer<'static>]) -> Trust {
     Trust { known_hosts: KnownHosts::new("/nowhere/known_hosts"), own_authorities: own.to_vec() }
 }
@@ -115,7 +115,7 @@ fn an_ftp_server_that_stalls_or_hangs_up_is_left() {
         panic!("{error}")
     };
     assert_eq!(*by, late);
-    // In the middle of the log-in.
+    // During the log-in.
     for then in [Then::Stall, Then::Cut] {
         let link = Narrow::new(server.address(), 10, then);
         let asked = source(FileProtocol::Ftp, &server.user.name, link.address());
@@ -171,7 +171,7 @@ fn connect_error(error: &FetchError) -> &ConnectError {
     error
 }
 
-/// What the libraries log.
+/// Log of the libraries.
 static LOGGED: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
 struct Logger;

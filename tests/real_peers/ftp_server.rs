@@ -13,19 +13,19 @@ use super::{
 pub(crate) const FILE: &str = "weather.txt";
 
 pub(crate) struct FtpServer {
-    // First, because it is dropped first: its servers run as the user.
+    // First, because fields are dropped in order: its servers run as the user.
     doorman: Doorman,
     pub(crate) user: User,
     home: tempfile::TempDir,
 }
 
 impl FtpServer {
-    /// With `content` in [`FILE`]; takes log-ins with TLS only when `tls` is set.
+    /// A server with `content` in [`FILE`]; it accepts log-ins with TLS only if `tls` is set.
     pub(crate) fn new(content: &[u8], tls: bool) -> Self {
         Self::with_options(content, tls, "")
     }
 
-    /// With `options` in the server's own words.
+    /// A server with `options` in the words of its configuration.
     pub(crate) fn with_options(content: &[u8], tls: bool, options: &str) -> Self {
         let home = open_folder();
         let user = User::new(home.path());

@@ -1,4 +1,4 @@
-//! An HTTPS server with certificates of an authority made for the test.
+//! HTTPS server with certificates of an authority made for the test.
 
 use std::{
     fs,
@@ -11,10 +11,10 @@ use rustls::pki_types::CertificateDer;
 
 use super::user::run;
 
-/// What the server gives.
+/// Name of the only file.
 pub(crate) const FILE: &str = "weather.tle";
 
-/// How the authority works: with its files in its own folder.
+/// Configuration of the authority: its files are in its own folder.
 const CONFIG: &str = "[ca]\ndefault_ca = own\n[own]\ndatabase = index.txt\nserial = serial\n\
                       unique_subject = no\nnew_certs_dir = .\ncertificate = ca.pem\nprivate_key = ca.key\n\
                       default_md = sha256\ncopy_extensions = copy\npolicy = names\n\
@@ -46,8 +46,8 @@ impl Authority {
         fs::read(self.folder.path().join("ca.der")).unwrap().into()
     }
 
-    /// A certificate of `server.pem` for a host called `name`, from 2020 until
-    /// `end`, a year.
+    /// Makes a certificate in `server.pem` for a host called `name`, valid from 2020 until the
+    /// year `end`.
     fn certify(&self, name: &str, end: u16) {
         let mut openssl = self.openssl();
         openssl.args(["req", "-new", "-subj", "/CN=server"]).args(NEW_KEY);
@@ -70,13 +70,13 @@ impl Authority {
 pub(crate) struct HttpsServer {
     process: Child,
     pub(crate) port: u16,
-    /// It ends when nobody could read what it says.
+    /// Kept open: the server ends when nobody can read its output.
     _said: BufReader<ChildStdout>,
 }
 
 impl HttpsServer {
-    /// With `content` in [`FILE`] and a certificate of `authority` for `name`
-    /// until `end`, a year.
+    /// A server with `content` in [`FILE`] and a certificate of `authority` for `name`, valid
+    /// until the year `end`.
     pub(crate) fn new(authority: &Authority, name: &str, end: u16, content: &[u8]) -> Self {
         authority.certify(name, end);
         let folder: &Path = authority.folder.path();
@@ -85,7 +85,7 @@ impl HttpsServer {
         openssl.args(["s_server", "-WWW", "-accept", "127.0.0.1:0", "-cert", "server.pem"]);
         openssl.args(["-key", "server.key"]).stdout(Stdio::piped()).stderr(Stdio::null());
         let mut process = openssl.stdin(Stdio::null()).spawn().unwrap();
-        // It says where it listens.
+        // The output tells where it listens.
         let mut said = BufReader::new(process.stdout.take().unwrap());
         let port = said
             .by_ref()

@@ -1,4 +1,4 @@
-//! The library of elements asks a server over HTTPS.
+//! Requests of the library of elements over HTTPS.
 
 use std::time::Duration;
 
@@ -16,7 +16,7 @@ use super::{
 
 const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 1 << 20 };
 
-/// How many objects come from `server`, or why none.
+/// Number of objects from `server`, or the reason why there are none.
 fn objects(
     server: &HttpsServer,
     trusted: Option<CertificateDer<'static>>,

@@ -1,4 +1,4 @@
-//! Who is who: passwords, private keys, host keys.
+//! Authentication: passwords, private keys, host keys.
 
 use std::{
     fs, io,
@@ -152,7 +152,7 @@ impl io::Write for Log {
     }
 }
 
-/// Every file below `folder`, one after the other.
+/// Contents of every file below `folder`, one after the other.
 fn all_bytes(folder: &Path) -> Vec<u8> {
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let read = |path: std::path::PathBuf| {

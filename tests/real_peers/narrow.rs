@@ -1,4 +1,4 @@
-//! A link that breaks or stalls after so many bytes from the client.
+//! A link that breaks or stalls after a number of bytes from the client.
 
 use std::{
     io::{Read as _, Write as _},
@@ -7,7 +7,7 @@ use std::{
     thread,
 };
 
-/// What happens after the last byte that goes through.
+/// Behaviour after the last byte that goes through.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Then {
     /// Both ends are closed.
@@ -16,10 +16,10 @@ pub(crate) enum Then {
     Stall,
 }
 
-/// One connection to another address.
+/// A connection to another address.
 pub(crate) struct Narrow {
     address: SocketAddr,
-    /// Dropped at the end of the test: then a stalled link ends too.
+    /// Dropped at the end of the test, which ends a stalled link too.
     _ends: mpsc::SyncSender<()>,
 }
 
@@ -41,7 +41,7 @@ impl Narrow {
             thread::Builder::new().name("answers".to_owned()).spawn(answer).unwrap();
             pass(&client, &server, bytes);
             if then == Then::Stall {
-                // Never sent: ends when the test does.
+                // Never sent: ends with the test.
                 let _ = ended.recv();
             }
             for end in [client, server] {

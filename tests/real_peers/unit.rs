@@ -27,7 +27,7 @@ use super::{
 pub(crate) const FILE: &str = "weather.txt";
 pub(crate) const OLD: &[u8] = b"the elements of last week\n";
 
-/// Short where nothing slow is asked for, so that a stall ends a test soon.
+/// Short where nothing is slow, so that a stall ends a test soon.
 pub(crate) const LIMITS: Limits = Limits {
     connect: Duration::from_secs(5),
     log_in: Duration::from_secs(30),
@@ -37,7 +37,7 @@ pub(crate) const LIMITS: Limits = Limits {
 };
 
 pub(crate) struct Unit {
-    // First, because it is dropped first: its servers run as the user.
+    // First, because fields are dropped in order: its servers run as the user.
     doorman: Doorman,
     pub(crate) user: User,
     pub(crate) known: KnownHosts,
@@ -46,14 +46,14 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// With [`OLD`] in [`FILE`], its host key pinned.
+    /// A unit with [`OLD`] in [`FILE`] and its host key pinned.
     pub(crate) fn new() -> Self {
         let unit = Self::unpinned("ed25519", "internal-sftp");
         unit.pin();
         unit
     }
 
-    /// With a host key of `kind` that nobody has seen, and files by `sftp`.
+    /// A unit with an unknown host key of `kind`, and files served by `sftp`.
     pub(crate) fn unpinned(kind: &str, sftp: &str) -> Self {
         let home = open_folder();
         let path = home.path().to_owned();
@@ -97,7 +97,7 @@ impl Unit {
         self.home.path().join("host_key")
     }
 
-    /// As `ssh-keygen` on the unit shows it.
+    /// Fingerprint as `ssh-keygen` on the unit shows it.
     pub(crate) fn fingerprint(&self) -> String {
         let shown = run(Command::new("ssh-keygen").arg("-lf").arg(self.host_key()));
         shown.split(' ').nth(1).unwrap().to_owned()
@@ -111,7 +111,7 @@ impl Unit {
         }
     }
 
-    /// Knows the host at another address too, where something stands in between.
+    /// Pins the host key at another address too, for a relay in between.
     pub(crate) fn pin_at(&self, address: SocketAddr) {
         let text = fs::read_to_string(self.known.path()).unwrap();
         let direct = format!("[127.0.0.1]:{}", self.address().port());
@@ -127,7 +127,7 @@ impl Unit {
         self.home.path().join("tle")
     }
 
-    /// What is in the folder, sorted by name.
+    /// Contents of the folder, sorted by name.
     pub(crate) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let entries = fs::read_dir(self.folder()).unwrap().map(|entry| entry.unwrap().path());
         let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
@@ -137,7 +137,7 @@ impl Unit {
         files
     }
 
-    /// The folder holds the old file and nothing else.
+    /// Checks that the folder has the old file and nothing else.
     pub(crate) fn assert_as_before(&self) {
         assert_eq!(self.files(), [(FILE.to_owned(), OLD.to_vec())]);
     }
@@ -166,7 +166,7 @@ impl Unit {
         open_sftp(&peer, folder.to_str().unwrap(), login, &self.known, limits, &cancel).await
     }
 
-    /// Uploads `elements` as [`FILE`] by way of `address`.
+    /// Uploads `elements` as [`FILE`] through `address`.
     pub(crate) fn upload_by(
         &self,
         address: SocketAddr,
@@ -195,7 +195,7 @@ pub(crate) fn peer(address: SocketAddr) -> Peer {
     Peer { host: address.ip().to_string(), port: address.port() }
 }
 
-/// Runs `work`; nothing here may hang for ever.
+/// Runs `work` with a time limit.
 pub(crate) fn block_on<T>(work: impl Future<Output = T>) -> T {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
     let most = Duration::from_secs(90);
@@ -204,7 +204,7 @@ pub(crate) fn block_on<T>(work: impl Future<Output = T>) -> T {
         .expect("this has to end within its own limits")
 }
 
-/// A file of the first `count` bundled objects that have a name of their own.
+/// A file of the first `count` bundled objects with names of their own.
 pub(crate) fn elements(count: usize) -> TleFile {
     static CATALOG: LazyLock<Catalog> = LazyLock::new(|| bundled().unwrap());
     let mut names = std::collections::BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Uploads that go well, roll-backs, and folders that refuse.
+//! Successful uploads, roll-backs, and folders that refuse.
 
 use std::{fs, os::unix::fs::PermissionsExt as _, process::Command};
 
@@ -69,7 +69,7 @@ fn a_server_that_cannot_replace_in_one_step_gets_two() {
     let new = elements(3);
     unit.upload(&new).unwrap();
     assert_eq!(unit.files(), [(FILE.to_owned(), new.bytes().to_vec())]);
-    // Broke off between the two steps: the next upload finds the old elements.
+    // An upload broke off between the two steps: the next one finds the old elements.
     let path = unit.folder().join(FILE);
     fs::rename(&path, path.with_file_name(format!("{FILE}.azel-old"))).unwrap();
     unit.upload(&elements(4)).unwrap();
@@ -117,7 +117,7 @@ fn a_full_disk_leaves_the_old_file_and_nothing_else() {
     drop(disk);
 }
 
-/// A disk of 128 kB over a folder.
+/// A disk of 128 kB mounted on a folder.
 struct Disk<'a>(&'a std::path::Path);
 
 impl<'a> Disk<'a> {
@@ -131,7 +131,7 @@ impl<'a> Disk<'a> {
 
 impl Drop for Disk<'_> {
     fn drop(&mut self) {
-        // A server of the test may still stand in it.
+        // A server of the test may still use it.
         let _ = Command::new("umount").arg("-l").arg(self.0).status();
     }
 }

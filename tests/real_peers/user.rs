@@ -1,4 +1,4 @@
-//! A user of this machine for as long as a test runs.
+//! A user of this machine for the duration of a test.
 
 use std::{
     io::Write as _,
@@ -41,7 +41,7 @@ impl Drop for User {
     }
 }
 
-/// Runs a command that must succeed; hands back what it wrote.
+/// Runs a command that must succeed; returns its output.
 pub(crate) fn run(command: &mut Command) -> String {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -49,7 +49,7 @@ pub(crate) fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// A new folder that every user may look into.
+/// A new folder that every user may read.
 pub(crate) fn open_folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::set_permissions(folder.path(), std::fs::Permissions::from_mode(0o755)).unwrap();

@@ -1,5 +1,5 @@
-//! From the window to the unit's own word: the whole program against an `sshd`
-//! and a simulated unit that looks into the same folder.
+//! The whole path from the window to the unit's own report: the program against an `sshd`
+//! and a simulated unit that reads the same folder.
 
 use std::{
     fs,
@@ -85,7 +85,7 @@ impl Desk {
         desk
     }
 
-    /// The part is open, and everything typed but the password.
+    /// A desk with the upload part open, and everything typed but the password.
     fn typed(files: Unit) -> Self {
         Self::with(files, vec![ISS, NOAA_20])
     }
@@ -134,7 +134,7 @@ impl Desk {
         self.window.run_steps(3);
     }
 
-    /// Waits for the end and hands back what is shown.
+    /// Waits for the end and returns the shown stage.
     fn end(&mut self) -> Stage {
         self.until("the end", |model| {
             matches!(model.uploads.stage, Stage::Proved(_) | Stage::Failed(_))
@@ -171,7 +171,7 @@ impl Desk {
         self.window.run_steps(3);
     }
 
-    /// No password is told to who listens to the window.
+    /// Checks that no password is exposed to assistive tools.
     fn assert_silent(&self) {
         let told = format!("{:?}", self.window.root());
         let stage = format!("{:?}", self.window.state().model().uploads);
@@ -186,7 +186,7 @@ impl Desk {
     }
 }
 
-/// A simulated unit that looks into the folder of `files`.
+/// A simulated unit that reads the folder of `files`.
 fn simulate(files: &Unit) -> (String, Control, oneshot::Sender<()>) {
     let options = Options {
         element_folder: Some(files.folder()),
@@ -301,7 +301,7 @@ fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     assert!(desk.sent().is_empty(), "the unit was told nothing");
     let user = desk.window.get_by_role_and_label(Role::TextInput, "User").value();
     assert_eq!(user.as_deref(), Some(desk.files.user.name.as_str()));
-    // Asked once a session: now it goes through by itself.
+    // The password is asked for once a session: now the upload goes through by itself.
     fs::set_permissions(desk.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
     desk.click("Upload and prove");
     desk.assert_proved();
@@ -331,7 +331,7 @@ fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
 #[test]
 #[ignore = "needs sshd and root"]
 fn a_unit_that_does_not_see_the_file_is_no_success() {
-    // The unit looks into another folder than the one that is written to.
+    // The unit reads another folder than the one written to.
     let mut desk = Desk::typed(Unit::new());
     let other = desk.files.home.path().join("other");
     fs::create_dir(&other).unwrap();
@@ -344,7 +344,7 @@ fn a_unit_that_does_not_see_the_file_is_no_success() {
     assert!(desk.says("Not in use: The unit"), "{}", failure.text);
 }
 
-/// What all threads log.
+/// Log of all threads.
 fn log() -> &'static Log {
     static LOG: LazyLock<Log> = LazyLock::new(|| {
         let log = Log::default();
@@ -373,7 +373,7 @@ impl std::io::Write for Log {
     }
 }
 
-/// Every file below `folder`, one after the other.
+/// Contents of every file below `folder`, one after the other.
 fn all_bytes(folder: &std::path::Path) -> Vec<u8> {
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let read = |path: std::path::PathBuf| {

@@ -1,5 +1,5 @@
-//! However the window dies while a jog key is held, the unit gets STOP, and
-//! nothing of the program is left.
+//! Deaths of the window while a jog key is held: the unit gets STOP, and nothing of the
+//! program is left.
 
 use azel::clock::Instant;
 use std::{
@@ -19,23 +19,23 @@ use super::{
     unit::Unit,
 };
 
-/// STOP reaches the unit within this after a death.
+/// Time limit for STOP at the unit after a death.
 const STOPS_IN: Duration = Duration::from_secs(2);
-/// The same where the program still ends in order, by way of a frame.
+/// Time limit for STOP when the program still ends in order, by way of a frame.
 const ENDS_IN: Duration = Duration::from_secs(5);
-/// Nothing is left of the program after this; the dead-man insists for 2 s.
+/// Time limit for the end of every process of the program; the dead-man insists for 2 s.
 const GONE_IN: Duration = Duration::from_secs(5);
-/// A program that starts again has stopped the unit by then: 5 s on a desk, the
-/// rest is for a machine under load.
+/// Time limit for STOP by a program that starts again: 5 s on a desk, the rest is for a
+/// machine under load.
 const BACK_IN: Duration = Duration::from_secs(10);
-/// For so long it is watched that nothing happens.
+/// Time for which it is watched that nothing happens.
 const WATCHED: Duration = Duration::from_secs(3);
-/// A held key has moved the antenna for so long without a gap.
+/// Time for which a held key must move the antenna without a gap.
 const STEADY: Duration = Duration::from_millis(700);
-/// What the log of the window holds: each event.
+/// Filter of the window's log: each event.
 const EVENTS: &str = "azel=info";
 
-/// The window with a held key, and the unit that moves.
+/// The window with a held key, and the moving unit.
 struct Scene {
     screen: Screen,
     unit: Unit,
@@ -83,9 +83,9 @@ impl Scene {
         scene
     }
 
-    /// Holds the key X+ until the antenna moves without a gap. What is pressed
-    /// before the window shows it does nothing, and a machine under load may let
-    /// a hold run out, so it is tried again.
+    /// Holds the key X+ until the antenna moves without a gap, in several attempts: a press
+    /// before the window shows the key does nothing, and a machine under load may let a hold
+    /// run out.
     fn hold(&mut self) {
         let mut attempts = 0..;
         self.dead_men = wait_for("a held key", || {
@@ -113,7 +113,7 @@ impl Scene {
         assert_eq!(self.screen.marks(), 1);
     }
 
-    /// Waits until no dead-man runs that watched over this hold, or another one.
+    /// Waits until no dead-man runs that watched over any hold.
     fn wait_until_unwatched(&self) {
         let start = Instant::now();
         wait_for("the dead-men to end", || {
@@ -124,7 +124,7 @@ impl Scene {
         assert!(Instant::now() - start < GONE_IN, "{:?}", Instant::now() - start);
     }
 
-    /// Kills in one way and looks for STOP, standstill and what is left.
+    /// Kills in one way, then checks STOP, standstill and remains.
     fn dies(mut self, what: &str, limit: Duration, kill: impl FnOnce(&mut Self)) {
         let killed = Instant::now();
         kill(&mut self);
@@ -140,8 +140,8 @@ impl Scene {
         assert!(!self.unit.is_moving());
     }
 
-    /// Stops the process, lets it go on with the key still down, and looks that
-    /// only a new press moves the antenna again.
+    /// Stops the process, lets it go on with the key still down, and checks that only a new
+    /// press moves the antenna again.
     fn freezes(mut self, what: &str, signal: &str, frozen_for: Duration) {
         let frozen = Instant::now();
         self.azel.signal(signal);
@@ -225,7 +225,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
     let mut command = command(&scene.screen, &scene.unit);
     let (azel, _) = scene.screen.window_of(command.env("AZEL_LOG", EVENTS).stderr(file));
     scene.azel = azel;
-    // The unit has room for it once the dead-man has let go of the old connection.
+    // The unit has room for it once the dead-man has left the old connection.
     let came = wait_for("the new client", || scene.unit.clients().get(before).copied());
     let (at, first) =
         wait_for("its first word", || scene.unit.heard_since(came).into_iter().next());
@@ -249,7 +249,7 @@ fn a_program_that_was_killed_in_a_jog_stops_the_unit_when_it_starts_again() {
 #[ignore = "needs Xvfb, xdotool and OpenGL"]
 fn a_log_that_nobody_reads_holds_up_no_stop() {
     let (unread, mut log) = io::pipe().expect("a pipe");
-    // As much as a pipe takes: the first line of the log already waits.
+    // As much as a pipe takes, so that the first line of the log already waits.
     log.write_all(&vec![b'\n'; 65_536]).expect("room in a new pipe");
     let scene = Scene::with_log(screen(), Unit::start(), log.into(), "azel=trace");
     let released = Instant::now();

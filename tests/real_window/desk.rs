@@ -12,16 +12,16 @@ use std::{
     time::Duration,
 };
 
-/// Nothing here takes longer on a slow machine.
+/// Longer than any step here takes on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Places in a window of 1440 x 900 without the demo banner.
+/// Position in a window of 1440 x 900 without the demo banner.
 const MANUAL: [&str; 2] = ["1218", "456"];
 const X_PLUS_X: &str = "1228";
-/// Notes above the keys push them down by up to three lines.
+/// Possible heights of the key: notes above push the keys down by up to three lines.
 const X_PLUS_Y: [&str; 3] = ["687", "640", "664"];
 
-/// Ends its process when it goes away.
+/// A process that is killed on drop.
 pub(super) struct Running(Child);
 
 impl Running {
@@ -33,7 +33,7 @@ impl Running {
         self.0.id()
     }
 
-    /// Sends a signal to it alone.
+    /// Sends a signal to the process alone.
     pub(super) fn signal(&self, name: &str) {
         send_signal(name, &self.id().to_string());
     }
@@ -48,7 +48,7 @@ impl Running {
         wait_for("the process to end", || self.0.try_wait().expect("a child"));
     }
 
-    /// The exit code, once it has ended by itself.
+    /// Exit code, once it has ended by itself.
     pub(super) fn exit_code(&mut self) -> Option<i32> {
         wait_for("the program to end", || self.0.try_wait().expect("a child")).code()
     }
@@ -78,7 +78,7 @@ pub(super) fn wait_for<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A screen of its own.
+/// A virtual screen.
 pub(super) struct Screen {
     display: String,
     pub(super) server: Running,
@@ -91,7 +91,7 @@ impl Screen {
         let server = Running::start(
             Command::new("Xvfb")
                 .args([&display, "-screen", "0", &format!("{size}x24"), "-nolisten", "tcp"])
-                // Or it starts anew whenever its last client leaves, and drops a new one.
+                // Without this it restarts whenever its last client leaves, and drops a new one.
                 .arg("-noreset")
                 .stderr(Stdio::null()),
         );
@@ -120,7 +120,7 @@ impl Screen {
         command
     }
 
-    /// The program on this screen, and its window.
+    /// The program on this screen, and the id of its window.
     pub(super) fn azel(&self, arguments: &[&str]) -> (Running, String) {
         let mut command = self.command(env!("CARGO_BIN_EXE_azel"));
         self.window_of(command.args(arguments).env("AZEL_LOG", "error"))
@@ -161,8 +161,8 @@ impl Screen {
         connection.flush().expect("the screen");
     }
 
-    /// Takes up Manual and presses the key X+ where it may be. Each attempt tries
-    /// another place.
+    /// Switches to Manual and presses the key X+ where it may be. Each attempt tries another
+    /// place.
     pub(super) fn press_x_plus(&self, attempt: usize) {
         let [x, y] = MANUAL;
         self.xdotool(&["mousemove", x, y, "click", "1"]);
@@ -170,7 +170,7 @@ impl Screen {
         self.xdotool(&["mousemove", X_PLUS_X, y, "mousedown", "1"]);
     }
 
-    /// How many antennas are marked on disk as moved by hand and not proved to stand.
+    /// Number of antennas marked on disk as moved by hand and not proved to stand.
     pub(super) fn marks(&self) -> usize {
         let folder = self.folder.path().join(".local/share/azel/marks");
         fs::read_dir(folder).map_or(0, Iterator::count)
@@ -185,7 +185,7 @@ impl Screen {
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
-    /// The pixels of the screen.
+    /// Pixels of the screen.
     pub(super) fn picture(&self) -> Vec<u8> {
         let output = self
             .command("import")
@@ -207,7 +207,7 @@ impl Screen {
     }
 }
 
-/// A simulated Satrak in a process of its own, and what it wrote.
+/// A simulated Satrak in a process of its own, with its output.
 pub(super) struct Satrak {
     pub(super) address: SocketAddr,
     _process: Running,
@@ -242,7 +242,7 @@ impl Satrak {
         satrak
     }
 
-    /// The same, unless it takes longer than half a second.
+    /// Next line with `word`, unless it takes longer than half a second.
     pub(super) fn line_soon(&mut self, word: &str) -> Option<String> {
         let until = Instant::now() + Duration::from_millis(500);
         while let Ok(line) =
@@ -255,7 +255,7 @@ impl Satrak {
         None
     }
 
-    /// The next line with `word`, from where the last search ended.
+    /// Next line with `word`, from the end of the last search.
     pub(super) fn wait_for_line(&mut self, word: &str) -> String {
         wait_for(word, || {
             while let Ok(line) = self.lines.try_recv() {

@@ -2,14 +2,14 @@
 
 use std::{fs, net::SocketAddr};
 
-/// A process; its start tells it from a later one with the same id.
+/// A process; its start time distinguishes it from a later one with the same id.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Process {
     pub(super) id: u32,
     start: u64,
 }
 
-/// One line of `/proc/<id>/stat`.
+/// A line of `/proc/<id>/stat`.
 struct Stat {
     state: char,
     parent: u32,
@@ -18,7 +18,7 @@ struct Stat {
 
 fn stat(id: u32) -> Option<Stat> {
     let text = fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
-    // The name of the program stands in brackets and may hold anything.
+    // The name of the program is in brackets and may hold anything.
     let (_, rest) = text.rsplit_once(") ")?;
     let words: Vec<&str> = rest.split_ascii_whitespace().collect();
     Some(Stat {
@@ -29,7 +29,7 @@ fn stat(id: u32) -> Option<Stat> {
 }
 
 impl Process {
-    /// Whether it still runs. One that has ended and is not yet collected by its
+    /// Whether the process still runs. One that has ended and is not yet collected by its
     /// parent does not.
     pub(super) fn runs(self) -> bool {
         stat(self.id).is_some_and(|now| now.start == self.start && now.state != 'Z')
@@ -41,7 +41,7 @@ pub(super) fn is_stopped(id: u32) -> bool {
     stat(id).is_some_and(|now| now.state == 'T')
 }
 
-/// The dead-men that `parent` has started and that run.
+/// Running dead-men that `parent` has started.
 pub(super) fn dead_men_of(parent: u32) -> Vec<Process> {
     let ids = fs::read_dir("/proc").expect("/proc").filter_map(|entry| {
         let name = entry.ok()?.file_name();
@@ -58,7 +58,7 @@ pub(super) fn dead_men_of(parent: u32) -> Vec<Process> {
         .collect()
 }
 
-/// How many connections to the listener at `address` are open.
+/// Number of open connections to the listener at `address`.
 pub(super) fn established_at(address: SocketAddr) -> usize {
     let port = format!(":{:04X}", address.port());
     let table = fs::read_to_string("/proc/net/tcp").expect("/proc/net/tcp");

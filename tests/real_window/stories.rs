@@ -1,10 +1,9 @@
-//! What an operator does, and what must come of it.
+//! Acts of an operator, and their required results.
 
 use super::desk::{Satrak, Screen, wait_for};
 
-/// Takes up Manual and holds the key X+ down until the unit has been told to
-/// move. What is clicked before the window shows it does nothing, so it is
-/// tried again.
+/// Switches to Manual and holds the key X+ until the unit was told to move. Repeats the
+/// clicks, for one before the window shows the key does nothing.
 fn hold_x_plus(screen: &Screen, satrak: &mut Satrak) {
     let mut attempts = 0..;
     wait_for("the jog", || {
@@ -50,7 +49,7 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     screen.release_key();
 
     hold_x_plus(&screen, &mut satrak);
-    // What becomes of an antenna that moves is asked; the question takes the key.
+    // The window asks about the moving antenna; the question takes the key.
     screen.close(&window);
     satrak.wait_for_line("in payload=STOP=");
     screen.release_key();

@@ -1,5 +1,5 @@
-//! A simulated Satrak in this process, on a real socket: it takes one client at a
-//! time, and tells who said what and when.
+//! A simulated Satrak in this process, on a real socket: it accepts one client at a time,
+//! and records what each said and when.
 
 use std::{
     net::SocketAddr,
@@ -18,14 +18,14 @@ use tokio::{net::TcpListener, runtime::Runtime};
 
 use super::desk::wait_for;
 
-/// What a held X+ key sends.
+/// Payload that a held X+ key sends.
 const MOVE: &str = "MOVE=,0.5,0";
 const STOP: &str = "STOP=";
 
 pub(super) struct Unit {
     pub(super) address: SocketAddr,
     control: Control,
-    /// When each client that was served came.
+    /// Times at which the served clients came.
     clients: Arc<Mutex<Vec<Instant>>>,
     _runtime: Runtime,
 }
@@ -51,7 +51,7 @@ impl Unit {
         Self { address, control, clients, _runtime: runtime }
     }
 
-    /// What it has received since then, and when.
+    /// Payloads received since then, with their times.
     pub(super) fn heard_since(&self, since: Instant) -> Vec<(Instant, String)> {
         let heard = self.control.received().into_iter();
         heard.filter(|(at, _)| *at >= since).collect()
@@ -72,7 +72,7 @@ impl Unit {
         self.hears_since(since, STOP).is_some()
     }
 
-    /// Waits for STOP, and then until the metal stands. Returns how long STOP took.
+    /// Waits for STOP, and then until the metal stands. Returns the time that STOP took.
     pub(super) fn wait_for_stop(&self, since: Instant) -> Duration {
         let at = wait_for("STOP", || self.hears_since(since, STOP));
         wait_for("standstill", || (!self.is_moving()).then_some(()));
@@ -83,12 +83,12 @@ impl Unit {
         self.control.state().is_moving
     }
 
-    /// When the clients came, the newest last.
+    /// Times at which the clients came, newest last.
     pub(super) fn clients(&self) -> Vec<Instant> {
         self.clients.lock().expect("nobody panics with it").clone()
     }
 
-    /// Waits until a client has asked twice for the state.
+    /// Waits until a client has asked twice for the status.
     pub(super) fn wait_until_read_since(&self, since: Instant) {
         wait_for("the state to be read", || {
             let heard = self.heard_since(since);
@@ -108,7 +108,7 @@ async fn serve(listener: TcpListener, control: Control, clients: Arc<Mutex<Vec<I
         tokio::spawn(async move {
             let _taken = taken;
             stream.set_nodelay(true).ok();
-            // How a client leaves is no matter here.
+            // How a client leaves does not matter here.
             let _ = control.serve(stream).await;
         });
     }

@@ -1,4 +1,4 @@
-//! The bar at the top: alarms, chips, theme; and the table of the axes.
+//! Bar at the top: alarms, chips, theme; and the table of the axes.
 
 use azel::{
     clock::Instant,
@@ -19,7 +19,7 @@ use crate::window_stories::{
     states,
 };
 
-/// Carries out what the alarm list asks for, as the app does.
+/// Carries out the commands of the alarm list, as the app does.
 fn carry_out(window: &mut Window) -> Vec<UiCommand> {
     let commands = asked(window);
     let model = &mut window.state_mut().model;

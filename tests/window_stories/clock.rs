@@ -1,4 +1,4 @@
-//! Whether the clock of this computer can be trusted.
+//! Trust in the clock of this computer.
 
 use azel::driver::TimeSync;
 use egui_kittest::kittest::Queryable as _;
@@ -51,7 +51,7 @@ fn the_tool_tip_says_what_it_means() {
         let mut window = with(size, TimeSync::NotSynchronised);
         window.get_by_label("Clock: not synchronised").hover();
         rig::settle(&mut window);
-        // A tool-tip waits for a pointer that rests.
+        // A tool-tip waits for a pointer at rest.
         window.run_steps(40);
         window.get_by_label_contains("Overhead a low satellite moves by about 1°");
     }

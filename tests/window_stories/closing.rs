@@ -1,4 +1,4 @@
-//! The window is closed while something typed is not where it belongs.
+//! Closing the window while something typed is not where it belongs.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };
 
-/// The window manager asks; what the window answers.
+/// Lets the window manager ask; returns the window's answer.
 fn close(window: &mut RealWindow) -> Vec<ViewportCommand> {
     let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
     root.events.push(ViewportEvent::Close);
@@ -81,7 +81,7 @@ fn a_window_with_unsaved_settings_asks_first() {
     assert_eq!(close(&mut window), [], "it was asked once");
 }
 
-/// What is asked when the window of `model` is to close.
+/// Question shown when the window of `model` is to close.
 fn asked_about(size: [f32; 2], model: Model) -> Window {
     let mut window = rig::window(size, model);
     let story = window.state_mut();

@@ -1,5 +1,5 @@
-//! Questions sent from the console, its lines saved, and the whole of it in
-//! every window.
+//! Questions sent from the console, its lines saved, and the complete console in every
+//! window.
 
 use std::fs;
 

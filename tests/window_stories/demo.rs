@@ -1,4 +1,4 @@
-//! The demo station: one simulated controller of each make, behind real links.
+//! Demo station: a simulated unit of each make, behind real links.
 
 use std::{collections::BTreeMap, net::TcpStream};
 
@@ -21,7 +21,7 @@ const SATRAK: usize = 0;
 const GENIUS: usize = 1;
 const RC2000C: usize = 2;
 
-/// The window of the demo station, once its antennas are there.
+/// Window of the demo station, once its antennas are there.
 fn demo(folder: &tempfile::TempDir) -> RealWindow {
     let mut window = open(&folder.path().join("station.toml"), Clock::system());
     step_until(&mut window, "the antennas", |model| model.antennas.len() == 3);
@@ -37,7 +37,7 @@ fn measured(model: &Model, antenna: usize) -> Option<Measured> {
     model.antennas[antenna].snapshot.state.measured.filter(|_| is_up)
 }
 
-/// It stands there, to what its sensor can tell.
+/// Whether the antenna stands there, within the resolution of its sensor.
 fn stands_at(model: &Model, antenna: usize, azimuth_deg: f64, elevation_deg: f64) -> bool {
     let wanted = AzEl::from_degrees(azimuth_deg, elevation_deg);
     measured(model, antenna).is_some_and(|measured| {

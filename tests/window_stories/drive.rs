@@ -1,4 +1,4 @@
-//! Driving the antenna from the card: track, modes, jog, go to.
+//! Driving the antenna from its card: track, modes, jog, go to.
 
 use azel::{
     astro::Angle,
@@ -98,7 +98,7 @@ fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
                 window.key_press(Key::Enter);
             }
             assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
-            // The session takes it a moment later.
+            // The session shows it a moment later.
             window.state_mut().model.antennas[0].snapshot = states::manual().into();
             assert_eq!(asked(&mut window), [], "nothing moves by itself");
             assert!(window.get_by_label(pad).is_focused());

@@ -1,4 +1,4 @@
-//! Where the elements come from, and the catalog.
+//! Sources of elements, and the catalogue.
 
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ fn file_source() -> Source {
     Source { name: "own".to_owned(), place: SourcePlace::File("/var/elements/own.tle".into()) }
 }
 
-/// What came of a source that holds so many objects.
+/// Report of a source with this number of objects.
 fn report(source: &Source, objects: usize) -> SourceReport {
     let path = PathBuf::from("/var/elements/own.tle");
     let file = FileReport { path, objects, merge: MergeSummary::default(), problem: None };
@@ -46,7 +46,7 @@ fn report(source: &Source, objects: usize) -> SourceReport {
     }
 }
 
-/// A server that was asked so many hours ago.
+/// A server whose last request was `hours_ago`.
 fn server(hours_ago: f64) -> (Source, SourceReport) {
     let source = Source::celestrak("weather");
     let next = add_seconds(rig::now(), (2.0 - hours_ago) * HOUR_S);
@@ -333,8 +333,7 @@ fn every_control_is_whole_in_every_window() {
     }
 }
 
-/// The elements of one object as a file in `folder`, a day newer than the
-/// bundled ones.
+/// Elements of one object as a file in `folder`, a day newer than the bundled ones.
 fn newer_elements(folder: &tempfile::TempDir) -> PathBuf {
     let path = folder.path().join("own.json");
     let text = "[{\"OBJECT_NAME\":\"NOAA 20\",\"NORAD_CAT_ID\":43013,\

@@ -1,4 +1,4 @@
-//! What seldom happens: long names, nothing there, nothing known.
+//! Rare cases: long names, nothing there, nothing known.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use crate::window_stories::{
     states,
 };
 
-/// The longest name that is foreseen.
+/// Longest name that the layout is made for.
 const LONG: &str = "Şile northern field unit";
 
-/// Every control lies within the window, and STOP is where it always is. The
-/// last lines of the card may have to be scrolled to.
+/// Checks that every control is inside the window, and STOP in its usual place. The last
+/// lines of the card may have to be scrolled to.
 fn nothing_is_cut(window: &Window, size: [f32; 2]) {
     let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
     for role in [Role::Button, Role::RadioButton, Role::TextInput, Role::Slider, Role::Tab] {
@@ -39,7 +39,7 @@ fn nothing_is_cut(window: &Window, size: [f32; 2]) {
     assert!(stop.top() < 12.0 && stop.right() > size[0] - 20.0, "{stop:?}");
 }
 
-/// No control lies on another one.
+/// Checks that no control overlaps another.
 pub(crate) fn nothing_overlaps(window: &Window) {
     let buttons: Vec<(Option<String>, Rect)> = window
         .get_all_by_role(Role::Button)

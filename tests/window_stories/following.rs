@@ -1,4 +1,4 @@
-//! An antenna that this program sends from position to position.
+//! Program track of an antenna.
 
 use azel::{
     astro::{
@@ -23,7 +23,7 @@ use crate::window_stories::{rig, states};
 
 const WANTED: AzEl = AzEl::from_degrees(134.0, 20.0);
 
-/// A Genius that follows NOAA 20 and is `off_deg` too high.
+/// A Genius that tracks NOAA 20 and points `off_deg` too high.
 fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     let is_up = phase == TrackPhase::Tracking;
     let predicted = Sample { time: rig::now(), direction: WANTED };
@@ -116,7 +116,7 @@ fn a_target_beyond_the_travel_is_out_of_reach_and_waited_for() {
     else {
         panic!("a Genius turns azimuth and elevation")
     };
-    // The target stands at 134, which the axes would reach over the zenith too.
+    // The target is at 134 degrees, which the axes would reach over the zenith too.
     (*azimuth_from_deg, *elevation_to_deg) = (180.0, 90.0);
     let said = states::sentence(&model);
     assert!(said.contains("NOAA 20, which is out of reach. Waiting at 134°"), "{said}");
@@ -167,7 +167,7 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
     assert_eq!(fixed.follow(floor).passes, []);
 }
 
-/// What is asked for by this entry of the menu beside Track.
+/// Commands after choosing this entry of the menu beside Track.
 fn chosen(size: [f32; 2], antenna: Antenna, entry: &str) -> Vec<UiCommand> {
     let mut snapshot = states::holding();
     snapshot.link = LinkState::Up { since: Instant::now() };

@@ -1,5 +1,5 @@
-//! A make of controller that the library does not know: described and driven
-//! here, it is read from the station file, set up in the form and moved.
+//! A make that the library does not know: described and driven here, it is read from the
+//! station file, set up in the form and moved.
 
 mod lever;
 
@@ -28,7 +28,7 @@ use crate::window_stories::{
     rig::{self, SIZES, asked, says, settle},
 };
 
-/// Longer than anything here takes.
+/// Longer than any step here takes.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn all_specs() -> Vec<&'static ControllerSpec> {

@@ -1,4 +1,4 @@
-//! What the operator answers for by a hold.
+//! Confirmations that the operator gives by holding a button.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ fn shows(snapshot: Snapshot) -> Model {
 #[test]
 fn a_jog_without_a_dead_man_is_allowed_by_holding_only() {
     let unguarded = || Snapshot { intent: Intent::Manual, unguarded: true, ..states::holding() };
-    // Nothing is asked before a jog was refused for it, or once there is one.
+    // No question before a jog was refused for this reason, or once there is a confirmation.
     for (snapshot, is_refused) in
         [(unguarded(), false), (Snapshot { unguarded: false, ..unguarded() }, true)]
     {

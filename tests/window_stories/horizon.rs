@@ -1,4 +1,4 @@
-//! Keep-outs: added, drawn, typed, undone, tried against the passes and saved.
+//! Keep-outs: added, drawn, typed, undone, compared with the passes and saved.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub(crate) fn open(window: &mut Window) {
     settle(window);
 }
 
-/// The form, where it hides behind the plot.
+/// Shows the form if the plot hides it.
 pub(crate) fn show_table(window: &mut Window) {
     if let Some(tab) = window.query_by_role_and_label(Role::RadioButton, "Table") {
         tab.click();
@@ -35,7 +35,7 @@ pub(crate) fn show_table(window: &mut Window) {
     settle(window);
 }
 
-/// What was asked for but for the effect of what is drawn.
+/// Commands other than requests for the effect of the draft.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     let mut commands = rig::asked(window);
     commands.retain(|command| !matches!(command, UiCommand::ShowEffects(_)));
@@ -158,7 +158,7 @@ fn a_corner_is_dragged_and_the_drag_is_undone_and_done_again() {
         choose(&mut window, "mast");
         show_plot(&mut window);
         let from = place(&window, "Corner 2 of mast");
-        // North-east, where the plot is free.
+        // To the north-east, where the plot is free.
         let to = from + egui::vec2(0.0, -40.0);
         drag(&mut window, from, to, Modifiers::NONE);
         assert!(place(&window, "Corner 2 of mast").distance(to) < 4.0);
@@ -472,7 +472,7 @@ fn the_margin_is_the_beam_the_overshoot_and_what_is_added() {
     Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     let mut window = page_of(LARGE, model);
     choose(&mut window, "mast");
-    // A Satrak of 3° a second.
+    // With a Satrak of 3 degrees per second.
     window.get_by_label("°   beam 0.44° + overshoot 1.2° + 1.0°");
 }
 

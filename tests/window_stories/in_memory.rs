@@ -1,5 +1,5 @@
-//! The real app on a station whose units are in memory: the window has a handle, and no way to
-//! tell what is behind it.
+//! The real app on a station whose units are in memory. The window has a handle, and
+//! cannot tell what is behind it.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::window_stories::{
     unit::{RealWindow, open, step_until},
 };
 
-/// A unit in memory, and what a station takes from outside to reach it.
+/// A unit in memory, and the connections through which a station reaches it.
 fn unit() -> (Control, Outside) {
     let clock = Clock::system();
     let control = Control::on_clock(&Options::new(rig::station().site, clock.utc()), clock.clone());
@@ -61,7 +61,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     step_until(&mut window, "a measured angle", |model| measured(model).is_some());
     assert!(!window.state().model().demo);
 
-    // By hand, and the release ends it.
+    // By hand, until the release.
     window.get_by_role_and_label(Role::RadioButton, "Manual").click();
     step_until(&mut window, "manual", |model| intent(model) == Some(Intent::Manual));
     let key = window.get_by_label("Jog X+").rect().center();
@@ -92,7 +92,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     assert!(!unit.state().is_moving);
     assert_eq!(intent(window.state().model()), Some(Intent::Standby));
 
-    // The conversation, and what goes wrong.
+    // The console, and a failure.
     let modifiers = Modifiers::COMMAND;
     let key = Key::Num5;
     for pressed in [true, false] {

@@ -1,4 +1,4 @@
-//! The keys and their list.
+//! Keys and their list.
 
 use azel::{
     engine::{alarms::AlarmKind, passes::PredictedPass},
@@ -13,7 +13,7 @@ use crate::window_stories::{
     states,
 };
 
-/// Where every key has something to do.
+/// A window in which every key has something to do.
 fn desk(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::manual());
     for name in ["Mast", "Roof", "Field"] {
@@ -24,13 +24,13 @@ fn desk(size: [f32; 2]) -> Window {
     model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), model.now);
     model.selected = model.pass_lists.favourites.passes.get(2).map(PredictedPass::key);
     let mut window = rig::window(size, model);
-    // One step from the ends of what can be chosen.
+    // One step from the ends of the choices.
     window.key_press(Key::Plus);
     asked(&mut window);
     window
 }
 
-/// All that can be read in the window.
+/// All texts of the window.
 fn all_words(window: &Window) -> Vec<String> {
     window
         .query_all(egui_kittest::kittest::By::new())
@@ -196,7 +196,7 @@ fn up_and_down_lead_from_pass_to_pass_wherever_no_control_has_the_focus() {
 
 #[test]
 fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
-    /// The lower end of the list in a window that is wide and low.
+    /// Bottom of the list in a wide and low window.
     const BOTTOM: f32 = 560.0;
     let mut window = rig::window([1440.0, 640.0], rig::model(states::holding()));
     let passes = window.state().model.pass_lists.favourites.passes.clone();
@@ -219,7 +219,7 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
         let row = list(&window, index).expect("its row is there");
         assert!(row.top() >= 87.0 && row.bottom() <= BOTTOM + 1.0, "{index}: {row:?}");
     }
-    // What the operator scrolls to stays.
+    // The operator's scroll position stays.
     rig::scroll(&mut window, egui::pos2(230.0, 400.0), 5000.0);
     let row = list(&window, last).expect("its row is partly there");
     assert!(row.bottom() > BOTTOM, "{row:?}");

@@ -1,4 +1,4 @@
-//! A unit that is locked out for work at the antenna.
+//! Lock-out of a unit for work at the antenna.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ fn lock_out() -> LockOut {
     LockOut { by: "Ada".to_owned(), reason: "gear box open".to_owned(), since }
 }
 
-/// In the state of `snapshot`, and locked out.
+/// `snapshot` with a lock-out.
 pub(crate) fn locked(snapshot: Snapshot) -> Snapshot {
     Snapshot { lock_out: Some(lock_out()), ..snapshot }
 }
@@ -153,7 +153,7 @@ fn until_it_is_read_back_it_is_being_locked_out() {
     }
 }
 
-/// A window in which the lock-out was held.
+/// A window in which the operator has held the lock-out button.
 fn locked_out_by_ada(path: &std::path::Path, clock: azel::clock::Clock) -> RealWindow {
     let mut window = open(path, clock);
     let is_up = |model: &azel::model::Model| {

@@ -1,4 +1,4 @@
-//! What a Rotator Genius and an RC2000C may report, ready for the stories.
+//! Possible reports of a Rotator Genius and an RC2000C, for the stories.
 
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ fn standing(intent: Intent, measured: Measured) -> Snapshot {
     snapshot
 }
 
-/// Both rotators stand and tell of themselves.
+/// Both rotators stand and report themselves.
 pub(crate) fn pair_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(43.0), Some(12.0)));
     snapshot.state.readings = Arc::new([
@@ -81,8 +81,8 @@ pub(crate) fn pair_at(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// The rotator of the antenna and the other one stand; the other one has no
-/// sensor where `sees_other` is false.
+/// The rotator of the antenna and the other one stand; the other one has no sensor if
+/// `sees_other` is false.
 pub(crate) fn alone_at(intent: Intent, sees_other: bool) -> Snapshot {
     let mut measured = at(Some(43.0), None);
     measured.axes[1].angle_deg = sees_other.then_some(200.0);
@@ -115,12 +115,12 @@ fn told() -> Arc<[Reading]> {
     ])
 }
 
-/// Nobody has connected to it.
+/// An RC2000C without a connection.
 pub(crate) fn rc2000c_off() -> Snapshot {
     Snapshot { link: LinkState::Off, ..quiet() }
 }
 
-/// It stands, calibrated.
+/// An RC2000C at standstill, calibrated.
 pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     let mut snapshot = standing(intent, at(Some(370.0), Some(42.4)));
     snapshot.state.readings = told();
@@ -129,7 +129,7 @@ pub(crate) fn rc2000c_at(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// A drive does not turn, and its limit switch is set.
+/// An RC2000C with a drive that does not turn, at its limit switch.
 pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
     let mut snapshot = rc2000c_at(intent);
     snapshot.state.motion_lock = Some(true);
@@ -143,7 +143,7 @@ pub(crate) fn rc2000c_alarmed(intent: Intent) -> Snapshot {
     snapshot
 }
 
-/// It stands, and its counts are not calibrated.
+/// An RC2000C at standstill, not calibrated.
 pub(crate) fn rc2000c_uncalibrated(intent: Intent) -> Snapshot {
     let mut snapshot = rc2000c_at(intent);
     snapshot.state.measured = Some(at(None, None));

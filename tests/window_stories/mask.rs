@@ -1,4 +1,4 @@
-//! Hills around the station: typed in the form, seen in the plot, said of the
+//! Hills around the station: typed in the form, shown in the plot, and mentioned for the
 //! selected pass.
 
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What the operator is told of a unit that tracks by itself.
+//! Reports to the operator about an on-board track.
 
 use std::{
     io::{BufRead as _, BufReader, Write as _},
@@ -109,7 +109,7 @@ fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     assert!(said.contains("the age of its elements is not known"), "{said}");
 }
 
-/// Another client tells the unit this, one after the other.
+/// Sends these payloads to the unit as another client, one after the other.
 fn by_another(unit: &Unit, payloads: &[&str]) {
     let mut stream = TcpStream::connect(unit.address).unwrap();
     let mut lines = BufReader::new(stream.try_clone().unwrap()).lines();
@@ -120,7 +120,8 @@ fn by_another(unit: &Unit, payloads: &[&str]) {
     }
 }
 
-/// Another client lets the unit track a satellite of its file, five minutes after `utc`.
+/// Lets the unit track a satellite of its file as another client, five minutes after
+/// `utc`.
 fn track_by_another(unit: &Unit, satellite: &str, utc: Timestamp) {
     let text = |at| TimeZone::UTC.to_datetime(at).strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string();
     let (from, until) = (add_seconds(utc, 300.0), add_seconds(utc, 900.0));
@@ -145,7 +146,7 @@ fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     assert_eq!(window.state().model().antenna().unwrap().snapshot.target, None);
 }
 
-/// Elements of nothing that the catalog has.
+/// Elements of an object that is not in the catalog.
 const UNKNOWN: &str = r#"[{"OBJECT_NAME": "HOMEMADE", "OBJECT_ID": "2026-999A",
     "NORAD_CAT_ID": 799999999, "EPOCH": "2026-08-12T00:00:00", "MEAN_MOTION": 15.2,
     "ECCENTRICITY": 0.0005, "INCLINATION": 97.5, "RA_OF_ASC_NODE": 120.0,

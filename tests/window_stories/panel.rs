@@ -1,5 +1,5 @@
-//! Driving antennas whose controllers differ from a Satrak: what the card
-//! offers, and what comes of each of its controls.
+//! Driving antennas whose capabilities differ from a Satrak's: the controls on the card
+//! and their commands.
 
 use azel::{
     astro::Angle,

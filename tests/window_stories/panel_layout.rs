@@ -19,7 +19,7 @@ use crate::window_stories::{
     states,
 };
 
-/// What stands at the end of the card may have to be scrolled to.
+/// The lines at the end of the card may have to be scrolled to.
 const SCROLLED: [&str; 5] = ["Travel: ", "Readings: ", "Faults: ", "More: ", "Details"];
 
 fn cases() -> Vec<(Antenna, Snapshot)> {
@@ -77,7 +77,7 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
             }
             settle(&mut window);
         }
-        // What was scrolled away lies under the upper part of the card.
+        // Scrolled lines are under the upper part of the card.
         rig::scroll(&mut window, pos2(870.0, 600.0), 5000.0);
         nothing_overlaps(&window);
     }
@@ -112,7 +112,7 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     }
 }
 
-/// Where the jog keys are that lead up and to the left.
+/// Places of the jog keys for up and left.
 fn jog_keys(model: Model, size: [f32; 2]) -> [Rect; 2] {
     let window = rig::window(size, model);
     ["Jog Y+", "Jog X−"].map(|key| window.get_by_label(key).rect())
@@ -138,7 +138,7 @@ fn unguarded() -> Model {
     model
 }
 
-/// What comes and goes around the jog keys.
+/// States that add and remove lines around the jog keys.
 fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
     let since = states::moving().state.measured.unwrap().received;
     let stop = StopState::NotConfirmed { since };

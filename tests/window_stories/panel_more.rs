@@ -1,5 +1,4 @@
-//! What only one make can do: every action of every make from its key to its
-//! command.
+//! Actions of single makes: every action of every make from its key to its command.
 
 use azel::{
     device::{
@@ -40,7 +39,7 @@ fn unfolded(size: [f32; 2], model: Model) -> Window {
     window
 }
 
-/// What to type into a field, and what it then means.
+/// Text to type into a field, and its value.
 fn sample(field: &Field) -> (&'static str, Value) {
     match field.kind {
         Kind::Integer { .. } => ("120", Value::Integer(120)),

@@ -172,7 +172,7 @@ fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let favourites = std::mem::take(&mut model.pass_lists.favourites.passes);
-        // The same passes, as if nobody followed their satellites.
+        // The same passes, as if their satellites were not favourites.
         model.pass_lists.all.passes = favourites;
         model.pass_lists.all.satellites = model.pass_lists.favourites.satellites.clone();
         model.list.scope = Scope::All;
@@ -227,7 +227,7 @@ fn the_list_is_filtered_by_name_and_number() {
         settle(&mut window);
         window.event(Event::Text("meteor".to_owned()));
         settle(&mut window);
-        // The strip of passes is not filtered, and its bars count to nothing.
+        // The strip of passes is not filtered, and its bars do not count as rows.
         let rows = window.get_all_by_role(Role::ListBoxOption);
         let rows = rows.filter_map(|row| row.accesskit_node().label());
         let rows: Vec<_> = rows.filter(|name| name.contains("OS T−")).collect();
@@ -268,7 +268,7 @@ fn up_and_down_stay_within_what_is_filtered() {
     assert_eq!(asked(&mut window), [UiCommand::SelectPass(of_meteor[1])]);
 }
 
-/// The list is a drawer in the small window.
+/// Opens the list, which is a drawer in the small window.
 fn open_list(window: &mut Window) {
     if window.query_by_label_contains("Next passes, ").is_none() {
         window.key_press(Key::P);

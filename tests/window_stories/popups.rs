@@ -1,4 +1,4 @@
-//! Whatever opens over the window closes without Esc too, which is STOP besides.
+//! Everything that opens over the window closes without Esc too, because Esc is also STOP.
 
 use azel::model::View;
 use egui::{Key, Role, pos2};
@@ -10,7 +10,7 @@ use crate::window_stories::{
     states,
 };
 
-/// What is open, by something that stands in it alone.
+/// Whether a popup is open, recognized by an item that only it has.
 fn is_open(window: &Window, inside: &str) -> bool {
     window.query_all_by_label_contains(inside).next().is_some()
 }
@@ -20,7 +20,7 @@ fn open(window: &mut Window, key: &str) {
     settle(window);
 }
 
-/// Clicks where nothing but the ground of the sky plot is.
+/// Clicks on the empty background of the sky plot.
 fn click_outside(window: &mut Window) {
     let place = pos2(0.45 * window.ctx.content_rect().width(), 150.0);
     window.hover_at(place);
@@ -29,7 +29,7 @@ fn click_outside(window: &mut Window) {
     settle(window);
 }
 
-/// Menus: a click outside and the key that opened them.
+/// Menus close by a click outside and by the key that opened them.
 #[test]
 fn menus_close_by_a_click_outside_and_by_their_own_key() {
     for size in SIZES {
@@ -52,7 +52,7 @@ fn menus_close_by_a_click_outside_and_by_their_own_key() {
     }
 }
 
-/// What stays open while something is done in it has a key to close it.
+/// Popups that stay open while they are used have a key to close them.
 #[test]
 fn popups_close_by_a_click_outside_and_by_a_close_key() {
     for size in SIZES {

@@ -1,4 +1,4 @@
-//! The settings of the station, typed, corrected, saved and reverted.
+//! Settings of the station: typed, corrected, saved and reverted.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub(crate) fn form(size: [f32; 2]) -> Window {
     rig::window(size, model)
 }
 
-/// Writes `words` over what stands in the field of the station.
+/// Replaces the text in a field of the station by `words`.
 pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
     // The label beside the field has the same words.
     let is_field = |role| matches!(role, Role::TextInput | Role::MultilineTextInput);

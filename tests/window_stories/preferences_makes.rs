@@ -1,5 +1,5 @@
-//! Antennas of every make, added in the form, filled in wrong and right, saved
-//! and read back.
+//! Antennas of every make: added in the form, filled in wrong and right, saved and read
+//! back.
 
 use std::sync::Arc;
 
@@ -54,7 +54,7 @@ fn has_field(window: &Window, label: &str) -> bool {
     window.query_by_role_and_label(Role::TextInput, label).is_some()
 }
 
-/// What stands in the field of this name.
+/// Text in the field with this name.
 fn typed(window: &Window, label: &str) -> String {
     let mut fields = window.get_all_by_label(label);
     let is_field = |role| matches!(role, Role::TextInput | Role::MultilineTextInput);
@@ -62,7 +62,7 @@ fn typed(window: &Window, label: &str) -> String {
     field.and_then(|node| node.value()).expect("a field with a text")
 }
 
-/// A station as it is after it was written to its file and read again.
+/// The station after it was written to its file and read again.
 fn reloaded(station: &Station) -> Station {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");

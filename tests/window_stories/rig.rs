@@ -1,5 +1,5 @@
-//! A window without a display on a model made by hand: nothing moves, no clock
-//! runs, and what the operator asks for is collected.
+//! A window without a display on a model made by hand: nothing moves, no clock runs, and
+//! the commands of the operator are collected.
 
 use std::{
     sync::{Arc, OnceLock},
@@ -39,7 +39,7 @@ pub(crate) const SMALL: [f32; 2] = [1024.0, 640.0];
 pub(crate) const NOAA_20: u32 = 43_013;
 const FOLLOWED: [u32; 5] = [NOAA_20, 25_544, 59_051, 37_849, 44_334];
 
-/// A window and what was asked for in it.
+/// A window and its commands.
 pub(crate) struct Story {
     pub(crate) model: Model,
     pub(crate) views: Views,
@@ -48,12 +48,12 @@ pub(crate) struct Story {
 
 pub(crate) type Window = Harness<'static, Story>;
 
-/// The same for every story; NOAA 20 is up.
+/// Time of every story; NOAA 20 is up.
 pub(crate) fn now() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
 }
 
-/// The elements and the passes over the site of [`station`], made once.
+/// Elements, and passes over the site of [`station`], made once.
 struct Orbits {
     catalog: Arc<Catalog>,
     satellites: Vec<Arc<ListedSatellite>>,
@@ -69,7 +69,7 @@ fn orbits() -> &'static Orbits {
         let mut passes: Vec<PredictedPass> =
             satellites.iter().flat_map(|satellite| predicted_passes(satellite, now())).collect();
         passes.sort_by_key(|predicted| predicted.pass.aos.time);
-        // Shared by all stories with what is drawn of them.
+        // Shared by all stories, together with their drawings.
         for predicted in &passes {
             predicted.path();
         }
@@ -83,7 +83,7 @@ fn followed(catalog: &Catalog, number: u32) -> ListedSatellite {
     ListedSatellite { elements, propagator }
 }
 
-/// The passes of the 12 h after `now`, with the one that is under way.
+/// Passes of the 12 h after `now`, with the one under way.
 pub(crate) fn predicted_passes(
     satellite: &Arc<ListedSatellite>,
     now: Timestamp,
@@ -110,7 +110,7 @@ pub(crate) fn station() -> Station {
     Station { name: "Şile 1".to_owned(), antennas, favourites, ..Station::default() }
 }
 
-/// What a new session shows, with its link up.
+/// Snapshot of a new session with its link up.
 pub(crate) fn quiet() -> Snapshot {
     Snapshot::before_anything(LinkState::Up { since: Instant::now() })
 }
@@ -163,12 +163,12 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     model
 }
 
-/// A moment `seconds` before the frame of `model`.
+/// Instant `seconds` before the frame of `model`.
 pub(crate) fn ago(model: &Model, seconds: u64) -> Instant {
     model.steady - Duration::from_secs(seconds)
 }
 
-/// A moment an hour after the frame of `model`.
+/// Instant an hour after the frame of `model`.
 pub(crate) fn soon(model: &Model) -> Instant {
     model.steady + Duration::from_hours(1)
 }
@@ -194,12 +194,12 @@ pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
     window
 }
 
-/// Some frames; a bell that blinks would never let `run` end.
+/// Runs some frames; a blinking bell would never let `run` end.
 pub(crate) fn settle(window: &mut Window) {
     window.run_steps(4);
 }
 
-/// Turns the wheel over `at`, so many points towards the top.
+/// Turns the wheel over `at`, by `points` towards the top.
 pub(crate) fn scroll(window: &mut Window, at: Pos2, points: f32) {
     window.hover_at(at);
     window.event(Event::MouseWheel {
@@ -212,12 +212,12 @@ pub(crate) fn scroll(window: &mut Window, at: Pos2, points: f32) {
     settle(window);
 }
 
-/// What was asked for since the last time.
+/// Commands since the last call.
 pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     settle(window);
     let asked = std::mem::take(&mut window.state_mut().commands);
     for command in &asked {
-        // A make that a test describes is read back by nobody else.
+        // The reader of stations does not know a make that a test describes.
         let is_of_a_toy = |station: &Station| {
             let mut specs = station.antennas.iter().map(|antenna| antenna.connection.spec());
             specs.any(|spec| !azel::makes::SPECS.contains(&spec))
@@ -239,8 +239,7 @@ pub(crate) fn says(window: &Window, words: &str) -> bool {
     })
 }
 
-/// What is asked for when NOAA 20 is to be tracked: the antenna and the pass
-/// that are selected in every story.
+/// Command to track NOAA 20, with the antenna and pass that are selected in every story.
 pub(crate) fn track_noaa_20() -> UiCommand {
     UiCommand::track_selected(&model(quiet())).expect("a selected pass")
 }

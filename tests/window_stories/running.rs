@@ -48,7 +48,7 @@ fn place(window: &RealWindow) -> AzEl {
     measured(window.state().model()).unwrap().direction().unwrap()
 }
 
-/// The window of the demo station, once its antenna is measured.
+/// Window of the demo station, once its antenna is measured.
 fn demo(folder: &tempfile::TempDir) -> RealWindow {
     let mut window = open(&folder.path().join("station.toml"), Clock::system());
     step_until(&mut window, "the antenna is measured", stands);
@@ -56,8 +56,9 @@ fn demo(folder: &tempfile::TempDir) -> RealWindow {
     window
 }
 
-/// Holds the key of a jog until it is so. A frame that takes longer than the lease ends a
-/// jog, rightly, and on a busy machine frames do: a hand would press again.
+/// Holds the key of a jog until the condition holds. A frame longer than the lease ends a
+/// jog, rightly, and occurs on a busy machine: the key is then pressed again, as by a
+/// hand.
 fn hold_jog_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Model) -> bool) {
     window.get_by_role_and_label(Role::RadioButton, "Manual").click();
     step_until(window, "manual", |model| intent(model) == Some(Intent::Manual));
@@ -183,7 +184,7 @@ fn is_stopped(model: &Model) -> bool {
 
 #[test]
 fn a_satellite_that_is_up_is_tracked_within_the_beam() {
-    // NOAA 20 is near its greatest elevation.
+    // NOAA 20 is near its maximum elevation.
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");

@@ -1,4 +1,4 @@
-//! The sentence of the antenna in every case.
+//! Sentence of the antenna in every case.
 
 use std::{sync::Arc, time::Duration};
 
@@ -15,7 +15,7 @@ use azel::{
 
 use crate::window_stories::{makes, rig, states};
 
-/// The station with this snapshot, `change`d.
+/// Sentence for the station with this snapshot after `change`.
 fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> String {
     let mut model = rig::model(rig::quiet());
     let mut snapshot = snapshot;
@@ -30,7 +30,7 @@ fn told(snapshot: Snapshot, change: impl FnOnce(&mut Model, &mut Snapshot)) -> S
 
 fn unchanged(_: &mut Model, _: &mut Snapshot) {}
 
-/// An event that has just come.
+/// Change that adds an event just now.
 fn just(event: Event) -> impl FnOnce(&mut Model, &mut Snapshot) {
     move |model, _| model.antennas[0].news = Some((event, model.now))
 }

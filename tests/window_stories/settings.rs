@@ -1,4 +1,4 @@
-//! The Antennas view on a unit that is made by hand.
+//! The Antennas view on a unit made by hand.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The only change that was asked for, and what was asked for before it.
+/// The commands, which must all be changes of settings of antenna 1.
 pub(crate) fn settles(commands: Vec<UiCommand>) -> Vec<Change> {
     let change = |command| match command {
         UiCommand::Station(engine::Command::Antenna(
@@ -37,7 +37,7 @@ pub(crate) fn group<'a>(snapshot: &'a mut Snapshot, key: &'static str) -> &'a mu
     Arc::make_mut(&mut snapshot.state.held).get_mut(key).unwrap()
 }
 
-/// The session is done with `change`.
+/// Ends `change` with `result`, as the session does.
 fn end(window: &mut Window, change: &Change, result: Result<(), WriteError>) {
     let written = Written { change: change.clone(), at: rig::now(), result };
     self::change(window, 0, |snapshot| {
@@ -148,7 +148,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         write(&mut window, "Latitude", "41.02N");
         write(&mut window, "North offset", "3,00");
         assert!(says(&window, "1 change not sent"), "what is the same is no edit");
-        // Another client is at work: what the operator saw is what counts.
+        // Another client changes the value: the operator's view counts.
         change(&mut window, 0, |snapshot| {
             let values = &mut group(snapshot, "general").held.as_mut().unwrap().values;
             values.insert("lead_ms", Value::Integer(90_000));

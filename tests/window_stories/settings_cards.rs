@@ -1,4 +1,4 @@
-//! What the cards of a unit show beside its settings.
+//! Content of a unit's cards other than its settings.
 
 use azel::{
     device::{Program, settings::Value},
@@ -23,7 +23,7 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
     apply(&mut window);
     let values = settles(asked(&mut window)).remove(0).values;
     let stop = Value::Time("2026-08-12T11:21:26Z".parse().unwrap());
-    // The pass is under way, and its start on the unit already.
+    // The pass is under way, and the unit has its start already.
     assert_eq!(values, [("stop", stop)].into());
 }
 
@@ -57,7 +57,7 @@ fn the_clock_is_not_set_while_the_unit_tracks() {
     assert!(says(&window, "Not while the unit tracks."));
     press(&mut window, "Set from this PC");
     assert_eq!(asked(&mut window), []);
-    // 3.0 s ahead is several beams of a low satellite.
+    // 3.0 s ahead is several beam widths of a low satellite.
     assert!(
         texts(&window)
             .iter()

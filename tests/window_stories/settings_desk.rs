@@ -1,5 +1,4 @@
-//! The hands of the operator in the Antennas view, on a model made by hand and
-//! on the real app.
+//! Acts of the operator in the Antennas view, on a model made by hand and on the real app.
 
 use std::sync::Arc;
 
@@ -20,7 +19,7 @@ use crate::window_stories::{
     states,
 };
 
-/// The password that the unit holds. No text may have it.
+/// Password on the unit. No text may contain it.
 pub(crate) const ON_UNIT: &str = "hunter2";
 
 /// A value that every field of this kind can have.
@@ -40,7 +39,7 @@ fn usual(field: &Field) -> Value {
     }
 }
 
-/// Everything is read, with the usual values.
+/// Complete readings, with the usual values.
 pub(crate) fn held() -> Held {
     let group = |fields: &[Field]| {
         let reported = fields.iter().filter(|field| field.access != Access::Write);
@@ -51,7 +50,7 @@ pub(crate) fn held() -> Held {
     GROUPS.iter().map(|known| (known.key, group(known.fields))).collect()
 }
 
-/// A unit that stands and is read.
+/// A unit at standstill whose settings are read.
 pub(crate) fn read() -> Snapshot {
     let mut snapshot = states::holding();
     snapshot.state.link_since = snapshot.state.measured.map(|measured| measured.asked);
@@ -66,14 +65,14 @@ pub(crate) fn desk(size: [f32; 2], snapshot: Snapshot) -> Window {
     rig::window(size, model)
 }
 
-/// From here on the unit is so.
+/// Changes the state of the unit.
 pub(crate) fn change(window: &mut Window, index: usize, with: impl FnOnce(&mut Snapshot)) {
     let antenna = &mut window.state_mut().model.antennas[index];
     with(Arc::make_mut(&mut antenna.snapshot));
     rig::settle(window);
 }
 
-/// Writes `words` over what stands in the field.
+/// Replaces the text in the field by `words`.
 pub(crate) fn write<S>(window: &mut Harness<'_, S>, label: &str, words: &str) {
     let name = format!("{label}, new value");
     let is_input = |role| matches!(role, Role::TextInput | Role::PasswordInput);
@@ -122,7 +121,7 @@ pub(crate) fn apply<S>(window: &mut Harness<'_, S>) {
     window.step();
 }
 
-/// The state that stands beside a field.
+/// State shown beside a field.
 pub(crate) fn state_of<S>(window: &Harness<'_, S>, label: &str) -> String {
     let before = format!("{label}: ");
     let told =
@@ -140,7 +139,7 @@ pub(crate) fn unlock<S>(window: &mut Harness<'_, S>, station: &str) {
     hold(window, "Hold 1 s to unlock");
 }
 
-/// Whether one of the texts has `words` in it.
+/// Whether one of the texts contains `words`.
 pub(crate) fn says<S>(window: &Harness<'_, S>, words: &str) -> bool {
     texts(window).iter().any(|text| text.contains(words))
 }

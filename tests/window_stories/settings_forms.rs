@@ -1,19 +1,19 @@
-//! The settings forms of a unit, and what the stories do with each of them.
+//! Settings forms of a unit, and the steps of the stories with each.
 
-/// A form, and what is done with it.
+/// Steps with one form.
 pub(crate) struct Story {
     pub(crate) group: &'static str,
-    /// The tab under which it stands.
+    /// Tab of the form.
     pub(crate) tab: Option<&'static str>,
     pub(crate) is_service: bool,
-    /// What is chosen beforehand, and goes along with the first change.
+    /// Choice made beforehand and sent along with the first change.
     pub(crate) choice: Option<(&'static str, &'static str)>,
-    /// Typed one after the other, with what the unit answers to `query` then;
-    /// the last is the field whose state is looked at.
+    /// Values typed one after the other, with the unit's answer to `query` then; the last
+    /// field is the one whose state is checked.
     pub(crate) rounds: [(&'static [(&'static str, &'static str)], &'static str); 3],
     pub(crate) query: &'static str,
-    /// What another client sends meanwhile; `None` where the unit reports
-    /// nothing that could change.
+    /// Payload that another client sends meanwhile; `None` if the unit reports no value that
+    /// could change.
     pub(crate) foreign: Option<&'static str>,
 }
 

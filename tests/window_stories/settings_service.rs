@@ -1,4 +1,4 @@
-//! The service functions: locked, opened with care, locked again.
+//! Service functions: locked, opened with care, locked again.
 
 use std::time::Duration;
 

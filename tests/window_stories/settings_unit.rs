@@ -1,5 +1,5 @@
-//! Every settings form against a real unit: refused, verified, changed by
-//! another client meanwhile, and the link lost in the middle.
+//! Every settings form against a real unit: refused, verified, changed by another client
+//! meanwhile, and with the link lost in between.
 
 use azel::{
     device::settings::{GroupState, WriteError, Written},
@@ -18,7 +18,7 @@ use crate::window_stories::{
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 
-/// What another client of the unit is answered.
+/// Answer of the unit to another client.
 pub(crate) fn ask(control: &Control, payload: &str) -> String {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
     runtime.block_on(async {
@@ -62,7 +62,7 @@ impl Scene {
         });
     }
 
-    /// Types what a round says; returns the field whose state is looked at.
+    /// Types the values of a round; returns the field whose state is checked.
     fn edit(&mut self, round: &[(&'static str, &'static str)]) -> &'static str {
         for (label, words) in round {
             write(&mut self.window, label, words);
@@ -71,7 +71,7 @@ impl Scene {
         round.last().unwrap().0
     }
 
-    /// Applies, and waits until the field says so.
+    /// Applies, and waits until the field shows `state`.
     pub(crate) fn apply_until(&mut self, field: &str, state: &str) {
         apply(&mut self.window);
         crate::window_stories::unit::wait_until(state, || {
@@ -90,8 +90,8 @@ impl Scene {
         assert!(says(&self.window, "Open, locks in"));
     }
 
-    /// The unit takes the command of a change and hangs up, and is not to be
-    /// had until that is seen.
+    /// Lets the unit accept the command of a change and hang up, unreachable until that is
+    /// seen.
     fn lose_link_while_sending(&mut self, group: &str, press: impl FnOnce(&mut RealWindow)) {
         let control = self.unit.control.clone();
         control.set_fault(Fault::HangUp, true);
@@ -110,7 +110,7 @@ impl Scene {
         control.set_fault(Fault::HangUp, false);
     }
 
-    /// The link is up, and all that is shown was read on it.
+    /// Waits until the link is up and all shown values were read on it.
     fn link_is_back(&mut self) {
         let lost_at = self.window.state().model().now;
         step_until(&mut self.window, "the link is back", |model| {
@@ -173,7 +173,7 @@ fn drive(story: &Story) {
     if story.is_service {
         scene.open_service();
     }
-    // What was sent may have been taken just before the link went.
+    // The change may have been accepted just before the link went.
     if state_of(&scene.window, field) != "Unchanged" {
         scene.apply_until(field, done);
     }

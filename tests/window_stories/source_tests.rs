@@ -1,4 +1,4 @@
-//! "Test from here" beside a form of a unit's source.
+//! "Test from here" beside the form of a unit's source.
 
 use azel::{
     engine::{

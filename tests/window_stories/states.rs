@@ -1,4 +1,4 @@
-//! What a Satrak may report, ready for the stories.
+//! Possible reports of a Satrak, for the stories.
 
 use azel::{
     astro::{AzEl, time::add_seconds},
@@ -26,7 +26,7 @@ pub(crate) fn measured(azimuth_deg: f64, elevation_deg: f64, motion: AxisMotion)
     }
 }
 
-/// The antenna stands and nothing is to move.
+/// The antenna stands, without any intent to move.
 pub(crate) fn holding() -> Snapshot {
     let mut snapshot = quiet();
     snapshot.state.measured = Some(measured(343.1, 5.0, AxisMotion::Still));
@@ -35,19 +35,19 @@ pub(crate) fn holding() -> Snapshot {
     snapshot
 }
 
-/// The antenna moves, and nobody here asked for it.
+/// The antenna moves without a command from Azel.
 pub(crate) fn moving() -> Snapshot {
     let mut snapshot = holding();
     snapshot.state.measured = Some(measured(120.0, 30.0, AxisMotion::Plus));
     snapshot
 }
 
-/// The operator moves it by hand.
+/// The operator moves the antenna by hand.
 pub(crate) fn manual() -> Snapshot {
     Snapshot { intent: Intent::Manual, ..holding() }
 }
 
-/// NOAA 20 as asked for.
+/// Target of a track of NOAA 20.
 pub(crate) fn target() -> TrackTarget {
     TrackTarget {
         catalog_number: NOAA_20,
@@ -57,12 +57,12 @@ pub(crate) fn target() -> TrackTarget {
     }
 }
 
-/// When NOAA 20 goes down, to the second.
+/// LOS of NOAA 20, to the second.
 pub(crate) fn los() -> Timestamp {
     "2026-08-12T11:21:27Z".parse().unwrap()
 }
 
-/// The unit follows NOAA 20, `off_deg` above where we see it.
+/// On-board track of NOAA 20, `off_deg` above its direction.
 pub(crate) fn tracking(off_deg: f64) -> Snapshot {
     let wanted = model(quiet()).sky.selected.unwrap().look.direction;
     let (azimuth_deg, elevation_deg) = (wanted.azimuth_deg(), wanted.elevation_deg());
@@ -94,12 +94,12 @@ fn hold_noaa_20(snapshot: &mut Snapshot) {
     snapshot.state.on_board.window = Some((now(), los()));
 }
 
-/// The sentence of the first antenna.
+/// Sentence of the first antenna.
 pub(crate) fn sentence(model: &Model) -> String {
     azel::ui::state_sentence::state_sentence(model, &model.antennas[0]).text()
 }
 
-/// The checks as the unit reported them at `at`, the numbered ones (1 to 12) set.
+/// Adds the unit's checks at `at`, with the numbered ones (1 to 12) set.
 pub(crate) fn report(snapshot: &mut Snapshot, set: &[usize], at: Timestamp) {
     let flags: Vec<&str> =
         (1..=12).map(|number| if set.contains(&number) { "1" } else { "0" }).collect();

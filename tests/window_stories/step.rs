@@ -15,7 +15,7 @@ fn antenna(command: Command) -> UiCommand {
     UiCommand::antenna(AntennaId(1), command)
 }
 
-/// Writes over what stands in the field.
+/// Replaces the text in the field.
 fn write(window: &mut Window, field: &str, words: &str) {
     window.get_by_label(field).focus();
     settle(window);

@@ -1,4 +1,4 @@
-//! STOP, whatever is open and whatever became of the last one.
+//! STOP, whatever is open and whatever the result of the last one.
 
 use std::time::Duration;
 
@@ -19,7 +19,7 @@ use crate::window_stories::{
     states,
 };
 
-/// Clicks STOP, which must be named `name` and be the only thing asked for.
+/// Clicks STOP, which must be named `name` and be the only command.
 fn stop_stops(window: &mut Window, name: &str) {
     window.state_mut().commands.clear();
     window.get_by_role_and_label(Role::Button, name).click();

@@ -29,7 +29,7 @@ use tokio::sync::oneshot;
 
 use crate::window_stories::rig;
 
-/// No story may take longer for one step.
+/// Longer than any step of a story takes.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 const DEFAULT_DELAY: RangeInclusive<Duration> =
@@ -45,13 +45,12 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// A unit that holds the elements of the station and whose clock starts at
-    /// `utc`.
+    /// A unit with the elements of the station, and a clock that starts at `utc`.
     pub(crate) fn start(utc: Timestamp) -> Self {
         Self::with_delay(utc, DEFAULT_DELAY)
     }
 
-    /// The same, with answers that take so long.
+    /// Like [`Self::start`], with delayed answers.
     pub(crate) fn with_delay(utc: Timestamp, reply_delay: RangeInclusive<Duration>) -> Self {
         let catalog = bundled().unwrap();
         let favourites = rig::station().favourites.into_iter();
@@ -59,7 +58,7 @@ impl Unit {
         Self::run(Options { reply_delay, ..holding(elements, utc) })
     }
 
-    /// A unit that holds these elements and whose clock starts at `utc`.
+    /// A unit with these elements, and a clock that starts at `utc`.
     pub(crate) fn of_elements(elements: Vec<Elements>, utc: Timestamp) -> Self {
         Self::run(holding(elements, utc))
     }
@@ -89,7 +88,7 @@ impl Unit {
         Station { antennas: vec![antenna], ..rig::station() }
     }
 
-    /// What the unit tells a new client, once it takes one.
+    /// Status that the unit reports to a new client, if it accepts one.
     pub(crate) fn status(&self) -> Option<Status> {
         let mut stream = TcpStream::connect(self.address).ok()?;
         stream.set_read_timeout(Some(PATIENCE)).ok()?;
@@ -112,7 +111,7 @@ fn holding(elements: Vec<Elements>, utc: Timestamp) -> Options {
     }
 }
 
-/// A clock that starts at `utc` and runs as clocks do.
+/// A running clock that starts at `utc`.
 pub(crate) fn clock_from(utc: Timestamp) -> Clock {
     Clock::at_speed(utc, NonZeroU32::MIN)
 }
@@ -131,7 +130,7 @@ pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
         .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, outside).unwrap())
 }
 
-/// Frames until it is so.
+/// Runs frames until the condition holds.
 pub(crate) fn step_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Model) -> bool) {
     wait_until(what, || {
         window.step();
@@ -139,7 +138,7 @@ pub(crate) fn step_until(window: &mut RealWindow, what: &str, is_so: impl Fn(&Mo
     });
 }
 
-/// The one place that sleeps: real sockets are waited for.
+/// The only place that sleeps: real sockets need waiting.
 pub(crate) fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
     let end = Instant::now() + PATIENCE;
     while !is_so() {

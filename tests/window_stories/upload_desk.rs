@@ -1,4 +1,4 @@
-//! The part that sends elements to a unit, alone, and what its stories share.
+//! The upload part alone, and common steps of its stories.
 
 use azel::{
     astro::time::add_seconds,
@@ -36,7 +36,7 @@ pub(crate) struct Part {
 
 pub(crate) type Window = Harness<'static, Part>;
 
-/// The part alone, as wide as this.
+/// The part alone, of this width.
 pub(crate) fn part(width: f32, uploads: Uploads) -> Window {
     let mut model = rig::model(states::holding());
     model.uploads = uploads.into();
@@ -62,7 +62,7 @@ pub(crate) fn settle(window: &mut Window) {
     window.run_steps(4);
 }
 
-/// What was asked for since the last time, but the list of what is kept.
+/// Commands since the last call, except requests for the list of kept files.
 pub(crate) fn asked(window: &mut Window) -> Vec<Ask> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);
@@ -138,7 +138,7 @@ pub(crate) fn begun(window: &mut Window) -> Order {
     }
 }
 
-/// File and user are typed; the rest is there.
+/// The part with file and user typed; the rest is there.
 pub(crate) fn typed(width: f32, uploads: Uploads) -> Window {
     let mut window = part(width, uploads);
     write(&mut window, "File", FILE);

@@ -1,4 +1,4 @@
-//! What the operator is asked while elements are on their way to a unit.
+//! Questions to the operator during an upload.
 
 use azel::{
     engine::{

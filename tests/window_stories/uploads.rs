@@ -1,4 +1,4 @@
-//! Elements on their way to a unit: what is chosen, typed, asked and told.
+//! Uploads of elements to a unit: choices, texts, questions and reports.
 
 use std::sync::Arc;
 
@@ -238,7 +238,7 @@ fn without_elements_an_old_file_can_still_be_put_back() {
     assert!(!is_disabled(&window, &back));
 }
 
-/// The key that puts `entry` back: two files of the same second differ in it.
+/// Key that puts `entry` back: it tells two files of the same second apart.
 fn put_back(origin: &str, entry: &KeptEntry) -> String {
     let hash = entry.file.sha256.to_string();
     format!("Put back the file of {origin}, {}", &hash[..12])

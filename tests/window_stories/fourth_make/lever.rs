@@ -1,4 +1,4 @@
-//! A make of controller that turns an antenna by one long lever.
+//! A make that turns an antenna by one long lever.
 
 use std::{
     collections::VecDeque,
@@ -72,7 +72,7 @@ static VARIANT: Variant = Variant {
     actions: &[],
 };
 
-/// On one shaft it turns the azimuth alone.
+/// Variant on one shaft, which turns the azimuth alone.
 static LEVEL: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", ""],
@@ -83,17 +83,17 @@ static LEVEL: Variant = Variant {
     actions: &[],
 };
 
-/// The order at which the controller breaks down, instead of sending it.
+/// Command at which the controller panics instead of sending it.
 pub(super) const FRAGILE: &str = "G 180 45";
 
-/// Speaks in lines: a code, `P?` answered with a place, `G` and a place, `S`.
+/// A protocol of lines: a code, `P?` answered with a position, `G` and a position, `S`.
 struct Lever {
     greeting: String,
     state: AntennaState,
     orders: VecDeque<String>,
     events: VecDeque<ControllerEvent>,
     heard: Vec<u8>,
-    /// When each place was asked for that was not told yet; they are told in this order.
+    /// Times of the questions for a position that are not answered yet, in order.
     asked: VecDeque<Instant>,
 }
 
@@ -160,8 +160,8 @@ impl Device for Lever {
         Some(b"P?\n".to_vec())
     }
 
-    /// Always: while it waits for an answer, that answer and the operator's STOP
-    /// must be heard all the same.
+    /// At any time: while the controller waits for an answer, it must still hear that answer
+    /// and the operator's STOP.
     fn due(&self, now: Moment) -> Instant {
         now.steady
     }
@@ -171,7 +171,7 @@ impl Device for Lever {
         b"S\n".to_vec()
     }
 
-    /// It asks again as soon at any time.
+    /// Does nothing: the questions are always as frequent.
     fn watch_closely(&mut self, _: bool) {}
 
     fn motion_under_way(&self) -> bool {
@@ -202,8 +202,8 @@ impl Moves for Lever {
     }
 }
 
-/// A unit that is at once where it is sent; the lines that it hears, questions
-/// left out.
+/// A unit that reaches any position at once; returns its address and the lines that it
+/// hears, without questions.
 pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap().to_string();
@@ -221,7 +221,7 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
                 if let Some(aim) = line.strip_prefix("G ") {
                     aim.clone_into(&mut place);
                 }
-                // Whoever listened may have seen enough.
+                // The listener may have seen enough.
                 let _ = tell.try_send(line);
             }
         }
