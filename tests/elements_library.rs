@@ -258,7 +258,7 @@ fn files_folders_and_servers_make_one_catalog() {
     assert_eq!(catalog.groups_of(5).collect::<Vec<_>>(), ["own", "sets"]);
     let counts: Vec<_> =
         reports.iter().map(|report| (report.objects(), report.refused())).collect();
-    // One file of the folder has no object. Elements older than the operator's own are no
+    // One entry of the folder is not an object. Elements older than the operator's own are no
     // fault.
     assert_eq!(counts, [(1, 0), (2, 1), (0, 0), (0, 0), (0, 0)]);
     let older = |report: &SourceReport| report.files.iter().map(|file| file.merge.older).sum();

@@ -80,7 +80,6 @@ pub enum About {
     LockOut,
     /// An alarm was raised.
     Alarm,
-    /// An alarm is over.
     AlarmOver,
 }
 

@@ -1,6 +1,5 @@
 //! Names of quirks and faults.
 
-/// An unknown name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("unknown {what} {name:?}; known are {}", known.join(", "))]
 pub struct UnknownName {

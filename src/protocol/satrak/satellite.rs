@@ -22,7 +22,6 @@ pub struct Satellite {
     pub name: String,
     /// Update period; the document gives no unit here, days elsewhere.
     pub period: u32,
-    /// Catalog number.
     pub catalog_number: u32,
     /// Maximum elevation, degrees; presumably of the coming pass.
     pub maximum_elevation_deg: f64,

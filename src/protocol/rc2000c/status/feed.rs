@@ -149,7 +149,6 @@ pub enum PolarizationCode {
     Unknown(u8),
 }
 
-/// Mode of the polarization.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolarizationMode {
     /// Stored polarization on the display.
