@@ -3,6 +3,7 @@
 mod angle;
 mod azel;
 pub mod frames;
+mod ground;
 mod horizon_mask;
 mod site;
 pub mod sun_moon;
@@ -12,6 +13,7 @@ mod zone;
 
 pub use angle::Angle;
 pub use azel::AzEl;
+pub use ground::{Cap, CapRow, GroundPoint};
 pub use horizon_mask::{
     HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
 };

@@ -3,6 +3,7 @@
 mod bundled;
 mod catalog;
 mod elements;
+mod ground;
 mod look;
 mod passes;
 mod propagator;
@@ -15,6 +16,7 @@ mod writer;
 pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError};
+pub use ground::{SubPoint, TrackPoint};
 pub use look::LookAngles;
 pub use passes::{
     Pass, PassPoint, PassSearch, clear_stretches, passes, passes_and_effort, passes_of_all,

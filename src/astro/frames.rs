@@ -8,12 +8,14 @@
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
-use super::{Site, time};
+use super::{Angle, GroundPoint, Site, time};
 
 /// Equatorial radius of the WGS84 ellipsoid in km.
 pub const WGS84_RADIUS_KM: f64 = 6_378.137;
 /// Flattening of the WGS84 ellipsoid.
 pub const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
+/// Mean radius of the WGS84 ellipsoid in km.
+pub const MEAN_RADIUS_KM: f64 = 6_371.009;
 /// Rotation of the Earth against TEME in rad/s: the rate of mean sidereal time
 /// (IAU 1982).
 pub const EARTH_RATE_RAD_S: f64 = 7.292_115_855_3e-5;
@@ -31,6 +33,28 @@ pub fn site_ecef_km(site: Site) -> DVec3 {
         from_axis_km * sin_lon,
         (prime_vertical_km * (1.0 - e2) + altitude_km) * sin_lat,
     )
+}
+
+/// The point of the ground below an Earth-fixed position outside of the Earth's core, and the height
+/// above the ellipsoid in km.
+///
+/// Source: Vallado, "Fundamentals of Astrodynamics", the iteration on the latitude; within a
+/// millimetre after five steps.
+pub fn geodetic(position_ecef_km: DVec3) -> (GroundPoint, f64) {
+    let e2 = WGS84_FLATTENING * (2.0 - WGS84_FLATTENING);
+    let DVec3 { x, y, z } = position_ecef_km;
+    let from_axis_km = x.hypot(y);
+    let prime_vertical_km = |sin: f64| WGS84_RADIUS_KM / (1.0 - e2 * sin * sin).sqrt();
+    let mut latitude = z.atan2(from_axis_km * (1.0 - e2));
+    for _ in 0..5 {
+        let sin = latitude.sin();
+        latitude = (z + e2 * prime_vertical_km(sin) * sin).atan2(from_axis_km);
+    }
+    let (sin, cos) = latitude.sin_cos();
+    let ellipsoid_km = WGS84_RADIUS_KM * WGS84_RADIUS_KM / prime_vertical_km(sin);
+    let height_km = from_axis_km * cos + z * sin - ellipsoid_km;
+    let longitude = Angle::from_radians(y.atan2(x));
+    (GroundPoint::new(Angle::from_radians(latitude), longitude), height_km)
 }
 
 /// The rotation that takes Earth-fixed vectors to east, north, up at `site`.
@@ -79,6 +103,25 @@ mod tests {
         ] {
             let found = site_ecef_km(Site::new(latitude, longitude, altitude_m).unwrap());
             assert!(found.distance(DVec3::from_array(expected)) < 2e-6, "{found}");
+        }
+    }
+
+    #[test]
+    fn the_point_below_agrees_with_the_published_example_and_with_sites() {
+        // Vallado, example 3-3.
+        let (point, height_km) = geodetic(DVec3::new(6_524.834, 6_862.875, 6_448.296));
+        assert!((point.latitude.degrees() - 34.352_496).abs() < 1e-6, "{point:?}");
+        assert!((point.longitude.degrees() - 46.446_4).abs() < 1e-4, "{point:?}");
+        assert!((height_km - 5_085.22).abs() < 0.01, "{height_km}");
+        for latitude in (-90..=90).step_by(10) {
+            for (longitude, altitude_m) in [(-179.9, 0.0), (0.0, 10_000.0), (29.17, -1000.0)] {
+                let site = Site::new(f64::from(latitude), longitude, altitude_m).unwrap();
+                let (point, height_km) = geodetic(site_ecef_km(site));
+                let off = (point.latitude - site.latitude()).degrees();
+                assert!(off.abs() < 1e-8, "{latitude} {off}");
+                let off_km = height_km - altitude_m / 1000.0;
+                assert!(off_km.abs() < 1e-6, "{latitude} {off_km}");
+            }
         }
     }
 

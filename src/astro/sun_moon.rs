@@ -8,10 +8,13 @@
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
-use super::{AzEl, Site, frames, time};
+use super::{Angle, AzEl, Cap, GroundPoint, Site, frames, time};
 
 /// Terrestrial Time minus UTC since 2017. The Moon moves 0.01 degrees in it.
 const TT_MINUS_UTC_S: f64 = 69.184;
+/// Elevation of the centre of the Sun at sunrise and sunset: its radius and the refraction
+/// together, below the horizon.
+pub const RISE_DEG: f64 = -0.833;
 const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
 /// Where the Sun stands over `site`, geometric.
@@ -27,6 +30,17 @@ pub fn moon(site: Site, at: Timestamp) -> AzEl {
 /// Unit vector from the centre of the Earth to the Sun, in TEME.
 pub fn sun_direction_teme(at: Timestamp) -> DVec3 {
     sun_teme_km(at).normalize()
+}
+
+/// The point of the ground that has the Sun in its zenith.
+pub fn subsolar_point(at: Timestamp) -> GroundPoint {
+    GroundPoint::below(frames::teme_to_ecef(at) * sun_teme_km(at))
+}
+
+/// The part of the ground that has night: the Sun is below [`RISE_DEG`].
+pub fn night(at: Timestamp) -> Cap {
+    let radius = Angle::from_degrees(90.0 + RISE_DEG);
+    Cap { centre: subsolar_point(at).antipode(), radius }
 }
 
 fn seen_from(site: Site, at: Timestamp, position_km: DVec3) -> AzEl {
@@ -147,5 +161,45 @@ mod tests {
         println!("Sun {sun_off} degrees, Moon {moon_off} degrees");
         assert!(sun_off < 0.02, "{sun_off}");
         assert!(moon_off < 0.1, "{moon_off}");
+    }
+
+    #[test]
+    fn the_sun_rises_and_sets_on_the_edge_of_the_night() {
+        for at in ["2026-03-20T14:46:00Z", "2026-06-21T08:24:00Z", "2026-11-14T18:13:40Z"] {
+            let at: Timestamp = at.parse().unwrap();
+            let below = subsolar_point(at);
+            let site = |point: GroundPoint| {
+                let (latitude, longitude) = (point.latitude, point.longitude);
+                Site::new(latitude.degrees(), longitude.degrees(), 0.0).unwrap()
+            };
+            assert!(sun(site(below), at).elevation_deg() > 89.98);
+            let night = night(at);
+            for row in night.edge() {
+                let end = GroundPoint::new(row.latitude, night.centre.longitude + row.half_width);
+                let elevation_deg = sun(site(end), at).elevation_deg();
+                assert!((elevation_deg - RISE_DEG).abs() < 0.01, "{elevation_deg} at {end:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn at_the_equinox_the_night_is_bounded_by_two_meridians() {
+        // The equinox of March 2026 is at 14:46 UTC; apparent noon in Greenwich that day at 12:07.
+        let at: Timestamp = "2026-03-20T14:46:00Z".parse().unwrap();
+        let below = subsolar_point(at);
+        assert!(below.latitude.degrees().abs() < 0.01, "{below:?}");
+        assert!((below.longitude.degrees() + 39.7).abs() < 0.2, "{below:?}");
+        for row in night(at).edge() {
+            if row.latitude.degrees().abs() < 60.0 {
+                // 0.833 degrees of night are lost, on a parallel the more the further north.
+                let lost_deg = 90.0 - row.half_width.degrees();
+                assert!((0.8..1.8).contains(&lost_deg), "{row:?}");
+            }
+        }
+        let noon: Timestamp = "2026-06-21T12:00:00Z".parse().unwrap();
+        let solstice = subsolar_point(noon);
+        assert!((solstice.latitude.degrees() - 23.44).abs() < 0.01, "{solstice:?}");
+        let north = GroundPoint::from_degrees(80.0, 0.0);
+        assert!(!night(noon).contains(north) && night(noon).contains(north.antipode()));
     }
 }

@@ -4,9 +4,6 @@ use jiff::Timestamp;
 
 use crate::astro::{Site, sun_moon, time::add_seconds};
 
-/// Depth of the centre of the Sun below the horizon at sunrise and sunset: its radius and the
-/// refraction together.
-const RISE_DEG: f64 = -0.833;
 const SPAN_MIN: (i32, i32) = (-60, 25 * 60);
 
 /// A stretch of day or of night.
@@ -25,7 +22,7 @@ pub fn spans(site: Site, now: Timestamp) -> Vec<SunSpan> {
     let mut spans: Vec<SunSpan> = Vec::new();
     for minute in from..=to {
         let time = add_seconds(now, f64::from(minute) * 60.0);
-        let up = sun_moon::sun(site, time).elevation_deg() > RISE_DEG;
+        let up = sun_moon::sun(site, time).elevation_deg() > sun_moon::RISE_DEG;
         match spans.last_mut() {
             Some(last) if last.up == up => last.to = time,
             last => {

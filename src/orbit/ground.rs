@@ -1,0 +1,135 @@
+//! Satellites over the ground: the point below, the footprint, the ground track.
+
+use jiff::Timestamp;
+
+use super::{Propagator, State};
+use crate::astro::{Angle, Cap, GroundPoint, frames, frames::MEAN_RADIUS_KM, time::add_seconds};
+
+/// The point below a satellite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SubPoint {
+    pub point: GroundPoint,
+    /// Height of the satellite above the ellipsoid.
+    pub height_km: f64,
+}
+
+/// A point of a ground track.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackPoint {
+    pub time: Timestamp,
+    pub point: GroundPoint,
+}
+
+impl State {
+    /// The point below a satellite in this state at `at`.
+    pub fn sub_point(&self, at: Timestamp) -> SubPoint {
+        let (point, height_km) = frames::geodetic(frames::teme_to_ecef(at) * self.position_km);
+        SubPoint { point, height_km }
+    }
+}
+
+impl SubPoint {
+    /// The ground from which the satellite is seen at `elevation` (0 to 90 degrees) or higher, on
+    /// a sphere: the flattening of the Earth moves its edge by up to a third of a degree.
+    pub fn footprint(&self, elevation: Angle) -> Cap {
+        let cos_nadir = MEAN_RADIUS_KM * elevation.radians().cos();
+        let from_centre_km = MEAN_RADIUS_KM + self.height_km.max(0.0);
+        let radius = (cos_nadir / from_centre_km).clamp(0.0, 1.0).acos() - elevation.radians();
+        Cap { centre: self.point, radius: Angle::from_radians(radius.max(0.0)) }
+    }
+}
+
+impl Propagator {
+    /// The ground track from `from` on, `count` points `step_s` seconds apart; it ends early
+    /// where the orbit does.
+    pub fn ground_track(&self, from: Timestamp, step_s: f64, count: u32) -> Vec<TrackPoint> {
+        let times = (0..count).map(|step| add_seconds(from, f64::from(step) * step_s));
+        let point = |time| {
+            let state = self.state_at(time).ok()?;
+            Some(TrackPoint { time, point: state.sub_point(time).point })
+        };
+        times.map_while(point).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{astro::Site, orbit::bundled};
+
+    const AT: &str = "2026-08-12T11:15:30Z";
+
+    fn propagator(number: u32) -> Propagator {
+        Propagator::new(bundled().unwrap().get(number).unwrap()).unwrap()
+    }
+
+    fn site(point: GroundPoint) -> Site {
+        Site::new(point.latitude.degrees(), point.longitude.degrees(), 0.0).unwrap()
+    }
+
+    #[test]
+    fn a_satellite_is_in_the_zenith_of_the_point_below_it() {
+        let at: Timestamp = AT.parse().unwrap();
+        // Low, half a day, geosynchronous.
+        for number in [25_544, 43_013, 24_876, 54_743] {
+            let propagator = propagator(number);
+            let below = propagator.state_at(at).unwrap().sub_point(at);
+            let look = propagator.look_from(site(below.point), at).unwrap();
+            assert!(look.direction.elevation_deg() > 89.999, "{number} {look:?}");
+            assert!((look.range_km - below.height_km).abs() < 1e-3, "{number} {below:?}");
+        }
+    }
+
+    #[test]
+    fn a_footprint_ends_where_the_satellite_stands_at_its_elevation() {
+        let at: Timestamp = AT.parse().unwrap();
+        for number in [25_544, 43_013, 54_743] {
+            let propagator = propagator(number);
+            let below = propagator.state_at(at).unwrap().sub_point(at);
+            for elevation_deg in [0.0, 5.0, 20.0] {
+                let footprint = below.footprint(Angle::from_degrees(elevation_deg));
+                for row in footprint.edge() {
+                    let longitude = footprint.centre.longitude + row.half_width;
+                    let edge = GroundPoint::new(row.latitude, longitude);
+                    let look = propagator.look_from(site(edge), at).unwrap();
+                    let off_deg = look.direction.elevation_deg() - elevation_deg;
+                    assert!(off_deg.abs() < 0.35, "{number} {elevation_deg} {off_deg}");
+                }
+            }
+        }
+        // 826 km: 2570 km around at 5 degrees.
+        let below = SubPoint { point: GroundPoint::from_degrees(0.0, 0.0), height_km: 826.0 };
+        let wide_km = below.footprint(Angle::from_degrees(5.0)).radius_km();
+        assert!((wide_km - 2_570.0).abs() < 30.0, "{wide_km}");
+    }
+
+    #[test]
+    fn a_track_follows_the_satellite_and_ends_with_its_orbit() {
+        let at: Timestamp = AT.parse().unwrap();
+        let noaa_20 = propagator(43_013);
+        let track = noaa_20.ground_track(at, 20.0, 600);
+        assert_eq!(track.len(), 600);
+        for point in track.iter().step_by(50) {
+            let below = noaa_20.state_at(point.time).unwrap().sub_point(point.time);
+            assert_eq!(below.point, point.point);
+        }
+        // 98.7 degrees of inclination.
+        let north = track.iter().map(|of| of.point.latitude.degrees()).fold(-90.0, f64::max);
+        assert!((north - 81.4).abs() < 0.4, "{north}");
+        let end: Timestamp = "2200-01-01T00:00:00Z".parse().unwrap();
+        assert_eq!(noaa_20.ground_track(end, 20.0, 10), []);
+    }
+
+    #[test]
+    fn a_geostationary_satellite_stays_over_its_place() {
+        // Turksat 5A at 31 degrees east.
+        let at: Timestamp = AT.parse().unwrap();
+        let catalog = bundled().unwrap();
+        let turksat = catalog.iter().find(|of| of.name().starts_with("TURKSAT 5A")).unwrap();
+        let track = Propagator::new(turksat).unwrap().ground_track(at, 3600.0, 24);
+        for TrackPoint { point, .. } in track {
+            assert!((point.longitude.degrees() - 31.0).abs() < 0.2, "{point:?}");
+            assert!(point.latitude.degrees().abs() < 0.2, "{point:?}");
+        }
+    }
+}
