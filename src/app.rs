@@ -90,6 +90,7 @@ impl App {
             list: keeper.memory.list,
             selected: None,
             sky: model::Sky::default(),
+            globe: model::globe::Globe::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
             effects: model::effects::Effects::default(),

@@ -4,6 +4,7 @@
 pub mod command;
 pub mod daylight;
 pub mod effects;
+pub mod globe;
 mod line;
 pub mod mask_cut;
 mod theme_name;
@@ -19,7 +20,7 @@ pub use self::{
     line::{Line, Piece, pieces},
     theme_name::ThemeName,
 };
-use self::{daylight::SunSpan, effects::Effects, mask_cut::MaskCut};
+use self::{daylight::SunSpan, effects::Effects, globe::Globe, mask_cut::MaskCut};
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
     clock::Instant,
@@ -57,6 +58,8 @@ pub enum View {
     Antennas,
     /// The traffic on the links.
     Console,
+    /// The satellites over the globe.
+    Map,
     /// The station's settings.
     Preferences,
 }
@@ -100,6 +103,8 @@ pub struct Model {
     pub selected: Option<PassKey>,
     /// The sky at `now`.
     pub sky: Sky,
+    /// The globe at `now`, as long as the map shows it.
+    pub globe: Globe,
     /// Files of elements on their way to units.
     pub uploads: Arc<Uploads>,
     /// Tests, from this console, of the sources that units use.
@@ -228,8 +233,13 @@ impl Model {
         }
     }
 
-    /// Recomputes the sky for `now`.
+    /// Recomputes the sky for `now`, and the globe if it is shown.
     pub fn refresh_sky(&mut self) {
+        if self.view == View::Map {
+            let mut globe = std::mem::take(&mut self.globe);
+            globe.refresh(self);
+            self.globe = globe;
+        }
         let (site, now) = (self.station.site, self.now);
         let pass = self.selected.and_then(|key| self.pass_lists.find(key));
         self.sky.mask_cut.refresh(pass, site, self.station.horizon_mask.as_ref());

@@ -13,6 +13,7 @@ pub mod format;
 pub mod icons;
 pub mod keys;
 mod lean_shapes;
+pub mod map;
 pub mod operate;
 pub mod pass_header;
 pub mod pass_list;

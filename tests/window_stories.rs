@@ -17,6 +17,7 @@ mod in_memory;
 mod keys;
 mod maintenance;
 mod makes;
+mod map;
 mod mask;
 mod on_board;
 mod panel;

@@ -14,7 +14,7 @@ use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::ThemeName,
-    ui::{Kept, sky_plot::Layers},
+    ui::{Kept, map::MapLayers, sky_plot::Layers},
     whole_file,
 };
 
@@ -71,6 +71,7 @@ impl Memory {
                 strip_hours: number("strip_hours"),
                 list_width: number("list_width"),
                 layers: layers(table.get("layers").and_then(toml::Value::as_table)),
+                map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
             },
         }
     }
@@ -91,6 +92,7 @@ impl Memory {
             #[serde(skip_serializing_if = "Option::is_none")]
             list_width: Option<u32>,
             layers: Layers,
+            map_layers: MapLayers,
         }
         toml::to_string(&Lines {
             theme: self.theme,
@@ -103,6 +105,7 @@ impl Memory {
             strip_hours: self.views.strip_hours,
             list_width: self.views.list_width,
             layers: self.views.layers,
+            map_layers: self.views.map_layers,
         })
     }
 }
@@ -122,6 +125,20 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keyholes: shown("keyholes", usual.keyholes),
         mask: shown("mask", usual.mask),
         keep_outs: shown("keep_outs", usual.keep_outs),
+    }
+}
+
+fn map_layers(table: Option<&toml::Table>) -> MapLayers {
+    let usual = MapLayers::default();
+    let Some(table) = table else { return usual };
+    let shown = |key: &str, usual| flag(table, key).unwrap_or(usual);
+    MapLayers {
+        tracks: shown("tracks", usual.tracks),
+        other_tracks: shown("other_tracks", usual.other_tracks),
+        footprints: shown("footprints", usual.footprints),
+        terminator: shown("terminator", usual.terminator),
+        names: shown("names", usual.names),
+        grid: shown("grid", usual.grid),
     }
 }
 
@@ -202,6 +219,7 @@ mod tests {
                 strip_hours: Some(24),
                 list_width: Some(411),
                 layers: Layers { names: false, mask: false, ..Layers::default() },
+                map_layers: MapLayers { other_tracks: true, ..MapLayers::default() },
             },
         }
     }

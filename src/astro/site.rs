@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Angle;
+use super::{Angle, GroundPoint};
 
 /// A place on or near the ground, geodetic on WGS84.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -62,6 +62,11 @@ impl Site {
     /// Longitude, east positive, -180 to 180 degrees.
     pub fn longitude(self) -> Angle {
         Angle::from_degrees(self.longitude_deg)
+    }
+
+    /// The site on the map.
+    pub fn point(self) -> GroundPoint {
+        GroundPoint::new(self.latitude(), self.longitude())
     }
 
     /// Height above the ellipsoid in metres.

@@ -165,10 +165,7 @@ fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
 }
 
 fn coordinates(latitude_deg: f64, longitude_deg: f64) -> String {
-    let lettered = |value: f64, plus: char, minus: char| {
-        format!("{:.3}° {}", value.abs(), if value < 0.0 { minus } else { plus })
-    };
-    format!("{}  {}", lettered(latitude_deg, 'N', 'S'), lettered(longitude_deg, 'E', 'W'))
+    format!("{}  {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
 }
 
 pub fn glyph(antenna: &AntennaModel) -> LinkGlyph {

@@ -66,6 +66,23 @@ pub fn pointing_at(direction: AzEl) -> String {
     format!("{}, {}", degrees(azimuth, 1), degrees(elevation, 1))
 }
 
+/// A latitude with its side of the equator, such as 41.2° N.
+pub fn latitude(value_deg: f64, decimals: usize) -> String {
+    lettered(value_deg, decimals, 'N', 'S')
+}
+
+/// A longitude with its side of Greenwich, such as 29.6° E.
+pub fn longitude(value_deg: f64, decimals: usize) -> String {
+    lettered(value_deg, decimals, 'E', 'W')
+}
+
+fn lettered(value_deg: f64, decimals: usize, plus: char, minus: char) -> String {
+    let digits = format!("{:.decimals$}", value_deg.abs());
+    let is_zero = !digits.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
+    let letter = if value_deg < 0.0 && !is_zero { minus } else { plus };
+    format!("{digits}° {letter}")
+}
+
 /// Significant decimals of a degree for a controller with these capabilities, at most two.
 pub fn decimals(can: Capabilities) -> usize {
     match can.position_step_deg {
@@ -190,6 +207,12 @@ mod tests {
         assert_eq!(number(-42_123_456.5, 1), "−42\u{2009}123\u{2009}456.5");
         assert_eq!(number(f64::NAN, 2), "–");
         assert_eq!(degrees(-5.25, 1), "−5.2°");
+    }
+
+    #[test]
+    fn places_have_their_side_of_the_equator_and_of_greenwich() {
+        assert_eq!((latitude(41.176, 1), latitude(-0.04, 1)), ("41.2° N".into(), "0.0° N".into()));
+        assert_eq!((longitude(-70.9, 1), longitude(29.6, 0)), ("70.9° W".into(), "30° E".into()));
     }
 
     #[test]

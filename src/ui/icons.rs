@@ -38,6 +38,8 @@ pub enum Icon {
     Antenna,
     /// View: Console.
     Prompt,
+    /// View: Map.
+    Globe,
     /// View: Preferences.
     Sliders,
     /// Link: replies in time.
@@ -78,7 +80,7 @@ mod tests {
     use super::*;
     use egui::{Sense, vec2};
 
-    const ALL: [Icon; 25] = [
+    const ALL: [Icon; 26] = [
         Icon::Octagon,
         Icon::Bell,
         Icon::Warning,
@@ -93,6 +95,7 @@ mod tests {
         Icon::Orbit,
         Icon::Antenna,
         Icon::Prompt,
+        Icon::Globe,
         Icon::Sliders,
         Icon::Disc,
         Icon::HalfDisc,

@@ -6,9 +6,10 @@ pub mod list;
 use egui::{Key, Modifiers, Ui};
 
 use super::{
-    confirm::Question, console::ConsoleState, elements::ElementsState, operate::OperateState,
+    confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
+    operate::OperateState,
 };
-use crate::model::{Model, UiCommand, View};
+use crate::model::{Model, UiCommand, View, globe::Towards};
 use act::Act;
 
 /// One line of the list of keys.
@@ -33,6 +34,8 @@ pub enum KeyScope {
     Views,
     /// In the Operate view, but not while typing.
     Operate,
+    /// In the Map view, but not while typing.
+    Map,
     /// In the focused control, which handles the key itself.
     Focus,
 }
@@ -53,7 +56,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 23] = [
+pub const ALL: [Binding; 26] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -65,8 +68,9 @@ pub const ALL: [Binding; 23] = [
                 (Key::Num4, Act::Show(View::Antennas)),
                 (Key::Num5, Act::Show(View::Console)),
                 (Key::Num6, Act::Show(View::Preferences)),
+                (Key::Num8, Act::Show(View::Map)),
             ],
-            "Operate, Elements, Antennas, Console, Preferences",
+            "Operate, Elements, Antennas, Console, Preferences, Map",
         ),
     ),
     row(
@@ -136,6 +140,26 @@ pub const ALL: [Binding; 23] = [
         &[(Key::Num0, Act::UsualZoom)],
         "the usual hours in the strip of passes",
     ),
+    row(
+        KeyScope::Map,
+        &[
+            (Key::ArrowLeft, Act::Nearest(Towards::West)),
+            (Key::ArrowRight, Act::Nearest(Towards::East)),
+            (Key::ArrowUp, Act::Nearest(Towards::North)),
+            (Key::ArrowDown, Act::Nearest(Towards::South)),
+        ],
+        "the next satellite on that side of the map, unless the focus is elsewhere",
+    ),
+    row(
+        KeyScope::Map,
+        &[
+            (Key::Plus, Act::MapZoom(true)),
+            (Key::Minus, Act::MapZoom(false)),
+            (Key::Num0, Act::WholeMap),
+        ],
+        "closer, further away, the whole map",
+    ),
+    row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "layers of the map"),
     with(
         Modifiers::COMMAND,
         row(
@@ -181,6 +205,7 @@ pub struct Desk<'a> {
     pub operate: &'a mut OperateState,
     pub elements: &'a mut ElementsState,
     pub console: &'a mut ConsoleState,
+    pub map: &'a mut MapState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }
@@ -193,6 +218,7 @@ pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCo
         KeyScope::Everywhere => true,
         KeyScope::Views => !typing,
         KeyScope::Operate => !typing && model.view == View::Operate,
+        KeyScope::Map => !typing && model.view == View::Map,
         KeyScope::Focus => false,
     };
     for binding in ALL.iter().filter(|binding| works(binding.place)) {

@@ -4,8 +4,8 @@ mod card;
 mod divider;
 mod filter;
 mod layout;
-mod passes;
-mod sky;
+pub(super) mod passes;
+pub(super) mod sky;
 
 use egui::{Rect, Ui};
 

@@ -5,6 +5,7 @@ mod header;
 mod phase;
 mod row;
 mod rows;
+mod short_row;
 mod status;
 mod thumbnail;
 
@@ -25,6 +26,7 @@ use crate::{
 };
 
 pub use filter::Filter;
+pub use short_row::{SHORT_ROW, short_row};
 
 /// Selectable elevation floors.
 pub const FLOORS_DEG: [f64; 6] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0];

@@ -52,13 +52,25 @@ fn fill(ui: &Ui, rect: Rect, entries: &[RailEntry<'_>]) -> Option<usize> {
     clicked
 }
 
-/// Shows the button for the list of keys at the foot of the rail in `rect`. Returns `true` when
-/// it was clicked.
-pub fn show_keys(ui: &mut Ui, rect: Rect) -> bool {
-    let entry = RailEntry { icon: Icon::Question, word: "Keys", active: false };
-    let top = rect.bottom() - EDGE - cell_height(rect);
+/// The entries at the foot that were clicked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FootClicks {
+    pub view: bool,
+    /// The list of keys.
+    pub keys: bool,
+}
+
+/// Shows a view at the foot of the rail in `rect`, and the button for the list of keys below it.
+pub fn show_foot(ui: &mut Ui, rect: Rect, view: &RailEntry<'_>) -> FootClicks {
+    let keys = RailEntry { icon: Icon::Question, word: "Keys", active: false };
+    let keys_top = rect.bottom() - EDGE - cell_height(rect);
+    let view_top = keys_top - GAP - cell_height(rect);
     let builder = UiBuilder::new().id_salt("rail foot").max_rect(rect);
-    ui.scope_builder(builder, |ui| cell(ui, rect, top, &entry, Role::Button).clicked()).inner
+    let foot = |ui: &mut Ui| FootClicks {
+        view: cell(ui, rect, view_top, view, Role::Tab).clicked(),
+        keys: cell(ui, rect, keys_top, &keys, Role::Button).clicked(),
+    };
+    ui.scope_builder(builder, foot).inner
 }
 
 fn is_small(rect: Rect) -> bool {

@@ -9,14 +9,15 @@ pub(super) mod corners;
 pub(super) mod geometry;
 pub(super) mod grid;
 pub(super) mod keep_outs;
-mod labels;
+pub(super) mod labels;
 pub(super) mod legend;
 pub(super) mod marks;
 pub(super) mod mask;
 mod nodes;
-mod placement;
+pub(super) mod placement;
 mod readout;
 mod scene;
+mod small;
 #[cfg(test)]
 mod stories;
 #[cfg(test)]
@@ -35,6 +36,7 @@ use self::{
 use super::{text, theme, tokens::Tokens};
 
 pub use scene::{Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
+pub use small::paint_small;
 
 /// State of the plot, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
@@ -121,7 +123,7 @@ fn paint_sky(
     let painter = ui.painter();
     let layers = state.layers;
     let before = std::mem::take(&mut state.labels);
-    let mut labels = Labels::new(painter, t, dome, rect.shrink(4.0), before);
+    let mut labels = Labels::new(painter, t, Some(dome), rect.shrink(4.0), before);
 
     grid::disc(painter, dome, t);
     if let Some(mask) = scene.mask.filter(|_| layers.mask) {

@@ -13,6 +13,7 @@ use super::{
     elements,
     icons::Icon,
     keys::{self, Desk},
+    map::{self, MapLayers},
     operate, preferences, rail,
     rail::RailEntry,
     sky_plot::Layers,
@@ -33,6 +34,7 @@ pub struct Views {
     elements: elements::ElementsState,
     antennas: antennas::AntennasState,
     console: console::ConsoleState,
+    map: map::MapState,
     preferences: preferences::PreferencesState,
     upload: UploadState,
     question: Option<Question>,
@@ -53,6 +55,8 @@ pub struct Kept {
     pub list_width: Option<u32>,
     /// Layers of the sky plot.
     pub layers: Layers,
+    /// Layers of the map.
+    pub map_layers: MapLayers,
 }
 
 impl Views {
@@ -65,6 +69,7 @@ impl Views {
         operate.zoom = Zoom::of(kept.strip_hours);
         operate.list_width = kept.list_width;
         operate.sky.layers = kept.layers;
+        views.map.layers = kept.map_layers;
         views
     }
 
@@ -76,6 +81,7 @@ impl Views {
             strip_hours: self.operate.zoom.wanted(),
             list_width: self.operate.list_width,
             layers: self.operate.sky.layers,
+            map_layers: self.map.layers,
         }
     }
 
@@ -89,6 +95,7 @@ impl Views {
             operate: &mut self.operate,
             elements: &mut self.elements,
             console: &mut self.console,
+            map: &mut self.map,
             list_open: &mut self.keys_open,
         };
         keys::take(ui, model, &mut desk, commands);
@@ -103,8 +110,7 @@ impl Views {
             body = body.with_min_y(strip.bottom());
         }
         let side = body.with_max_x(body.left() + rail::width(window.width()));
-        show_rail(ui, side, model, commands);
-        self.keys_open |= rail::show_keys(ui, side);
+        self.keys_open |= show_rail(ui, side, model, commands);
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
         match model.view {
             View::Operate => {
@@ -127,6 +133,10 @@ impl Views {
             View::Console => {
                 self.operate.leave_card(commands);
                 console::show(ui, window, rest, model, &mut self.console, commands);
+            }
+            View::Map => {
+                self.operate.leave_card(commands);
+                map::show(ui, window, rest, model, &mut self.map, commands);
             }
             View::Preferences => {
                 self.operate.leave_card(commands);
@@ -226,17 +236,23 @@ fn show_upload(
     });
 }
 
-fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+/// Shows the rail; returns `true` when the list of keys is to open.
+fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
     let views = [
         (View::Operate, Icon::CrossHair, "Operate"),
         (View::Elements, Icon::Orbit, "Elements"),
         (View::Antennas, Icon::Antenna, "Antennas"),
         (View::Console, Icon::Prompt, "Console"),
-        (View::Preferences, Icon::Sliders, "Preferences"),
+        (View::Map, Icon::Globe, "Map"),
     ];
-    let entries =
-        views.map(|(view, icon, word)| RailEntry { icon, word, active: view == model.view });
+    let entry = |view, icon, word| RailEntry { icon, word, active: view == model.view };
+    let entries = views.map(|(view, icon, word)| entry(view, icon, word));
     if let Some((view, ..)) = rail::show(ui, rect, &entries).and_then(|index| views.get(index)) {
         commands.push(UiCommand::Show(*view));
     }
+    let foot = rail::show_foot(ui, rect, &entry(View::Preferences, Icon::Sliders, "Preferences"));
+    if foot.view {
+        commands.push(UiCommand::Show(View::Preferences));
+    }
+    foot.keys
 }

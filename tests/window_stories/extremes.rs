@@ -21,7 +21,7 @@ const LONG: &str = "Şile northern field unit";
 
 /// Checks that every control is inside the window, and STOP in its usual place. The last
 /// lines of the card may have to be scrolled to.
-fn nothing_is_cut(window: &Window, size: [f32; 2]) {
+pub(crate) fn nothing_is_cut(window: &Window, size: [f32; 2]) {
     let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
     for role in [Role::Button, Role::RadioButton, Role::TextInput, Role::Slider, Role::Tab] {
         for node in window.query_all_by_role(role) {

@@ -64,6 +64,11 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.line(&[(5.0, 7.5), (8.0, 10.2), (5.0, 13.0)]);
             pen.line(&[(10.0, 13.0), (14.0, 13.0)]);
         }
+        Icon::Globe => {
+            pen.ring((10.0, 10.0), 7.5);
+            pen.outline(&ellipse((10.0, 10.0), 3.2, 7.5, 0.0));
+            pen.line(&[(2.5, 10.0), (17.5, 10.0)]);
+        }
         Icon::Sliders => sliders(pen),
         Icon::Antenna => antenna(pen),
         Icon::Pencil => {

@@ -6,7 +6,7 @@ use super::Desk;
 use crate::{
     driver::{self, Intent},
     engine::{self, antenna::AntennaModel},
-    model::{Model, UiCommand, View},
+    model::{Model, UiCommand, View, globe::Towards},
     ui::{confirm::Question, theme},
 };
 
@@ -29,6 +29,12 @@ pub(super) enum Act {
     /// Zooms the timeline in by this many steps.
     Zoom(isize),
     UsualZoom,
+    /// Selects the next satellite on that side of the map.
+    Nearest(Towards),
+    /// Zooms the map in, or out.
+    MapZoom(bool),
+    WholeMap,
+    MapLayers,
     Search,
     Acknowledge,
     NextTheme,
@@ -40,11 +46,11 @@ impl Act {
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {
             Self::SelectAntenna(index) => index < model.antennas.len(),
-            Self::MoveInList(_) => {
+            Self::MoveInList(_) | Self::Nearest(_) => {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => !matches!(model.view, View::Antennas | View::Preferences),
+            Self::Search => !matches!(model.view, View::Antennas | View::Map | View::Preferences),
             _ => true,
         }
     }
@@ -81,6 +87,14 @@ impl Act {
             }
             Self::Zoom(closer) => desk.operate.zoom.change(closer),
             Self::UsualZoom => desk.operate.zoom.reset(),
+            Self::Nearest(towards) => {
+                ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+                let nearest = desk.map.nearest(model, towards);
+                commands.extend(nearest.map(UiCommand::SelectSatellite));
+            }
+            Self::MapZoom(is_closer) => desk.map.change_zoom(is_closer),
+            Self::WholeMap => desk.map.reset_zoom(),
+            Self::MapLayers => desk.map.toggle_layers(),
             Self::Search => match model.view {
                 View::Elements => desk.elements.focus_search(),
                 View::Console => desk.console.focus_filter(),

@@ -36,33 +36,9 @@ pub(super) fn list(
     let passes = model.upcoming();
     let listing = model.pass_lists.of(model.list.scope);
     let found = found.places(model, state.filter.text());
-    let in_maintenance = model.antenna().is_some_and(|antenna| antenna.snapshot.lock_out.is_some());
     let row = |index: usize| {
-        let predicted =
-            passes.get(found.map_or(Some(index), |found| found.get(index).copied())?)?;
-        let pass = &predicted.pass;
-        let trackability = predicted.trackability(model.selected_antenna);
-        let misses = model.antenna().is_some_and(|antenna| antenna.misses().is_some());
-        let verdict = trackability.map(|trackability| match trackability {
-            _ if in_maintenance => Verdict::InMaintenance,
-            Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
-            Trackability::Whole => Verdict::Trackable,
-            Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
-            Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
-        });
-        Some(PassRow {
-            key: predicted.key(),
-            name: predicted.satellite.short_name(),
-            aos: pass.aos.time,
-            los: pass.los.time,
-            starts_before: pass.starts_before,
-            ends_after: pass.ends_after,
-            max_elevation_deg: pass.max_elevation().degrees(),
-            aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
-            los_azimuth_deg: pass.los.direction.azimuth_deg(),
-            verdict,
-            path: predicted.path(),
-        })
+        let place = found.map_or(Some(index), |found| found.get(index).copied())?;
+        passes.get(place).map(|predicted| pass_row(model, predicted))
     };
     let place = |key| {
         let place = passes.row(key)?;
@@ -95,6 +71,35 @@ pub(super) fn list(
         empty,
     };
     commands.extend(pass_list::show(ui, rect, &list, state));
+}
+
+/// A pass as a row of a list, with the verdict for the selected antenna.
+pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -> PassRow<'a> {
+    let pass = &predicted.pass;
+    let antenna = model.antenna();
+    let in_maintenance = antenna.is_some_and(|antenna| antenna.snapshot.lock_out.is_some());
+    let misses = antenna.is_some_and(|antenna| antenna.misses().is_some());
+    let trackability = predicted.trackability(model.selected_antenna);
+    let verdict = trackability.map(|trackability| match trackability {
+        _ if in_maintenance => Verdict::InMaintenance,
+        Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
+        Trackability::Whole => Verdict::Trackable,
+        Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
+        Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
+    });
+    PassRow {
+        key: predicted.key(),
+        name: predicted.satellite.short_name(),
+        aos: pass.aos.time,
+        los: pass.los.time,
+        starts_before: pass.starts_before,
+        ends_after: pass.ends_after,
+        max_elevation_deg: pass.max_elevation().degrees(),
+        aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
+        los_azimuth_deg: pass.los.direction.azimuth_deg(),
+        verdict,
+        path: predicted.path(),
+    }
 }
 
 fn selected_key(model: &Model) -> Option<PassKey> {

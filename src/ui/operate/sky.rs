@@ -6,9 +6,9 @@ use super::OperateState;
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
     driver::{LinkState, StopState},
-    engine::antenna::AntennaModel,
+    engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
-    orbit::PassPoint,
+    orbit::{LookAngles, PassPoint},
     plan::Sample,
     ui::{
         format,
@@ -50,18 +50,7 @@ pub(super) fn show(
         })
         .collect();
     let look = model.sky.selected.map(|selected| selected.look);
-    let sample = |point: &PassPoint| Sample { time: point.time, direction: point.direction };
-    let track = predicted.map(|predicted| Track {
-        catalog_number: predicted.satellite.elements.catalog_number(),
-        name: predicted.satellite.short_name(),
-        samples: predicted.track(),
-        aos: sample(&predicted.pass.aos),
-        tca: sample(&predicted.pass.tca),
-        los: sample(&predicted.pass.los),
-        show_aos: !predicted.pass.starts_before,
-        show_los: !predicted.pass.ends_after,
-        position: look.map(|look| look.direction).filter(|at| at.elevation_deg() > 0.0),
-    });
+    let track = predicted.map(|predicted| track(predicted, look));
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));
     let description = antenna
         .map_or_else(|| "Sky plot".to_owned(), |antenna| state_sentence(model, antenna).text());
@@ -96,6 +85,22 @@ pub(super) fn show(
     commands.extend(clicked.map(UiCommand::SelectSatellite));
 }
 
+/// The path of a pass, with the present look angles of its satellite.
+pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) -> Track<'_> {
+    let sample = |point: &PassPoint| Sample { time: point.time, direction: point.direction };
+    Track {
+        catalog_number: predicted.satellite.elements.catalog_number(),
+        name: predicted.satellite.short_name(),
+        samples: predicted.track(),
+        aos: sample(&predicted.pass.aos),
+        tca: sample(&predicted.pass.tca),
+        los: sample(&predicted.pass.los),
+        show_aos: !predicted.pass.starts_before,
+        show_los: !predicted.pass.ends_after,
+        position: look.map(|look| look.direction).filter(|at| at.elevation_deg() > 0.0),
+    }
+}
+
 /// The readout; a low plot has room for the direction only.
 fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
     let Some(selected) = model.sky.selected else { return Vec::new() };
@@ -116,14 +121,14 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
 }
 
 /// The commanded direction: from the operator or from program track.
-fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
+pub(in crate::ui) fn commanded(antenna: &AntennaModel) -> Option<AzEl> {
     let snapshot = &antenna.snapshot;
     let follows = snapshot.program_track.as_ref().filter(|_| antenna.follows());
     snapshot.aim.or_else(|| follows?.commanded)?.direction()
 }
 
 /// Time since the last report of an antenna with a lost link.
-fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
+pub(in crate::ui) fn lost_for(model: &Model, antenna: &AntennaModel) -> Option<String> {
     let since = match antenna.snapshot.link {
         LinkState::Lost { since, .. } => since,
         // The antenna is left to others, who may have turned it since.

@@ -131,6 +131,11 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     let time = phase::aos_time(row);
     let time = paint::text(ui, at, Align2::RIGHT_CENTER, time, text::small(), t.t3);
     let Some(verdict) = row.verdict else { return false };
+    verdict_in(ui, rect.with_max_x(time.left() - COLUMN_GAP), verdict, t)
+}
+
+/// Paints a verdict with its mark. Returns `true` if it was cut.
+pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) -> bool {
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
         Verdict::Loses { .. } | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
@@ -139,7 +144,7 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
     };
     let glyph = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
     icons::paint(ui.painter(), glyph, icon, mark);
-    let room = rect.with_min_x(glyph.right() + 5.0).with_max_x(time.left() - COLUMN_GAP);
+    let room = rect.with_min_x(glyph.right() + 5.0);
     elided(ui, room, &verdict.sentence(), text::small(), colour)
 }
 

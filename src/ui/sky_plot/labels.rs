@@ -18,9 +18,11 @@ const PADDING: f32 = 2.0;
 
 /// Identifies a label from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Key {
+pub(in crate::ui) enum Key {
     /// Name of the selected satellite.
     Selected(u32),
+    /// The station, on the map.
+    Station,
     Aos,
     Tca,
     Los,
@@ -35,24 +37,25 @@ pub(super) enum Key {
 }
 
 /// A label to place.
-pub(super) struct Label<'a> {
-    pub(super) key: Key,
-    pub(super) lines: &'a [(&'a str, FontId, Color32)],
+pub(in crate::ui) struct Label<'a> {
+    pub(in crate::ui) key: Key,
+    pub(in crate::ui) lines: &'a [(&'a str, FontId, Color32)],
     /// Position of the mark.
-    pub(super) mark: Pos2,
+    pub(in crate::ui) mark: Pos2,
     /// Distance from the centre of the mark, points.
-    pub(super) clearance: f32,
+    pub(in crate::ui) clearance: f32,
     /// The sides to try, best first.
-    pub(super) order: &'a [Side],
+    pub(in crate::ui) order: &'a [Side],
     /// The label is dropped if more than this share of it would be covered, 0 to 1.
-    pub(super) tolerance: f32,
+    pub(in crate::ui) tolerance: f32,
 }
 
 /// The labels of one frame.
-pub(super) struct Labels<'a> {
+pub(in crate::ui) struct Labels<'a> {
     painter: &'a Painter,
     tokens: &'a Tokens,
-    dome: Dome,
+    /// The disc that the background of a text must not leave.
+    dome: Option<Dome>,
     bounds: Rect,
     /// Boxes that a label should not cover.
     reserved: Vec<Rect>,
@@ -64,10 +67,10 @@ pub(super) struct Labels<'a> {
 
 impl<'a> Labels<'a> {
     /// Starts a frame with the memory of the previous one.
-    pub(super) fn new(
+    pub(in crate::ui) fn new(
         painter: &'a Painter,
         tokens: &'a Tokens,
-        dome: Dome,
+        dome: Option<Dome>,
         bounds: Rect,
         before: HashMap<Key, Memory>,
     ) -> Self {
@@ -84,12 +87,12 @@ impl<'a> Labels<'a> {
     }
 
     /// Keeps labels away from a box.
-    pub(super) fn reserve(&mut self, rect: Rect) {
+    pub(in crate::ui) fn reserve(&mut self, rect: Rect) {
         self.reserved.push(rect);
     }
 
     /// Keeps labels away from a line of `width` points.
-    pub(super) fn reserve_path(&mut self, path: &[Pos2], width: f32) {
+    pub(in crate::ui) fn reserve_path(&mut self, path: &[Pos2], width: f32) {
         for pair in path.windows(2) {
             let &[from, to] = pair else { continue };
             let steps = (from.distance(to) / width).ceil().clamp(1.0, 500.0) as u16;
@@ -103,7 +106,7 @@ impl<'a> Labels<'a> {
 
     /// Paints a label at the best place and keeps later ones away from it. Returns `None` for
     /// a dropped label; earlier labels have priority.
-    pub(super) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
+    pub(in crate::ui) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
         let measure = job(label, Align::LEFT);
         let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
         let is_free = |side: &Side| {
@@ -134,7 +137,7 @@ impl<'a> Labels<'a> {
     }
 
     /// The memory for the next frame.
-    pub(super) fn into_memory(self) -> HashMap<Key, Memory> {
+    pub(in crate::ui) fn into_memory(self) -> HashMap<Key, Memory> {
         self.memory
     }
 
@@ -147,8 +150,14 @@ impl<'a> Labels<'a> {
         };
         let galley = self.painter.layout_job(job(label, align));
         let inner = place.rect.shrink(PADDING);
-        if let Some(ground) = self.dome.clipped(place.rect) {
-            self.painter.add(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
+        match self.dome.map(|dome| dome.clipped(place.rect)) {
+            Some(Some(ground)) => {
+                self.painter.add(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
+            }
+            Some(None) => {}
+            None => {
+                self.painter.rect_filled(place.rect, 0.0, self.tokens.sky);
+            }
         }
         // A galley that is not aligned to the left lies around its origin.
         let shift = inner.min - galley.rect.min.to_vec2();
@@ -183,7 +192,7 @@ mod tests {
         let mut harness = window(bounds.size(), Vec::new(), move |ui, found| {
             let t = theme::tokens(ui.ctx());
             let pass = testing::track(&samples);
-            let mut labels = Labels::new(ui.painter(), t, dome, bounds, HashMap::new());
+            let mut labels = Labels::new(ui.painter(), t, Some(dome), bounds, HashMap::new());
             let (events, ticks) = (track::events(&pass), track::ticks(dome, &pass));
             track::label_events(&mut labels, dome, &events, t);
             track::label_minutes(&mut labels, &ticks, &events, pass.los.time, t);

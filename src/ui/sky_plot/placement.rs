@@ -8,7 +8,7 @@ const PATIENCE: f32 = 0.3;
 
 /// A side of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Side {
+pub(in crate::ui) enum Side {
     East,
     West,
     North,
@@ -21,7 +21,7 @@ pub(super) enum Side {
 
 impl Side {
     /// All sides in the order in which they are tried.
-    pub(super) const ORDER: [Self; 8] = [
+    pub(in crate::ui) const ORDER: [Self; 8] = [
         Self::East,
         Self::West,
         Self::North,
@@ -33,7 +33,7 @@ impl Side {
     ];
 
     /// The direction on the screen, each component -1, 0 or 1.
-    pub(super) fn direction(self) -> Vec2 {
+    pub(in crate::ui) fn direction(self) -> Vec2 {
         match self {
             Self::East => vec2(1.0, 0.0),
             Self::West => vec2(-1.0, 0.0),
@@ -48,7 +48,7 @@ impl Side {
 
     /// All sides, those nearest to a direction on the screen first; in [`Self::ORDER`] for a
     /// direction without length.
-    pub(super) fn towards(direction: Vec2) -> [Self; 8] {
+    pub(in crate::ui) fn towards(direction: Vec2) -> [Self; 8] {
         let wanted = direction.normalized();
         let away = |side: &Self| 1.0 - side.direction().normalized().dot(wanted);
         let mut order = Self::ORDER;
@@ -57,13 +57,13 @@ impl Side {
     }
 
     /// The side nearest to a direction on the screen.
-    pub(super) fn nearest(direction: Vec2) -> Self {
+    pub(in crate::ui) fn nearest(direction: Vec2) -> Self {
         let [nearest, ..] = Self::towards(direction);
         nearest
     }
 
     /// The rectangle of a label of `size`, `clearance` points from its mark.
-    pub(super) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
+    pub(in crate::ui) fn rect(self, mark: Pos2, size: Vec2, clearance: f32) -> Rect {
         let towards = self.direction();
         let diagonal = towards.x != 0.0 && towards.y != 0.0;
         let reach = if diagonal { clearance * 0.7 } else { clearance };
@@ -73,24 +73,24 @@ impl Side {
 
 /// The place of a label.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Placement {
-    pub(super) side: Side,
+pub(in crate::ui) struct Placement {
+    pub(in crate::ui) side: Side,
     /// The rectangle of the text.
-    pub(super) rect: Rect,
+    pub(in crate::ui) rect: Rect,
     /// Covered share of the label, 0 to 1.
-    pub(super) covered: f32,
+    pub(in crate::ui) covered: f32,
 }
 
 /// The place of a label in the previous frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Memory {
-    pub(super) side: Side,
+pub(in crate::ui) struct Memory {
+    pub(in crate::ui) side: Side,
     /// Covered share of the label when its side was chosen, 0 to 1.
-    pub(super) covered: f32,
+    pub(in crate::ui) covered: f32,
 }
 
 /// The share of `rect` that lies under other boxes or outside `bounds`.
-pub(super) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
+pub(in crate::ui) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
         let both = rect.intersect(other);
@@ -103,7 +103,7 @@ pub(super) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
 /// Chooses the first free side in the given order, otherwise the least covered one. A label
 /// stays on its side until clearly more of it is covered than when the side was chosen.
 /// Returns `None` if `order` is empty.
-pub(super) fn place(
+pub(in crate::ui) fn place(
     mark: Pos2,
     size: Vec2,
     clearance: f32,

@@ -10,6 +10,8 @@ use crate::ui::{
 
 pub const HEIGHT: f32 = 32.0;
 pub const SMALL_HEIGHT: f32 = 24.0;
+/// Width of an icon with the gap behind it.
+const ICON: f32 = 24.0;
 /// Corner radius of buttons and jog keys.
 pub const RADIUS: u8 = 5;
 
@@ -29,11 +31,12 @@ pub struct Button<'a> {
     weight: Weight,
     locked: bool,
     chevron: bool,
+    icon: Option<Icon>,
 }
 
 impl<'a> Button<'a> {
     pub fn normal(text: &'a str) -> Self {
-        Self { text, weight: Weight::Normal, locked: false, chevron: false }
+        Self { text, weight: Weight::Normal, locked: false, chevron: false, icon: None }
     }
 
     /// The main action of its place.
@@ -58,10 +61,17 @@ impl<'a> Button<'a> {
         Self { chevron: true, ..self }
     }
 
+    /// Adds an icon before the text.
+    #[must_use]
+    pub fn icon(self, icon: Icon) -> Self {
+        Self { icon: Some(icon), ..self }
+    }
+
     /// The width of the text with its padding.
     pub fn width(&self, ui: &Ui) -> f32 {
         let chevron = if self.chevron { 20.0 } else { 0.0 };
-        (paint::text_width(ui, self.text, text::body_medium()) + 24.0 + chevron).ceil()
+        let icon = if self.icon.is_some() { ICON } else { 0.0 };
+        (paint::text_width(ui, self.text, text::body_medium()) + 24.0 + chevron + icon).ceil()
     }
 
     pub fn show(self, ui: &Ui, salt: impl egui::AsIdSalt, rect: Rect) -> Response {
@@ -92,7 +102,14 @@ impl<'a> Button<'a> {
             let room = room.with_max_x(rect.right() - 22.0);
             paint::text_in(ui, room, Align2::CENTER_CENTER, self.text, text::body_medium(), colour);
         } else {
-            paint::text_in(ui, room, Align2::CENTER_CENTER, self.text, text::body_medium(), colour);
+            let icon = if self.icon.is_some() { ICON } else { 0.0 };
+            let words = room.translate(vec2(icon / 2.0, 0.0)).with_max_x(room.right());
+            let anchor = Align2::CENTER_CENTER;
+            let place = paint::text_in(ui, words, anchor, self.text, text::body_medium(), colour);
+            if let Some(icon) = self.icon {
+                let at = pos2(place.left() - ICON / 2.0 - 2.0, rect.center().y);
+                icons::paint(ui.painter(), paint::square(at, 16.0), icon, colour);
+            }
         }
         paint::focus_ring(ui, &response, RADIUS);
         response

@@ -81,9 +81,24 @@ impl Sentence<'_> {
 /// Returns the rectangle of the block. Screen readers read the sentence again whenever it
 /// changes.
 pub fn show(ui: &Ui, at: Pos2, width: f32, foot: f32, sentence: &Sentence<'_>) -> Rect {
+    let room = if width < SMALL { SMALL_ROOM } else { ROOM };
+    show_in(ui, at, width, (room, foot), sentence)
+}
+
+/// Shows the sentence where nothing below it is held down: as high as two lines, or higher.
+pub fn show_short(ui: &Ui, at: Pos2, width: f32, sentence: &Sentence<'_>) -> Rect {
+    show_in(ui, at, width, (2.0 * LINE, 0.0), sentence)
+}
+
+fn show_in(
+    ui: &Ui,
+    at: Pos2,
+    width: f32,
+    (room, foot): (f32, f32),
+    sentence: &Sentence<'_>,
+) -> Rect {
     let t = theme::tokens(ui);
-    let (padding, room) =
-        if width < SMALL { (vec2(13.0, 6.0), SMALL_ROOM) } else { (vec2(15.0, 10.0), ROOM) };
+    let padding = if width < SMALL { vec2(13.0, 6.0) } else { vec2(15.0, 10.0) };
     let lines = |line: f32| {
         let mut job = LayoutJob::default();
         job.wrap.max_width = width - padding.x - 10.0;

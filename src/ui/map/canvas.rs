@@ -1,0 +1,134 @@
+//! The map itself.
+
+use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, UiBuilder, vec2};
+
+use super::{
+    MapState, caps, grid, ground, labels, nodes, projection::Projection, tracks, words, world_in,
+};
+use crate::{
+    astro::{Cap, GroundPoint},
+    model::{Model, UiCommand, globe::GlobeSatellite},
+    ui::{
+        sky_plot::{geometry::dashed, labels::Labels, marks},
+        text, theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+/// Share of the fill of the selected footprint.
+const FILL: f32 = 0.6;
+
+/// Draws the map of the whole world into `rect`, of which `visible` is not covered.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    visible: Rect,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    state: &mut MapState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let world = world_in(rect);
+    if !(world.is_finite() && world.height() > 90.0) {
+        return;
+    }
+    let ui = &mut ui.new_child(UiBuilder::new().id_salt("map").max_rect(rect));
+    ui.shrink_clip_rect(visible.intersect(world));
+    let canvas = nodes::canvas(ui, world, model, state);
+    let projection = Projection::of(world, state.zoom);
+    paint_map(ui, &projection, model, shown, state, t);
+    nodes::marks(ui, canvas.id, &projection, model, shown, commands, t);
+    if let Some(place) = canvas.hover_pos().and_then(|at| projection.place(at)) {
+        pointed_at(ui, world.intersect(visible), place, t);
+    }
+    if canvas.has_focus() {
+        let stroke = Stroke::new(2.0, t.sat);
+        ui.painter().rect_stroke(world.shrink(2.0), 0.0, stroke, StrokeKind::Inside);
+    }
+}
+
+fn paint_map(
+    ui: &Ui,
+    projection: &Projection,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    state: &mut MapState,
+    t: &Tokens,
+) {
+    let painter = ui.painter();
+    let (layers, world) = (state.layers, projection.world);
+    ground::paint(painter, *projection, &model.globe, layers, &mut state.land, t);
+    let before = std::mem::take(&mut state.labels);
+    let mut labels = Labels::new(painter, t, None, world.shrink(4.0), before);
+    if let Some(subsolar) = model.globe.subsolar.filter(|_| layers.terminator) {
+        let at = projection.point(subsolar);
+        marks::sun(painter, at, t);
+        labels.reserve(paint::square(at, 22.0));
+    }
+    let selected = shown.iter().find(|of| of.is_selected);
+    let others = || shown.iter().filter(|of| !of.is_selected);
+    if layers.other_tracks {
+        for of in others() {
+            tracks::paint_other(painter, projection, of, model.now, t);
+        }
+    }
+    let station = model.station.site.point();
+    if layers.footprints {
+        for of in others() {
+            outline(ui, projection, &of.footprint, 1.0, ground::edge(of.is_up, t));
+        }
+        if let Some(of) = selected {
+            let fill = caps::fill(projection, &of.footprint, t.bgsel.gamma_multiply(FILL));
+            painter.add(Shape::mesh(fill));
+            outline(ui, projection, &of.footprint, 1.5, t.sat);
+            let rises = Cap { centre: station, radius: of.footprint.radius };
+            for line in caps::outline(projection, &rises) {
+                painter.extend(dashed(&line, 3.0, 3.0, Stroke::new(1.25, t.ok)));
+            }
+        }
+    }
+    let laid_out = selected.filter(|_| layers.tracks);
+    let laid_out = laid_out.map(|of| tracks::tracks(projection, of, model.now));
+    if let Some(tracks) = &laid_out {
+        tracks::paint(painter, tracks, t);
+        labels::reserve(&mut labels, world, &tracks.flown, 6.0);
+        labels::reserve(&mut labels, world, &tracks.ahead, 6.0);
+    }
+    if layers.grid {
+        for number in grid::numbers(painter, *projection, t) {
+            labels.reserve(number);
+        }
+    }
+    for of in shown {
+        labels.reserve(paint::square(projection.point(of.below.point), 8.0));
+    }
+    labels::add(&mut labels, projection, model, shown, laid_out.as_ref(), layers.names, t);
+    state.labels = labels.into_memory();
+
+    ground::station(painter, projection.point(station), t);
+    for of in others() {
+        let stands = of.satellite.elements.is_geosynchronous();
+        marks::other(painter, projection.point(of.below.point), stands, t);
+    }
+    if let Some(of) = selected {
+        marks::selected(painter, projection.point(of.below.point), t);
+    }
+}
+
+fn outline(ui: &Ui, projection: &Projection, cap: &Cap, width: f32, colour: Color32) {
+    for line in caps::outline(projection, cap) {
+        ui.painter().add(Shape::line(line, Stroke::new(width, colour)));
+    }
+}
+
+/// The place under the pointer, in the lower right corner.
+fn pointed_at(ui: &Ui, visible: Rect, place: GroundPoint, t: &Tokens) {
+    let words = words::place(place);
+    let galley = ui.painter().layout_no_wrap(words.clone(), text::small(), t.t1);
+    let rect = Align2::RIGHT_BOTTOM.anchor_size(nodes::corner(visible), galley.size());
+    ui.painter().rect_filled(rect.expand2(vec2(4.0, 1.0)), 0.0, t.sky);
+    ui.painter().galley(rect.min, galley, t.t1);
+    paint::name_text(ui, "pointed at", rect, &format!("Pointer at {words}"));
+}

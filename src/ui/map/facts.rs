@@ -1,0 +1,56 @@
+//! The figures of the selected satellite.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{PADDING, words};
+use crate::{
+    model::{Model, globe::GlobeSatellite},
+    ui::{format, text, theme, widgets::paint},
+};
+
+/// Height of a line.
+const LINE: f32 = 20.0;
+const COUNT: usize = 6;
+
+/// Height of all lines.
+pub(super) const HEIGHT: f32 = COUNT as f32 * LINE;
+
+/// Draws the lines into `rect`.
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite) {
+    let t = theme::tokens(ui);
+    for (index, (name, value)) in facts(model, of).into_iter().enumerate() {
+        let min = pos2(rect.left() + PADDING, rect.top() + index as f32 * LINE);
+        let line = Rect::from_min_size(min, vec2(rect.width() - 2.0 * PADDING, LINE));
+        let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        let room = line.with_min_x(left.right() + 8.0);
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, &value, text::small(), t.t1);
+        let words = format!("{name}: {value}");
+        paint::name_text(ui, ("fact", index), line, &words).on_hover_text(&words);
+    }
+}
+
+fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] {
+    let direction = of.look.direction;
+    let elevation = words::elevation(model.globe.aos_elevation);
+    let speed = format::number(of.speed_km_s, 2);
+    let minutes = format::number(of.satellite.elements.period_s() / 60.0, 1);
+    [
+        ("Below it", words::place(of.below.point)),
+        ("Height, speed", format!("{} km, {speed} km/s", words::km(of.below.height_km))),
+        (
+            "Sees the ground to",
+            format!("{} km around, at {elevation}", words::km(of.footprint.radius_km())),
+        ),
+        (
+            "From the station",
+            format!(
+                "az {}, el {}, {} km",
+                format::degrees(direction.azimuth_deg(), 1),
+                format::degrees(direction.elevation_deg(), 1),
+                words::km(of.look.range_km),
+            ),
+        ),
+        ("Goes", format!("{}, around in {minutes} min", words::goes(of.heading))),
+        ("Light", words::light(of.is_sunlit).to_owned()),
+    ]
+}

@@ -1,0 +1,53 @@
+//! The ground of the map: sea, land, grid, day and night; and the station.
+
+use egui::{Color32, Painter, Pos2, Shape, Stroke, vec2};
+
+use super::{
+    MapLayers, caps,
+    land::{self, Land},
+    projection::Projection,
+};
+use crate::{
+    model::globe::Globe,
+    ui::{sky_plot::geometry::dashed, tokens::Tokens},
+};
+
+/// Share of the day's light that the night takes.
+const NIGHT: f32 = 0.45;
+
+/// Paints the ground.
+pub(super) fn paint(
+    painter: &Painter,
+    projection: Projection,
+    globe: &Globe,
+    layers: MapLayers,
+    kept: &mut Option<Land>,
+    t: &Tokens,
+) {
+    painter.rect_filled(projection.world, 0.0, t.sky);
+    land::paint(painter, projection, layers.grid, kept, t);
+    if layers.terminator
+        && let Some(night) = &globe.night
+    {
+        let shade = caps::fill(&projection, night, t.bg0.gamma_multiply(NIGHT));
+        painter.add(Shape::mesh(shade));
+        for line in caps::outline(&projection, night) {
+            painter.extend(dashed(&line, 6.0, 4.0, Stroke::new(1.25, t.sun)));
+        }
+    }
+}
+
+/// The station: an open triangle.
+pub(super) fn station(painter: &Painter, at: Pos2, t: &Tokens) {
+    let corners = vec![at + vec2(0.0, -7.0), at + vec2(6.5, 5.0), at + vec2(-6.5, 5.0)];
+    for stroke in [Stroke::new(4.0, t.sky), Stroke::new(1.75, t.t1)] {
+        painter.add(Shape::closed_line(corners.clone(), stroke));
+    }
+    painter.add(Shape::convex_polygon(corners.clone(), t.sky, Stroke::NONE));
+    painter.add(Shape::closed_line(corners, Stroke::new(1.75, t.t1)));
+}
+
+/// The colour of the footprint of a satellite that is not selected.
+pub(super) fn edge(is_up: bool, t: &Tokens) -> Color32 {
+    if is_up { t.t2 } else { t.hatch }
+}

@@ -1,0 +1,107 @@
+//! The names and times on the map.
+
+use egui::{Pos2, Rect};
+
+use super::{projection::Projection, tracks::Tracks};
+use crate::{
+    model::{Model, globe::GlobeSatellite},
+    ui::{
+        format,
+        sky_plot::{
+            labels::{Key, Label, Labels},
+            placement::Side,
+        },
+        text::{self, Weight},
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+/// So near to the right edge names stand at the left of their marks, points.
+const FLIP: f32 = 110.0;
+/// The selected name and that of the station stand even where they cover something.
+const ALWAYS: f32 = 1.0;
+/// A name with more of it covered is left out, 0 to 1.
+const TOLERANCE: f32 = 0.4;
+
+/// Keeps labels away from a line, as far as it is on the map.
+pub(super) fn reserve(labels: &mut Labels<'_>, world: Rect, lines: &[Vec<Pos2>], width: f32) {
+    for pair in lines.iter().flat_map(|line| line.windows(2)) {
+        let &[from, to] = pair else { continue };
+        if world.intersects(Rect::from_two_pos(from, to).expand(width)) {
+            labels.reserve_path(pair, width);
+        }
+    }
+}
+
+/// Labels the selected satellite, the station, the times of the track and the other satellites, in
+/// this order.
+pub(super) fn add(
+    labels: &mut Labels<'_>,
+    projection: &Projection,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    tracks: Option<&Tracks>,
+    has_names: bool,
+    t: &Tokens,
+) {
+    let world = projection.world;
+    let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
+        shown.iter().copied().partition(|of| of.is_selected);
+    let home = projection.point(model.station.site.point());
+    labels.reserve(paint::square(home, 16.0));
+    for of in selected {
+        let name = of.satellite.short_name();
+        let lines = [(name, text::sized(13.0, Weight::SemiBold), t.sat)];
+        let mark = projection.point(of.below.point);
+        add_one(labels, world, Key::Selected(of.number()), &lines, mark, 10.0, ALWAYS);
+    }
+    let lines = [(model.station.name.as_str(), text::small_strong(), t.t1)];
+    if world.contains(home) {
+        labels.add(&Label {
+            key: Key::Station,
+            lines: &lines,
+            mark: home,
+            clearance: 10.0,
+            order: &[
+                Side::West,
+                Side::East,
+                Side::NorthWest,
+                Side::NorthEast,
+                Side::North,
+                Side::South,
+            ],
+            tolerance: ALWAYS,
+        });
+    }
+    for tick in tracks.into_iter().flat_map(|tracks| &tracks.ticks) {
+        let time = format::hours_minutes(tick.time);
+        let lines = [(time.as_str(), text::caption(), t.sat)];
+        let key = Key::Minute(tick.time.as_second() / 60);
+        add_one(labels, world, key, &lines, tick.at, 7.0, TOLERANCE);
+    }
+    for of in others.iter().filter(|_| has_names) {
+        let lines = [(of.satellite.short_name(), text::small(), t.t2)];
+        let mark = projection.point(of.below.point);
+        add_one(labels, world, Key::Other(of.number()), &lines, mark, 6.0, TOLERANCE);
+    }
+}
+
+fn add_one(
+    labels: &mut Labels<'_>,
+    world: Rect,
+    key: Key,
+    lines: &[(&str, egui::FontId, egui::Color32)],
+    mark: Pos2,
+    clearance: f32,
+    tolerance: f32,
+) {
+    if !world.contains(mark) {
+        return;
+    }
+    let mut order = Side::ORDER;
+    if mark.x > world.right() - FLIP {
+        order.swap(0, 1);
+    }
+    labels.add(&Label { key, lines, mark, clearance, order: &order, tolerance });
+}

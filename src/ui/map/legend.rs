@@ -1,0 +1,96 @@
+//! The legend in the bar of the table.
+
+use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
+
+use super::{MapLayers, words};
+use crate::{
+    model::{
+        Model,
+        globe::{AHEAD_MIN, GlobeSatellite},
+    },
+    ui::{
+        sky_plot::geometry::{circle, dashed},
+        text, theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+/// Width of a sample.
+const SAMPLE: f32 = 16.0;
+const GAP: f32 = 6.0;
+/// Distance between two entries.
+const STEP: f32 = 16.0;
+
+type Sample = fn(&Painter, Pos2, &Tokens);
+
+/// Draws the entries of the shown layers from the right end of `rect`, as many as have room.
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, layers: MapLayers) {
+    let t = theme::tokens(ui);
+    let selected = model.globe.selected();
+    let entries = entries(model, selected, layers);
+    let widths: Vec<f32> = entries
+        .iter()
+        .map(|(_, words)| SAMPLE + GAP + paint::text_width(ui, words, text::small()))
+        .collect();
+    let all: f32 = widths.iter().map(|width| width + STEP).sum();
+    let mut left = (rect.right() - all).max(rect.left()).min(rect.left() + 220.0);
+    for ((sample, words), width) in entries.iter().zip(widths) {
+        if left + width > rect.right() {
+            return;
+        }
+        let at = pos2(left + SAMPLE / 2.0, rect.center().y);
+        sample(ui.painter(), at, t);
+        let at = pos2(left + SAMPLE + GAP, rect.center().y);
+        paint::text(ui, at, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        left += width + STEP;
+    }
+}
+
+fn entries(
+    model: &Model,
+    selected: Option<&GlobeSatellite>,
+    layers: MapLayers,
+) -> Vec<(Sample, String)> {
+    let mut entries: Vec<(Sample, String)> = Vec::new();
+    if selected.is_some() && layers.tracks {
+        entries.push((flown, "flown".to_owned()));
+        entries.push((ahead, format!("next {AHEAD_MIN} min")));
+    }
+    if layers.footprints {
+        let elevation = words::elevation(model.globe.aos_elevation);
+        entries.push((footprint, format!("sees the satellite at {elevation}")));
+        if let Some(of) = selected {
+            let (name, height) = (&model.station.name, words::km(of.below.height_km));
+            entries.push((rises, format!("seen from {name} at {height} km")));
+        }
+    }
+    if layers.terminator {
+        entries.push((terminator, "sunset and sunrise".to_owned()));
+    }
+    entries
+}
+
+fn line(at: Pos2) -> [Pos2; 2] {
+    [at - vec2(SAMPLE / 2.0, 0.0), at + vec2(SAMPLE / 2.0, 0.0)]
+}
+
+fn flown(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.line_segment(line(at), Stroke::new(2.0, t.sat));
+}
+
+fn ahead(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.extend(dashed(&line(at), 6.5, 3.0, Stroke::new(2.0, t.sat)));
+}
+
+fn footprint(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.circle_stroke(at, 6.0, Stroke::new(1.0, t.t2));
+}
+
+fn rises(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.extend(dashed(&circle(at, 6.0), 3.0, 3.0, Stroke::new(1.25, t.ok)));
+}
+
+fn terminator(painter: &Painter, at: Pos2, t: &Tokens) {
+    painter.extend(dashed(&line(at), 6.0, 4.0, Stroke::new(1.25, t.sun)));
+}

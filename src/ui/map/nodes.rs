@@ -1,0 +1,108 @@
+//! The nodes of the map, for the pointer, Tab and screen readers.
+
+use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2};
+
+use super::{MapState, projection::Projection, words};
+use crate::{
+    model::{Model, UiCommand, View, globe::GlobeSatellite},
+    ui::tokens::Tokens,
+};
+
+/// Side of the square around a mark that reacts to the pointer, points.
+const TARGET: f32 = 20.0;
+
+/// Adds the map as one node, which is dragged and zoomed by the wheel.
+pub(super) fn canvas(ui: &Ui, world: Rect, model: &Model, state: &mut MapState) -> Response {
+    let id = ui.make_persistent_id("map");
+    let sense = Sense::drag() | Sense::focusable_noninteractive();
+    let response = ui.interact(world, id, sense);
+    let words = format!("Map. {}", words::summary(model, state.shown));
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &words));
+    if response.dragged() {
+        state.zoom.drag(response.drag_delta(), world);
+    }
+    if let Some(at) = response.hover_pos() {
+        let points = ui.input(|input| input.smooth_scroll_delta().y);
+        if points != 0.0 {
+            state.zoom.turn(points, at, world);
+        }
+    }
+    response
+}
+
+/// Adds the nodes of the satellites and of the station.
+pub(super) fn marks(
+    ui: &Ui,
+    canvas: Id,
+    projection: &Projection,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    commands: &mut Vec<UiCommand>,
+    t: &Tokens,
+) {
+    let station = model.station.site.point();
+    let at = projection.point(station);
+    if projection.world.contains(at) {
+        // Small, so that satellites around it keep the pointer.
+        let place = Rect::from_center_size(at, Vec2::splat(2.0));
+        let response = ui.interact(place, canvas.with("station"), Sense::hover());
+        let name = format!("Station {}, {}", model.station.name, words::place(station));
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
+    }
+    // The selected satellite comes last, so that it takes the pointer where two overlap.
+    let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
+        shown.iter().copied().partition(|of| of.is_selected);
+    for of in others.into_iter().chain(selected) {
+        let at = projection.point(of.below.point);
+        if !projection.world.contains(at) {
+            continue;
+        }
+        satellite(ui, canvas, at, of, model, commands, t);
+    }
+}
+
+fn satellite(
+    ui: &Ui,
+    canvas: Id,
+    at: Pos2,
+    of: &GlobeSatellite,
+    model: &Model,
+    commands: &mut Vec<UiCommand>,
+    t: &Tokens,
+) {
+    let place = Rect::from_center_size(at, Vec2::splat(TARGET));
+    let response = ui.interact(place, canvas.with(("satellite", of.number())), Sense::click());
+    let name =
+        format!("{} on the map, {}", of.satellite.short_name(), words::place(of.below.point));
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, of.is_selected, &name));
+    ui.accesskit_node_builder(response.id, |node| node.set_selected(of.is_selected));
+    if response.has_focus() {
+        ui.painter().circle_stroke(at, TARGET / 2.0 + 2.0, Stroke::new(2.0, t.sat));
+    }
+    chosen(ui, &response, of, commands);
+    response.on_hover_text(words::tip(of, model));
+}
+
+/// Takes a click on a satellite, which selects it, and a double click, which opens the sky plot.
+pub(super) fn chosen(
+    ui: &Ui,
+    response: &Response,
+    of: &GlobeSatellite,
+    commands: &mut Vec<UiCommand>,
+) {
+    if response.clicked() {
+        commands.push(UiCommand::SelectSatellite(of.number()));
+        // The arrows lead on from here rather than from node to node.
+        if ui.input(|input| input.pointer.any_released()) {
+            response.surrender_focus();
+        }
+    }
+    if response.double_clicked() {
+        commands.push(UiCommand::Show(View::Operate));
+    }
+}
+
+/// The corner in which the place under the pointer stands.
+pub(super) fn corner(world: Rect) -> Pos2 {
+    pos2(world.right() - 8.0, world.bottom() - 2.0)
+}

@@ -1,0 +1,236 @@
+//! The projection from the ground to points, and the section of the world that it shows.
+
+use std::ops::RangeInclusive;
+
+use egui::{Pos2, Rect, Vec2, pos2};
+
+use crate::astro::{Angle, GroundPoint};
+
+/// The steps of the zoom.
+const STEPS: [f32; 3] = [1.0, 2.0, 4.0];
+
+/// The section of the world.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Zoom {
+    step: usize,
+    /// Longitude and latitude of the middle, degrees.
+    middle_deg: (f32, f32),
+    /// Turns of the wheel that were no step yet.
+    wheel: f32,
+}
+
+impl Zoom {
+    pub(super) fn factor(self) -> f32 {
+        STEPS.get(self.step).copied().unwrap_or(1.0)
+    }
+
+    /// One step closer or further away.
+    pub(super) fn step(&mut self, is_closer: bool) {
+        let step = if is_closer { self.step + 1 } else { self.step.saturating_sub(1) };
+        self.step = step.min(STEPS.len() - 1);
+        self.keep_inside();
+    }
+
+    /// Takes a turn of the wheel over the point `at` of the map, which keeps its place.
+    pub(super) fn turn(&mut self, points: f32, at: Pos2, world: Rect) {
+        /// Points of the wheel for a step.
+        const STEP: f32 = 40.0;
+        self.wheel = if self.wheel * points < 0.0 { points } else { self.wheel + points };
+        if self.wheel.abs() < STEP {
+            return;
+        }
+        let is_closer = self.wheel > 0.0;
+        self.wheel = 0.0;
+        let before = Projection::of(world, *self).degrees(at);
+        self.step(is_closer);
+        let after = Projection::of(world, *self).degrees(at);
+        self.middle_deg.0 += before.0 - after.0;
+        self.middle_deg.1 += before.1 - after.1;
+        self.keep_inside();
+    }
+
+    /// Moves the map by so many points.
+    pub(super) fn drag(&mut self, by: Vec2, world: Rect) {
+        let scale = Projection::of(world, *self).scale;
+        self.middle_deg.0 -= by.x / scale;
+        self.middle_deg.1 += by.y / scale;
+        self.keep_inside();
+    }
+
+    fn keep_inside(&mut self) {
+        let most = 90.0 - 90.0 / self.factor();
+        let (longitude, latitude) = self.middle_deg;
+        self.middle_deg =
+            ((longitude + 180.0).rem_euclid(360.0) - 180.0, latitude.clamp(-most, most));
+    }
+}
+
+/// Equirectangular: a degree of longitude and of latitude have the same length everywhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Projection {
+    /// The map: twice as wide as high.
+    pub(super) world: Rect,
+    /// Points of a degree.
+    pub(super) scale: f32,
+    middle_deg: (f32, f32),
+}
+
+impl Projection {
+    pub(super) fn of(world: Rect, zoom: Zoom) -> Self {
+        let scale = world.width() / 360.0 * zoom.factor();
+        Self { world, scale, middle_deg: zoom.middle_deg }
+    }
+
+    /// The point of a longitude, of any turn, and a latitude.
+    pub(super) fn at(&self, longitude_deg: f32, latitude_deg: f32) -> Pos2 {
+        let (longitude, latitude) = self.middle_deg;
+        let centre = self.world.center();
+        pos2(
+            centre.x + (longitude_deg - longitude) * self.scale,
+            centre.y - (latitude_deg - latitude) * self.scale,
+        )
+    }
+
+    /// The point of a place, on the turn that is nearest to the middle.
+    pub(super) fn point(&self, place: GroundPoint) -> Pos2 {
+        let middle = Angle::from_degrees(f64::from(self.middle_deg.0));
+        let aside = (place.longitude - middle).wrapped_180() + middle;
+        self.at(aside.degrees() as f32, place.latitude.degrees() as f32)
+    }
+
+    /// Longitude, of any turn, and latitude of a point.
+    fn degrees(&self, at: Pos2) -> (f32, f32) {
+        let from_centre = (at - self.world.center()) / self.scale;
+        (self.middle_deg.0 + from_centre.x, self.middle_deg.1 - from_centre.y)
+    }
+
+    /// The place at a point of the map.
+    pub(super) fn place(&self, at: Pos2) -> Option<GroundPoint> {
+        let (longitude, latitude) = self.degrees(at);
+        self.world
+            .contains(at)
+            .then(|| GroundPoint::from_degrees(f64::from(latitude), f64::from(longitude)))
+    }
+
+    /// The turns, in degrees, on which something between two longitudes lies on the map.
+    pub(super) fn turns(&self, from_deg: f32, to_deg: f32) -> impl Iterator<Item = f32> + use<> {
+        let [left, right] = self.longitudes();
+        let first = ((left - to_deg) / 360.0).ceil() as i32;
+        let last = ((right - from_deg) / 360.0).floor() as i32;
+        (first..=last).map(|turn| turn as f32 * 360.0)
+    }
+
+    /// Longitudes of the left and the right edge.
+    pub(super) fn longitudes(&self) -> [f32; 2] {
+        let half = self.world.width() / 2.0 / self.scale;
+        [self.middle_deg.0 - half, self.middle_deg.0 + half]
+    }
+
+    /// Latitudes of the map.
+    pub(super) fn latitudes(&self) -> RangeInclusive<f32> {
+        let half = self.world.height() / 2.0 / self.scale;
+        self.middle_deg.1 - half..=self.middle_deg.1 + half
+    }
+
+    /// A line whose longitudes go on across the date line, on every turn on which it is seen.
+    pub(super) fn lines(&self, places: &[GroundPoint]) -> Vec<Vec<Pos2>> {
+        let mut line: Vec<(f32, f32)> = Vec::with_capacity(places.len());
+        for place in places {
+            let longitude = place.longitude.degrees() as f32;
+            let before = line.last().map_or(longitude, |(before, _)| *before);
+            let longitude = before + wrapped(longitude - before);
+            line.push((longitude, place.latitude.degrees() as f32));
+        }
+        self.copies(&line)
+    }
+
+    /// A line of longitudes that go on and latitudes, on every turn on which it is seen.
+    pub(super) fn copies(&self, line: &[(f32, f32)]) -> Vec<Vec<Pos2>> {
+        let longitudes = line.iter().map(|(longitude, _)| *longitude);
+        let (low, high) = longitudes.fold((f32::MAX, f32::MIN), |(low, high), longitude| {
+            (low.min(longitude), high.max(longitude))
+        });
+        if line.is_empty() {
+            return Vec::new();
+        }
+        let on_turn = |turn: f32| {
+            line.iter().map(|(longitude, latitude)| self.at(longitude + turn, *latitude)).collect()
+        };
+        self.turns(low, high).map(on_turn).collect()
+    }
+}
+
+/// The same difference in longitude from -180 to 180 degrees.
+fn wrapped(degrees: f32) -> f32 {
+    (degrees + 180.0).rem_euclid(360.0) - 180.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::vec2;
+
+    const WORLD: Rect = Rect { min: pos2(72.0, 112.0), max: pos2(1096.0, 624.0) };
+
+    fn place(latitude_deg: f64, longitude_deg: f64) -> GroundPoint {
+        GroundPoint::from_degrees(latitude_deg, longitude_deg)
+    }
+
+    #[test]
+    fn the_world_fills_the_map() {
+        let whole = Projection::of(WORLD, Zoom::default());
+        assert!(whole.point(place(90.0, -180.0)).distance(WORLD.left_top()) < 1e-3);
+        assert!(whole.point(place(0.0, 0.0)).distance(WORLD.center()) < 1e-3);
+        assert!(whole.point(place(-90.0, 179.999)).distance(WORLD.right_bottom()) < 0.01);
+        let back = whole.place(whole.point(place(41.0, 29.0))).unwrap();
+        assert!(back.distance(place(41.0, 29.0)).degrees() < 1e-4);
+        assert_eq!(whole.place(WORLD.left_top() - vec2(1.0, 0.0)), None);
+    }
+
+    #[test]
+    fn a_line_across_the_date_line_leaves_at_one_edge_and_comes_in_at_the_other() {
+        let whole = Projection::of(WORLD, Zoom::default());
+        let lines = whole.lines(&[place(0.0, 170.0), place(10.0, -170.0)]);
+        assert_eq!(lines.len(), 2);
+        for line in &lines {
+            assert!((line[1].x - line[0].x - 20.0 * whole.scale).abs() < 1e-2, "{line:?}");
+        }
+        assert!(lines.iter().any(|line| WORLD.contains(line[0])));
+        assert!(lines.iter().any(|line| WORLD.contains(line[1])));
+        assert_eq!(whole.lines(&[place(0.0, 10.0), place(0.0, 20.0)]).len(), 1);
+        assert_eq!(whole.lines(&[]).len(), 0);
+        // Twice around the world.
+        let around: Vec<_> = (0..=72).map(|step| place(0.0, f64::from(step) * 10.0)).collect();
+        assert_eq!(whole.lines(&around).len(), 3);
+    }
+
+    #[test]
+    fn the_wheel_keeps_the_place_under_the_pointer() {
+        let mut zoom = Zoom::default();
+        let at = pos2(700.0, 200.0);
+        let before = Projection::of(WORLD, zoom).place(at).unwrap();
+        for wheel in [60.0, 25.0, 25.0] {
+            zoom.turn(wheel, at, WORLD);
+            let now = Projection::of(WORLD, zoom).place(at).unwrap();
+            assert!(now.distance(before).degrees() < 0.01, "{now:?}");
+        }
+        assert!((zoom.factor() - 4.0).abs() < 1e-6);
+        for _ in 0..5 {
+            zoom.turn(-60.0, at, WORLD);
+        }
+        assert!((zoom.factor() - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_map_has_no_edge_in_the_east_and_one_at_the_poles() {
+        let mut zoom = Zoom::default();
+        zoom.drag(vec2(512.0, 300.0), WORLD);
+        let moved = Projection::of(WORLD, zoom);
+        assert!((moved.point(place(0.0, 180.0)).x - WORLD.center().x).abs() < 0.1);
+        assert!(moved.point(place(90.0, 180.0)).distance(WORLD.center_top()) < 0.1);
+        zoom.step(true);
+        zoom.drag(vec2(0.0, 10_000.0), WORLD);
+        let north = Projection::of(WORLD, zoom);
+        assert!((north.point(place(90.0, 0.0)).y - WORLD.top()).abs() < 0.1);
+    }
+}

@@ -1,0 +1,307 @@
+//! The table of where the satellites are, below the map or as a drawer over it.
+
+use egui::{
+    Align2, Color32, FontId, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+
+use super::{MapState, PADDING, legend, nodes, words};
+use crate::{
+    engine::CatalogState,
+    model::{Model, UiCommand, globe::GlobeSatellite},
+    ui::{
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+/// Height of the bar with the title and the legend.
+pub(super) const BAR: f32 = 32.0;
+/// Largest height of the bar while the table is folded.
+pub(super) const MAX_BAR: f32 = 48.0;
+const HEAD: f32 = 22.0;
+const ROW: f32 = 25.0;
+/// Width for which the columns are laid out; they spread with the table.
+const LAID_OUT: f32 = 1024.0;
+/// In a table below this width some columns are left out.
+const ALL_FROM: f32 = 900.0;
+
+/// The columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Column {
+    Satellite,
+    Latitude,
+    Longitude,
+    Height,
+    Azimuth,
+    Elevation,
+    Range,
+    Goes,
+    Next,
+    Max,
+    Light,
+}
+
+impl Column {
+    /// Each with its left end, or its right end for numbers.
+    const ALL: [(Self, f32); 11] = [
+        (Self::Satellite, 16.0),
+        (Self::Latitude, 208.0),
+        (Self::Longitude, 300.0),
+        (Self::Height, 384.0),
+        (Self::Azimuth, 464.0),
+        (Self::Elevation, 548.0),
+        (Self::Range, 632.0),
+        (Self::Goes, 656.0),
+        (Self::Next, 808.0),
+        (Self::Max, 876.0),
+        (Self::Light, 900.0),
+    ];
+
+    fn is_left(self) -> bool {
+        matches!(self, Self::Satellite | Self::Goes | Self::Light)
+    }
+
+    fn head(self, station: &str) -> String {
+        match self {
+            Self::Satellite => "Satellite".to_owned(),
+            Self::Latitude => "Latitude".to_owned(),
+            Self::Longitude => "Longitude".to_owned(),
+            Self::Height => "Height km".to_owned(),
+            Self::Azimuth => "Azimuth".to_owned(),
+            Self::Elevation => "Elevation".to_owned(),
+            Self::Range => "Range km".to_owned(),
+            Self::Goes => "Goes".to_owned(),
+            Self::Next => format!("Next at {station}"),
+            Self::Max => "Max el".to_owned(),
+            Self::Light => "Light".to_owned(),
+        }
+    }
+
+    fn cell(self, of: &GlobeSatellite, model: &Model) -> String {
+        let direction = of.look.direction;
+        let max = of.next.map(|next| format::degrees(next.max_elevation.degrees(), 0));
+        match self {
+            Self::Satellite => of.satellite.short_name().to_owned(),
+            Self::Latitude => words::latitude(of.below.point),
+            Self::Longitude => words::longitude(of.below.point),
+            Self::Height => words::km(of.below.height_km),
+            Self::Azimuth => format::azimuth(direction.azimuth_deg()),
+            Self::Elevation => format::degrees(direction.elevation_deg(), 1),
+            Self::Range if direction.elevation_deg() >= 0.0 => words::km(of.look.range_km),
+            Self::Range => "–".to_owned(),
+            Self::Goes => words::goes(of.heading).to_owned(),
+            Self::Next => words::next(of.next, model.now),
+            Self::Max => max.unwrap_or_else(|| "–".to_owned()),
+            Self::Light => words::light(of.is_sunlit).to_owned(),
+        }
+    }
+
+    fn look(self, of: &GlobeSatellite, model: &Model, t: &Tokens) -> (FontId, Color32) {
+        let is_above = of.look.direction.elevation_deg() >= 0.0;
+        let small = text::small();
+        match self {
+            Self::Satellite => (text::sized(13.0, Weight::SemiBold), t.t1),
+            Self::Elevation if of.is_up => (text::small_strong(), t.ok),
+            Self::Azimuth | Self::Elevation | Self::Range if !is_above => (small, t.t3),
+            Self::Goes => (small, t.t2),
+            Self::Next if of.next.is_none() => (small, t.t3),
+            Self::Next if of.next.is_some_and(|next| next.aos <= model.now) => (small, t.sat),
+            Self::Light if of.is_sunlit => (small, t.sun),
+            Self::Light => (small, t.t3),
+            _ => (small, t.t1),
+        }
+    }
+}
+
+/// Height of the table with so many rows, without its bar.
+pub(super) fn height(rows: f32) -> f32 {
+    HEAD + rows * ROW
+}
+
+/// Draws the table; returns `true` when its drawer is to be opened or closed.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    is_drawer: bool,
+    state: &MapState,
+    commands: &mut Vec<UiCommand>,
+) -> bool {
+    let t = theme::tokens(ui);
+    let is_open = !is_drawer || state.table_is_open;
+    let rows = if is_open { HEAD + ROW } else { 0.0 };
+    let bar = if is_drawer { (rect.height() - rows).clamp(BAR, MAX_BAR) } else { BAR };
+    let bar = if is_open { BAR } else { bar };
+    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + bar);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    ui.painter().rect_filled(top, 0.0, t.bg2);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let (end, is_toggled) = title(ui, top, is_drawer, is_open);
+    let room = top.with_min_x(end + 24.0).with_max_x(top.right() - PADDING);
+    legend::show(ui, room, model, state.layers);
+    if is_open {
+        let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
+        show_head(ui, head, model);
+        show_rows(ui, body, model, shown, commands);
+    }
+    is_toggled
+}
+
+/// Draws the title; of a drawer it is the button. Returns its right end.
+fn title(ui: &Ui, bar: Rect, is_drawer: bool, is_open: bool) -> (f32, bool) {
+    const WORDS: &str = "Where they are";
+    let t = theme::tokens(ui);
+    let room = bar.shrink2(vec2(PADDING, 0.0));
+    let font = text::sized(13.0, Weight::SemiBold);
+    if !is_drawer {
+        let place = paint::text_in(ui, room, Align2::LEFT_CENTER, WORDS, font, t.t1);
+        return (place.right(), false);
+    }
+    let width = paint::text_width(ui, WORDS, font.clone()) + 20.0;
+    let place = Rect::from_center_size(
+        pos2(room.left() + width / 2.0, bar.center().y),
+        vec2(width + 8.0, 24.0),
+    );
+    let response = paint::control(ui, "map table", place, Role::Button, true, WORDS);
+    if response.hovered() {
+        ui.painter().rect_filled(place, 4.0, t.bg3);
+    }
+    let icon = if is_open { Icon::ChevronDown } else { Icon::ChevronRight };
+    let at = pos2(room.left() + 6.0, bar.center().y);
+    icons::paint(ui.painter(), paint::square(at, 12.0), icon, t.t1);
+    let words = room.with_min_x(room.left() + 18.0);
+    paint::text_in(ui, words, Align2::LEFT_CENTER, WORDS, font, t.t1);
+    paint::focus_ring(ui, &response, 4);
+    (place.right(), response.clicked())
+}
+
+/// The shown columns with their rectangles.
+fn columns(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
+    let scale = row.width() / LAID_OUT;
+    let is_shown = move |column: Column| column != Column::Goes || row.width() >= ALL_FROM;
+    let shown = Column::ALL.into_iter().filter(move |(column, _)| is_shown(*column));
+    shown.map(move |(column, end)| {
+        let x = row.left() + end * scale;
+        let place = if column.is_left() {
+            let width = if column == Column::Satellite { 120.0 } else { 100.0 };
+            row.with_min_x(x).with_max_x((x + width * scale).min(row.right() - 4.0))
+        } else {
+            row.with_min_x(x - 110.0 * scale.max(1.0)).with_max_x(x)
+        };
+        (column, place)
+    })
+}
+
+fn show_head(ui: &Ui, rect: Rect, model: &Model) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    for (column, place) in columns(rect) {
+        let words = column.head(&model.station.name);
+        let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+        // The rows are sorted by it.
+        let (font, colour) = if column == Column::Elevation {
+            let at = pos2(place.right() + 9.0, rect.center().y);
+            icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, t.t2);
+            (text::sized(11.0, Weight::SemiBold), t.t1)
+        } else {
+            (text::caption(), t.t3)
+        };
+        paint::text_in(ui, place, anchor, &words, font, colour);
+    }
+}
+
+fn show_rows(
+    ui: &mut Ui,
+    body: Rect,
+    model: &Model,
+    shown: &[&GlobeSatellite],
+    commands: &mut Vec<UiCommand>,
+) {
+    let id = ui.make_persistent_id("where they are");
+    let list = ui.interact(body, id, Sense::hover());
+    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Where they are"));
+    if shown.is_empty() {
+        let t = theme::tokens(ui);
+        let words = why_empty(model);
+        let at = body.left_top() + vec2(PADDING, 8.0);
+        let width = body.width() - 2.0 * PADDING;
+        let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);
+        paint::name_text(ui, "no satellites", place, words);
+        return;
+    }
+    ui.scope_builder(UiBuilder::new().id_salt("map rows").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("map table").auto_shrink(false).show(ui, |ui| {
+            for of in shown {
+                let size = vec2(body.width(), ROW);
+                let (_, rect) = ui.allocate_space(size);
+                show_row(ui, rect, of, model, commands);
+            }
+        });
+    });
+}
+
+fn why_empty(model: &Model) -> &'static str {
+    match model.catalog {
+        CatalogState::Loading => "The elements are being read.",
+        CatalogState::Failed => "No elements: they could not be read. See the alarms.",
+        CatalogState::Ready(_) => "No satellite is shown. Choose favourites in Elements.",
+    }
+}
+
+fn show_row(
+    ui: &Ui,
+    rect: Rect,
+    of: &GlobeSatellite,
+    model: &Model,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let id = ui.make_persistent_id(("map row", of.number()));
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| {
+        WidgetInfo::selected(Role::ListBoxOption, true, of.is_selected, spoken(of, model))
+    });
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(of.is_selected));
+    let ground = match (of.is_selected, response.hovered()) {
+        (true, _) => t.bgsel,
+        (false, true) => t.bg3,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 0.0, ground);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    if of.is_selected {
+        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
+    }
+    for (column, place) in columns(rect) {
+        let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+        let (font, colour) = column.look(of, model, t);
+        paint::text_in(ui, place, anchor, &column.cell(of, model), font, colour);
+    }
+    paint::focus_ring(ui, &response, 0);
+    nodes::chosen(ui, &response, of, commands);
+}
+
+/// The row for screen readers.
+fn spoken(of: &GlobeSatellite, model: &Model) -> String {
+    let cell = |column: Column| column.cell(of, model);
+    format!(
+        "{}, {}, {}, height {} km, azimuth {}, elevation {}, {}, next {}, {}",
+        cell(Column::Satellite),
+        cell(Column::Latitude),
+        cell(Column::Longitude),
+        cell(Column::Height),
+        cell(Column::Azimuth),
+        cell(Column::Elevation),
+        words::motion(of.heading),
+        cell(Column::Next),
+        cell(Column::Light),
+    )
+}

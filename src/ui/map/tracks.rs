@@ -1,0 +1,95 @@
+//! Ground tracks with their full times.
+
+use egui::{Painter, Pos2, Shape, Stroke, Vec2};
+use jiff::Timestamp;
+
+use super::projection::Projection;
+use crate::{
+    astro::GroundPoint,
+    model::globe::GlobeSatellite,
+    ui::{sky_plot::geometry::dashed, tokens::Tokens},
+};
+
+/// Time between two ticks, seconds.
+const TICK_S: i64 = 20 * 60;
+/// Half the length of a tick, points.
+const TICK: f32 = 5.0;
+
+/// The track of the selected satellite, split at the present, on every turn.
+pub(super) struct Tracks {
+    pub(super) flown: Vec<Vec<Pos2>>,
+    pub(super) ahead: Vec<Vec<Pos2>>,
+    pub(super) ticks: Vec<Tick>,
+}
+
+/// A full time on the track ahead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tick {
+    pub(super) time: Timestamp,
+    pub(super) at: Pos2,
+    /// Unit vector across the track.
+    across: Vec2,
+}
+
+/// Lays out the track of the selected satellite.
+pub(super) fn tracks(projection: &Projection, of: &GlobeSatellite, now: Timestamp) -> Tracks {
+    let split = of.track.partition_point(|point| point.time <= now);
+    let (before, after) = of.track.split_at_checked(split).unwrap_or_default();
+    let here = of.below.point;
+    let flown: Vec<GroundPoint> = before.iter().map(|point| point.point).chain([here]).collect();
+    let ahead: Vec<GroundPoint> =
+        [here].into_iter().chain(after.iter().map(|point| point.point)).collect();
+    let tick = |pair: &[crate::orbit::TrackPoint]| {
+        let &[from, to] = pair else { return None };
+        if to.time.as_second() % TICK_S != 0 {
+            return None;
+        }
+        let at = projection.point(to.point);
+        let line = projection.lines(&[from.point, to.point]);
+        let along = line.first().and_then(|line| match line[..] {
+            [from, to] => Some((to - from).normalized()),
+            _ => None,
+        })?;
+        Some(Tick { time: to.time, at, across: along.rot90() })
+    };
+    Tracks {
+        flown: projection.lines(&flown),
+        ahead: projection.lines(&ahead),
+        ticks: after.windows(2).filter_map(tick).collect(),
+    }
+}
+
+/// Paints the track of the selected satellite.
+pub(super) fn paint(painter: &Painter, tracks: &Tracks, t: &Tokens) {
+    let stroke = Stroke::new(2.0, t.sat);
+    for line in &tracks.flown {
+        painter.add(Shape::line(line.clone(), stroke));
+    }
+    for line in &tracks.ahead {
+        // From the end, so that the dashes stand still while the track ahead gets shorter.
+        let backwards: Vec<Pos2> = line.iter().rev().copied().collect();
+        painter.extend(dashed(&backwards, 7.0, 5.0, stroke));
+    }
+    for tick in &tracks.ticks {
+        let half = tick.across * TICK;
+        painter.line_segment([tick.at - half, tick.at + half], Stroke::new(1.5, t.sat));
+    }
+}
+
+/// Paints the track of another satellite.
+pub(super) fn paint_other(
+    painter: &Painter,
+    projection: &Projection,
+    of: &GlobeSatellite,
+    now: Timestamp,
+    t: &Tokens,
+) {
+    let split = of.track.partition_point(|point| point.time <= now);
+    let after = of.track.iter().skip(split).map(|point| point.point);
+    let ahead: Vec<GroundPoint> = [of.below.point].into_iter().chain(after).collect();
+    if ahead.len() > 1 {
+        for line in projection.lines(&ahead) {
+            painter.extend(dashed(&line, 1.5, 4.0, Stroke::new(1.25, t.other)));
+        }
+    }
+}

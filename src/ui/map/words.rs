@@ -1,0 +1,157 @@
+//! Figures of the map in words.
+
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::Shown;
+use crate::{
+    astro::{Angle, GroundPoint},
+    model::{
+        Model,
+        globe::{GlobeSatellite, NextPass},
+    },
+    ui::format,
+};
+
+/// The eight winds, from north over east.
+const WINDS: [&str; 8] =
+    ["north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"];
+
+/// A place such as "37.9° N, 41.5° E".
+pub(super) fn place(place: GroundPoint) -> String {
+    format!("{}, {}", latitude(place), longitude(place))
+}
+
+pub(super) fn latitude(place: GroundPoint) -> String {
+    format::latitude(place.latitude.degrees(), 1)
+}
+
+pub(super) fn longitude(place: GroundPoint) -> String {
+    format::longitude(place.longitude.degrees(), 1)
+}
+
+/// The second line of the view bar, such as "13 favourites, 2 above the mask at Şile 1".
+pub(super) fn summary(model: &Model, shown: Shown) -> String {
+    let counted: Vec<_> = model.globe.satellites.iter().filter(|of| shown.counts(of)).collect();
+    let up = counted.iter().filter(|of| of.is_up).count();
+    let kind = match (shown, counted.len()) {
+        (Shown::Favourites, 1) => "favourite",
+        (Shown::Favourites, _) => "favourites",
+        (Shown::Tracked, _) => "tracked",
+    };
+    let (count, lowest) = (counted.len(), lowest(model));
+    format!("{count} {kind}, {up} above {lowest} at {}", model.station.name)
+}
+
+/// From where on a satellite is up: "the mask" or "5°".
+fn lowest(model: &Model) -> String {
+    if model.station.horizon_mask.is_some() {
+        return "the mask".to_owned();
+    }
+    elevation(model.globe.aos_elevation)
+}
+
+/// An elevation of the settings without needless decimals, such as "5°" or "2.5°".
+pub(super) fn elevation(elevation: Angle) -> String {
+    let degrees = elevation.degrees();
+    let is_whole = (degrees - degrees.round()).abs() < 0.05;
+    format::degrees(degrees, usize::from(!is_whole))
+}
+
+pub(super) fn goes(heading: Option<Angle>) -> &'static str {
+    let Some(heading) = heading else { return "stands still" };
+    let wind = (heading.wrapped_360().degrees() / 45.0).round() as usize;
+    WINDS.get(wind % WINDS.len()).copied().unwrap_or_default()
+}
+
+/// A [`goes`] that needs no head.
+pub(super) fn motion(heading: Option<Angle>) -> String {
+    let goes = goes(heading);
+    if heading.is_some() { format!("goes {goes}") } else { goes.to_owned() }
+}
+
+pub(super) fn light(is_sunlit: bool) -> &'static str {
+    if is_sunlit { "sunlit" } else { "in shadow" }
+}
+
+/// Kilometres without decimals.
+pub(super) fn km(km: f64) -> String {
+    format::number(km, 0)
+}
+
+/// When the next pass begins, or until when it lasts.
+pub(super) fn next(pass: Option<NextPass>, now: Timestamp) -> String {
+    match pass {
+        None => "none in 48 h".to_owned(),
+        Some(pass) if pass.is_always_up => "always up".to_owned(),
+        Some(pass) if pass.aos <= now => format!("until {}", on_day(pass.los, now)),
+        Some(pass) => on_day(pass.aos, now),
+    }
+}
+
+/// A time of today, or with its day.
+pub(super) fn on_day(at: Timestamp, now: Timestamp) -> String {
+    let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
+    if day(at) == day(now) {
+        return format::time_z(at);
+    }
+    format!("{} {}Z", at.to_zoned(TimeZone::UTC).strftime("%-d %b"), format::hours_minutes(at))
+}
+
+/// The tool-tip of a satellite.
+pub(super) fn tip(of: &GlobeSatellite, model: &Model) -> String {
+    let direction = of.look.direction;
+    format!(
+        "{}\n{}\nHeight {} km\nAz {}  El {}\nNext: {}",
+        of.satellite.short_name(),
+        place(of.below.point),
+        km(of.below.height_km),
+        format::azimuth(direction.azimuth_deg()),
+        format::degrees(direction.elevation_deg(), 1),
+        next(of.next, model.now),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_heading_has_its_wind() {
+        for (degrees, wanted) in [
+            (0.0, "north"),
+            (350.0, "north"),
+            (359.9, "north"),
+            (44.0, "north-east"),
+            (190.0, "south"),
+        ] {
+            assert_eq!(goes(Some(Angle::from_degrees(degrees))), wanted, "{degrees}");
+        }
+        assert_eq!(goes(None), "stands still");
+    }
+
+    #[test]
+    fn a_pass_of_another_day_has_its_date() {
+        let now: Timestamp = "2026-11-14T18:13:40Z".parse().unwrap();
+        let pass = |aos: &str, los: &str| NextPass {
+            aos: aos.parse().unwrap(),
+            los: los.parse().unwrap(),
+            max_elevation: Angle::from_degrees(38.0),
+            is_always_up: false,
+        };
+        let today = pass("2026-11-14T23:20:32Z", "2026-11-14T23:31:00Z");
+        assert_eq!(next(Some(today), now), "23:20:32Z");
+        let running = pass("2026-11-14T18:08:00Z", "2026-11-14T18:21:19Z");
+        assert_eq!(next(Some(running), now), "until 18:21:19Z");
+        let tomorrow = pass("2026-11-15T00:13:10Z", "2026-11-15T00:20:00Z");
+        assert_eq!(next(Some(tomorrow), now), "15 Nov 00:13Z");
+        let standing = NextPass { is_always_up: true, ..running };
+        assert_eq!(next(Some(standing), now), "always up");
+        assert_eq!(next(None, now), "none in 48 h");
+    }
+
+    #[test]
+    fn an_elevation_has_no_needless_decimals() {
+        let said = |degrees| elevation(Angle::from_degrees(degrees));
+        assert_eq!((said(5.0), said(2.5), said(0.0)), ("5°".into(), "2.5°".into(), "0°".into()));
+    }
+}
