@@ -9,7 +9,7 @@ use crate::{
     astro::{Angle, Cap, GroundPoint, sun_moon, time::add_seconds},
     engine::{
         antenna::AntennaModel,
-        passes::{ListedSatellite, Observer, PredictedPass},
+        passes::{ListedSatellite, Observer},
     },
     orbit::{LookAngles, State, SubPoint, TrackPoint, is_sunlit},
     station::Station,
@@ -52,6 +52,7 @@ pub struct Globe {
 #[derive(Debug, Clone)]
 pub struct GlobeSatellite {
     pub satellite: Arc<ListedSatellite>,
+    /// Its pass is selected, or was until it was over.
     pub is_selected: bool,
     pub is_favourite: bool,
     /// An antenna tracks it.
@@ -115,7 +116,7 @@ impl MadeOf {
     fn of(model: &Model) -> Self {
         Self {
             second: model.now.as_second(),
-            selected: model.selected_pass().map(PredictedPass::number),
+            selected: model.selected.map(|(number, _)| number),
             tracked: model.antennas.iter().filter_map(AntennaModel::tracked_number).collect(),
             revision: model.pass_lists.favourites.revision,
             station: Arc::clone(&model.station),

@@ -240,7 +240,7 @@ fn a_pass_that_is_selected_elsewhere_is_scrolled_into_view() {
 #[test]
 fn the_list_opens_with_the_mouse() {
     for size in SIZES {
-        for view in [View::Operate, View::Preferences] {
+        for view in [View::Operate, View::Map, View::Preferences] {
             let mut model = rig::model(states::holding());
             model.view = view;
             let mut window = rig::window(size, model);

@@ -210,6 +210,19 @@ fn the_selected_satellite_stands_in_the_inspector() {
 }
 
 #[test]
+fn a_satellite_stays_selected_when_its_pass_is_over() {
+    for (number, countdown) in [(METEOR, "AOS T"), (NOAA_20, "no pass")] {
+        let mut model = model();
+        select(&mut model, number);
+        model.now = model.selected_pass().unwrap().pass.los.time;
+        model.refresh_sky();
+        assert!(model.selected_pass().is_none());
+        assert_eq!(model.globe.selected().unwrap().number(), number);
+        assert!(says(&rig::window(LARGE, model), countdown), "{number}");
+    }
+}
+
+#[test]
 fn the_table_of_a_small_window_is_a_drawer() {
     let mut window = view(SMALL);
     assert_eq!(named(&window, Role::ListBoxOption, "azimuth").len(), 0);

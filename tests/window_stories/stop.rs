@@ -128,7 +128,7 @@ fn stop_is_the_first_control_in_the_order_of_tab() {
 fn what_else_stop_stops_is_told_at_the_button_on_every_view() {
     let about = "Stops every antenna. Genius: STOP stops both rotators.";
     for size in SIZES {
-        for view in [View::Operate, View::Console] {
+        for view in [View::Operate, View::Console, View::Map] {
             let mut model = rig::model(states::holding());
             model.antennas.push(rig::antenna(makes::pair(), makes::pair_at(Intent::Standby)));
             model.view = view;

@@ -35,13 +35,14 @@ pub(super) fn show(
         return;
     }
     let ui = &mut ui.new_child(UiBuilder::new().id_salt("map").max_rect(rect));
-    ui.shrink_clip_rect(visible.intersect(world));
+    let visible = visible.intersect(world);
+    ui.shrink_clip_rect(visible);
     let canvas = nodes::canvas(ui, world, model, state);
     let projection = Projection::of(world, state.zoom);
-    paint_map(ui, &projection, model, shown, state, t);
+    paint_map(ui, &projection, visible, model, shown, state, t);
     nodes::marks(ui, canvas.id, &projection, model, shown, commands, t);
     if let Some(place) = canvas.hover_pos().and_then(|at| projection.place(at)) {
-        pointed_at(ui, world.intersect(visible), place, t);
+        pointed_at(ui, visible, place, t);
     }
     if canvas.has_focus() {
         let stroke = Stroke::new(2.0, t.sat);
@@ -52,6 +53,7 @@ pub(super) fn show(
 fn paint_map(
     ui: &Ui,
     projection: &Projection,
+    visible: Rect,
     model: &Model,
     shown: &[&GlobeSatellite],
     state: &mut MapState,
@@ -61,7 +63,7 @@ fn paint_map(
     let (layers, world) = (state.layers, projection.world);
     ground::paint(painter, *projection, &model.globe, layers, &mut state.land, t);
     let before = std::mem::take(&mut state.labels);
-    let mut labels = Labels::new(painter, t, None, world.shrink(4.0), before);
+    let mut labels = Labels::new(painter, t, None, visible.shrink(4.0), before);
     if let Some(subsolar) = model.globe.subsolar.filter(|_| layers.terminator) {
         let at = projection.point(subsolar);
         marks::sun(painter, at, t);

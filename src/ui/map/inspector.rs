@@ -35,9 +35,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let (Some(of), Some(predicted)) = (model.globe.selected(), model.selected_pass()) else {
-        let builder =
-            UiBuilder::new().id_salt("map inspector").max_rect(inner.shrink2(vec2(0.0, 16.0)));
+    let Some(of) = model.globe.selected() else {
+        let place = inner.shrink2(vec2(0.0, PADDING));
+        let builder = UiBuilder::new().id_salt("map inspector").max_rect(place);
         ui.scope_builder(builder, |ui| {
             ui.label(RichText::new("No satellite selected").font(text::value()));
             let words = "Click a satellite on the map or in the table.";
@@ -45,6 +45,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
         });
         return;
     };
+    // The selected pass may be over.
+    let predicted = model.selected_pass().or_else(|| model.pass_of(of.number()));
     let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     head(ui, top, model, of, predicted);
     let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
@@ -58,23 +60,20 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
 }
 
 /// Name and age of the elements at the left, the countdown of the pass at the right.
-fn head(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted: &PredictedPass) {
+fn head(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    of: &GlobeSatellite,
+    predicted: Option<&PredictedPass>,
+) {
     let t = theme::tokens(ui);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let line = |y: f32| {
         Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
     };
-    let (event, at) = if predicted.in_progress(model.now) {
-        ("LOS", predicted.pass.los.time)
-    } else {
-        ("AOS", predicted.pass.aos.time)
-    };
-    let (event, countdown) = if predicted.is_always_up() {
-        ("", "always up".to_owned())
-    } else {
-        (event, format::countdown(seconds_between(model.now, at)))
-    };
+    let (event, countdown) = predicted.map_or(("", "no pass".to_owned()), |of| until(of, model));
     let right = Align2::RIGHT_CENTER;
     let up = paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
     let font = text::sized(20.0, Weight::SemiBold);
@@ -93,12 +92,26 @@ fn head(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted: &Pre
     paint::name_text(ui, "map selected", detail_place, &format!("{name}, {detail}"));
 }
 
+/// The next event of a pass and the time until then.
+fn until(predicted: &PredictedPass, model: &Model) -> (&'static str, String) {
+    let pass = &predicted.pass;
+    if predicted.is_always_up() {
+        return ("", "always up".to_owned());
+    }
+    let (event, at) = if predicted.in_progress(model.now) {
+        ("LOS", pass.los.time)
+    } else {
+        ("AOS", pass.aos.time)
+    };
+    (event, format::countdown(seconds_between(model.now, at)))
+}
+
 fn parts(
     ui: &mut Ui,
     width: f32,
     model: &Model,
     of: &GlobeSatellite,
-    predicted: &PredictedPass,
+    predicted: Option<&PredictedPass>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -106,8 +119,10 @@ fn parts(
         let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
         rect
     };
-    let plot = place(ui, PLOT);
-    small_plot(ui, plot, model, predicted);
+    if let Some(predicted) = predicted {
+        let plot = place(ui, PLOT);
+        small_plot(ui, plot, model, of, predicted);
+    }
     let lines = place(ui, facts::HEIGHT + GAP);
     facts::show(ui, lines, model, of);
     ui.painter().hline(lines.x_range(), lines.bottom() - 0.5, (1.0, t.line));
@@ -118,7 +133,7 @@ fn parts(
         let block = spoken.with(|words| sentence::show_short(ui, at, width - 2.0 * PADDING, words));
         place(ui, block.height() + GAP);
     }
-    let passes = upcoming::passes(model, predicted);
+    let passes = upcoming::passes(model, of.number());
     let list = place(ui, upcoming::height(passes.len()));
     upcoming::show(ui, list, model, &passes, commands);
 }
@@ -129,14 +144,14 @@ fn speaker<'a>(model: &'a Model, of: &GlobeSatellite) -> Option<&'a AntennaModel
     model.antennas.iter().find(tracks).or_else(|| model.antenna())
 }
 
-fn small_plot(ui: &Ui, rect: Rect, model: &Model, predicted: &PredictedPass) {
+fn small_plot(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted: &PredictedPass) {
     let t = theme::tokens(ui);
     let antenna = model.antenna();
     let lost = antenna.and_then(|antenna| sky::lost_for(model, antenna));
     let measured = antenna
         .and_then(|antenna| antenna.snapshot.state.measured)
         .and_then(|measured| measured.direction());
-    let look = model.sky.selected.map(|selected| selected.look);
+    let look = model.sky.selected.map_or(of.look, |selected| selected.look);
     let scene = SkyScene {
         now: model.now,
         minimum_elevation: Angle::from_degrees(
@@ -145,7 +160,7 @@ fn small_plot(ui: &Ui, rect: Rect, model: &Model, predicted: &PredictedPass) {
         mask: model.station.horizon_mask.as_ref(),
         keep_outs: &[],
         keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
-        track: Some(sky::track(predicted, look)),
+        track: Some(sky::track(predicted, Some(look))),
         others: &[],
         sun: None,
         moon: None,
@@ -160,8 +175,8 @@ fn small_plot(ui: &Ui, rect: Rect, model: &Model, predicted: &PredictedPass) {
         description: "",
     };
     sky_plot::paint_small(ui.painter(), rect, &scene, t);
-    let at = look.map(|look| format::pointing_at(look.direction)).unwrap_or_default();
-    let words = format!("Pass of {}, now at {at}", predicted.satellite.short_name());
+    let (name, at) = (of.satellite.short_name(), format::pointing_at(look.direction));
+    let words = format!("Pass of {name}, now at {at}");
     paint::name_text(ui, "small sky plot", rect, &words);
 }
 

@@ -45,7 +45,6 @@ pub(super) fn add(
     has_names: bool,
     t: &Tokens,
 ) {
-    let world = projection.world;
     let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
         shown.iter().copied().partition(|of| of.is_selected);
     let home = projection.point(model.station.site.point());
@@ -54,10 +53,10 @@ pub(super) fn add(
         let name = of.satellite.short_name();
         let lines = [(name, text::sized(13.0, Weight::SemiBold), t.sat)];
         let mark = projection.point(of.below.point);
-        add_one(labels, world, Key::Selected(of.number()), &lines, mark, 10.0, ALWAYS);
+        add_one(labels, Key::Selected(of.number()), &lines, mark, 10.0, ALWAYS);
     }
     let lines = [(model.station.name.as_str(), text::small_strong(), t.t1)];
-    if world.contains(home) {
+    if labels.bounds().contains(home) {
         labels.add(&Label {
             key: Key::Station,
             lines: &lines,
@@ -78,29 +77,29 @@ pub(super) fn add(
         let time = format::hours_minutes(tick.time);
         let lines = [(time.as_str(), text::caption(), t.sat)];
         let key = Key::Minute(tick.time.as_second() / 60);
-        add_one(labels, world, key, &lines, tick.at, 7.0, TOLERANCE);
+        add_one(labels, key, &lines, tick.at, 7.0, TOLERANCE);
     }
     for of in others.iter().filter(|_| has_names) {
         let lines = [(of.satellite.short_name(), text::small(), t.t2)];
         let mark = projection.point(of.below.point);
-        add_one(labels, world, Key::Other(of.number()), &lines, mark, 6.0, TOLERANCE);
+        add_one(labels, Key::Other(of.number()), &lines, mark, 6.0, TOLERANCE);
     }
 }
 
 fn add_one(
     labels: &mut Labels<'_>,
-    world: Rect,
     key: Key,
     lines: &[(&str, egui::FontId, egui::Color32)],
     mark: Pos2,
     clearance: f32,
     tolerance: f32,
 ) {
-    if !world.contains(mark) {
+    let bounds = labels.bounds();
+    if !bounds.contains(mark) {
         return;
     }
     let mut order = Side::ORDER;
-    if mark.x > world.right() - FLIP {
+    if mark.x > bounds.right() - FLIP {
         order.swap(0, 1);
     }
     labels.add(&Label { key, lines, mark, clearance, order: &order, tolerance });

@@ -24,9 +24,7 @@ pub(super) const BAR: f32 = 32.0;
 pub(super) const MAX_BAR: f32 = 48.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 25.0;
-/// Width for which the columns are laid out; they spread with the table.
-const LAID_OUT: f32 = 1024.0;
-/// In a table below this width some columns are left out.
+/// Minimum width for all columns.
 const ALL_FROM: f32 = 900.0;
 
 /// The columns.
@@ -46,20 +44,38 @@ enum Column {
 }
 
 impl Column {
-    /// Each with its left end, or its right end for numbers.
-    const ALL: [(Self, f32); 11] = [
-        (Self::Satellite, 16.0),
-        (Self::Latitude, 208.0),
-        (Self::Longitude, 300.0),
-        (Self::Height, 384.0),
-        (Self::Azimuth, 464.0),
-        (Self::Elevation, 548.0),
-        (Self::Range, 632.0),
-        (Self::Goes, 656.0),
-        (Self::Next, 808.0),
-        (Self::Max, 876.0),
-        (Self::Light, 900.0),
-    ];
+    /// All columns, each with its left end, or its right end for numbers, in a table of 1024
+    /// points.
+    const ALL: (&[(Self, f32)], f32) = (
+        &[
+            (Self::Satellite, PADDING),
+            (Self::Latitude, 208.0),
+            (Self::Longitude, 300.0),
+            (Self::Height, 384.0),
+            (Self::Azimuth, 464.0),
+            (Self::Elevation, 548.0),
+            (Self::Range, 632.0),
+            (Self::Goes, 656.0),
+            (Self::Next, 808.0),
+            (Self::Max, 876.0),
+            (Self::Light, 900.0),
+        ],
+        1024.0,
+    );
+    /// The columns of a narrow table, of 632 points.
+    const FEWER: (&[(Self, f32)], f32) = (
+        &[
+            (Self::Satellite, PADDING),
+            (Self::Latitude, 178.0),
+            (Self::Longitude, 252.0),
+            (Self::Azimuth, 314.0),
+            (Self::Elevation, 380.0),
+            (Self::Next, 504.0),
+            (Self::Max, 552.0),
+            (Self::Light, 568.0),
+        ],
+        632.0,
+    );
 
     fn is_left(self) -> bool {
         matches!(self, Self::Satellite | Self::Goes | Self::Light)
@@ -180,20 +196,21 @@ fn title(ui: &Ui, bar: Rect, is_drawer: bool, is_open: bool) -> (f32, bool) {
     (place.right(), response.clicked())
 }
 
-/// The shown columns with their rectangles.
+/// The shown columns with their rectangles. They spread with the table.
 fn columns(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
-    let scale = row.width() / LAID_OUT;
-    let is_shown = move |column: Column| column != Column::Goes || row.width() >= ALL_FROM;
-    let shown = Column::ALL.into_iter().filter(move |(column, _)| is_shown(*column));
-    shown.map(move |(column, end)| {
+    let (columns, laid_out) = if row.width() < ALL_FROM { Column::FEWER } else { Column::ALL };
+    let scale = row.width() / laid_out;
+    columns.iter().map(move |(column, end)| {
         let x = row.left() + end * scale;
-        let place = if column.is_left() {
-            let width = if column == Column::Satellite { 120.0 } else { 100.0 };
-            row.with_min_x(x).with_max_x((x + width * scale).min(row.right() - 4.0))
-        } else {
-            row.with_min_x(x - 110.0 * scale.max(1.0)).with_max_x(x)
+        let place = match column {
+            Column::Satellite => {
+                let left = row.left() + PADDING;
+                row.with_min_x(left).with_max_x(left + 108.0 * scale)
+            }
+            _ if column.is_left() => row.with_min_x(x).with_max_x((x + 96.0).min(row.right())),
+            _ => row.with_min_x(x - 108.0).with_max_x(x),
         };
-        (column, place)
+        (*column, place)
     })
 }
 

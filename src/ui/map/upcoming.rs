@@ -20,17 +20,14 @@ pub(super) const HEAD: f32 = 32.0;
 /// Passes that are shown.
 const COUNT: usize = 3;
 
-/// The passes of the selected satellite after the present one.
-pub(super) fn passes<'a>(model: &'a Model, selected: &PredictedPass) -> Vec<&'a PredictedPass> {
-    let number = selected.number();
-    // The selected pass may be of a satellite that is no favourite.
+/// The passes of a satellite after the present one.
+pub(super) fn passes(model: &Model, number: u32) -> Vec<&PredictedPass> {
+    // The satellite may be no favourite.
     let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
-    let of_list = |list: &'a crate::engine::passes::PassList| {
-        let all = list.passes.iter();
-        let later = all.filter(|of| of.number() == number && of.pass.aos.time > model.now);
-        later.take(COUNT).collect::<Vec<_>>()
-    };
-    lists.into_iter().map(of_list).find(|found| !found.is_empty()).unwrap_or_default()
+    let is_later = |of: &&PredictedPass| of.number() == number && of.pass.aos.time > model.now;
+    let found =
+        lists.map(|list| list.passes.iter().filter(is_later).take(COUNT).collect::<Vec<_>>());
+    found.into_iter().find(|passes| !passes.is_empty()).unwrap_or_default()
 }
 
 /// Height of the head and so many passes.
@@ -54,7 +51,7 @@ pub(super) fn show(
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.t1);
     paint::name_text(ui, "next passes", room, &words);
     if passes.is_empty() {
-        let words = "No pass after it in the next 48 h.";
+        let words = "No later pass in the next 48 h.";
         let at = body.left_top() + vec2(PADDING, 4.0);
         let width = body.width() - 2.0 * PADDING;
         let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);

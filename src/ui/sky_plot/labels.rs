@@ -86,6 +86,11 @@ impl<'a> Labels<'a> {
         }
     }
 
+    /// The part of the picture that labels should not leave.
+    pub(in crate::ui) fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
     /// Keeps labels away from a box.
     pub(in crate::ui) fn reserve(&mut self, rect: Rect) {
         self.reserved.push(rect);
