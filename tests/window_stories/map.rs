@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use azel::{
-    engine::passes::{PassLists, PredictedPass},
+    astro::time::add_seconds,
+    engine::passes::{ListedSatellite, PassLists, PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
+    orbit::{Propagator, bundled},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Role, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -63,6 +65,7 @@ fn every_window_shows_the_whole_map() {
         for is_demo in [false, true] {
             let mut model = model();
             model.demo = is_demo;
+            "Şile northern field unit".clone_into(&mut Arc::make_mut(&mut model.station).name);
             let window = rig::window(size, model);
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);
@@ -126,6 +129,30 @@ fn the_globe_agrees_with_the_sky() {
     // Noon in summer in Istanbul: it is day.
     assert!(!globe.night.unwrap().contains(here));
     assert!(globe.subsolar.unwrap().latitude.degrees() > 10.0);
+}
+
+#[test]
+fn the_tracks_of_a_long_list_come_little_by_little() {
+    let mut model = model();
+    let catalog = bundled().unwrap();
+    let near_earth = catalog.iter().filter(|of| of.period_s() < 7200.0).take(20);
+    let satellites = near_earth.map(|elements| {
+        let propagator = Propagator::new(elements).unwrap();
+        Arc::new(ListedSatellite { elements: elements.clone(), propagator })
+    });
+    let chosen = model.pass_lists.satellite(NOAA_20).cloned();
+    model.pass_lists.favourites.satellites =
+        Arc::new(chosen.into_iter().chain(satellites).collect());
+    model.pass_lists.favourites.revision += 1;
+    for wanted in [9, 17, 21, 21] {
+        model.now = add_seconds(model.now, 1.0);
+        model.refresh_sky();
+        let globe = &model.globe;
+        assert_eq!(globe.satellites.len(), 21);
+        let drawn = globe.satellites.iter().filter(|of| !of.track.is_empty()).count();
+        assert_eq!(drawn, wanted);
+        assert!(!globe.selected().unwrap().track.is_empty(), "the selected one comes first");
+    }
 }
 
 #[test]

@@ -114,7 +114,9 @@ impl Projection {
 
     /// The turns, in degrees, on which something between two longitudes lies on the map.
     pub(super) fn turns(&self, from_deg: f32, to_deg: f32) -> impl Iterator<Item = f32> + use<> {
+        // What only touches an edge is not seen.
         let [left, right] = self.longitudes();
+        let (left, right) = (left + 0.001, right - 0.001);
         let first = ((left - to_deg) / 360.0).ceil() as i32;
         let last = ((right - from_deg) / 360.0).floor() as i32;
         (first..=last).map(|turn| turn as f32 * 360.0)
