@@ -148,7 +148,7 @@ pub const ALL: [Binding; 26] = [
             (Key::ArrowUp, Act::Nearest(Towards::North)),
             (Key::ArrowDown, Act::Nearest(Towards::South)),
         ],
-        "the next satellite on that side of the map, unless the focus is elsewhere",
+        "in Map: the next satellite on that side",
     ),
     row(
         KeyScope::Map,
@@ -157,9 +157,9 @@ pub const ALL: [Binding; 26] = [
             (Key::Minus, Act::MapZoom(false)),
             (Key::Num0, Act::WholeMap),
         ],
-        "closer, further away, the whole map",
+        "in Map: closer, further away, the whole map",
     ),
-    row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "layers of the map"),
+    row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "in Map: layers"),
     with(
         Modifiers::COMMAND,
         row(

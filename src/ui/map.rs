@@ -147,6 +147,7 @@ pub fn show(
     let left = if has_drawer { rect } else { left };
     let (head, rest) = left.split_top_bottom_at_y(left.top() + bar::HEIGHT);
 
+    bar::show(ui, head, model, has_drawer, state);
     let areas = Areas::of(rest, shown.len(), state.table_is_open);
     // A drawer over the map takes the pointer.
     let visible = areas.map.with_max_x(right.left().min(areas.map.right()));
@@ -156,7 +157,6 @@ pub fn show(
     if table::show(ui, table, model, &shown, areas.is_drawer, state, commands) {
         state.table_is_open = !state.table_is_open;
     }
-    bar::show(ui, head, model, has_drawer, state);
     if side > 0.0 {
         let place = if has_drawer { right.with_min_y(head.bottom()) } else { right };
         inspector::show(ui, place, model, commands);

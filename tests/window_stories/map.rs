@@ -415,6 +415,9 @@ fn a_map_without_satellites_says_why() {
         nothing_is_cut(&window, size);
         window.key_press(Key::ArrowUp);
         assert_eq!(asked(&mut window), []);
+        window.get_by_role_and_label(Role::RadioButton, "Tracked").click();
+        settle(&mut window);
+        assert!(says(&window, "No antenna tracks a satellite."));
     }
 }
 

@@ -4,7 +4,7 @@ use egui::{
     Align2, Color32, FontId, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{MapState, PADDING, legend, nodes, words};
+use super::{MapState, PADDING, Shown, legend, nodes, words};
 use crate::{
     engine::CatalogState,
     model::{Model, UiCommand, globe::GlobeSatellite},
@@ -163,7 +163,7 @@ pub(super) fn show(
     if is_open {
         let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
         show_head(ui, head, model);
-        show_rows(ui, body, model, shown, commands);
+        show_rows(ui, body, model, shown, state, commands);
     }
     is_toggled
 }
@@ -238,6 +238,7 @@ fn show_rows(
     body: Rect,
     model: &Model,
     shown: &[&GlobeSatellite],
+    state: &MapState,
     commands: &mut Vec<UiCommand>,
 ) {
     let id = ui.make_persistent_id("where they are");
@@ -245,7 +246,7 @@ fn show_rows(
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Where they are"));
     if shown.is_empty() {
         let t = theme::tokens(ui);
-        let words = why_empty(model);
+        let words = why_empty(model, state.shown);
         let at = body.left_top() + vec2(PADDING, 8.0);
         let width = body.width() - 2.0 * PADDING;
         let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);
@@ -265,11 +266,14 @@ fn show_rows(
     });
 }
 
-fn why_empty(model: &Model) -> &'static str {
-    match model.catalog {
-        CatalogState::Loading => "The elements are being read.",
-        CatalogState::Failed => "No elements: they could not be read. See the alarms.",
-        CatalogState::Ready(_) => "No satellite is shown. Choose favourites in Elements.",
+fn why_empty(model: &Model, choice: Shown) -> &'static str {
+    match (&model.catalog, choice) {
+        (CatalogState::Loading, _) => "The elements are being read.",
+        (CatalogState::Failed, _) => "No elements: they could not be read. See the alarms.",
+        (CatalogState::Ready(_), Shown::Favourites) => {
+            "No satellite is shown. Choose favourites in Elements."
+        }
+        (CatalogState::Ready(_), Shown::Tracked) => "No antenna tracks a satellite.",
     }
 }
 
